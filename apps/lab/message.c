@@ -1,0 +1,34 @@
+#include "message.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+int lab_fail(lab_error *error, int status, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  vsnprintf(error->text, sizeof error->text, format, args);
+  va_end(args);
+  error->status = status;
+  return status;
+}
+
+int lab_fail_in(lab_error *error, const char *format, ...)
+{
+  char old[sizeof error->text];
+  va_list args;
+  size_t used;
+  memcpy(old, error->text, sizeof old);
+  va_start(args, format);
+  vsnprintf(error->text, sizeof error->text, format, args);
+  va_end(args);
+  used = strlen(error->text);
+  snprintf(error->text + used, sizeof error->text - used, ": %s", old);
+  return error->status;
+}
+
+int lab_fail_memory(lab_error *error, const char *what)
+{
+  return lab_fail(error, LAB_WORLD, "out of memory for %s", what);
+}

@@ -1,0 +1,157 @@
+#include "response.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cvode.h"
+#include "sampler.h"
+
+enum { COLUMNS = 10 };
+
+static double **trace_column(lab_trace *trace, int i)
+{
+  double **const column[COLUMNS] = {&trace->t, &trace->u,       &trace->p,        &trace->x,    &trace->v,
+                                    &trace->T, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat};
+  return column[i];
+}
+
+static int trace_allocate(lab_trace *trace, size_t n, lab_error *error)
+{
+  int i;
+  memset(trace, 0, sizeof *trace);
+  trace->n = n;
+  trace->mode = calloc(n ? n : 1, sizeof *trace->mode);
+  for (i = 0; i < COLUMNS; i++)
+    if (!(*trace_column(trace, i) = calloc(n ? n : 1, sizeof(double))))
+      break;
+  if (i == COLUMNS && trace->mode)
+    return LAB_OK;
+  lab_trace_free(trace);
+  return lab_fail_memory(error, "a response");
+}
+
+void lab_trace_free(lab_trace *trace)
+{
+  int i;
+  for (i = 0; i < COLUMNS; i++)
+    free(*trace_column(trace, i));
+  free(trace->mode);
+  memset(trace, 0, sizeof *trace);
+}
+
+/* What the sampler writes into. */
+typedef struct recorder {
+  lab_trace *trace;
+  const pneu_model *model;
+} recorder;
+
+static void record(void *context, size_t i, const pneu_state *state, const pneu_input *input)
+{
+  recorder *r = context;
+  lab_trace *trace = r->trace;
+  pneu_output out;
+  memset(&out, 0, sizeof out);
+  pneu_observe(r->model, state, input, &out);
+  trace->u[i] = input->u;
+  trace->p[i] = out.pressure;
+  trace->x[i] = out.position;
+  trace->v[i] = out.velocity;
+  trace->T[i] = out.temperature;
+  trace->m[i] = state->m;
+  trace->mass_in[i] = out.mass_in;
+  trace->mass_out[i] = out.mass_out;
+  trace->heat[i] = out.heat;
+  trace->mode[i] = state->mode;
+}
+
+static int sample_step(void *context, const pneu_step_view *view)
+{
+  lab_sampler *sampler = context;
+  pneu_state at;
+  double due;
+  while ((due = lab_sampler_due(sampler)) <= view->t + view->h) {
+    pneu_dense(view, (due - view->t) / view->h, &at);
+    lab_sampler_take(sampler, &at);
+  }
+  return 0;
+}
+
+/* The two integrators behind one call. */
+typedef struct engine {
+  lab_cvode *cvode; /* NULL: the stepper */
+  pneu_workspace work;
+  double tol;
+} engine;
+
+static int stretch(engine *e, const pneu_model *model, pneu_state *state, const pneu_input *input, double duration,
+                   lab_sampler *sampler, lab_error *error)
+{
+  pneu_observer observer = {sample_step, NULL, sampler};
+  pneu_options options;
+  int status;
+  if (e->cvode)
+    return lab_cvode_run(e->cvode, model, state, input, duration, e->tol, sampler, &e->work.stats, error);
+  pneu_options_default(&options);
+  options.tol = e->tol;
+  status = pneu_run(model, state, input, duration, &options, sampler->n ? &observer : NULL, &e->work);
+  if (status == PNEU_OK)
+    return LAB_OK;
+  return lab_fail(error, LAB_NUMERIC,
+                  "%s within %.9g s after t = %.9g s, %s, m = %.9g kg, T = %.6g K, x = %.9g m, v = %.6g m/s",
+                  pneu_status_text(status), duration, sampler->origin, pneu_mode_text(state->mode), state->m,
+                  state->T, state->x, state->v);
+}
+
+static int run_schedule(engine *e, const pneu_model *model, const pneu_state *start, const lab_schedule *schedule,
+                        double t_end, lab_sampler *sampler, lab_error *error)
+{
+  pneu_state state = *start;
+  size_t i;
+  int status = LAB_OK;
+  for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
+    const double to = i + 1 < schedule->n && schedule->t[i + 1] < t_end ? schedule->t[i + 1] : t_end;
+    sampler->origin = schedule->t[i];
+    sampler->input = &schedule->input[i];
+    pneu_settle(model, sampler->input, &state);
+    while (lab_sampler_due(sampler) <= 0)
+      lab_sampler_take(sampler, &state);
+    status = stretch(e, model, &state, sampler->input, to - schedule->t[i], sampler, error);
+  }
+  while (status == LAB_OK && sampler->next < sampler->n)
+    lab_sampler_take(sampler, &state); /* the end, missed by rounding */
+  return status;
+}
+
+int lab_respond(const pneu_model *model, const pneu_state *start, const lab_schedule *schedule, const double *t,
+                size_t n, const lab_response_options *options, lab_trace *trace, pneu_stats *stats, lab_error *error)
+{
+  engine e;
+  recorder r;
+  lab_sampler sampler = {0};
+  int status = options->count_only ? LAB_OK : trace_allocate(trace, n, error);
+  if (status != LAB_OK)
+    return status;
+  memset(&e.work, 0, sizeof e.work);
+  e.tol = options->tol;
+  e.cvode = options->integrator == LAB_CVODE ? lab_cvode_new() : NULL;
+  if (options->integrator == LAB_CVODE && !e.cvode)
+    return lab_fail_memory(error, "CVODE");
+  r.trace = trace;
+  r.model = model;
+  sampler.model = model;
+  sampler.take = record;
+  sampler.context = &r;
+  if (!options->count_only) {
+    memcpy(trace->t, t, n * sizeof *t);
+    sampler.t = t;
+    sampler.n = n;
+  }
+  status = run_schedule(&e, model, start, schedule, options->t_end, &sampler, error);
+  lab_cvode_free(e.cvode);
+  if (stats)
+    *stats = e.work.stats;
+  if (status != LAB_OK && !options->count_only)
+    lab_trace_free(trace);
+  return status;
+}

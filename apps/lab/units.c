@@ -1,0 +1,153 @@
+#include "units.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <udunits2.h>
+
+enum { UNIT_TEXT = 128 };
+
+/* Loaded once and kept to the end of the program. */
+static ut_system *unit_system(void)
+{
+  static ut_system *units;
+  if (!units) {
+    ut_set_error_message_handler(ut_ignore);
+    units = ut_read_xml(NULL);
+  }
+  return units;
+}
+
+/* UDUNITS reads "m^0.5" as m^0 times 0.5: powers must be whole numbers. */
+static int has_broken_power(const char *text)
+{
+  const char *power = strchr(text, '^');
+  while (power) {
+    const char *after = power + 1 + strspn(power + 1, "+-0123456789");
+    if (*after == '.')
+      return 1;
+    power = strchr(power + 1, '^');
+  }
+  return 0;
+}
+
+/* Out: unit, to be freed with ut_free. */
+static int parse(const char *text, ut_unit **unit, lab_error *error)
+{
+  char trimmed[UNIT_TEXT];
+  if (!unit_system())
+    return lab_fail(error, LAB_WORLD, "the unit database of UDUNITS-2 cannot be read; is libudunits2-data installed?");
+  snprintf(trimmed, sizeof trimmed, "%s", text);
+  ut_trim(trimmed, UT_UTF8);
+  *unit = *trimmed && !has_broken_power(trimmed) ? ut_parse(unit_system(), trimmed, UT_UTF8) : NULL;
+  return *unit ? LAB_OK : lab_fail(error, LAB_DATA, "unknown unit \"%s\"", text);
+}
+
+/* "kN/m" -> "kg.s-2", to show a dimension. */
+static void dimension(const ut_unit *unit, char text[UNIT_TEXT])
+{
+  if (ut_format(unit, text, UNIT_TEXT, UT_ASCII | UT_DEFINITION) < 0)
+    snprintf(text, UNIT_TEXT, "?");
+}
+
+static int wrong_dimension(const char *from, const ut_unit *have, const char *to, const ut_unit *want,
+                           lab_error *error)
+{
+  char found[UNIT_TEXT], expected[UNIT_TEXT];
+  dimension(have, found);
+  dimension(want, expected);
+  return lab_fail(error, LAB_DATA, "expected a unit like %s (%s), found \"%s\" (%s)", to, expected, from, found);
+}
+
+/* Three points tell a line from a logarithm; far ones keep the digits of a scale beside an offset. */
+static int line_of(const cv_converter *converter, double *scale, double *offset)
+{
+  const double far = 1048576;
+  double below = cv_convert_double(converter, -far), above = cv_convert_double(converter, far);
+  *offset = cv_convert_double(converter, 0.0);
+  *scale = *offset == 0 ? cv_convert_double(converter, 1.0) : (above - below) / (2 * far);
+  return isfinite(*scale) && *scale != 0 && fabs(above - (*offset + *scale * far)) <= 1e-9 * fabs(*scale) * far;
+}
+
+static int factor(const char *from, const ut_unit *have, const char *to, const ut_unit *want, double *scale,
+                  double *offset, lab_error *error)
+{
+  cv_converter *converter;
+  int straight;
+  if (!ut_are_convertible(have, want))
+    return wrong_dimension(from, have, to, want, error);
+  converter = ut_get_converter((ut_unit *)have, (ut_unit *)want);
+  straight = converter && line_of(converter, scale, offset);
+  cv_free(converter);
+  return straight ? LAB_OK : lab_fail(error, LAB_DATA, "no straight line leads from the unit \"%s\" to %s", from, to);
+}
+
+int lab_unit_factor(const char *from, const char *to, double *scale, double *offset, lab_error *error)
+{
+  ut_unit *have = NULL, *want = NULL;
+  int status;
+  *scale = 1;
+  *offset = 0;
+  if (strcmp(from, to) == 0)
+    return LAB_OK;
+  if (parse(to, &want, error))
+    return lab_fail(error, error->status, "expected the unit %s, found \"%s\"", to, from);
+  status = parse(from, &have, error);
+  if (status == LAB_OK)
+    status = factor(from, have, to, want, scale, offset, error);
+  else
+    lab_fail(error, status, "expected a unit like %s, found the unknown unit \"%s\"", to, from);
+  ut_free(have);
+  ut_free(want);
+  return status;
+}
+
+int lab_unit_convert(const char *from, const char *to, double value, double *out, lab_error *error)
+{
+  double scale, offset;
+  int status = lab_unit_factor(from, to, &scale, &offset, error);
+  if (status == LAB_OK)
+    *out = scale * value + offset;
+  return status;
+}
+
+/* The number in front of a quantity.  Returns: where the unit begins, or NULL without a decimal number. */
+static const char *leading_number(const char *text, double *number)
+{
+  char *end;
+  const char *digit = text + strspn(text, " \t");
+  digit += *digit == '+' || *digit == '-';
+  if (!isdigit((unsigned char)*digit) && *digit != '.')
+    return NULL;
+  if (digit[0] == '0' && tolower((unsigned char)digit[1]) == 'x')
+    return NULL;
+  *number = strtod(text, &end);
+  if (end <= digit || !isfinite(*number))
+    return NULL;
+  return end + strspn(end, " \t");
+}
+
+static int quantity(const char *text, const char *unit, int difference, double *value, lab_error *error)
+{
+  double number, scale, offset;
+  const char *given = leading_number(text, &number);
+  int status;
+  if (!given)
+    return lab_fail(error, LAB_DATA, "expected a number and a unit like %s, found \"%s\"", unit, text);
+  status = lab_unit_factor(*given ? given : unit, unit, &scale, &offset, error);
+  if (status == LAB_OK)
+    *value = scale * number + (difference ? 0 : offset);
+  return status;
+}
+
+int lab_quantity(const char *text, const char *unit, double *value, lab_error *error)
+{
+  return quantity(text, unit, 0, value, error);
+}
+
+int lab_quantity_difference(const char *text, const char *unit, double *value, lab_error *error)
+{
+  return quantity(text, unit, 1, value, error);
+}

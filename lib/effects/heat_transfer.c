@@ -1,0 +1,45 @@
+/* Heat between gas and wall: Q = (G + c |T_w - T|^(1/3)) (T_w - T), wall at ambient temperature.
+ * Under the isothermal law the film is perfect; its resistance 1/G makes it real. Under the other
+ * laws there is no film; its conductance makes one. c is the natural convection of a closed vessel. */
+#include "../internal.h"
+
+enum { RESISTANCE, CONDUCTANCE, FREE };
+
+static const pneu_param_info params[] = {
+    {"film_resistance", "K/W", 0, PNEU_C(1e4), PNEU_C(0.2), 0, 0, "1/(h A) of the film, for the isothermal law"},
+    {"film_conductance", "W/K", 0, PNEU_C(1e5), PNEU_C(5.0), 0, 0, "h A of the film, for the energy law"},
+    {"free_convection", "W/K^1.333333333333333", 0, PNEU_C(1e4), PNEU_C(1.0), 0, 0,
+     "natural convection: heat per 4/3 power of the temperature difference"}};
+
+static int acts(const pneu_model *model, const pneu_real *param)
+{
+  if (model->law.pressure_input || model->law.gas == PNEU_GAS_POLYTROPIC)
+    return 0;
+  if (model->law.gas == PNEU_GAS_ISOTHERMAL)
+    return param[RESISTANCE] > 0;
+  return param[CONDUCTANCE] > 0 || param[FREE] > 0;
+}
+
+static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+{
+  const pneu_real dT = t->model->p.ambient_temperature - t->T;
+  pneu_real conductance = param[CONDUCTANCE];
+  (void)state, (void)rate;
+  if (param[RESISTANCE] > 0)
+    conductance += 1 / param[RESISTANCE];
+  if (param[FREE] > 0)
+    conductance += param[FREE] * PNEU_M(cbrt)(PNEU_M(fabs)(dT));
+  t->heat += conductance * dT;
+}
+
+const pneu_effect pneu_effect_record_heat_transfer = {
+    "heat_transfer",
+    "The gas warms when compressed and cools when expanding, and the wall takes time to level that.",
+    "Carneiro and Almeida 2006, Proc. IMechE I 220; natural convection: McAdams 1954 (Nu ~ Ra^(1/3))",
+    "energy",
+    "pressure moves on after the orifices shut; the tails of filling and venting are slow",
+    PNEU_STAGE_HEAT,
+    params,
+    add,
+    NULL,
+    acts};

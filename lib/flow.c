@@ -1,0 +1,162 @@
+/* Mass flow through an orifice under each flow law. */
+#include "internal.h"
+
+/* A law without area and temperature: q = area p_up gain(law) psi(r) / sqrt(T_up), r = p_down/p_up. */
+typedef struct shape {
+  pneu_real psi, dpsi; /* value and slope in r */
+  int choked;
+} shape;
+
+/* Square root of w = 1 - r; within PNEU_BLEND of equal pressures the odd polynomial
+ * sqrt(w_b) z (45 - 18 z^2 + 5 z^4)/32, z = w/w_b, which meets value, slope and curvature of the
+ * root at z = 1 and is linear at 0.  Out: slope in w. */
+static pneu_real root(pneu_real w, pneu_real *slope)
+{
+  const pneu_real edge = PNEU_C(0.022360679774997897); /* sqrt(PNEU_BLEND) */
+  pneu_real z, z2, s;
+  if (w >= PNEU_BLEND) {
+    s = PNEU_M(sqrt)(w);
+    *slope = PNEU_C(0.5) / s;
+    return s;
+  }
+  z = w * (1 / PNEU_BLEND);
+  z2 = z * z;
+  *slope = edge * (45 - 54 * z2 + 25 * z2 * z2) * (1 / (32 * PNEU_BLEND));
+  return edge * z * (45 - 18 * z2 + 5 * z2 * z2) * PNEU_C(0.03125);
+}
+
+/* [B, Eq. 8]: psi = sqrt(1 - r). */
+static void paper(const pneu_model *model, pneu_real w, shape *s)
+{
+  pneu_real slope;
+  (void)model;
+  s->psi = root(w, &slope);
+  s->dpsi = -slope;
+  s->choked = 0;
+}
+
+/* psi = sqrt(r^a - r^b), a = 2/gamma, b = (gamma+1)/gamma, held below the critical ratio. Written as
+ * sqrt(w) G(r) with G^2 = r^a (1 - r^(b-a))/w, which is smooth and free of cancellation at r = 1. */
+static void nozzle(const pneu_model *model, pneu_real w, shape *s)
+{
+  const pneu_real a = 2 / model->p.heat_ratio, d = 1 - 1 / model->p.heat_ratio;
+  pneu_real r = 1 - w, lr, ra, g2, g, dg, s0, slope;
+  s->choked = r <= model->critical_ratio;
+  if (s->choked) {
+    s->psi = model->choked_gain / model->nozzle_gain;
+    s->dpsi = 0;
+    return;
+  }
+  lr = PNEU_M(log1p)(-w);
+  ra = PNEU_M(exp)(a * lr);
+  g2 = w > 0 ? -ra * PNEU_M(expm1)(d * lr) / w : d;
+  g = PNEU_M(sqrt)(g2);
+  s0 = root(w, &slope);
+  if (w < PNEU_BLEND) /* d(G^2)/dw at w = 0 is -d (a + (d - 1)/2) */
+    dg = d * (a + (d - 1) / 2) / (2 * g);
+  else
+    dg = ((a * ra - (a + d) * (ra - g2 * w)) / r + g2) / (2 * g * w);
+  s->psi = s0 * g;
+  s->dpsi = s0 * dg - slope * g;
+}
+
+/* phi = (1 - ((r - b)/(1 - b))^2)^m = (w (1 + z)/(1 - b))^m, z = (r - b)/(1 - b); 1 below b. */
+static void iso6358(const pneu_model *model, pneu_real w, shape *s)
+{
+  const pneu_real b = model->p.critical_ratio, m = model->p.subsonic_index;
+  pneu_real z, c, slope, s0, c0, power = 1, dpower = 0;
+  s->choked = 1 - w <= b;
+  if (s->choked) {
+    s->psi = 1;
+    s->dpsi = 0;
+    return;
+  }
+  z = (1 - w - b) / (1 - b);
+  c = (1 + z) / (1 - b);
+  s0 = root(w, &slope);
+  c0 = PNEU_M(sqrt)(c);
+  if (m != PNEU_C(0.5)) {
+    const pneu_real inside = (w < PNEU_BLEND ? PNEU_BLEND : w) * c;
+    power = PNEU_M(pow)(inside, m - PNEU_C(0.5));
+    dpower = (m - PNEU_C(0.5)) * power * (1 / ((1 + z) * (1 - b)) - (w < PNEU_BLEND ? 0 : 1 / w));
+  }
+  s->psi = s0 * c0 * power;
+  s->dpsi = (-slope * c0 + s0 / (2 * c0 * (1 - b) * (1 - b))) * power + s0 * c0 * dpower;
+}
+
+typedef void shape_function(const pneu_model *, pneu_real, shape *);
+static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358};
+
+void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up,
+                  pneu_real p_down, pneu_flow *flow)
+{
+  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain};
+  const pneu_real k = area * gain[law] / PNEU_M(sqrt)(T_up);
+  const pneu_real r = p_down / p_up;
+  shape s;
+  shapes[law](model, 1 - r, &s);
+  flow->q = k * p_up * s.psi;
+  flow->dq_dup = k * (s.psi - r * s.dpsi);
+  flow->dq_ddown = k * s.dpsi;
+  flow->choked = s.choked;
+}
+
+pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
+{
+  /* choked: q = C rho_0 p_up sqrt(T_0/T_up) with rho_0 = 100 kPa/(R T_0), T_0 = 293.15 K */
+  return area * model->choked_gain * model->p.gas_constant * PNEU_M(sqrt)(PNEU_C(293.15)) / PNEU_C(1e5);
+}
+
+/* The declared law, mixed with the nozzle's as far as choked_flow says. */
+static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                       pneu_flow *flow)
+{
+  const pneu_real c = t->choked_share;
+  pneu_flow nozzle_flow;
+  pneu_orifice(t->model, t->model->law.flow, area, p_up, T_up, p_down, flow);
+  if (c == 0)
+    return;
+  pneu_orifice(t->model, PNEU_FLOW_CHOKED, area, p_up, T_up, p_down, &nozzle_flow);
+  flow->q += c * (nozzle_flow.q - flow->q);
+  flow->dq_dup += c * (nozzle_flow.dq_dup - flow->dq_dup);
+  flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
+  flow->choked = nozzle_flow.choked;
+}
+
+/* Inflow through a line that loses resistance * q before the orifice: Newton on
+ * q = flow(p_up - resistance q, p_down), a fixed number of times. */
+static void flow_behind_resistance(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up,
+                                   pneu_real resistance, pneu_flow *flow)
+{
+  enum { ITERATIONS = 6 };
+  pneu_real q = 0;
+  int i;
+  for (i = 0; i < ITERATIONS; i++) {
+    const pneu_real p = p_up - resistance * q;
+    mixed_flow(t, area, p > t->p ? p : t->p, T_up, t->p, flow);
+    q += (flow->q - q) / (1 + resistance * flow->dq_dup);
+  }
+  flow->q = q;
+}
+
+void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
+{
+  pneu_flow flow;
+  if (area <= 0)
+    return;
+  if (p_other < t->p) {
+    mixed_flow(t, area, t->p, t->T, p_other, &flow);
+    t->mass_out += flow.q;
+    t->dout_dp += flow.dq_dup;
+    t->dout_dT -= flow.q / (2 * t->T);
+  } else {
+    if (resistance > 0)
+      flow_behind_resistance(t, area, p_other, T_other, resistance, &flow);
+    else
+      mixed_flow(t, area, p_other, T_other, t->p, &flow);
+    t->mass_in += flow.q;
+    t->mass_in_T += flow.q * T_other;
+    t->din_dp += flow.dq_ddown;
+  }
+  t->choked |= flow.choked;
+}

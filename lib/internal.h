@@ -1,0 +1,95 @@
+/* What the files of lib/ share and users do not see.
+ * SPDX-License-Identifier: MIT */
+#ifndef PNEU_INTERNAL_H
+#define PNEU_INTERNAL_H
+
+#include <math.h>
+#include <stddef.h>
+
+#include "pneu.h"
+
+#ifdef PNEU_SINGLE
+#define PNEU_C(literal) literal##f
+#define PNEU_M(function) function##f
+#define PNEU_EPS PNEU_C(1.1920929e-7)
+#define PNEU_EVENT_TIME PNEU_C(1e-6)
+#else
+#define PNEU_C(literal) literal
+#define PNEU_M(function) function
+#define PNEU_EPS 2.220446049250313e-16
+#define PNEU_EVENT_TIME 1e-9
+#endif
+
+/* Relative distance from equal pressures below which flow is nearly linear in the difference. */
+#define PNEU_BLEND PNEU_C(5e-4)
+
+/* Order in which an evaluation adds its terms. */
+enum pneu_stage {
+  PNEU_STAGE_GEOMETRY, /* area, volume */
+  PNEU_STAGE_COMMAND,  /* opening */
+  PNEU_STAGE_BOUNDARY, /* what the orifices see */
+  PNEU_STAGE_LEAK,     /* flows beside the transducer */
+  PNEU_STAGE_HEAT,     /* heat into the gas */
+  PNEU_STAGE_FORCE,    /* forces and friction level */
+  PNEU_STAGE_BRISTLE   /* friction with a state of its own, from the level */
+};
+
+/* The running sums of one evaluation. */
+struct pneu_terms {
+  const pneu_model *model;
+  const pneu_input *input;
+  pneu_real m, T, x, v;
+  pneu_real p;                                   /* [Pa] abs */
+  pneu_real volume, area;                        /* [m3], [m2] */
+  pneu_real opening;                             /* [1] */
+  pneu_real supply, exhaust;                     /* [Pa] abs, behind the orifices */
+  pneu_real supply_resistance;                   /* [Pa s/kg] pressure lost on the way from the supply */
+  pneu_real fill_area, vent_area;                /* [m2] */
+  pneu_real choked_share;                        /* [1] of the flow that follows the nozzle law */
+  pneu_real mass_in, mass_out;                   /* [kg/s] */
+  pneu_real mass_in_T;                           /* [kg K/s] inflow times its temperature */
+  pneu_real heat;                                /* [W] */
+  pneu_real force;                               /* [N] sum without friction and viscous terms */
+  pneu_real friction;                            /* [N] level of dry friction at the present velocity */
+  pneu_real bristle_force;                       /* [N] */
+  pneu_real dflow_dp, dflow_dT;                  /* slopes of mass_in - mass_out, base model only */
+  pneu_real din_dp, dout_dp, dout_dT;            /* and of each */
+  int choked;
+};
+typedef struct pneu_terms pneu_terms;
+
+/* Evaluate all terms at a packed vector.  Out: terms; rate: of the effects' states (may be NULL).
+ * Returns: PNEU_OK or PNEU_RETRY_STATE. */
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  pneu_terms *terms, pneu_real *rate);
+
+/* Flow between the chamber and a reservoir, either way, added to the sums. */
+void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
+
+/* Pressure from the first packed entry [Pa abs]. */
+pneu_real pneu_pressure_of(const pneu_model *model, pneu_real m, pneu_real T, pneu_real volume);
+
+/* LU factors of the leading n x n block of a, in place, with partial pivoting.
+ * Returns: PNEU_OK or PNEU_E_SINGULAR. */
+int pneu_lu_factor(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], unsigned char *pivot);
+void pneu_lu_solve(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], const unsigned char *pivot, pneu_real *b);
+
+/* Right-hand side and Jacobian at work->y0, for all tries from there. */
+int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                      pneu_workspace *work);
+
+/* One Rosenbrock step from work->y0 to work->y1.  Out: error, in units of full scale (may be NULL).
+ * Returns: PNEU_OK, PNEU_RETRY_STATE, PNEU_E_SINGULAR. */
+int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real h,
+                  pneu_workspace *work, pneu_real *error);
+
+/* Packed vector inside the last step. */
+void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y);
+
+/* If an event lies inside the step just tried (length h), shorten the step so that it ends there.
+ * In/out: h   Out: which, -1 if none
+ * Returns: PNEU_OK or the status of a repeated step. */
+int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work,
+                pneu_real *h, int *which);
+
+#endif

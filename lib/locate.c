@@ -1,0 +1,94 @@
+/* Where inside a step an event happens. */
+#include "internal.h"
+
+enum { LOCATE_MAX = 8, BISECTIONS = 40 };
+
+/* g of event `which` at theta of the present step. */
+static pneu_real event_at(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                          const pneu_workspace *work, int which, pneu_real theta)
+{
+  pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
+  pneu_dense_packed(work, pneu_dimension(model, state->mode), theta, y);
+  return pneu_events(model, state, input, y, g) > which ? g[which] : -1;
+}
+
+/* Root of g along the dense output between 0 and end, by the Illinois variant of the regula falsi. */
+static pneu_real dense_root(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                            const pneu_workspace *work, int which, pneu_real end, pneu_real g_end)
+{
+  pneu_real lo = 0, hi = end, g_lo = event_at(model, state, input, work, which, 0), g_hi = g_end;
+  int i;
+  if (g_lo >= 0) /* just fired, leaves zero, comes back: the root is past the dip */
+    g_lo = -PNEU_EPS * g_end;
+  for (i = 0; i < BISECTIONS && hi - lo > 8 * PNEU_EPS; i++) {
+    pneu_real theta = lo + (hi - lo) * g_lo / (g_lo - g_hi), g;
+    if (!(theta > lo && theta < hi))
+      theta = (lo + hi) / 2;
+    g = event_at(model, state, input, work, which, theta);
+    if (g > 0) {
+      hi = theta;
+      g_hi = g;
+      g_lo /= 2;
+    } else {
+      lo = theta;
+      g_lo = g;
+      g_hi /= 2;
+    }
+  }
+  return hi;
+}
+
+/* Earliest event inside the step, judged at quarters of it.  Returns: theta; Out: which, -1 if none. */
+static pneu_real first_event(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                             const pneu_workspace *work, int *which)
+{
+  const int n = pneu_dimension(model, state->mode);
+  pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX], first = 2;
+  int quarter, i, count;
+  *which = -1;
+  for (quarter = 1; quarter <= 4 && *which < 0; quarter++) {
+    const pneu_real theta = quarter * PNEU_C(0.25);
+    pneu_dense_packed(work, n, theta, y);
+    count = pneu_events(model, state, input, y, g);
+    for (i = 0; i < count; i++) {
+      pneu_real at;
+      if (!(g[i] > 0))
+        continue;
+      at = dense_root(model, state, input, work, i, theta, g[i]);
+      if (at < first) {
+        first = at;
+        *which = i;
+      }
+    }
+  }
+  return first;
+}
+
+/* Repeat the step to end on the event: each repeat is exact to the order of the method, so that the
+ * root moves by ever less. */
+int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work,
+                pneu_real *h, int *which)
+{
+  pneu_real theta = first_event(model, state, input, work, which);
+  pneu_real length = theta * *h, slope;
+  int i;
+  if (*which < 0)
+    return PNEU_OK;
+  for (i = 0; i < LOCATE_MAX; i++) {
+    int status = pneu_step_try(model, state, input, length, work, NULL);
+    pneu_real g0, g1, correction;
+    if (status != PNEU_OK)
+      return status;
+    g1 = event_at(model, state, input, work, *which, 1);
+    g0 = event_at(model, state, input, work, *which, PNEU_C(0.99));
+    slope = (g1 - g0) / (PNEU_C(0.01) * length);
+    correction = slope > 0 ? g1 / slope : 0;
+    if (PNEU_M(fabs)(correction) < PNEU_EVENT_TIME)
+      break;
+    length -= correction;
+    if (!(length > 0))
+      length = PNEU_EVENT_TIME;
+  }
+  *h = length;
+  return PNEU_OK;
+}

@@ -1,0 +1,135 @@
+/* Check parameters once; precompute what follows from them. */
+#include <string.h>
+
+#include "internal.h"
+
+static int out_of_bounds(pneu_real value, const pneu_param_info *info)
+{
+  return !(value >= info->lower && value <= info->upper);
+}
+
+/* Index of the first parameter outside its bounds, -1 if none. */
+static int bad_param(pneu_params *p)
+{
+  int i;
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    if (out_of_bounds(*pneu_param_at(p, i), &info))
+      return i;
+  }
+  return -1;
+}
+
+static int is_active(const pneu_model *model, int e)
+{
+  const pneu_effect *effect = pneu_effect_at(e);
+  const pneu_real *param = &model->p.effect[model->param_of[e]];
+  int i, count;
+  if (effect->acts)
+    return effect->acts(model, param);
+  pneu_effect_params(e, &count);
+  for (i = 0; i < count; i++)
+    if (!effect->param[i].shape && param[i] != effect->param[i].neutral)
+      return 1;
+  return 0;
+}
+
+static int state_count(int e)
+{
+  static const unsigned char counts[PNEU_EFFECT_COUNT + 1] = {
+#define PNEU_EFFECT(name, n_param, n_state) n_state,
+#include "effects.def"
+#undef PNEU_EFFECT
+      0};
+  return counts[e];
+}
+
+/* List the active effects by stage and give each its states. */
+static void activate(pneu_model *model)
+{
+  int e, stage;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    model->param_of[e] = (unsigned char)(pneu_effect_params(e, NULL) - PNEU_PARAM_BASE_COUNT);
+  for (stage = 0; stage <= PNEU_STAGE_BRISTLE; stage++)
+    for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+      if (pneu_effect_at(e)->stage != stage || !is_active(model, e))
+        continue;
+      model->active[model->n_active++] = (unsigned char)e;
+      model->state_of[e] = (unsigned char)model->n_extra;
+      model->n_extra += state_count(e);
+      model->bristle |= stage == PNEU_STAGE_BRISTLE;
+      model->thermal |= stage == PNEU_STAGE_HEAT;
+    }
+}
+
+/* Constants of the gas and of the flow laws. */
+static void derive_flow(pneu_model *model)
+{
+  const pneu_real gamma = model->p.heat_ratio, R = model->p.gas_constant;
+  model->critical_ratio = PNEU_M(pow)(2 / (gamma + 1), gamma / (gamma - 1));
+  model->paper_gain = PNEU_M(sqrt)(2 / R);
+  model->nozzle_gain = PNEU_M(sqrt)(2 * gamma / ((gamma - 1) * R));
+  model->choked_gain =
+      PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
+}
+
+/* The chamber law: which exponent, and whether the gas has a temperature of its own. A film
+ * resistance turns the isothermal chamber into an energy balance; see effects/heat_transfer.c. */
+static void derive_gas(pneu_model *model)
+{
+  const int law = model->law.gas, heated = model->thermal;
+  model->thermal = law != PNEU_GAS_ISOTHERMAL || heated;
+  model->g = law == PNEU_GAS_POLYTROPIC ? model->p.polytropic_index : model->p.heat_ratio;
+  if (model->law.pressure_input)
+    model->thermal = 0;
+  model->n_gas = 1 + model->thermal + model->n_extra;
+}
+
+static void derive_scales(pneu_model *model)
+{
+  const pneu_real rate = model->viscous / model->p.moving_mass;
+  model->scale[0] = model->p.supply_pressure + model->p.ambient_pressure;
+  model->scale[1] = model->p.ambient_temperature;
+  model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;
+  model->scale[3] = model->scale[2] * (rate > 50 ? rate : 50);
+}
+
+static int bad_law(const pneu_laws *law)
+{
+  return law->gas < 0 || law->gas >= PNEU_GAS_COUNT || law->flow < 0 || law->flow >= PNEU_FLOW_COUNT;
+}
+
+int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *law, int *bad)
+{
+  int at;
+  memset(model, 0, sizeof *model);
+  model->p = *p;
+  model->law = *law;
+  at = bad_param(&model->p);
+  if (bad)
+    *bad = at;
+  if (at >= 0)
+    return PNEU_E_PARAM;
+  if (bad_law(law))
+    return PNEU_E_LAW;
+  model->viscous = p->viscous_friction + p->damping;
+  activate(model);
+  derive_flow(model);
+  derive_gas(model);
+  derive_scales(model);
+  return PNEU_OK;
+}
+
+void pneu_input_default(const pneu_model *model, pneu_input *input)
+{
+  memset(input, 0, sizeof *input);
+  input->supply_pressure = model->p.supply_pressure;
+}
+
+void pneu_options_default(pneu_options *options)
+{
+  options->tol = PNEU_C(1e-6);
+  options->h_max = 0;
+  options->max_steps = 100000;
+}

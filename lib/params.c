@@ -1,0 +1,85 @@
+/* The parameter list: description, access, defaults. */
+#include <string.h>
+
+#include "internal.h"
+
+#define PNEU_EFFECT(name, n_param, n_state) extern const pneu_effect pneu_effect_record_##name;
+#include "effects.def"
+#undef PNEU_EFFECT
+
+static const pneu_effect *const records[PNEU_EFFECT_COUNT + 1] = {
+#define PNEU_EFFECT(name, n_param, n_state) &pneu_effect_record_##name,
+#include "effects.def"
+#undef PNEU_EFFECT
+    NULL};
+
+static const unsigned char param_counts[PNEU_EFFECT_COUNT + 1] = {
+#define PNEU_EFFECT(name, n_param, n_state) n_param,
+#include "effects.def"
+#undef PNEU_EFFECT
+    0};
+
+static const pneu_param_info base[PNEU_PARAM_BASE_COUNT] = {
+#define X(name, unit, lo, hi, dflt, text)                                                                              \
+  {#name, unit, (pneu_real)(lo), (pneu_real)(hi), (pneu_real)(dflt), (pneu_real)(dflt), 0, text},
+    PNEU_PARAM_LIST(X)
+#undef X
+};
+
+static const unsigned short base_offset[PNEU_PARAM_BASE_COUNT] = {
+#define X(name, unit, lo, hi, dflt, text) (unsigned short)offsetof(pneu_params, name),
+    PNEU_PARAM_LIST(X)
+#undef X
+};
+
+const pneu_effect *pneu_effect_at(int i)
+{
+  return i >= 0 && i < PNEU_EFFECT_COUNT ? records[i] : NULL;
+}
+
+int pneu_effect_params(int i, int *count)
+{
+  int first = PNEU_PARAM_BASE_COUNT;
+  if (i < 0 || i >= PNEU_EFFECT_COUNT)
+    return -1;
+  if (count)
+    *count = param_counts[i];
+  while (i > 0)
+    first += param_counts[--i];
+  return first;
+}
+
+int pneu_param_describe(int i, pneu_param_info *info)
+{
+  int e, k = i - PNEU_PARAM_BASE_COUNT;
+  if (i < 0 || i >= PNEU_PARAM_COUNT)
+    return PNEU_E_PARAM;
+  if (k < 0) {
+    *info = base[i];
+    return PNEU_OK;
+  }
+  for (e = 0; k >= param_counts[e]; e++)
+    k -= param_counts[e];
+  *info = records[e]->param[k];
+  return PNEU_OK;
+}
+
+pneu_real *pneu_param_at(pneu_params *p, int i)
+{
+  if (i < 0 || i >= PNEU_PARAM_COUNT)
+    return NULL;
+  if (i >= PNEU_PARAM_BASE_COUNT)
+    return &p->effect[i - PNEU_PARAM_BASE_COUNT];
+  return (pneu_real *)(void *)((char *)p + base_offset[i]);
+}
+
+void pneu_params_default(pneu_params *p)
+{
+  int i;
+  memset(p, 0, sizeof *p);
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    *pneu_param_at(p, i) = i < PNEU_PARAM_BASE_COUNT || info.shape ? info.value : info.neutral;
+  }
+}

@@ -1,0 +1,469 @@
+/* libpneu: a spring-and-diaphragm pneumatic actuator, for firmware and for the bench.
+ *
+ * Rules that hold throughout:
+ *   Units      SI. Pressures in parameters and inputs are gauge unless the name says abs;
+ *              pressures in flow functions are absolute. Temperatures are absolute [K].
+ *   Sign       x grows in the direction in which the air drives the stem, from 0 at the lower
+ *              stop (spring side) to `stroke`; mass flow is positive into the chamber.
+ *   Arguments  model first, then state, then inputs, outputs last.
+ *   Memory     the caller owns everything; no function keeps a pointer or allocates. No pointer
+ *              may be NULL unless its comment says so.
+ *   Results    functions that can fail return PNEU_OK (0), a value > 0 to ask an integrator for a
+ *              smaller step, or a value < 0 to stop; pneu_status_text() has the words.
+ *   Precision  pneu_real is double, or float where everything is compiled with PNEU_SINGLE.
+ *   Effects    compile the library and its user with the same effects.def: it sets array sizes.
+ *
+ * The equations are derived in DESIGN.md; [B] stands for M. Bartys, "Dynamics of single-action
+ * pneumatic actuators", whose model this library extends.
+ *
+ * SPDX-License-Identifier: MIT */
+#ifndef PNEU_H
+#define PNEU_H
+
+#define PNEU_VERSION "0.1.0"
+
+#ifdef PNEU_SINGLE
+typedef float pneu_real;
+#define pneu_model_init pneu_model_init_single /* a mixed build fails at link time */
+#else
+typedef double pneu_real;
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Lists: each expands into an enum, a table of words, a struct, wherever it is needed ---- */
+
+/*    name                   code  text */
+#define PNEU_STATUS_LIST(X) \
+  X(PNEU_OK,                    0, "success") \
+  X(PNEU_RETRY_STATE,           1, "trial state outside the model's domain") \
+  X(PNEU_E_PARAM,              -1, "parameter outside its bounds or not finite") \
+  X(PNEU_E_LAW,                -2, "unknown law or role") \
+  X(PNEU_E_NONFINITE,          -3, "non-finite or unphysical input or state") \
+  X(PNEU_E_STEP_SIZE,          -4, "step size fell below its limit") \
+  X(PNEU_E_STEP_COUNT,         -5, "more steps than allowed") \
+  X(PNEU_E_EVENTS,             -6, "more events than allowed in one step") \
+  X(PNEU_E_SINGULAR,           -7, "iteration matrix is singular") \
+  X(PNEU_E_STOPPED,            -8, "stopped by the observer")
+
+/*    name         key in files   chamber law */
+#define PNEU_GAS_LIST(X) \
+  X(ISOTHERMAL, "isothermal", "p V = m R T at ambient temperature [B, Eq. 6]") \
+  X(POLYTROPIC, "polytropic", "energy balance with exponent n in place of gamma, no wall; n = 1.4 is the adiabatic chamber") \
+  X(ENERGY,     "energy",     "energy balance of an ideal gas with constant heat capacities and heat from the wall")
+
+#define PNEU_FLOW_LIST(X) \
+  X(PAPER,      "paper",      "a sqrt(2 rho_up (p_up - p_dn)), never chokes [B, Eq. 8]") \
+  X(CHOKED,     "choked",     "isentropic nozzle, choked below (2/(g+1))^(g/(g-1))") \
+  X(ISO6358,    "iso6358",    "ISO 6358-1:2013 (C, b, m), choked below b")
+
+#define PNEU_MODE_LIST(X) \
+  X(LOWER,      "lower stop",   "at rest on the lower stop") \
+  X(STUCK,      "stuck",        "at rest between the stops, held by friction") \
+  X(UP,         "sliding up",   "v > 0") \
+  X(DOWN,       "sliding down", "v < 0") \
+  X(UPPER,      "upper stop",   "at rest on the upper stop") \
+  X(FREE,       "free",         "between the stops with bristle friction (no stick mode)") \
+  X(DRIVEN,     "driven",       "position is an input") \
+  X(FIXED,      "fixed",        "no stem: a vessel")
+
+/* Parameters of the base model. Bounds are those of physics and of sane data, not of the law.
+ *    name                  unit        lower   upper   default    meaning */
+#define PNEU_PARAM_LIST(X) \
+  X(area,                "m2",       1e-6,   10.0,   0.04,      "effective area of the diaphragm") \
+  X(dead_volume,         "m3",       1e-9,   10.0,   2e-6,      "chamber volume at x = 0, with the line") \
+  X(stroke,              "m",        0.0,    2.0,    0.02,      "travel between the stops; 0 makes a vessel") \
+  X(spring_rate,         "N/m",      0.0,    1e9,    4e5,       "spring rate") \
+  X(spring_preload,      "m",       -1.0,    1.0,    0.01,      "compression of the spring at x = 0") \
+  X(moving_mass,         "kg",       1e-4,   1e4,    2.0,       "lumped moving mass") \
+  X(dry_friction,        "N",        0.0,    1e6,    480.0,     "Coulomb friction") \
+  X(viscous_friction,    "N.s/m",    0.0,    1e7,    500.0,     "viscous friction of packing and guide") \
+  X(damping,             "N.s/m",    0.0,    1e7,    1000.0,    "damping of the stem") \
+  X(external_force,      "N",       -1e7,    1e7,    0.0,       "constant force on the stem, positive against the air") \
+  X(fill_area,           "m2",       0.0,    1.0,    0.893e-6,  "effective area C*a of the fill orifice, fully open") \
+  X(vent_area,           "m2",       0.0,    1.0,    0.893e-6,  "effective area C*a of the vent orifice, fully open") \
+  X(critical_ratio,      "1",        0.0,    0.9,    0.3,       "b of ISO 6358") \
+  X(subsonic_index,      "1",        0.2,    1.0,    0.5,       "m of ISO 6358") \
+  X(proportional_band,   "Pa",       0.0,    1e7,    0.0,       "0: u is the opening; else u is a set pressure [Pa] and this opens the transducer fully") \
+  X(supply_pressure,     "Pa",       0.0,    1e8,    4e5,       "supply, gauge") \
+  X(supply_temperature,  "K",        100.0,  1500.0, 298.15,    "supply air") \
+  X(ambient_pressure,    "Pa",       1e2,    1e7,    101325.0,  "ambient, absolute") \
+  X(ambient_temperature, "K",        100.0,  1500.0, 298.15,    "ambient air and chamber wall") \
+  X(gas_constant,        "J/kg/K",   10.0,   1e4,    287.1015193370166, "8.31446/0.02896 [B, Table A1]") \
+  X(heat_ratio,          "1",        1.01,   1.67,   1.4,       "gamma of the gas") \
+  X(polytropic_index,    "1",        1.0,    1.67,   1.4,       "n of the polytropic law")
+
+enum pneu_status {
+#define X(name, code, text) name = code,
+  PNEU_STATUS_LIST(X)
+#undef X
+  PNEU_STATUS_END = 99
+};
+
+enum pneu_gas {
+#define X(name, key, text) PNEU_GAS_##name,
+  PNEU_GAS_LIST(X)
+#undef X
+  PNEU_GAS_COUNT
+};
+
+enum pneu_flow_law {
+#define X(name, key, text) PNEU_FLOW_##name,
+  PNEU_FLOW_LIST(X)
+#undef X
+  PNEU_FLOW_COUNT
+};
+
+enum pneu_mode {
+#define X(name, key, text) PNEU_MODE_##name,
+  PNEU_MODE_LIST(X)
+#undef X
+  PNEU_MODE_COUNT
+};
+
+enum pneu_param {
+#define X(name, unit, lo, hi, dflt, text) PNEU_PARAM_##name,
+  PNEU_PARAM_LIST(X)
+#undef X
+  PNEU_PARAM_BASE_COUNT
+};
+
+/* Effects, the places of their parameters in pneu_params.effect, and their number of states. */
+enum pneu_effect_id {
+#define PNEU_EFFECT(name, n_param, n_state) PNEU_EFFECT_##name,
+#include "effects.def"
+#undef PNEU_EFFECT
+  PNEU_EFFECT_COUNT
+};
+
+enum pneu_effect_sizes {
+  PNEU_EFFECT_PARAM_COUNT = 0
+#define PNEU_EFFECT(name, n_param, n_state) + n_param
+#include "effects.def"
+#undef PNEU_EFFECT
+  ,
+  PNEU_EFFECT_STATE_COUNT = 0
+#define PNEU_EFFECT(name, n_param, n_state) + n_state
+#include "effects.def"
+#undef PNEU_EFFECT
+  ,
+  PNEU_PARAM_COUNT = PNEU_PARAM_BASE_COUNT + PNEU_EFFECT_PARAM_COUNT,
+  PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* never 0: C has no empty array */
+  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT, /* m, T, effects, x, v */
+  PNEU_STAGE_COUNT = 8                          /* of the Rosenbrock method */
+};
+
+/* ---- Types; all open, so that they can be placed statically ---- */
+
+typedef struct pneu_params {
+#define X(name, unit, lo, hi, dflt, text) pneu_real name;
+  PNEU_PARAM_LIST(X)
+#undef X
+  pneu_real effect[PNEU_EFFECT_PARAM_COUNT + 1]; /* in the order of effects.def; one spare */
+} pneu_params;
+
+typedef struct pneu_laws {
+  int gas;             /* enum pneu_gas */
+  int flow;            /* enum pneu_flow_law */
+  int pressure_input;  /* not 0: chamber pressure is an input, the mass balance is off */
+  int position_input;  /* not 0: stem position is an input, the force balance is off */
+} pneu_laws;
+
+/* What drives the model over one stretch of time. Opening holds; pressure and position, where
+ * they are inputs, run along a straight line with the given slope. */
+typedef struct pneu_input {
+  pneu_real u;               /* -1..1 opening: 1 fill fully open, -1 vent fully open, 0 shut; or set pressure [Pa] */
+  pneu_real supply_pressure; /* [Pa] gauge */
+  pneu_real force;           /* [N] on the stem, positive against the air, added to external_force */
+  pneu_real pressure_rate;   /* [Pa/s] slope of the chamber pressure, where it is an input */
+  pneu_real position_rate;   /* [m/s] slope of the position, where it is an input */
+} pneu_input;
+
+typedef struct pneu_state {
+  pneu_real m;                     /* [kg] gas in the chamber; [Pa] gauge pressure where that is an input */
+  pneu_real T;                     /* [K] gas temperature */
+  pneu_real x;                     /* [m] stem position, 0..stroke */
+  pneu_real v;                     /* [m/s] stem velocity */
+  pneu_real extra[PNEU_EXTRA_MAX]; /* states of the active effects, see pneu_model.state_of */
+  int mode;                        /* enum pneu_mode */
+} pneu_state;
+
+/* A parameter, as files, fits, reports and --help want it. */
+typedef struct pneu_param_info {
+  const char *name, *unit;
+  pneu_real lower, upper;
+  pneu_real value;     /* base model: default. Effect: the size it starts from when switched on */
+  pneu_real neutral;   /* effect: value at which the model is the base model */
+  int shape;           /* effect: not 0 if it only gives form to what another parameter switches on */
+  const char *meaning;
+} pneu_param_info;
+
+typedef struct pneu_model pneu_model;
+struct pneu_terms; /* the running sums of one evaluation; private to lib/ */
+
+/* An effect: what it is, and the function that adds its terms. One per file in lib/effects/. */
+typedef struct pneu_effect {
+  const char *name;      /* as in reports and files */
+  const char *what;      /* one sentence */
+  const char *source;    /* author, year, equation */
+  const char *equation;  /* mass, energy, force, command or sensor */
+  const char *footprint; /* where its absence shows in a residual */
+  int stage;             /* enum pneu_stage: when in an evaluation it adds its terms */
+  const pneu_param_info *param; /* as many as effects.def says */
+  void (*add)(const pneu_real *param, const pneu_real *state, struct pneu_terms *terms, pneu_real *rate);
+  void (*start)(const pneu_real *param, const struct pneu_terms *terms, pneu_real *state); /* at rest; NULL: 0 */
+  int (*acts)(const struct pneu_model *model, const pneu_real *param); /* NULL: where any parameter is not neutral */
+} pneu_effect;
+
+/* Constant after pneu_model_init; may lie in read-only memory. */
+struct pneu_model {
+  pneu_params p;
+  pneu_laws law;
+  pneu_real g;               /* exponent of the energy balance: 1, n or gamma */
+  pneu_real critical_ratio;  /* of the isentropic nozzle */
+  pneu_real choked_gain;     /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
+  pneu_real nozzle_gain;     /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
+  pneu_real paper_gain;      /* sqrt(2/R) [sqrt(kg K/J)] */
+  pneu_real viscous;         /* viscous_friction + damping [N.s/m] */
+  pneu_real scale[4];        /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
+  int thermal;               /* gas temperature is a state */
+  int bristle;               /* friction has its own state: no stick mode */
+  int n_extra;               /* states of active effects */
+  int n_gas;                 /* states before x in the packed vector: m, [T], effects */
+  int n_active;
+  unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
+  unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
+  unsigned char state_of[PNEU_EFFECT_COUNT + 1]; /* first state in pneu_state.extra */
+};
+
+/* What can be read off a state, by pneu_observe. */
+typedef struct pneu_output {
+  pneu_real pressure;      /* [Pa] gauge, in the chamber */
+  pneu_real temperature;   /* [K] of the gas */
+  pneu_real position;      /* [m] */
+  pneu_real velocity;      /* [m/s] */
+  pneu_real opening;       /* [1] of the transducer, after its own dynamics */
+  pneu_real mass_in;       /* [kg/s] from the supply */
+  pneu_real mass_out;      /* [kg/s] to ambient, leaks included */
+  pneu_real heat;          /* [W] from the wall into the gas */
+  pneu_real supply;        /* [Pa] gauge, at the transducer */
+  pneu_real friction;      /* [N] level of dry friction while sliding */
+  int choked;              /* 1: the flow in use is choked */
+} pneu_output;
+
+typedef struct pneu_options {
+  pneu_real tol;           /* local error in units of stroke, full pressure and so on; 1e-10..1e-2 */
+  pneu_real h_max;         /* [s] longest step; 0: none */
+  int max_steps;           /* per run */
+} pneu_options;
+
+typedef struct pneu_stats {
+  long steps, rejected, events, rhs, jacobians;
+} pneu_stats;
+
+/* Scratch of the stepper. Its content need not be set and means nothing between calls, but for
+ * h, the step to try first: 0 lets the stepper choose. */
+typedef struct pneu_workspace {
+  pneu_real h;
+  pneu_real y0[PNEU_STATE_MAX], y1[PNEU_STATE_MAX], f0[PNEU_STATE_MAX];
+  pneu_real k[PNEU_STAGE_COUNT][PNEU_STATE_MAX];
+  pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
+  pneu_real lu[PNEU_STATE_MAX][PNEU_STATE_MAX];
+  unsigned char pivot[PNEU_STATE_MAX];
+  pneu_stats stats;
+} pneu_workspace;
+
+/* One accepted step, for dense output: valid only inside the observer's call. */
+typedef struct pneu_step_view {
+  const pneu_model *model;
+  const pneu_input *input;
+  const pneu_workspace *work;
+  const pneu_state *start;   /* state at t */
+  pneu_real t, h;            /* [s] from the start of the run */
+} pneu_step_view;
+
+/* Called after each accepted step and each event; any pointer may be NULL. A result other than
+ * 0 stops the run with PNEU_E_STOPPED. */
+typedef struct pneu_observer {
+  int (*step)(void *context, const pneu_step_view *view);
+  int (*event)(void *context, pneu_real t, const pneu_state *state, int mode_before);
+  void *context;
+} pneu_observer;
+
+/* ---- Model ---- */
+
+/* Default parameters: actuator R1-400 of [B, Table A1], every effect neutral.
+ * Out: p */
+void pneu_params_default(pneu_params *p);
+
+/* Describe parameter i, 0 <= i < PNEU_PARAM_COUNT: the base list, then the effects in order.
+ * Out: info, whose strings are constant.  Returns: PNEU_OK, or PNEU_E_PARAM out of range. */
+int pneu_param_describe(int i, pneu_param_info *info);
+
+/* Where parameter i lies in `p`; the order is that of pneu_param_describe.
+ * Returns: a pointer into p, or NULL out of range. */
+pneu_real *pneu_param_at(pneu_params *p, int i);
+
+/* The record of effect i, 0 <= i < PNEU_EFFECT_COUNT.  Returns: the record, or NULL out of range. */
+const pneu_effect *pneu_effect_at(int i);
+
+/* Index (as in pneu_param_describe) of the first parameter of effect i, and their number.
+ * Returns: the index, or -1 out of range. Out: count (may be NULL) */
+int pneu_effect_params(int i, int *count);
+
+/* Check parameters and laws once and precompute what follows from them.
+ * In:      p    every value within the bounds of pneu_param_describe
+ *          law  laws and roles
+ * Out:     model
+ *          bad  index of the parameter at fault, or -1 (may be NULL)
+ * Returns: PNEU_OK, PNEU_E_PARAM, PNEU_E_LAW. On error `model` must not be used. */
+int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *law, int *bad);
+
+/* Words for a status, a mode, a gas law, a flow law.  Returns: a constant string, "unknown" out of range. */
+const char *pneu_status_text(int status);
+const char *pneu_mode_text(int mode);
+const char *pneu_gas_key(int law);
+const char *pneu_flow_key(int law);
+
+/* ---- State and right-hand side ---- */
+
+/* Shut transducer, supply at its nominal pressure, no extra force.  Out: input */
+void pneu_input_default(const pneu_model *model, pneu_input *input);
+
+/* A state at rest.
+ * In:      pressure     chamber pressure [Pa] gauge, > -ambient_pressure
+ *          temperature  of the gas [K]; isothermal law: ambient is taken instead
+ *          position     [m], 0..stroke
+ * Out:     state        mode chosen from the balance of forces
+ * Returns: PNEU_OK or PNEU_E_NONFINITE. */
+int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real temperature, pneu_real position,
+                    const pneu_input *input, pneu_state *state);
+
+/* Everything that can be read off a state.
+ * Returns: PNEU_OK, or PNEU_RETRY_STATE if the state is not physical (mass, temperature or volume <= 0). */
+int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out);
+
+/* Packed vector for an external integrator: m, [T], states of effects, x, v. At rest x and v are
+ * frozen and left out.
+ * Returns: the number of entries in the state's mode. Out: y */
+int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y);
+void pneu_unpack(const pneu_model *model, const pneu_real *y, pneu_state *state);
+
+/* Number of packed entries in a mode. */
+int pneu_dimension(const pneu_model *model, int mode);
+
+/* Full scale of each packed entry, the unit of pneu_options.tol: the mass that makes full pressure
+ * in the present volume, ambient temperature, 1 for states of effects, stroke, and stroke times the
+ * rate at which the stem's velocity settles.  Out: scale, PNEU_STATE_MAX entries at most */
+void pneu_scales(const pneu_model *model, const pneu_state *state, pneu_real *scale);
+
+/* Time derivative of the packed vector in the state's mode: [B, Eqs. 2, 7, 8] and what was added.
+ * In:      state  its mode, and x, v where they are frozen
+ *          y      packed vector
+ * Out:     dydt   as many entries
+ * Returns: PNEU_OK or PNEU_RETRY_STATE. */
+int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+             pneu_real *dydt);
+
+/* d(dydt)/dy, row by row; analytic where no effect is active, else by differences (relative
+ * accuracy about the square root of the machine's).
+ * In:      f0   dydt at y
+ * Out:     jac  jac[i][j] = d f_i / d y_j */
+int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  const pneu_real *f0, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX]);
+
+/* ---- Modes and events: one set for every integrator ---- */
+
+enum { PNEU_EVENT_MAX = 2 };
+
+/* Event functions of the state's mode: an event happens where g rises through 0.
+ * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
+ *             velocity [m/s] and distance beyond the stop [m] while moving
+ * Returns: their number. */
+int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                pneu_real *g);
+
+/* Mode after event `which` of pneu_events fired; sets x and v exactly (v = 0 on a stop: the impact
+ * is taken as inelastic).  In/out: state */
+void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state);
+
+/* Mode that the balance of forces asks for at the present instant, after an input has jumped.
+ * In/out: state */
+void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state);
+
+/* ---- Stepping ---- */
+
+/* Default options: tol 1e-6, no longest step, 100000 steps.  Out: options */
+void pneu_options_default(pneu_options *options);
+
+/* Run with constant input and adaptive steps to the end of a stretch of time.
+ * Method:  Rodas5P (Steinebach 2023, BIT 63:27): Rosenbrock-Wanner, order 5(4), L-stable, stiffly
+ *          accurate. Events are located to 1e-9 s (single: 1e-6 s) by repeating the step.
+ * In:      input     constant throughout; a command change is the start of a new run
+ *          duration  [s] >= 0
+ *          options   see pneu_options
+ *          observer  may be NULL
+ * In/out:  state     at the start, then at the end
+ *          work      scratch; statistics are added to work->stats
+ * Returns: PNEU_OK, or the reason for stopping; `state` is then the last accepted one. */
+int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real duration,
+             const pneu_options *options, const pneu_observer *observer, pneu_workspace *work);
+
+/* One step of fixed length, for a firmware loop: the work is bounded (at most four mode switches,
+ * each located in at most PNEU_LOCATE_MAX repeats).
+ * In:      dt  [s] > 0, at most a tenth of the fill time for 1e-3 of stroke
+ * In/out:  state, work
+ * Returns: PNEU_OK, PNEU_E_NONFINITE, PNEU_E_SINGULAR, PNEU_E_EVENTS; `state` then is unchanged. */
+int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
+              pneu_workspace *work);
+
+/* State inside an accepted step, order 4.
+ * In:      theta  0..1: start to end of the step
+ * Out:     state */
+void pneu_dense(const pneu_step_view *view, pneu_real theta, pneu_state *state);
+
+/* ---- Parts that are useful alone ---- */
+
+/* A mass flow and its slopes. */
+typedef struct pneu_flow {
+  pneu_real q;         /* [kg/s] from up to down, >= 0 */
+  pneu_real dq_dup;    /* [kg/s/Pa] */
+  pneu_real dq_ddown;  /* [kg/s/Pa] */
+  int choked;
+} pneu_flow;
+
+/* Mass flow through an orifice, in the direction up to down; swap the arguments for the other.
+ * In:      law     enum pneu_flow_law
+ *          area    effective area C*a [m2], >= 0
+ *          p_up    [Pa] abs, > 0;  T_up [K], > 0;  p_down [Pa] abs, 0..p_up
+ * Out:     flow
+ * Domain:  ideal gas; steady. Within PNEU_BLEND (5e-4) of equal pressures the square root is
+ *          replaced by an odd polynomial that is linear at zero, with value, slope and curvature
+ *          continuous at the edge.
+ * Omits:   vena contracta shift with ratio, upstream kinetic energy, heat, inertia of the gas.
+ * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;
+ *          iso6358: ISO 6358-1:2013, with C = area * pneu_sonic_conductance(model, 1). */
+void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up,
+                  pneu_real p_down, pneu_flow *flow);
+
+/* Sonic conductance C [m3/(s Pa), ANR 293.15 K, 100 kPa] of an effective area [m2]: the choked
+ * flow of both is the same. */
+pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area);
+
+/* Chamber volume [m3] and pressure [Pa abs] of a state; [B, Eq. 6]. */
+pneu_real pneu_volume(const pneu_model *model, pneu_real x);
+pneu_real pneu_pressure_abs(const pneu_model *model, const pneu_state *state);
+
+/* Opening of an electro-pneumatic transducer that regulates pressure in proportion.
+ * In:      set, p  set point and chamber pressure [Pa], same reference
+ *          band    [Pa] > 0: error that opens it fully
+ * Returns: opening -1..1. */
+pneu_real pneu_regulator_opening(pneu_real set, pneu_real p, pneu_real band);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,107 @@
+/* From a packed state to its time derivative: every term is added once, in the order of the stages. */
+#include <string.h>
+
+#include "internal.h"
+#include "chamber.h"
+#include "stem.h"
+#include "transducer.h"
+
+int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y)
+{
+  int i, n = 0;
+  y[n++] = state->m;
+  if (model->thermal)
+    y[n++] = state->T;
+  for (i = 0; i < model->n_extra; i++)
+    y[n++] = state->extra[i];
+  y[n++] = state->x;
+  y[n++] = state->v;
+  return pneu_dimension(model, state->mode);
+}
+
+void pneu_unpack(const pneu_model *model, const pneu_real *y, pneu_state *state)
+{
+  const int n = pneu_dimension(model, state->mode);
+  int i, at = 0;
+  state->m = y[at++];
+  if (model->thermal)
+    state->T = y[at++];
+  for (i = 0; i < model->n_extra; i++)
+    state->extra[i] = y[at++];
+  if (n > at)
+    state->x = y[at];
+  if (n > at + 1)
+    state->v = y[at + 1];
+}
+
+static void begin(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  pneu_terms *t)
+{
+  const int i_x = model->n_gas, n = pneu_dimension(model, state->mode);
+  const pneu_params *p = &model->p;
+  memset(t, 0, sizeof *t);
+  t->model = model;
+  t->input = input;
+  t->m = y[0];
+  t->T = model->thermal ? y[1] : p->ambient_temperature;
+  t->x = n > i_x ? y[i_x] : state->x;
+  t->v = n > i_x + 1 ? y[i_x + 1] : state->mode == PNEU_MODE_DRIVEN ? input->position_rate : 0;
+  t->area = p->area;
+  t->volume = pneu_volume(model, t->x);
+  t->supply = input->supply_pressure + p->ambient_pressure;
+  t->exhaust = p->ambient_pressure;
+  t->fill_area = p->fill_area;
+  t->vent_area = p->vent_area;
+}
+
+/* Let the active effects of all stages up to `stage` add their terms, from *next on. */
+static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
+{
+  const pneu_model *model = t->model;
+  pneu_real unused[PNEU_EXTRA_MAX];
+  const pneu_real *extra = y + 1 + model->thermal;
+  if (!rate)
+    rate = unused;
+  for (; *next < model->n_active; ++*next) {
+    const int e = model->active[*next];
+    const pneu_effect *effect = pneu_effect_at(e);
+    if (effect->stage > stage)
+      return;
+    effect->add(&model->p.effect[model->param_of[e]], extra + model->state_of[e], t, rate + model->state_of[e]);
+  }
+}
+
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  pneu_terms *t, pneu_real *rate)
+{
+  int next = 0;
+  begin(model, state, input, y, t);
+  add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
+  t->p = pneu_pressure_of(model, t->m, t->T, t->volume);
+  if (!pneu_chamber_ok(t))
+    return PNEU_RETRY_STATE;
+  if (!model->law.pressure_input) {
+    t->opening = pneu_command_opening(t);
+    add_effects(t, y, PNEU_STAGE_BOUNDARY, &next, rate);
+    pneu_transducer_flow(t);
+  }
+  add_effects(t, y, PNEU_STAGE_HEAT, &next, rate);
+  pneu_stem_force(t);
+  add_effects(t, y, PNEU_STAGE_BRISTLE, &next, rate);
+  return PNEU_OK;
+}
+
+int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+             pneu_real *dydt)
+{
+  pneu_terms t;
+  const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
+  if (pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal) != PNEU_OK)
+    return PNEU_RETRY_STATE;
+  pneu_chamber_rates(&t, dydt);
+  if (n > i_x)
+    dydt[i_x] = t.v;
+  if (n > i_x + 1)
+    dydt[i_x + 1] = pneu_stem_acceleration(&t, state->mode);
+  return PNEU_OK;
+}

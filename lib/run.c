@@ -1,0 +1,194 @@
+/* Runs with adaptive steps, and single steps of fixed length. */
+#include "internal.h"
+
+enum { EVENTS_PER_STEP = 4, EVENTS_AT_ONE_TIME = 16 };
+
+/* One run in progress. */
+typedef struct run {
+  const pneu_model *model;
+  const pneu_input *input;
+  const pneu_options *options;
+  const pneu_observer *observer;
+  pneu_state *state;
+  pneu_workspace *work;
+  pneu_real t, end;
+  pneu_real h;         /* to try next; 0: choose */
+  int steps, events_in_a_row;
+} run;
+
+/* First step in a mode: with mu the rate at which the slope changes along the solution,
+ * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale. */
+static pneu_real first_step(const run *r)
+{
+  const pneu_workspace *w = r->work;
+  const int n = pneu_dimension(r->model, r->state->mode);
+  pneu_real scale[PNEU_STATE_MAX], f = 0, jf = 0, mu, h;
+  int i, j;
+  pneu_scales(r->model, r->state, scale);
+  for (i = 0; i < n; i++) {
+    pneu_real sum = 0;
+    for (j = 0; j < n; j++)
+      sum += w->jac[i][j] * w->f0[j];
+    f = PNEU_M(fmax)(f, PNEU_M(fabs)(w->f0[i]) / scale[i]);
+    jf = PNEU_M(fmax)(jf, PNEU_M(fabs)(sum) / scale[i]);
+  }
+  if (!(f > 0))
+    return r->end - r->t;
+  mu = jf / f + PNEU_EPS;
+  h = PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_C(0.2));
+  return h;
+}
+
+static int notify_step(run *r, pneu_real h)
+{
+  pneu_step_view view;
+  if (!r->observer || !r->observer->step)
+    return PNEU_OK;
+  view.model = r->model;
+  view.input = r->input;
+  view.work = r->work;
+  view.start = r->state;
+  view.t = r->t;
+  view.h = h;
+  return r->observer->step(r->observer->context, &view) ? PNEU_E_STOPPED : PNEU_OK;
+}
+
+/* Take over the end of the step; switch the mode where an event ended it. */
+static int accept(run *r, pneu_real h, int which)
+{
+  const int mode = r->state->mode;
+  int status = notify_step(r, h);
+  if (status != PNEU_OK)
+    return status;
+  pneu_unpack(r->model, r->work->y1, r->state);
+  r->t += h;
+  r->work->stats.steps++;
+  r->events_in_a_row = which < 0 ? 0 : r->events_in_a_row + 1;
+  if (which < 0)
+    return PNEU_OK;
+  if (r->events_in_a_row > EVENTS_AT_ONE_TIME)
+    return PNEU_E_EVENTS;
+  pneu_switch(r->model, r->input, which, r->state);
+  r->work->stats.events++;
+  r->h = 0;
+  if (r->observer && r->observer->event && r->observer->event(r->observer->context, r->t, r->state, mode))
+    return PNEU_E_STOPPED;
+  return PNEU_OK;
+}
+
+static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
+{
+  return value < lo ? lo : value > hi ? hi : value;
+}
+
+/* Try steps from the present state until one is accepted. */
+static int advance(run *r)
+{
+  const pneu_real tol = r->options->tol, left = r->end - r->t;
+  pneu_workspace *w = r->work;
+  int status, fresh = r->h <= 0, refused = 0;
+  pneu_pack(r->model, r->state, w->y0);
+  status = pneu_step_prepare(r->model, r->state, r->input, w);
+  if (status != PNEU_OK)
+    return PNEU_E_NONFINITE;
+  if (fresh)
+    r->h = first_step(r);
+  for (;;) {
+    pneu_real error = 0, h = r->h, factor;
+    int which = -1;
+    if (r->options->h_max > 0)
+      h = PNEU_M(fmin)(h, r->options->h_max);
+    if (h > left * PNEU_C(0.999))
+      h = left;
+    if (!(h > 8 * PNEU_EPS * r->end))
+      return PNEU_E_STEP_SIZE;
+    status = pneu_step_try(r->model, r->state, r->input, h, w, &error);
+    if (status < 0)
+      return status;
+    if (status != PNEU_OK || !(error <= tol)) {
+      factor = status == PNEU_OK && error < PNEU_C(1e30)
+                   ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2)), PNEU_C(0.1), PNEU_C(0.8))
+                   : PNEU_C(0.2);
+      r->h = h * factor;
+      w->stats.rejected++;
+      refused = 1;
+      continue;
+    }
+    factor = error > 0 ? PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2)) : 10;
+    factor = clip(factor, PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
+    if (h < left || factor < 1) /* a step cut short by the end says little about the next */
+      r->h = h * factor;
+    status = pneu_locate(r->model, r->state, r->input, w, &h, &which);
+    if (status != PNEU_OK)
+      return status < 0 ? status : PNEU_E_NONFINITE;
+    return accept(r, h, which);
+  }
+}
+
+int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real duration,
+             const pneu_options *options, const pneu_observer *observer, pneu_workspace *work)
+{
+  run r;
+  int status = PNEU_OK;
+  r.model = model;
+  r.input = input;
+  r.options = options;
+  r.observer = observer;
+  r.state = state;
+  r.work = work;
+  r.t = 0;
+  r.end = duration;
+  r.h = work->h;
+  r.steps = 0;
+  r.events_in_a_row = 0;
+  pneu_settle(model, input, state);
+  while (r.t < r.end && status == PNEU_OK) {
+    if (r.steps++ >= options->max_steps)
+      return PNEU_E_STEP_COUNT;
+    status = advance(&r);
+  }
+  work->h = 0;
+  return status;
+}
+
+int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
+              pneu_workspace *work)
+{
+  pneu_state now = *state;
+  pneu_real left = dt;
+  int i;
+  pneu_settle(model, input, &now);
+  for (i = 0; i <= EVENTS_PER_STEP; i++) {
+    pneu_real h = left;
+    int which = -1, status;
+    pneu_pack(model, &now, work->y0);
+    status = pneu_step_prepare(model, &now, input, work);
+    if (status == PNEU_OK)
+      status = pneu_step_try(model, &now, input, h, work, NULL);
+    if (status == PNEU_OK)
+      status = pneu_locate(model, &now, input, work, &h, &which);
+    if (status != PNEU_OK)
+      return status < 0 ? status : PNEU_E_NONFINITE;
+    pneu_unpack(model, work->y1, &now);
+    work->stats.steps++;
+    left -= h;
+    if (which < 0) {
+      *state = now;
+      return PNEU_OK;
+    }
+    pneu_switch(model, input, which, &now);
+    if (!(left > PNEU_EVENT_TIME)) {
+      *state = now;
+      return PNEU_OK;
+    }
+  }
+  return PNEU_E_EVENTS;
+}
+
+void pneu_dense(const pneu_step_view *view, pneu_real theta, pneu_state *state)
+{
+  pneu_real y[PNEU_STATE_MAX];
+  *state = *view->start;
+  pneu_dense_packed(view->work, pneu_dimension(view->model, state->mode), theta, y);
+  pneu_unpack(view->model, y, state);
+}

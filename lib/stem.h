@@ -1,0 +1,12 @@
+#ifndef PNEU_STEM_H
+#define PNEU_STEM_H
+
+#include "internal.h"
+
+/* Force on the stem without friction and viscous terms, and the level of dry friction. */
+void pneu_stem_force(pneu_terms *t);
+
+/* [m/s2] */
+pneu_real pneu_stem_acceleration(const pneu_terms *t, int mode);
+
+#endif

@@ -1,0 +1,638 @@
+/* The virtual rig: laws and effects first, then the integrator with its events, then the measuring chain. */
+#include "rig.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define TAU 6.283185307179586476925
+
+/* M and U are the gas, the rest of the first block belongs to effects, then lags of sensors, then integrals for the audit. */
+enum {
+  M, U, X, V,
+  OPENING, WALL, TUBE, BRISTLE, HYST,
+  P_LAG, X_LAG, T_LAG,
+  MASS_IN, MASS_OUT, H_IN, H_OUT, HEAT, WORK, DRY, VISCOUS, OTHER,
+  STATES
+};
+
+enum mode { REST, UP, DOWN, FREE /* bristle friction has no rest in mid-travel */ };
+
+typedef struct {
+  const second_rig *rig;
+  const double *t_cmd, *u_cmd;
+  size_t commands;
+  double t, u; /* u is the command in force during this step */
+  double y[STATES];
+  enum mode mode;
+  double impact;
+  long steps, events;
+} world;
+
+/* What the laws need of a state. */
+typedef struct {
+  double P, p, T, V, A; /* absolute, gauge, temperature, volume, effective area */
+} chamber;
+
+/* ---- flow laws ---- */
+
+/* Mass flow over upstream pressure, times sqrt(R T): the function of the pressure ratio alone. */
+static double flow_function(const second_rig *g, double ratio)
+{
+  double n = g->gamma;
+  double critical = pow(2.0 / (n + 1.0), n / (n - 1.0));
+  double choked = sqrt(n) * pow(2.0 / (n + 1.0), (n + 1.0) / (2.0 * (n - 1.0)));
+  if (g->flow == SECOND_PAPER)
+    return sqrt(2.0 * (1.0 - ratio)); /* Ca sqrt(2 rho1 (P1 - P2)), rho1 = P1/(R T) */
+  if (g->flow == SECOND_CHOKED) {
+    if (ratio <= critical)
+      return choked;
+    return sqrt(2.0 * n / (n - 1.0) * (pow(ratio, 2.0 / n) - pow(ratio, (n + 1.0) / n)));
+  }
+  if (ratio <= g->iso_b)
+    return choked;
+  double s = (ratio - g->iso_b) / (1.0 - g->iso_b);
+  return choked * pow(1.0 - s * s, g->iso_m);
+}
+
+/* Flow from pressure Pu at temperature Tu to Pd <= Pu. */
+static double orifice_down(const second_rig *g, double area, double Pu, double Tu, double Pd)
+{
+  double ratio = Pd / Pu, most = 1.0 - g->linear_ratio, share = 1.0;
+  if (ratio > most) {
+    share = (1.0 - ratio) / g->linear_ratio;
+    ratio = most;
+  }
+  return share * area * Pu / sqrt(g->gas_constant * Tu) * flow_function(g, ratio);
+}
+
+/* Signed flow from 1 to 2. */
+static double orifice(const second_rig *g, double area, double P1, double T1, double P2, double T2)
+{
+  if (area <= 0.0 || P1 == P2)
+    return 0.0;
+  return P1 > P2 ? orifice_down(g, area, P1, T1, P2) : -orifice_down(g, area, P2, T2, P1);
+}
+
+/* Orifice in series with a linear resistance r before it (P1 falls) or behind it (P2 rises), P1 > P2:
+ * q = f(P1 - r q, P2) or f(P1, P2 + r q). The right side falls with q, so the root is unique; false position finds it. */
+static double orifice_in_series(const second_rig *g, double area, double P1, double T1, double P2, double r, int before)
+{
+  double lo = 0.0, hi = orifice(g, area, P1, T1, P2, T1);
+  double glo = -hi, ghi = 0.0, q = hi;
+  for (int i = 0; i < 100; i++) {
+    double a = before ? P1 - r * q : P1, b = before ? P2 : P2 + r * q;
+    double e = q - (a > b ? orifice(g, area, a, T1, b, T1) : 0.0);
+    if (e > 0.0) {
+      hi = q;
+      ghi = e;
+      glo *= i > 1 ? 0.5 : 1.0;
+    } else {
+      lo = q;
+      glo = e;
+      ghi *= i > 1 ? 0.5 : 1.0;
+    }
+    if (e == 0.0 || hi - lo <= 4.0 * DBL_EPSILON * hi)
+      break;
+    q = lo - glo * (hi - lo) / (ghi - glo);
+    if (!(q > lo && q < hi))
+      q = 0.5 * (lo + hi);
+  }
+  return q;
+}
+
+static double from_supply(const second_rig *g, double area, double t, double P, double T)
+{
+  double Ps = g->ambient + g->supply + g->pulsation * sin(TAU * g->pulsation_rate * t);
+  if (g->supply_droop > 0.0 && Ps > P && area > 0.0)
+    return orifice_in_series(g, area, Ps, g->supply_temperature, P, g->supply_droop, 1);
+  return orifice(g, area, Ps, g->supply_temperature, P, T);
+}
+
+static double to_exhaust(const second_rig *g, double area, double P, double T)
+{
+  if (g->back_pressure > 0.0 && P > g->ambient && area > 0.0)
+    return orifice_in_series(g, area, P, T, g->ambient, g->back_pressure, 0);
+  return orifice(g, area, P, T, g->ambient, g->ambient_temperature);
+}
+
+/* ---- chamber ---- */
+
+static double area_at(const second_rig *g, double x)
+{
+  return g->stroke > 0.0 ? g->area * (1.0 - g->area_slope * x / g->stroke) : g->area;
+}
+
+static double volume_at(const second_rig *g, double x)
+{
+  return g->dead_volume + 0.5 * (g->area + area_at(g, x)) * x; /* integral of a linear area */
+}
+
+static chamber chamber_of(const second_rig *g, const double *y)
+{
+  chamber c;
+  c.V = volume_at(g, y[X]);
+  c.A = area_at(g, y[X]);
+  c.P = (g->gamma - 1.0) * y[U] / c.V;
+  c.p = c.P - g->ambient;
+  c.T = y[U] / y[M] * (g->gamma - 1.0) / g->gas_constant;
+  return c;
+}
+
+/* q enters the chamber from air at temperature T_from; if it is negative, -q leaves at the chamber's own. */
+static void exchange(const second_rig *g, double *d, double q, double T_from, double T)
+{
+  double cp = g->gamma / (g->gamma - 1.0) * g->gas_constant;
+  d[q > 0.0 ? MASS_IN : MASS_OUT] += fabs(q);
+  d[q > 0.0 ? H_IN : H_OUT] += cp * fabs(q) * (q > 0.0 ? T_from : T);
+}
+
+/* Transducer, directly or through a tube whose air is at ambient temperature. */
+static void transducer(const world *w, const double *y, double t, const chamber *c, double *d)
+{
+  const second_rig *g = w->rig;
+  double u = g->transducer_lag > 0.0 ? y[OPENING] : w->u;
+  double fill = u > 0.0 ? u * g->fill_area : 0.0, vent = u < 0.0 ? -u * g->vent_area : 0.0;
+  if (g->transducer_lag > 0.0)
+    d[OPENING] = (w->u - y[OPENING]) / g->transducer_lag;
+  if (g->tube_volume <= 0.0) {
+    exchange(g, d, from_supply(g, fill, t, c->P, c->T), g->supply_temperature, c->T);
+    exchange(g, d, -to_exhaust(g, vent, c->P, c->T), g->ambient_temperature, c->T);
+    return;
+  }
+  double Ta = g->ambient_temperature, Pt = y[TUBE] * g->gas_constant * Ta / g->tube_volume;
+  double line = (Pt - c->P) / g->tube_resistance;
+  d[TUBE] = from_supply(g, fill, t, Pt, Ta) - to_exhaust(g, vent, Pt, Ta) - line;
+  exchange(g, d, line, Ta, c->T);
+}
+
+static void leaks(const second_rig *g, const chamber *c, double *d)
+{
+  double Pa = g->ambient, Ta = g->ambient_temperature, area = g->leak_area;
+  if (g->relief_area > 0.0 && c->p > g->relief_from)
+    area += g->relief_area * fmin(1.0, (c->p - g->relief_from) / g->relief_span);
+  exchange(g, d, -orifice(g, area, c->P, c->T, Pa, Ta), Ta, c->T);
+  exchange(g, d, -g->laminar_leak * (c->P * c->P - Pa * Pa), Ta, c->T);
+}
+
+/* Heat from the wall; the wall has a temperature of its own if it has a capacity. */
+static double wall_heat(const second_rig *g, const double *y, const chamber *c, double *d)
+{
+  double Tw = g->wall_capacity > 0.0 ? y[WALL] : g->ambient_temperature;
+  double q = (g->heat + g->heat_natural * cbrt(fabs(Tw - c->T))) * (Tw - c->T);
+  if (g->wall_capacity > 0.0)
+    d[WALL] = (g->wall_loss * (g->ambient_temperature - Tw) - q) / g->wall_capacity;
+  return q;
+}
+
+static void gas_rates(const world *w, const double *y, double t, const chamber *c, double *d)
+{
+  const second_rig *g = w->rig;
+  double cv = g->gas_constant / (g->gamma - 1.0);
+  transducer(w, y, t, c, d);
+  leaks(g, c, d);
+  d[M] = d[MASS_IN] - d[MASS_OUT];
+  d[WORK] = c->P * c->A * y[V];
+  if (g->gas == SECOND_ISOTHERMAL) { /* U = m cv Ta; the heat is whatever that takes */
+    d[U] = cv * g->ambient_temperature * d[M];
+    d[HEAT] = d[U] - d[H_IN] + d[H_OUT] + d[WORK];
+  } else {
+    d[HEAT] = wall_heat(g, y, c, d);
+    d[U] = d[H_IN] - d[H_OUT] + d[HEAT] - d[WORK];
+  }
+}
+
+/* ---- stem ---- */
+
+static double lower_stop(const second_rig *g)
+{
+  return g->lower_rate > 0.0 ? -HUGE_VAL : 0.0;
+}
+
+static double rigid_limit(const second_rig *g)
+{
+  return g->travel_limit > 0.0 ? g->travel_limit : g->stroke;
+}
+
+static double upper_stop(const second_rig *g)
+{
+  return g->upper_rate > 0.0 ? HUGE_VAL : rigid_limit(g);
+}
+
+/* What the stem works against besides main spring and friction: hysteresis, elastic stops, an added force. */
+static double other_forces(const second_rig *g, const double *y, double t)
+{
+  double f = g->hysteresis * y[HYST] + g->force * sin(TAU * g->force_rate * t);
+  double over = y[X] - rigid_limit(g);
+  if (g->upper_rate > 0.0 && over > 0.0)
+    f += fmax(0.0, g->upper_rate * over + g->stop_damping * y[V]);
+  if (g->lower_rate > 0.0 && y[X] < 0.0)
+    f += fmin(0.0, g->lower_rate * y[X] + g->stop_damping * y[V]);
+  return f;
+}
+
+static double spring_force(const second_rig *g, double x)
+{
+  return g->spring_rate * (x + g->spring_preload) + g->spring_cubic * x * x * x;
+}
+
+static double spring_energy(const second_rig *g, double x)
+{
+  double s = x + g->spring_preload, q = x * x;
+  return 0.5 * g->spring_rate * s * s + 0.25 * g->spring_cubic * q * q;
+}
+
+/* Magnitude of dry friction at velocity v. */
+static double dry_friction(const second_rig *g, double x, double v, double p)
+{
+  double f = g->dry_friction;
+  if (g->stroke > 0.0)
+    f *= 1.0 + g->friction_position * x / g->stroke;
+  f += g->friction_pressure * fabs(p);
+  if (g->bump_width > 0.0) {
+    double s = (x - g->bump_at) / g->bump_width;
+    f += g->bump * exp(-s * s);
+  }
+  if (g->stribeck_velocity > 0.0) {
+    double s = v / g->stribeck_velocity;
+    f *= 1.0 + g->stribeck * exp(-s * s);
+  }
+  return f;
+}
+
+/* Force left over for friction and inertia; friction must carry all of it at rest. */
+static double push(const second_rig *g, const double *y, double t, const chamber *c)
+{
+  return c->p * c->A - spring_force(g, y[X]) - other_forces(g, y, t);
+}
+
+/* Friction of the present mode. LuGre: f = s0 z + s1 dz/dt, dz/dt = v - s0 |v| z / F(v). */
+static double friction(const world *w, const double *y, const chamber *c, double *d)
+{
+  const second_rig *g = w->rig;
+  double f = dry_friction(g, y[X], y[V], c->p);
+  if (w->mode == UP || w->mode == DOWN)
+    return w->mode == UP ? f : -f;
+  d[BRISTLE] = y[V] - g->bristle_rate * fabs(y[V]) * y[BRISTLE] / f;
+  return g->bristle_rate * y[BRISTLE] + g->bristle_damping * d[BRISTLE];
+}
+
+static void stem_rates(const world *w, const double *y, double t, const chamber *c, double *d)
+{
+  const second_rig *g = w->rig;
+  if (w->mode == REST)
+    return;
+  double f = friction(w, y, c, d), v = y[V];
+  d[X] = v;
+  d[V] = (push(g, y, t, c) - g->viscous * v - f) / g->mass;
+  d[DRY] = f * v;
+  d[VISCOUS] = g->viscous * v * v;
+  d[OTHER] = other_forces(g, y, t) * v;
+  if (g->hysteresis_length > 0.0)
+    d[HYST] = (v - y[HYST] * fabs(v)) / g->hysteresis_length;
+}
+
+static void sensor_rates(const second_rig *g, const double *y, const chamber *c, double *d)
+{
+  if (g->pressure_lag > 0.0)
+    d[P_LAG] = (c->p - y[P_LAG]) / g->pressure_lag;
+  if (g->position_lag > 0.0)
+    d[X_LAG] = (y[X] - y[X_LAG]) / g->position_lag;
+  if (g->temperature_lag > 0.0)
+    d[T_LAG] = (c->T - y[T_LAG]) / g->temperature_lag;
+}
+
+static void rates(const world *w, const double *y, double t, double *d)
+{
+  chamber c = chamber_of(w->rig, y);
+  memset(d, 0, STATES * sizeof *d);
+  gas_rates(w, y, t, &c, d);
+  stem_rates(w, y, t, &c, d);
+  sensor_rates(w->rig, y, &c, d);
+}
+
+/* ---- integrator ---- */
+
+static void runge_kutta(const world *w, const double *y, double h, double *out)
+{
+  double k[4][STATES], s[STATES];
+  rates(w, y, w->t, k[0]);
+  for (int stage = 1; stage < 4; stage++) {
+    double part = stage < 3 ? 0.5 * h : h;
+    for (int i = 0; i < STATES; i++)
+      s[i] = y[i] + part * k[stage - 1][i];
+    rates(w, s, w->t + part, k[stage]);
+  }
+  for (int i = 0; i < STATES; i++)
+    out[i] = y[i] + h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);
+}
+
+/* One step; with refinement on, two halves instead of one while that makes a difference. */
+static void advance(const world *w, const double *y, double h, int depth, double *out)
+{
+  const second_rig *g = w->rig;
+  runge_kutta(w, y, h, out);
+  if (g->refine_tolerance <= 0.0 || depth == 0)
+    return;
+  double half[STATES], twice[STATES];
+  world second = *w;
+  second.t += 0.5 * h;
+  runge_kutta(w, y, 0.5 * h, half);
+  runge_kutta(&second, half, 0.5 * h, twice);
+  double dU = fabs(twice[U] - out[U]) / out[U], dx = fabs(twice[X] - out[X]) / (g->stroke > 0.0 ? g->stroke : 1.0);
+  memcpy(out, twice, sizeof twice);
+  if (dU <= g->refine_tolerance && dx <= g->refine_tolerance)
+    return;
+  advance(w, y, 0.5 * h, depth - 1, half);
+  advance(&second, half, 0.5 * h, depth - 1, out);
+}
+
+/* Not negative while the mode lasts. At rest: friction, or a stop, can carry the push. Moving: no reversal, no stop. */
+static double guard(const world *w, const double *y, double t)
+{
+  const second_rig *g = w->rig;
+  double low = lower_stop(g), high = upper_stop(g);
+  if (w->mode == UP)
+    return fmin(y[V], high - y[X]);
+  if (w->mode == DOWN)
+    return fmin(-y[V], y[X] - low);
+  if (w->mode == FREE)
+    return fmin(high - y[X], y[X] - low);
+  chamber c = chamber_of(g, y);
+  double n = push(g, y, t, &c), f = dry_friction(g, y[X], 0.0, c.p), least = HUGE_VAL;
+  if (g->bristle_rate > 0.0) {
+    n -= g->bristle_rate * y[BRISTLE];
+    f = 0.0;
+  }
+  if (y[X] < high)
+    least = f - n;
+  if (y[X] > low)
+    least = fmin(least, f + n);
+  return least;
+}
+
+/* Velocity is zero, or a stop took it: where does the stem go? */
+static void settle(world *w)
+{
+  const second_rig *g = w->rig;
+  double *y = w->y, low = lower_stop(g), high = upper_stop(g);
+  if (y[X] >= high || y[X] <= low || w->mode != FREE) {
+    w->impact += 0.5 * g->mass * y[V] * y[V];
+    y[V] = 0.0;
+  }
+  y[X] = fmin(fmax(y[X], low), high);
+  w->mode = REST;
+  if (g->bristle_rate > 0.0 && y[X] > low && y[X] < high)
+    w->mode = FREE;
+  else if (guard(w, y, w->t) < 0.0) {
+    chamber c = chamber_of(g, y);
+    double n = push(g, y, w->t, &c);
+    w->mode = g->bristle_rate > 0.0 ? FREE : n > 0.0 ? UP : DOWN;
+  }
+}
+
+/* Largest fraction of the step that the mode survives, by bisection on repeated steps; `out` is the state just past it. */
+static double cross(const world *w, double h, double *out)
+{
+  double lo = 0.0, hi = 1.0, trial[STATES];
+  for (int i = 0; i < 60 && (hi - lo) * h > DBL_EPSILON * 1e-3; i++) {
+    double mid = 0.5 * (lo + hi);
+    advance(w, w->y, mid * h, 8, trial);
+    if (guard(w, trial, w->t + mid * h) < 0.0) {
+      hi = mid;
+      memcpy(out, trial, sizeof trial);
+    } else {
+      lo = mid;
+    }
+  }
+  return hi;
+}
+
+/* One step of the grid, through as many events as it holds. A mode that ends at once twice gives way to rest. */
+static void step_through(world *w, double h)
+{
+  double left = h, next[STATES];
+  for (int tries = 0; left > 0.0; tries++) {
+    advance(w, w->y, left, 8, next);
+    w->steps++;
+    if (guard(w, next, w->t + left) >= 0.0 || tries > 40) {
+      memcpy(w->y, next, sizeof next);
+      w->t += left;
+      return;
+    }
+    double part = cross(w, left, next) * left;
+    memcpy(w->y, next, sizeof next);
+    w->t += part;
+    left -= part;
+    w->events++;
+    settle(w);
+    if (tries == 39)
+      w->mode = w->mode == FREE ? FREE : REST;
+  }
+}
+
+/* ---- measuring chain ---- */
+
+/* PCG-XSH-RR, 64 bits of state; then Box and Muller. */
+static uint32_t draw(uint64_t *state)
+{
+  uint64_t s = *state;
+  *state = s * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+  uint32_t mixed = (uint32_t)(((s >> 18) ^ s) >> 27), turn = (uint32_t)(s >> 59);
+  return (mixed >> turn) | (mixed << ((32u - turn) & 31u));
+}
+
+static double gauss(uint64_t *state)
+{
+  double a = (draw(state) + 0.5) / 4294967296.0, b = (draw(state) + 0.5) / 4294967296.0;
+  return sqrt(-2.0 * log(a)) * cos(TAU * b);
+}
+
+static double quantise(double y, double range)
+{
+  double q = range / 16384.0;
+  return range > 0.0 ? floor(y / q + 0.5) * q : y;
+}
+
+static void sample(const world *w, const second_log *log, size_t i, double t, double u, uint64_t *noise)
+{
+  const second_rig *g = w->rig;
+  chamber c = chamber_of(g, w->y);
+  double p = g->pressure_lag > 0.0 ? w->y[P_LAG] : c.p, T = g->temperature_lag > 0.0 ? w->y[T_LAG] : c.T;
+  p = (1.0 + g->pressure_gain) * p + g->pressure_bias + g->pressure_noise * gauss(&noise[0]);
+  T += g->temperature_noise * gauss(&noise[2]);
+  if (log->t)
+    log->t[i] = t;
+  if (log->u)
+    log->u[i] = u;
+  if (log->p)
+    log->p[i] = quantise(p, g->pressure_range);
+  if (log->T)
+    log->T[i] = T;
+  if (log->m)
+    log->m[i] = w->y[M];
+  if (log->v)
+    log->v[i] = w->y[V];
+}
+
+static void sample_position(const world *w, const second_log *log, size_t i, uint64_t *noise)
+{
+  const second_rig *g = w->rig;
+  double x = g->position_lag > 0.0 ? w->y[X_LAG] : w->y[X];
+  x = (1.0 + g->position_gain) * x + g->position_bias + g->position_noise * gauss(&noise[1]);
+  if (log->x)
+    log->x[i] = quantise(x, g->position_range);
+}
+
+/* ---- run ---- */
+
+static void start(world *w)
+{
+  const second_rig *g = w->rig;
+  double P = g->start_pressure > 0.0 ? g->start_pressure : g->ambient;
+  double T = g->start_temperature > 0.0 ? g->start_temperature : g->ambient_temperature, *y = w->y;
+  y[X] = g->start_position;
+  y[V] = g->start_velocity;
+  if (g->lower_rate > 0.0 && y[X] == 0.0) /* the preload sits in the stop */
+    y[X] = -g->spring_rate * g->spring_preload / (g->spring_rate + g->lower_rate);
+  y[M] = P * volume_at(g, y[X]) / (g->gas_constant * T);
+  y[U] = y[M] * g->gas_constant / (g->gamma - 1.0) * T;
+  y[TUBE] = P * g->tube_volume / (g->gas_constant * g->ambient_temperature);
+  y[WALL] = g->ambient_temperature;
+  y[P_LAG] = P - g->ambient;
+  y[X_LAG] = y[X];
+  y[T_LAG] = T;
+  w->mode = y[V] > 0.0 ? UP : DOWN;
+  if (g->bristle_rate > 0.0)
+    w->mode = FREE;
+  if (y[V] == 0.0)
+    settle(w);
+}
+
+/* Command in force at t, that is after a change at t; a margin of rounding lets sums of times meet their changes. */
+static double command(const world *w, double t)
+{
+  double u = 0.0;
+  for (size_t i = 0; i < w->commands && w->t_cmd[i] + w->rig->dead_time <= t + 1e-12; i++)
+    u = w->u_cmd[i];
+  return u;
+}
+
+static double next_change(const world *w, double t, double limit)
+{
+  for (size_t i = 0; i < w->commands; i++) {
+    double s = w->t_cmd[i] + w->rig->dead_time;
+    if (s > t + 1e-12)
+      return fmin(s, limit);
+  }
+  return limit;
+}
+
+/* From the present time to `end`, stopping at every change of the command. */
+static int travel(world *w, double end)
+{
+  while (w->t < end) {
+    double from = w->t, to = next_change(w, from, end);
+    w->u = command(w, from);
+    double steps = ceil((to - from) / w->rig->step - 1e-9);
+    steps = steps < 1.0 ? 1.0 : steps;
+    for (double i = 0.0; i < steps; i += 1.0) {
+      w->t = from + (to - from) * (i / steps);
+      step_through(w, (to - from) / steps);
+      if (!(w->y[M] > 0.0 && w->y[U] > 0.0 && isfinite(w->y[X]) && isfinite(w->y[V])))
+        return 1;
+    }
+    w->t = to;
+  }
+  return 0;
+}
+
+static void close_audit(const world *w, const double *y0, second_audit *a)
+{
+  const second_rig *g = w->rig;
+  const double *y = w->y;
+  *a = (second_audit){
+      .mass_start = y0[M], .mass_end = y[M], .energy_start = y0[U], .energy_end = y[U],
+      .volume_start = volume_at(g, y0[X]), .volume_end = volume_at(g, y[X]),
+      .kinetic_start = 0.5 * g->mass * y0[V] * y0[V], .kinetic_end = 0.5 * g->mass * y[V] * y[V],
+      .spring_start = spring_energy(g, y0[X]), .spring_end = spring_energy(g, y[X]),
+      .mass_in = y[MASS_IN], .mass_out = y[MASS_OUT], .enthalpy_in = y[H_IN], .enthalpy_out = y[H_OUT],
+      .heat = y[HEAT], .gas_work = y[WORK], .dry = y[DRY], .viscous = y[VISCOUS],
+      .impact = w->impact, .other = y[OTHER], .steps = w->steps, .events = w->events,
+  };
+}
+
+size_t second_samples(double t_end, double dt_sample)
+{
+  return (size_t)floor(t_end / dt_sample + 1e-6) + 1;
+}
+
+int second_run(const second_rig *rig, const double *t_cmd, const double *u_cmd, size_t n, double t_end,
+               double dt_sample, const second_log *log, second_audit *audit)
+{
+  world w = {.rig = rig, .t_cmd = t_cmd, .u_cmd = u_cmd, .commands = n};
+  size_t samples = second_samples(t_end, dt_sample), ip = 0, ix = 0;
+  uint64_t noise[3] = {rig->seed * 3 + 1, rig->seed * 3 + 2, rig->seed * 3 + 3};
+  static const second_log nowhere;
+  const second_log *out = log ? log : &nowhere;
+  double y0[STATES];
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 8; k++)
+      draw(&noise[i]);
+  start(&w);
+  memcpy(y0, w.y, sizeof y0);
+  while (ip < samples || ix < samples) {
+    double tp = ip < samples ? (double)ip * dt_sample : HUGE_VAL;
+    double tx = ix < samples ? (double)ix * dt_sample - rig->position_skew : HUGE_VAL;
+    if (travel(&w, fmin(tp, tx)))
+      return 1;
+    if (tx <= w.t)
+      sample_position(&w, out, ix++, noise);
+    if (tp <= w.t) {
+      w.u = command(&w, tp + rig->dead_time); /* the log shows the command as sent */
+      sample(&w, out, ip++, tp, w.u, noise);
+    }
+  }
+  if (audit)
+    close_audit(&w, y0, audit);
+  return 0;
+}
+
+second_rig second_rig_default_r1_400(void)
+{
+  second_rig g = {0};
+  g.gas = SECOND_ISOTHERMAL;
+  g.flow = SECOND_PAPER;
+  g.area = 0.04;
+  g.dead_volume = 2e-6;
+  g.stroke = 0.02;
+  g.spring_rate = 400e3;
+  g.spring_preload = 0.01;
+  g.mass = 2.0;
+  g.dry_friction = 480.0;
+  g.viscous = 500.0 + 1000.0;
+  g.fill_area = g.vent_area = 0.893e-6;
+  g.supply = 400e3;
+  g.ambient = 101325.0;
+  g.supply_temperature = g.ambient_temperature = 298.15;
+  g.gas_constant = 8.31446 / 0.02896;
+  g.gamma = 1.4;
+  g.linear_ratio = 5e-4;
+  g.iso_b = 0.528;
+  g.iso_m = 0.5;
+  g.step = 20e-6;
+  return g;
+}
+
+second_rig second_rig_default_37_13(void)
+{
+  second_rig g = second_rig_default_r1_400();
+  g.area = 0.0677;
+  g.dead_volume = 4e-6;
+  g.stroke = 0.0381;
+  g.spring_rate = 120e3;
+  g.spring_preload = 0.00762;
+  g.fill_area = g.vent_area = 2.177e-6;
+  g.supply = 140e3;
+  return g;
+}
