@@ -1,38 +1,35 @@
-/* The gas in the chamber: geometry, pressure, balance of mass and energy. */
+/* The gas in the chamber: geometry and the balances of mass and energy, as rates of p and T. */
 #include "chamber.h"
 
 pneu_real pneu_volume(const pneu_model *model, pneu_real x)
 {
-  return model->p.dead_volume + model->p.area * x;
+  return model->p.dead_volume + model->p.area * model->p.swept_ratio * x;
 }
 
-pneu_real pneu_pressure_of(const pneu_model *model, pneu_real m, pneu_real T, pneu_real volume)
-{
-  /* p V = m R T [B, Eq. 6]; where pressure is an input, the first entry is the gauge pressure */
-  return model->law.pressure_input ? m + model->p.ambient_pressure : m * model->p.gas_constant * T / volume;
-}
-
-pneu_real pneu_pressure_abs(const pneu_model *model, const pneu_state *state)
+pneu_real pneu_mass(const pneu_model *model, const pneu_state *state)
 {
   const pneu_real T = model->thermal ? state->T : model->p.ambient_temperature;
-  return pneu_pressure_of(model, state->m, T, pneu_volume(model, state->x));
+  return (state->p + model->p.ambient_pressure) * pneu_volume(model, state->x) / (model->p.gas_constant * T);
 }
 
 void pneu_chamber_rates(const pneu_terms *t, pneu_real *y_dot)
 {
   const pneu_model *model = t->model;
-  const pneu_real g = model->g, R = model->p.gas_constant;
+  const pneu_real g = model->g, R = model->p.gas_constant, expansion = t->swept_area * t->v;
   if (model->law.pressure_input) {
     y_dot[0] = t->input->pressure_rate;
     return;
   }
-  y_dot[0] = t->mass_in - t->mass_out; /* [B, Eq. 7] */
-  if (!model->thermal)
+  if (!model->thermal) {
+    /* V p' = R T (q_in - q_out) - p V' [B, Eqs. 6, 7] */
+    y_dot[0] = (R * t->T * (t->mass_in - t->mass_out) - t->p * expansion) / t->volume;
     return;
-  /* m T' = sum_in (g T_in - T) q - (g - 1) (T q_out + (p V' - Q)/R): the first law with
-   * u = R T/(g - 1); g = gamma: energy balance, g = n: polytropic, g -> 1: isothermal */
-  y_dot[1] = (g * t->mass_in_T - t->T * t->mass_in -
-              (g - 1) * (t->T * t->mass_out + (t->p * t->area * t->v - t->heat) / R)) / t->m;
+  }
+  /* first law with u = R T/(g - 1): g = gamma is the energy balance, g = n the polytropic law.
+   * V p' = g (R sum_in T_in q - R T q_out - p V') + (g - 1) Q,  and T from p V = m R T */
+  y_dot[0] = (g * (R * (t->mass_in_T - t->T * t->mass_out) - t->p * expansion) + (g - 1) * t->heat) / t->volume;
+  y_dot[1] = t->T * (y_dot[0] / t->p + expansion / t->volume -
+                     R * t->T * (t->mass_in - t->mass_out) / (t->p * t->volume));
 }
 
 int pneu_chamber_ok(const pneu_terms *t)

@@ -3,7 +3,7 @@
 
 #include "internal.h"
 
-/* Rates of m and, where it is a state, T. */
+/* Rates of p and, where it is a state, T. */
 void pneu_chamber_rates(const pneu_terms *t, pneu_real *y_dot);
 
 /* Whether volume, temperature and pressure are positive. */

@@ -84,14 +84,35 @@ static void iso6358(const pneu_model *model, pneu_real w, shape *s)
   s->dpsi = (-slope * c0 + s0 / (2 * c0 * (1 - b) * (1 - b))) * power + s0 * c0 * dpower;
 }
 
+/* Flow in proportion to the pressure difference: psi = 1 - r. */
+static void linear(const pneu_model *model, pneu_real w, shape *s)
+{
+  (void)model;
+  s->psi = w;
+  s->dpsi = -1;
+  s->choked = 0;
+}
+
+static void linear_choked(const pneu_model *model, pneu_real w, shape *s)
+{
+  linear(model, w, s);
+  s->choked = 1 - w <= model->critical_ratio;
+  if (s->choked) {
+    s->psi = 1 - model->critical_ratio;
+    s->dpsi = 0;
+  }
+}
+
 typedef void shape_function(const pneu_model *, pneu_real, shape *);
-static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358};
+static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, linear, linear_choked};
 
 void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up,
                   pneu_real p_down, pneu_flow *flow)
 {
-  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain};
-  const pneu_real k = area * gain[law] / PNEU_M(sqrt)(T_up);
+  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain,
+                                           model->paper_gain, model->paper_gain};
+  const pneu_real T = law < PNEU_FLOW_LINEAR ? T_up : model->p.ambient_temperature;
+  const pneu_real k = area * gain[law] / PNEU_M(sqrt)(T);
   const pneu_real r = p_down / p_up;
   shape s;
   shapes[law](model, 1 - r, &s);

@@ -38,9 +38,8 @@ enum pneu_stage {
 struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
-  pneu_real m, T, x, v;
-  pneu_real p;                                   /* [Pa] abs */
-  pneu_real volume, area;                        /* [m3], [m2] */
+  pneu_real p, T, x, v;                          /* p [Pa] abs */
+  pneu_real volume, area, swept_area;            /* [m3], [m2] that pressure acts on, [m2] dV/dx */
   pneu_real opening;                             /* [1] */
   pneu_real supply, exhaust;                     /* [Pa] abs, behind the orifices */
   pneu_real supply_resistance;                   /* [Pa s/kg] pressure lost on the way from the supply */
@@ -52,8 +51,7 @@ struct pneu_terms {
   pneu_real force;                               /* [N] sum without friction and viscous terms */
   pneu_real friction;                            /* [N] level of dry friction at the present velocity */
   pneu_real bristle_force;                       /* [N] */
-  pneu_real dflow_dp, dflow_dT;                  /* slopes of mass_in - mass_out, base model only */
-  pneu_real din_dp, dout_dp, dout_dT;            /* and of each */
+  pneu_real din_dp, dout_dp, dout_dT;            /* slopes of the flows, base model only */
   int choked;
 };
 typedef struct pneu_terms pneu_terms;
@@ -66,13 +64,8 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
 /* Flow between the chamber and a reservoir, either way, added to the sums. */
 void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
 
-/* Pressure from the first packed entry [Pa abs]. */
-pneu_real pneu_pressure_of(const pneu_model *model, pneu_real m, pneu_real T, pneu_real volume);
-
-/* LU factors of the leading n x n block of a, in place, with partial pivoting.
- * Returns: PNEU_OK or PNEU_E_SINGULAR. */
-int pneu_lu_factor(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], unsigned char *pivot);
-void pneu_lu_solve(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], const unsigned char *pivot, pneu_real *b);
+/* Inverse of the leading n x n block of a, in place.  Returns: PNEU_OK or PNEU_E_SINGULAR. */
+int pneu_invert(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX]);
 
 /* Right-hand side and Jacobian at work->y0, for all tries from there. */
 int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input,
@@ -82,6 +75,9 @@ int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pn
  * Returns: PNEU_OK, PNEU_RETRY_STATE, PNEU_E_SINGULAR. */
 int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real h,
                   pneu_workspace *work, pneu_real *error);
+
+/* Coefficients of the dense output of the last step, for pneu_dense_packed. */
+void pneu_dense_prepare(int n, pneu_workspace *work);
 
 /* Packed vector inside the last step. */
 void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y);

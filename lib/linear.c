@@ -1,4 +1,4 @@
-/* Dense LU with partial pivoting for the few states of the model. */
+/* Dense linear algebra for the few states of the model. */
 #include "internal.h"
 
 static int pivot_row(int n, int k, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX])
@@ -10,50 +10,42 @@ static int pivot_row(int n, int k, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX])
   return best;
 }
 
-static void swap_rows(int n, pneu_real *a, pneu_real *b)
+static void swap(pneu_real *x, pneu_real *y)
 {
-  int j;
-  for (j = 0; j < n; j++) {
-    const pneu_real keep = a[j];
-    a[j] = b[j];
-    b[j] = keep;
-  }
+  const pneu_real keep = *x;
+  *x = *y;
+  *y = keep;
 }
 
-int pneu_lu_factor(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], unsigned char *pivot)
+/* Gauss-Jordan with partial pivoting. The inverse serves eight products a step: for so few states that
+ * is quicker than eight pairs of triangular solves, and as exact (DESIGN.md). */
+int pneu_invert(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
+  unsigned char pivot[PNEU_STATE_MAX];
   int i, j, k;
   for (k = 0; k < n; k++) {
+    pneu_real scale;
     const int r = pivot_row(n, k, a);
     pivot[k] = (unsigned char)r;
     if (!(PNEU_M(fabs)(a[r][k]) > 0))
       return PNEU_E_SINGULAR;
-    if (r != k)
-      swap_rows(n, a[k], a[r]);
-    a[k][k] = 1 / a[k][k]; /* kept as its reciprocal */
-    for (i = k + 1; i < n; i++) {
-      const pneu_real factor = a[i][k] *= a[k][k];
-      for (j = k + 1; j < n; j++)
+    for (j = 0; r != k && j < n; j++)
+      swap(&a[k][j], &a[r][j]);
+    scale = 1 / a[k][k];
+    a[k][k] = 1;
+    for (j = 0; j < n; j++)
+      a[k][j] *= scale;
+    for (i = 0; i < n; i++) {
+      const pneu_real factor = a[i][k];
+      if (i == k)
+        continue;
+      a[i][k] = 0;
+      for (j = 0; j < n; j++)
         a[i][j] -= factor * a[k][j];
     }
   }
+  for (k = n - 1; k >= 0; k--) /* swapped rows are swapped columns of the inverse */
+    for (i = 0; pivot[k] != k && i < n; i++)
+      swap(&a[i][k], &a[i][pivot[k]]);
   return PNEU_OK;
-}
-
-void pneu_lu_solve(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], const unsigned char *pivot, pneu_real *b)
-{
-  int i, j;
-  for (i = 0; i < n; i++) {
-    const pneu_real keep = b[pivot[i]];
-    b[pivot[i]] = b[i];
-    b[i] = keep;
-  }
-  for (i = 1; i < n; i++)
-    for (j = 0; j < i; j++)
-      b[i] -= a[i][j] * b[j];
-  for (i = n - 1; i >= 0; i--) {
-    for (j = i + 1; j < n; j++)
-      b[i] -= a[i][j] * b[j];
-    b[i] *= a[i][i];
-  }
 }

@@ -38,16 +38,16 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
   return hi;
 }
 
-/* Earliest event inside the step, judged at quarters of it.  Returns: theta; Out: which, -1 if none. */
+/* Earliest event inside the step, judged at half and whole of it.  Returns: theta; Out: which, -1 if none. */
 static pneu_real first_event(const pneu_model *model, const pneu_state *state, const pneu_input *input,
                              const pneu_workspace *work, int *which)
 {
   const int n = pneu_dimension(model, state->mode);
   pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX], first = 2;
-  int quarter, i, count;
+  int half, i, count;
   *which = -1;
-  for (quarter = 1; quarter <= 4 && *which < 0; quarter++) {
-    const pneu_real theta = quarter * PNEU_C(0.25);
+  for (half = 1; half <= 2 && *which < 0; half++) {
+    const pneu_real theta = half * PNEU_C(0.5);
     pneu_dense_packed(work, n, theta, y);
     count = pneu_events(model, state, input, y, g);
     for (i = 0; i < count; i++) {
@@ -69,9 +69,11 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
 int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work,
                 pneu_real *h, int *which)
 {
-  pneu_real theta = first_event(model, state, input, work, which);
-  pneu_real length = theta * *h, slope;
+  pneu_real theta, length, slope;
   int i;
+  pneu_dense_prepare(pneu_dimension(model, state->mode), work);
+  theta = first_event(model, state, input, work, which);
+  length = theta * *h;
   if (*which < 0)
     return PNEU_OK;
   for (i = 0; i < LOCATE_MAX; i++) {
@@ -79,6 +81,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
     pneu_real g0, g1, correction;
     if (status != PNEU_OK)
       return status;
+    pneu_dense_prepare(pneu_dimension(model, state->mode), work);
     g1 = event_at(model, state, input, work, *which, 1);
     g0 = event_at(model, state, input, work, *which, PNEU_C(0.99));
     slope = (g1 - g0) / (PNEU_C(0.01) * length);

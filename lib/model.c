@@ -88,11 +88,10 @@ static void derive_gas(pneu_model *model)
 
 static void derive_scales(pneu_model *model)
 {
-  const pneu_real rate = model->viscous / model->p.moving_mass;
   model->scale[0] = model->p.supply_pressure + model->p.ambient_pressure;
   model->scale[1] = model->p.ambient_temperature;
   model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;
-  model->scale[3] = model->scale[2] * (rate > 50 ? rate : 50);
+  model->scale[3] = model->scale[2] * 100; /* velocity settles in about 10 ms */
 }
 
 static int bad_law(const pneu_laws *law)

@@ -14,6 +14,7 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
     return status;
   out->pressure = t.p - model->p.ambient_pressure;
   out->temperature = t.T;
+  out->mass = t.p * t.volume / (model->p.gas_constant * t.T);
   out->position = t.x;
   out->velocity = t.v;
   out->opening = t.opening;
@@ -52,24 +53,19 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
       p_abs * T > PNEU_C(1e30))
     return PNEU_E_NONFINITE;
   memset(state, 0, sizeof *state);
+  state->p = pressure;
   state->T = T;
   state->x = position;
-  state->m = model->law.pressure_input ? pressure
-                                       : p_abs * pneu_volume(model, position) / (model->p.gas_constant * T);
   state->mode = PNEU_MODE_STUCK;
   start_effects(model, input, state);
   pneu_settle(model, input, state);
   return PNEU_OK;
 }
 
-void pneu_scales(const pneu_model *model, const pneu_state *state, pneu_real *scale)
+void pneu_scales(const pneu_model *model, pneu_real *scale)
 {
-  /* mass by the pressure it makes, so that a small dead volume is as exact as a large chamber */
-  const pneu_real T = model->thermal ? state->T : model->p.ambient_temperature;
   int i, n = 0;
-  scale[n++] = model->law.pressure_input
-                   ? model->scale[0]
-                   : model->scale[0] * pneu_volume(model, state->x) / (model->p.gas_constant * T);
+  scale[n++] = model->scale[0];
   if (model->thermal)
     scale[n++] = model->scale[1];
   for (i = 0; i < model->n_extra; i++)

@@ -57,7 +57,9 @@ extern "C" {
 #define PNEU_FLOW_LIST(X) \
   X(PAPER,      "paper",      "a sqrt(2 rho_up (p_up - p_dn)), never chokes [B, Eq. 8]") \
   X(CHOKED,     "choked",     "isentropic nozzle, choked below (2/(g+1))^(g/(g-1))") \
-  X(ISO6358,    "iso6358",    "ISO 6358-1:2013 (C, b, m), choked below b")
+  X(ISO6358,    "iso6358",    "ISO 6358-1:2013 (C, b, m), choked below b") \
+  X(LINEAR,     "linear",     "in proportion to p_up - p_dn whatever the density: the counterfactual of hypothesis 6") \
+  X(LINEAR_CHOKED, "linear-choked", "linear, with p_dn held at the nozzle's critical pressure below that")
 
 #define PNEU_MODE_LIST(X) \
   X(LOWER,      "lower stop",   "at rest on the lower stop") \
@@ -74,6 +76,7 @@ extern "C" {
 #define PNEU_PARAM_LIST(X) \
   X(area,                "m2",       1e-6,   10.0,   0.04,      "effective area of the diaphragm") \
   X(dead_volume,         "m3",       1e-9,   10.0,   2e-6,      "chamber volume at x = 0, with the line") \
+  X(swept_ratio,         "1",        0.0,    2.0,    1.0,       "volume swept per travel over effective area") \
   X(stroke,              "m",        0.0,    2.0,    0.02,      "travel between the stops; 0 makes a vessel") \
   X(spring_rate,         "N/m",      0.0,    1e9,    4e5,       "spring rate") \
   X(spring_preload,      "m",       -1.0,    1.0,    0.01,      "compression of the spring at x = 0") \
@@ -151,7 +154,7 @@ enum pneu_effect_sizes {
   ,
   PNEU_PARAM_COUNT = PNEU_PARAM_BASE_COUNT + PNEU_EFFECT_PARAM_COUNT,
   PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* never 0: C has no empty array */
-  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT, /* m, T, effects, x, v */
+  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT, /* p, T, effects, x, v */
   PNEU_STAGE_COUNT = 8                          /* of the Rosenbrock method */
 };
 
@@ -182,7 +185,7 @@ typedef struct pneu_input {
 } pneu_input;
 
 typedef struct pneu_state {
-  pneu_real m;                     /* [kg] gas in the chamber; [Pa] gauge pressure where that is an input */
+  pneu_real p;                     /* [Pa] gauge, gas in the chamber */
   pneu_real T;                     /* [K] gas temperature */
   pneu_real x;                     /* [m] stem position, 0..stroke */
   pneu_real v;                     /* [m/s] stem velocity */
@@ -231,7 +234,7 @@ struct pneu_model {
   int thermal;               /* gas temperature is a state */
   int bristle;               /* friction has its own state: no stick mode */
   int n_extra;               /* states of active effects */
-  int n_gas;                 /* states before x in the packed vector: m, [T], effects */
+  int n_gas;                 /* states before x in the packed vector: p, [T], effects */
   int n_active;
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
@@ -242,6 +245,7 @@ struct pneu_model {
 typedef struct pneu_output {
   pneu_real pressure;      /* [Pa] gauge, in the chamber */
   pneu_real temperature;   /* [K] of the gas */
+  pneu_real mass;          /* [kg] of gas in the chamber [B, Eq. 6] */
   pneu_real position;      /* [m] */
   pneu_real velocity;      /* [m/s] */
   pneu_real opening;       /* [1] of the transducer, after its own dynamics */
@@ -270,8 +274,8 @@ typedef struct pneu_workspace {
   pneu_real y0[PNEU_STATE_MAX], y1[PNEU_STATE_MAX], f0[PNEU_STATE_MAX];
   pneu_real k[PNEU_STAGE_COUNT][PNEU_STATE_MAX];
   pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
-  pneu_real lu[PNEU_STATE_MAX][PNEU_STATE_MAX];
-  unsigned char pivot[PNEU_STATE_MAX];
+  pneu_real inverse[PNEU_STATE_MAX][PNEU_STATE_MAX]; /* of I/(h gamma) - J */
+  pneu_real dense[3][PNEU_STATE_MAX];                /* coefficients of the dense output */
   pneu_stats stats;
 } pneu_workspace;
 
@@ -345,7 +349,7 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
  * Returns: PNEU_OK, or PNEU_RETRY_STATE if the state is not physical (mass, temperature or volume <= 0). */
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out);
 
-/* Packed vector for an external integrator: m, [T], states of effects, x, v. At rest x and v are
+/* Packed vector for an external integrator: p, [T], states of effects, x, v. At rest x and v are
  * frozen and left out.
  * Returns: the number of entries in the state's mode. Out: y */
 int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y);
@@ -354,10 +358,10 @@ void pneu_unpack(const pneu_model *model, const pneu_real *y, pneu_state *state)
 /* Number of packed entries in a mode. */
 int pneu_dimension(const pneu_model *model, int mode);
 
-/* Full scale of each packed entry, the unit of pneu_options.tol: the mass that makes full pressure
- * in the present volume, ambient temperature, 1 for states of effects, stroke, and stroke times the
- * rate at which the stem's velocity settles.  Out: scale, PNEU_STATE_MAX entries at most */
-void pneu_scales(const pneu_model *model, const pneu_state *state, pneu_real *scale);
+/* Full scale of each packed entry, the unit of pneu_options.tol: absolute supply pressure, ambient
+ * temperature, 1 for states of effects, stroke, and stroke times the rate at which the stem's
+ * velocity settles.  Out: scale, PNEU_STATE_MAX entries at most */
+void pneu_scales(const pneu_model *model, pneu_real *scale);
 
 /* Time derivative of the packed vector in the state's mode: [B, Eqs. 2, 7, 8] and what was added.
  * In:      state  its mode, and x, v where they are frozen
@@ -444,7 +448,8 @@ typedef struct pneu_flow {
  *          continuous at the edge.
  * Omits:   vena contracta shift with ratio, upstream kinetic energy, heat, inertia of the gas.
  * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;
- *          iso6358: ISO 6358-1:2013, with C = area * pneu_sonic_conductance(model, 1). */
+ *          iso6358: ISO 6358-1:2013, with C = area * pneu_sonic_conductance(model, 1);
+ *          linear: area sqrt(2/(R T_a)) (p_up - p_down), T_a ambient, an idealisation. */
 void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up,
                   pneu_real p_down, pneu_flow *flow);
 
@@ -452,9 +457,9 @@ void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_
  * flow of both is the same. */
 pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area);
 
-/* Chamber volume [m3] and pressure [Pa abs] of a state; [B, Eq. 6]. */
+/* Chamber volume [m3] at position x [m], and mass of gas [kg] of a state; [B, Eq. 6]. */
 pneu_real pneu_volume(const pneu_model *model, pneu_real x);
-pneu_real pneu_pressure_abs(const pneu_model *model, const pneu_state *state);
+pneu_real pneu_mass(const pneu_model *model, const pneu_state *state);
 
 /* Opening of an electro-pneumatic transducer that regulates pressure in proportion.
  * In:      set, p  set point and chamber pressure [Pa], same reference

@@ -8,22 +8,25 @@
 
 int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y)
 {
-  int i, n = 0;
-  y[n++] = state->m;
+  const int n = pneu_dimension(model, state->mode);
+  int i, at = 0;
+  y[at++] = state->p;
   if (model->thermal)
-    y[n++] = state->T;
+    y[at++] = state->T;
   for (i = 0; i < model->n_extra; i++)
-    y[n++] = state->extra[i];
-  y[n++] = state->x;
-  y[n++] = state->v;
-  return pneu_dimension(model, state->mode);
+    y[at++] = state->extra[i];
+  if (n > at)
+    y[at] = state->x;
+  if (n > at + 1)
+    y[at + 1] = state->v;
+  return n;
 }
 
 void pneu_unpack(const pneu_model *model, const pneu_real *y, pneu_state *state)
 {
   const int n = pneu_dimension(model, state->mode);
   int i, at = 0;
-  state->m = y[at++];
+  state->p = y[at++];
   if (model->thermal)
     state->T = y[at++];
   for (i = 0; i < model->n_extra; i++)
@@ -42,11 +45,12 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   memset(t, 0, sizeof *t);
   t->model = model;
   t->input = input;
-  t->m = y[0];
+  t->p = y[0] + p->ambient_pressure;
   t->T = model->thermal ? y[1] : p->ambient_temperature;
   t->x = n > i_x ? y[i_x] : state->x;
   t->v = n > i_x + 1 ? y[i_x + 1] : state->mode == PNEU_MODE_DRIVEN ? input->position_rate : 0;
   t->area = p->area;
+  t->swept_area = p->area * p->swept_ratio;
   t->volume = pneu_volume(model, t->x);
   t->supply = input->supply_pressure + p->ambient_pressure;
   t->exhaust = p->ambient_pressure;
@@ -77,7 +81,6 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   int next = 0;
   begin(model, state, input, y, t);
   add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
-  t->p = pneu_pressure_of(model, t->m, t->T, t->volume);
   if (!pneu_chamber_ok(t))
     return PNEU_RETRY_STATE;
   if (!model->law.pressure_input) {

@@ -57,16 +57,28 @@ int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pn
   return status;
 }
 
-static int factor(int n, pneu_real h, pneu_workspace *work)
+/* (I/(h gamma) - J)^-1 */
+static int invert_matrix(int n, pneu_real h, pneu_workspace *work)
 {
   const pneu_real shift = 1 / (GAMMA * h);
   int i, j;
   for (i = 0; i < n; i++) {
     for (j = 0; j < n; j++)
-      work->lu[i][j] = -work->jac[i][j];
-    work->lu[i][i] += shift;
+      work->inverse[i][j] = -work->jac[i][j];
+    work->inverse[i][i] += shift;
   }
-  return pneu_lu_factor(n, work->lu, work->pivot);
+  return pneu_invert(n, work->inverse);
+}
+
+static void solve(int n, const pneu_workspace *work, const pneu_real *b, pneu_real *x)
+{
+  int i, j;
+  for (i = 0; i < n; i++) {
+    pneu_real sum = 0;
+    for (j = 0; j < n; j++)
+      sum += work->inverse[i][j] * b[j];
+    x[i] = sum;
+  }
 }
 
 /* Point at which stage i evaluates the right-hand side, into y1. */
@@ -96,9 +108,9 @@ static int stage(const pneu_model *model, const pneu_state *state, const pneu_in
     pneu_real sum = 0;
     for (j = 0; j < i; j++)
       sum += c[i][j] * work->k[j][l];
-    work->k[i][l] = f[l] + rate * sum;
+    f[l] += rate * sum;
   }
-  pneu_lu_solve(n, work->lu, work->pivot, work->k[i]);
+  solve(n, work, f, work->k[i]);
   return PNEU_OK;
 }
 
@@ -106,7 +118,7 @@ static pneu_real error_norm(const pneu_model *model, const pneu_state *state, in
 {
   pneu_real scale[PNEU_STATE_MAX], worst = 0;
   int i;
-  pneu_scales(model, state, scale);
+  pneu_scales(model, scale);
   for (i = 0; i < n; i++) {
     const pneu_real part = PNEU_M(fabs)(e[i]) / scale[i];
     if (!(part <= worst))
@@ -119,12 +131,10 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
                   pneu_workspace *work, pneu_real *error)
 {
   const int n = pneu_dimension(model, state->mode);
-  int i, status = factor(n, h, work);
+  int i, status = invert_matrix(n, h, work);
   if (status != PNEU_OK)
     return status;
-  for (i = 0; i < n; i++)
-    work->k[0][i] = work->f0[i];
-  pneu_lu_solve(n, work->lu, work->pivot, work->k[0]);
+  solve(n, work, work->f0, work->k[0]);
   for (i = 1; i < PNEU_STAGE_COUNT; i++) {
     status = stage(model, state, input, h, n, i, work);
     if (status != PNEU_OK)
@@ -137,15 +147,23 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
   return PNEU_OK;
 }
 
-void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y)
+void pneu_dense_prepare(int n, pneu_workspace *work)
 {
   int i, j, l;
-  for (l = 0; l < n; l++) {
-    pneu_real sum[3] = {0, 0, 0};
-    for (i = 0; i < 3; i++)
+  for (i = 0; i < 3; i++)
+    for (l = 0; l < n; l++) {
+      pneu_real sum = 0;
       for (j = 0; j < PNEU_STAGE_COUNT; j++)
-        sum[i] += d[i][j] * work->k[j][l];
+        sum += d[i][j] * work->k[j][l];
+      work->dense[i][l] = sum;
+    }
+}
+
+void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y)
+{
+  int l;
+  for (l = 0; l < n; l++)
     y[l] = (1 - theta) * work->y0[l] +
-           theta * (work->y1[l] + (1 - theta) * (sum[0] + theta * (sum[1] + theta * sum[2])));
-  }
+           theta * (work->y1[l] + (1 - theta) * (work->dense[0][l] +
+                                                 theta * (work->dense[1][l] + theta * work->dense[2][l])));
 }

@@ -13,6 +13,7 @@ typedef struct run {
   pneu_workspace *work;
   pneu_real t, end;
   pneu_real h;         /* to try next; 0: choose */
+  pneu_real h_before, error_before; /* of the last accepted step; 0: none */
   int steps, events_in_a_row;
 } run;
 
@@ -24,7 +25,7 @@ static pneu_real first_step(const run *r)
   const int n = pneu_dimension(r->model, r->state->mode);
   pneu_real scale[PNEU_STATE_MAX], f = 0, jf = 0, mu, h;
   int i, j;
-  pneu_scales(r->model, r->state, scale);
+  pneu_scales(r->model, scale);
   for (i = 0; i < n; i++) {
     pneu_real sum = 0;
     for (j = 0; j < n; j++)
@@ -70,7 +71,7 @@ static int accept(run *r, pneu_real h, int which)
     return PNEU_E_EVENTS;
   pneu_switch(r->model, r->input, which, r->state);
   r->work->stats.events++;
-  r->h = 0;
+  r->h = r->h_before = 0;
   if (r->observer && r->observer->event && r->observer->event(r->observer->context, r->t, r->state, mode))
     return PNEU_E_STOPPED;
   return PNEU_OK;
@@ -79,6 +80,34 @@ static int accept(run *r, pneu_real h, int which)
 static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
 {
   return value < lo ? lo : value > hi ? hi : value;
+}
+
+/* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so
+ * steep that the error estimate can miss it: pressure then heads back about as fast as it came. */
+static int leaps(const run *r)
+{
+  pneu_workspace *w = r->work;
+  pneu_real f[PNEU_STATE_MAX];
+  if (pneu_dimension(r->model, r->state->mode) != r->model->n_gas)
+    return 0;
+  w->stats.rhs++;
+  if (pneu_rhs(r->model, r->state, r->input, w->y1, f) != PNEU_OK)
+    return 1;
+  return f[0] * w->f0[0] < 0 && PNEU_M(fabs)(f[0]) > PNEU_C(0.1) * PNEU_M(fabs)(w->f0[0]);
+}
+
+/* Growth of the step by the error of this one, and by the trend since the last where that asks for
+ * less (Gustafsson 1994, ACM TOMS 20: the error of an accepted step predicts the next). */
+static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
+{
+  const pneu_real tol = r->options->tol;
+  pneu_real factor, trend;
+  error = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
+  factor = PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2));
+  if (!(r->h_before > 0))
+    return factor;
+  trend = factor * h / r->h_before * PNEU_M(pow)(r->error_before / error, PNEU_C(0.2));
+  return PNEU_M(fmin)(factor, trend);
 }
 
 /* Try steps from the present state until one is accepted. */
@@ -105,8 +134,8 @@ static int advance(run *r)
     status = pneu_step_try(r->model, r->state, r->input, h, w, &error);
     if (status < 0)
       return status;
-    if (status != PNEU_OK || !(error <= tol)) {
-      factor = status == PNEU_OK && error < PNEU_C(1e30)
+    if (status != PNEU_OK || !(error <= tol) || leaps(r)) {
+      factor = status == PNEU_OK && error > tol && error < PNEU_C(1e30)
                    ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2)), PNEU_C(0.1), PNEU_C(0.8))
                    : PNEU_C(0.2);
       r->h = h * factor;
@@ -114,8 +143,9 @@ static int advance(run *r)
       refused = 1;
       continue;
     }
-    factor = error > 0 ? PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2)) : 10;
-    factor = clip(factor, PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
+    factor = clip(next_factor(r, h, error), PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
+    r->h_before = h;
+    r->error_before = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
     if (h < left || factor < 1) /* a step cut short by the end says little about the next */
       r->h = h * factor;
     status = pneu_locate(r->model, r->state, r->input, w, &h, &which);
@@ -139,6 +169,8 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   r.t = 0;
   r.end = duration;
   r.h = work->h;
+  r.h_before = 0;
+  r.error_before = 0;
   r.steps = 0;
   r.events_in_a_row = 0;
   pneu_settle(model, input, state);

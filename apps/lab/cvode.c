@@ -135,11 +135,9 @@ static int events(real t, N_Vector y, real *g, void *data)
 static int weights(N_Vector y, N_Vector w, void *data)
 {
   lab_cvode *c = data;
-  pneu_state now = *c->state;
   pneu_real scale[PNEU_STATE_MAX], *out = N_VGetArrayPointer(w);
   long i, n = N_VGetLength(w);
-  pneu_unpack(c->model, N_VGetArrayPointer(y), &now);
-  pneu_scales(c->model, &now, scale);
+  pneu_scales(c->model, scale);
   for (i = 0; i < n; i++)
     out[i] = 1 / (c->tol * scale[i]);
   return 0;
@@ -197,8 +195,8 @@ static void count(solver *s, pneu_stats *stats)
 static int give_up(lab_cvode *c, int flag, double t, lab_error *error)
 {
   char *name = CVodeGetReturnFlagName(flag);
-  lab_fail(error, LAB_NUMERIC, "CVODE stopped with %s at t = %.9g s, %s, m = %.9g kg, T = %.6g K, x = %.9g m, v = %.6g m/s",
-           name, t, pneu_mode_text(c->state->mode), c->state->m, c->state->T, c->state->x, c->state->v);
+  lab_fail(error, LAB_NUMERIC, "CVODE stopped with %s at t = %.9g s, %s, p = %.9g Pa, T = %.6g K, x = %.9g m, v = %.6g m/s",
+           name, t, pneu_mode_text(c->state->mode), c->state->p, c->state->T, c->state->x, c->state->v);
   free(name);
   return LAB_NUMERIC;
 }

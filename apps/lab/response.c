@@ -58,7 +58,7 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   trace->x[i] = out.position;
   trace->v[i] = out.velocity;
   trace->T[i] = out.temperature;
-  trace->m[i] = state->m;
+  trace->m[i] = out.mass;
   trace->mass_in[i] = out.mass_in;
   trace->mass_out[i] = out.mass_out;
   trace->heat[i] = out.heat;
@@ -98,8 +98,8 @@ static int stretch(engine *e, const pneu_model *model, pneu_state *state, const 
   if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC,
-                  "%s within %.9g s after t = %.9g s, %s, m = %.9g kg, T = %.6g K, x = %.9g m, v = %.6g m/s",
-                  pneu_status_text(status), duration, sampler->origin, pneu_mode_text(state->mode), state->m,
+                  "%s within %.9g s after t = %.9g s, %s, p = %.9g Pa, T = %.6g K, x = %.9g m, v = %.6g m/s",
+                  pneu_status_text(status), duration, sampler->origin, pneu_mode_text(state->mode), state->p,
                   state->T, state->x, state->v);
 }
 
