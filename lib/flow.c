@@ -119,6 +119,7 @@ void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_
   flow->q = k * p_up * s.psi;
   flow->dq_dup = k * (s.psi - r * s.dpsi);
   flow->dq_ddown = k * s.dpsi;
+  flow->dq_dT = law < PNEU_FLOW_LINEAR ? -flow->q / (2 * T_up) : 0;
   flow->choked = s.choked;
 }
 
@@ -141,6 +142,7 @@ static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu
   flow->q += c * (nozzle_flow.q - flow->q);
   flow->dq_dup += c * (nozzle_flow.dq_dup - flow->dq_dup);
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
+  flow->dq_dT += c * (nozzle_flow.dq_dT - flow->dq_dT);
   flow->choked = nozzle_flow.choked;
 }
 
@@ -169,7 +171,7 @@ void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T
     mixed_flow(t, area, t->p, t->T, p_other, &flow);
     t->mass_out += flow.q;
     t->dout_dp += flow.dq_dup;
-    t->dout_dT -= flow.q / (2 * t->T);
+    t->dout_dT += flow.dq_dT;
   } else {
     if (resistance > 0)
       flow_behind_resistance(t, area, p_other, T_other, resistance, &flow);

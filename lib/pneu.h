@@ -435,6 +435,7 @@ typedef struct pneu_flow {
   pneu_real q;         /* [kg/s] from up to down, >= 0 */
   pneu_real dq_dup;    /* [kg/s/Pa] */
   pneu_real dq_ddown;  /* [kg/s/Pa] */
+  pneu_real dq_dT;     /* [kg/s/K] by upstream temperature */
   int choked;
 } pneu_flow;
 
