@@ -1,0 +1,30 @@
+/* Logs: measured channels over time, in SI.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_LOG_H
+#define LAB_LOG_H
+
+#include <stddef.h>
+
+#include "logformat.h"
+
+typedef struct lab_log {
+  char *path;                       /* for messages */
+  size_t n;                         /* rows */
+  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap; NULL where the channel is absent. t and u have no gap */
+  int *line;                        /* line of each row in the file */
+  size_t n_runs;
+  size_t *run;     /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
+  size_t dropped;  /* damaged rows left out, as the format asks */
+  size_t outside;  /* rows left out by the window */
+} lab_log;
+
+/* Read a log.
+ * In:      format   see logformat.h
+ *          ambient  [Pa] absolute, for the channels p_abs, ps_abs, p2_abs
+ * Out:     log      to be freed with lab_log_free; empty after an error
+ * Returns: LAB_OK; LAB_DATA with file, line, column, what was expected and what was found; LAB_WORLD. */
+int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error);
+
+void lab_log_free(lab_log *log);
+
+#endif

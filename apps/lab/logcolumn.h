@@ -1,0 +1,23 @@
+/* A column of a log: "name [unit]" and what it means.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_LOGCOLUMN_H
+#define LAB_LOGCOLUMN_H
+
+#include "logformat.h"
+
+/* Roles of a column beyond the channels. */
+enum { LAB_COLUMN_IGNORED = -1, LAB_COLUMN_QUANTITY = -2, LAB_COLUMN_VALUE = -3 };
+
+typedef struct lab_column {
+  int channel; /* enum lab_channel, or one of the roles above */
+  double scale, offset; /* SI value = scale * number + offset */
+} lab_column;
+
+/* Read "name [unit]"; p_abs, ps_abs and p2_abs become gauge; "-" is a column to ignore. The scale and
+ * offset of the format are worked in.
+ * In:      ambient  [Pa] absolute
+ * Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */
+int lab_column_read(const char *text, const lab_log_format *format, double ambient, lab_column *column,
+                    lab_error *error);
+
+#endif

@@ -1,0 +1,246 @@
+#include "logformat.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "config.h"
+#include "logcolumn.h"
+#include "names.h"
+#include "units.h"
+
+struct word {
+  const char *name;
+};
+
+static const struct word new_run_words[] = {{"never"}, {"t drops"}};
+static const struct word damaged_words[] = {{"error"}, {"drop"}};
+static const struct mark {
+  const char *name;
+  char mark;
+} marks[] = {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}};
+
+enum {
+  NEW_RUN_WORDS = sizeof new_run_words / sizeof new_run_words[0],
+  DAMAGED_WORDS = sizeof damaged_words / sizeof damaged_words[0],
+  MARKS = sizeof marks / sizeof marks[0],
+  SKIP_MAX = 1000000
+};
+
+void lab_log_format_default(lab_log_format *format)
+{
+  int i;
+  memset(format, 0, sizeof *format);
+  format->delimiter = ',';
+  format->decimal = '.';
+  format->comment = '#';
+  format->from = -INFINITY;
+  format->to = INFINITY;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    format->scale[i] = 1;
+    format->constant[i] = NAN;
+  }
+}
+
+const char *lab_log_unit(const lab_log_format *format, int channel)
+{
+  if (channel == LAB_CHANNEL_U && format->command_is_pressure)
+    return lab_channels[LAB_CHANNEL_P].unit;
+  return lab_channels[channel].unit;
+}
+
+/* ---- One reader a key ---- */
+
+/* One character, or its name. */
+static int read_mark(const config_setting_t *setting, char *mark, lab_error *error)
+{
+  const char *text = config_setting_get_string(setting);
+  int named = text ? lab_name_index(text, marks, MARKS, sizeof marks[0]) : -1;
+  if (!text || (named < 0 && strlen(text) != 1))
+    return lab_config_expected(setting, "one character, \"tab\", \"comma\" or \"semicolon\"", error);
+  *mark = named < 0 ? *text : marks[named].mark;
+  return LAB_OK;
+}
+
+static int read_delimiter(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_mark(setting, &format->delimiter, error);
+}
+
+static int read_decimal(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  if (read_mark(setting, &format->decimal, error))
+    return error->status;
+  if (format->decimal != '.' && format->decimal != ',')
+    return lab_config_expected(setting, "\".\" or \",\"", error);
+  return LAB_OK;
+}
+
+static int read_thousands(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_mark(setting, &format->thousands, error);
+}
+
+static int read_comment(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_mark(setting, &format->comment, error);
+}
+
+static int read_skip_lines(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_count(setting, 0, SKIP_MAX, &format->skip_lines, error);
+}
+
+static int read_columns(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_list(setting, 1, LAB_COLUMN_MAX, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++)
+    status = lab_config_text(config_setting_get_elem(setting, (unsigned)i), format->column[i], LAB_COLUMN_TEXT, error);
+  if (status == LAB_OK)
+    format->n_columns = config_setting_length(setting);
+  return status;
+}
+
+static int read_time_step(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_quantity(setting, "s", 1e-9, 1e9, &format->time_step, error);
+}
+
+static int read_window(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  if (lab_config_list(setting, 2, 2, error) ||
+      lab_config_quantity(config_setting_get_elem(setting, 0), "s", -INFINITY, INFINITY, &format->from, error) ||
+      lab_config_quantity(config_setting_get_elem(setting, 1), "s", -INFINITY, INFINITY, &format->to, error))
+    return error->status;
+  if (format->from >= format->to)
+    return lab_config_fail(setting, error, "expected a window (from, to), found one from %g s to %g s", format->from,
+                           format->to);
+  return LAB_OK;
+}
+
+static int read_new_run(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_choice(setting, new_run_words, NEW_RUN_WORDS, sizeof new_run_words[0], &format->new_run, error);
+}
+
+static int read_damaged(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_choice(setting, damaged_words, DAMAGED_WORDS, sizeof damaged_words[0], &format->damaged, error);
+}
+
+/* A number a channel, such as `scale` or `constants`, by `read`. */
+static int read_channels(const config_setting_t *group, const lab_log_format *format, double *value,
+                         int (*read)(const config_setting_t *, const char *, double *, lab_error *),
+                         lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    int channel =
+        lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    status = read(member, lab_log_unit(format, channel), &value[channel], error);
+  }
+  return status;
+}
+
+static int read_one_scale(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
+{
+  (void)unit;
+  if (lab_config_quantity(setting, "1", -INFINITY, INFINITY, value, error))
+    return error->status;
+  return *value != 0 ? LAB_OK : lab_config_expected(setting, "a number other than 0", error);
+}
+
+static int read_one_constant(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
+{
+  return lab_config_quantity(setting, unit, -INFINITY, INFINITY, value, error);
+}
+
+static int read_scale(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_channels(setting, format, format->scale, read_one_scale, error);
+}
+
+static int read_offset(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_channels(setting, format, format->offset, lab_config_difference, error);
+}
+
+static int read_constants(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  if (config_setting_is_group(setting) && config_setting_get_member((config_setting_t *)setting, "t"))
+    return lab_config_fail(setting, error, "time cannot be constant; for a file without t give time_step");
+  return read_channels(setting, format, format->constant, read_one_constant, error);
+}
+
+static int read_quantities(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(setting, error);
+  if (status == LAB_OK && config_setting_length(setting) > LAB_QUANTITY_MAX)
+    return lab_config_fail(setting, error, "expected at most %d quantities", LAB_QUANTITY_MAX);
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++) {
+    const config_setting_t *member = config_setting_get_elem(setting, (unsigned)i);
+    lab_long_quantity *quantity = &format->quantity[i];
+    if (strlen(config_setting_name(member)) >= sizeof quantity->word)
+      return lab_config_fail(member, error, "expected a word of less than %zu bytes", sizeof quantity->word);
+    strcpy(quantity->word, config_setting_name(member));
+    status = lab_config_text(member, quantity->column, sizeof quantity->column, error);
+  }
+  if (status == LAB_OK)
+    format->n_quantities = config_setting_length(setting);
+  return status;
+}
+
+static const struct log_key {
+  const char *name;
+  int (*read)(const config_setting_t *, lab_log_format *, lab_error *);
+} log_keys[] = {
+    {"delimiter", read_delimiter}, {"decimal", read_decimal},       {"thousands", read_thousands},
+    {"comment", read_comment},     {"skip_lines", read_skip_lines}, {"columns", read_columns},
+    {"time_step", read_time_step}, {"window", read_window},         {"new_run", read_new_run},
+    {"damaged", read_damaged},     {"scale", read_scale},           {"offset", read_offset},
+    {"constants", read_constants}, {"quantities", read_quantities},
+};
+enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };
+
+/* ---- Checks over keys ---- */
+
+/* Column texts must be readable now, not at the first log. */
+static int check_columns(const config_setting_t *group, const lab_log_format *format, lab_error *error)
+{
+  lab_column column;
+  int i;
+  for (i = 0; i < format->n_columns; i++)
+    if (lab_column_read(format->column[i], format, 0, &column, error))
+      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "columns"), error);
+  for (i = 0; i < format->n_quantities; i++)
+    if (lab_column_read(format->quantity[i].column, format, 0, &column, error))
+      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "quantities"), error);
+  return LAB_OK;
+}
+
+static int check_format(const config_setting_t *group, const lab_log_format *format, lab_error *error)
+{
+  if (format->delimiter == format->decimal)
+    return lab_config_fail(group, error, "delimiter and decimal are both \"%c\": give one of them", format->decimal);
+  if (format->delimiter == format->thousands)
+    return lab_config_fail(group, error, "delimiter and thousands are both \"%c\"", format->delimiter);
+  if (format->n_quantities && (format->new_run != LAB_RUN_NEVER || format->time_step > 0))
+    return lab_config_fail(group, error, "quantities (long format) go with neither new_run nor time_step");
+  return check_columns(group, format, error);
+}
+
+int lab_log_format_read(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, log_keys, LOG_KEYS, sizeof log_keys[0], error);
+  for (i = 0; status == LAB_OK && i < LOG_KEYS; i++) {
+    const config_setting_t *member = config_setting_get_member((config_setting_t *)group, log_keys[i].name);
+    if (member)
+      status = log_keys[i].read(member, format, error);
+  }
+  return status == LAB_OK ? check_format(group, format, error) : status;
+}

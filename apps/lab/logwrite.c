@@ -1,0 +1,71 @@
+#include "logformat.h"
+
+#include <math.h>
+
+/* A character as libconfig reads it back. */
+static void write_mark(FILE *file, const char *key, char mark)
+{
+  if (mark == '\t')
+    fprintf(file, "  %s = \"tab\";\n", key);
+  else if (mark == '"' || mark == '\\')
+    fprintf(file, "  %s = \"\\%c\";\n", key, mark);
+  else if (mark)
+    fprintf(file, "  %s = \"%c\";\n", key, mark);
+}
+
+static void write_columns(FILE *file, const lab_log_format *format)
+{
+  int i;
+  for (i = 0; i < format->n_columns; i++)
+    fprintf(file, "%s\"%s\"", i ? ", " : "  columns = ( ", format->column[i]);
+  if (format->n_columns)
+    fputs(" );\n", file);
+}
+
+/* A number a channel, those equal to `dflt` left out. */
+static void write_channels(FILE *file, const char *key, const lab_log_format *format, const double *value,
+                           double dflt, int with_unit)
+{
+  int i, any = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    if (value[i] == dflt || isnan(value[i]))
+      continue;
+    if (!any++)
+      fprintf(file, "  %s = {", key);
+    fprintf(file, " %s = \"%.17g %s\";", lab_channels[i].key, value[i], with_unit ? lab_log_unit(format, i) : "1");
+  }
+  if (any)
+    fputs(" };\n", file);
+}
+
+static void write_quantities(FILE *file, const lab_log_format *format)
+{
+  int i;
+  for (i = 0; i < format->n_quantities; i++)
+    fprintf(file, "%s %s = \"%s\";", i ? "" : "  quantities = {", format->quantity[i].word,
+            format->quantity[i].column);
+  if (format->n_quantities)
+    fputs(" };\n", file);
+}
+
+void lab_log_format_write(FILE *file, const lab_log_format *format)
+{
+  fputs("log = {\n", file);
+  write_mark(file, "delimiter", format->delimiter);
+  write_mark(file, "decimal", format->decimal);
+  write_mark(file, "thousands", format->thousands);
+  write_mark(file, "comment", format->comment);
+  fprintf(file, "  skip_lines = %d;\n", format->skip_lines);
+  write_columns(file, format);
+  if (format->time_step > 0)
+    fprintf(file, "  time_step = \"%.17g s\";\n", format->time_step);
+  if (isfinite(format->from))
+    fprintf(file, "  window = ( \"%.17g s\", \"%.17g s\" );\n", format->from, format->to);
+  fprintf(file, "  new_run = \"%s\";\n", format->new_run == LAB_RUN_T_DROPS ? "t drops" : "never");
+  fprintf(file, "  damaged = \"%s\";\n", format->damaged == LAB_DAMAGED_DROP ? "drop" : "error");
+  write_channels(file, "scale", format, format->scale, 1, 0);
+  write_channels(file, "offset", format, format->offset, 0, 1);
+  write_channels(file, "constants", format, format->constant, NAN, 1);
+  write_quantities(file, format);
+  fputs("};\n", file);
+}

@@ -1,0 +1,91 @@
+#include "schedule.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Every channel that drives the model must be there; the command only where there is a mass balance. */
+static int check_inputs(const lab_rig *rig, const lab_log *log, lab_error *error)
+{
+  int i;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    if (!rig->input[i] || log->value[i] || (i == LAB_CHANNEL_U && rig->laws.pressure_input))
+      continue;
+    return lab_fail(error, LAB_DATA, "%s: expected a column %s, which drives the model; where it is constant give "
+                                     "log.constants in the rig file", log->path, lab_channels[i].key);
+  }
+  return LAB_OK;
+}
+
+/* The value of a channel, or what was before where it is absent, no input, or a gap. */
+static double held(const lab_rig *rig, const lab_log *log, int channel, size_t i, double before)
+{
+  if (!rig->input[channel] || !log->value[channel] || isnan(log->value[channel][i]))
+    return before;
+  return log->value[channel][i];
+}
+
+/* Slope of a channel from row i to its next value; what was before in a gap, 0 after the last value. */
+static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t i, size_t end, double before)
+{
+  const double *value = log->value[channel], *t = log->value[LAB_CHANNEL_TIME];
+  size_t next = i + 1;
+  if (!rig->input[channel])
+    return 0;
+  if (isnan(value[i]))
+    return before;
+  while (next < end && isnan(value[next]))
+    next++;
+  return next < end ? (value[next] - value[i]) / (t[next] - t[i]) : 0;
+}
+
+static int same(const pneu_input *a, const pneu_input *b)
+{
+  return a->u == b->u && a->supply_pressure == b->supply_pressure && a->force == b->force &&
+         a->pressure_rate == b->pressure_rate && a->position_rate == b->position_rate;
+}
+
+static void fill(const lab_rig *rig, const lab_log *log, size_t first, size_t end, pneu_input input, lab_drive *drive)
+{
+  size_t i, n = 0;
+  for (i = first; i < end; i++) {
+    input.u = (pneu_real)held(rig, log, LAB_CHANNEL_U, i, (double)input.u);
+    input.supply_pressure = (pneu_real)held(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
+    input.force = (pneu_real)held(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);
+    input.pressure_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_P, i, end, (double)input.pressure_rate);
+    input.position_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_X, i, end, (double)input.position_rate);
+    if (n > 0 && same(&input, &drive->input[n - 1]))
+      continue;
+    drive->t[n] = log->value[LAB_CHANNEL_TIME][i];
+    drive->input[n++] = input;
+  }
+  drive->schedule.n = n;
+  drive->schedule.t = drive->t;
+  drive->schedule.input = drive->input;
+}
+
+int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run,
+                       lab_drive *drive, lab_error *error)
+{
+  size_t first = log->run[run], end = log->run[run + 1];
+  pneu_input input;
+  if (check_inputs(rig, log, error))
+    return error->status;
+  drive->t = malloc((end - first) * sizeof *drive->t);
+  drive->input = malloc((end - first) * sizeof *drive->input);
+  if (!drive->t || !drive->input) {
+    lab_drive_free(drive);
+    return lab_fail_memory(error, "a schedule");
+  }
+  pneu_input_default(model, &input);
+  fill(rig, log, first, end, input, drive);
+  return LAB_OK;
+}
+
+void lab_drive_free(lab_drive *drive)
+{
+  free(drive->t);
+  free(drive->input);
+  drive->t = NULL;
+  drive->input = NULL;
+  drive->schedule.n = 0;
+}

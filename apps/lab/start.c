@@ -1,0 +1,140 @@
+#include "start.h"
+
+#include <math.h>
+
+/* What the log says about the start; NaN where it says nothing. */
+struct seen {
+  double p; /* [Pa] gauge */
+  double x; /* [m] */
+  double T; /* [K] */
+};
+
+/* Rows before the command first changes. */
+static size_t rows_before_change(const lab_log *log, size_t first, size_t end)
+{
+  const double *u = log->value[LAB_CHANNEL_U];
+  size_t n = 1;
+  while (first + n < end && (!u || u[first + n] == u[first]))
+    n++;
+  return n;
+}
+
+/* Mean and squared error of the mean over the values that are there. */
+static double mean(const double *value, size_t n, double *error2)
+{
+  double sum = 0, square = 0, centre;
+  size_t i, m = 0;
+  for (i = 0; i < n; i++)
+    if (!isnan(value[i])) {
+      sum += value[i];
+      m++;
+    }
+  centre = sum / (double)m;
+  for (i = 0; i < n; i++)
+    if (!isnan(value[i]))
+      square += (value[i] - centre) * (value[i] - centre);
+  *error2 = square / ((double)m * (double)(m > 1 ? m - 1 : 1));
+  return centre;
+}
+
+/* The first value that is there. */
+static double first_value(const double *value, size_t n)
+{
+  size_t i = 0;
+  while (i + 1 < n && isnan(value[i]))
+    i++;
+  return value[i];
+}
+
+/* Mean of the first n values; halved until both halves agree within three standard errors, and the first
+ * value alone where too few are left to tell. */
+static double level(const double *value, size_t n)
+{
+  const size_t few = 8;
+  for (; n >= few; n /= 2) {
+    double error_a, error_b, error2;
+    double a = mean(value, n / 2, &error_a), b = mean(value + n / 2, n - n / 2, &error_b);
+    if ((a - b) * (a - b) <= 9 * (error_a + error_b))
+      return mean(value, n, &error2);
+  }
+  return first_value(value, n);
+}
+
+/* A channel at the start: where it drives the model its first value, else its level. */
+static double look(const lab_log *log, int channel, size_t run, int drives)
+{
+  size_t first = log->run[run], end = log->run[run + 1];
+  if (!log->value[channel])
+    return NAN;
+  return drives ? first_value(log->value[channel] + first, end - first)
+                : level(log->value[channel] + first, rows_before_change(log, first, end));
+}
+
+/* Force on the stem at rest [N], up positive, friction left out. */
+static double net_force(const pneu_model *model, const pneu_input *input, double p, double x)
+{
+  return (double)model->p.area * p - (double)model->p.spring_rate * (x + (double)model->p.spring_preload) -
+         (double)model->p.external_force - (double)input->force;
+}
+
+/* Position that the balance of forces asks for. */
+static double balanced_position(const pneu_model *model, const pneu_input *input, double p)
+{
+  const double stroke = (double)model->p.stroke, force = net_force(model, input, p, 0);
+  double x = (double)model->p.spring_rate > 0 ? force / (double)model->p.spring_rate : force > 0 ? stroke : 0;
+  return fmin(fmax(x, 0), stroke);
+}
+
+/* Pressure that holds the stem where it is seen: none on the lower stop, the supply on the upper one while the
+ * transducer fills. */
+static double balanced_pressure(const pneu_model *model, const pneu_input *input, double x)
+{
+  const double near = 0.02 * (double)model->p.stroke;
+  if (!(x > near))
+    return 0;
+  if (x > (double)model->p.stroke - near && input->u > 0)
+    return (double)input->supply_pressure;
+  return -net_force(model, input, 0, x) / (double)model->p.area;
+}
+
+/* A stem seen within 2 % of stroke of a stop, and pushed that way, stands on it. */
+static double on_stop(const pneu_model *model, const pneu_input *input, double p, double x)
+{
+  const double stroke = (double)model->p.stroke, near = 0.02 * stroke;
+  if (x < near && net_force(model, input, p, 0) < 0)
+    return 0;
+  if (x > stroke - near && net_force(model, input, p, stroke) > 0)
+    return stroke;
+  return fmin(fmax(x, 0), stroke);
+}
+
+static int rest(const pneu_model *model, const pneu_input *input, const struct seen *seen, pneu_state *state)
+{
+  double T = isnan(seen->T) ? (double)model->p.ambient_temperature : seen->T;
+  double p = isnan(seen->p) ? isnan(seen->x) ? 0 : balanced_pressure(model, input, seen->x) : seen->p;
+  double x = isnan(seen->x) ? balanced_position(model, input, p) : on_stop(model, input, p, seen->x);
+  int status = pneu_state_rest(model, (pneu_real)p, (pneu_real)T, (pneu_real)x, input, state);
+  if (status == PNEU_OK && model->law.position_input && !isnan(seen->x))
+    state->x = (pneu_real)seen->x; /* as measured, noise and all: its slopes start from there */
+  return status;
+}
+
+int lab_start_from_log(const pneu_model *model, const pneu_input *input, const lab_log *log, size_t run,
+                       pneu_state *state, lab_error *error)
+{
+  const int rounds = 3; /* a bias is gone after one, a gain of 10 % to 1e-3 after three */
+  const struct seen read = {look(log, LAB_CHANNEL_P, run, model->law.pressure_input),
+                            look(log, LAB_CHANNEL_X, run, model->law.position_input),
+                            look(log, LAB_CHANNEL_T, run, 0)};
+  struct seen seen = read;
+  pneu_output out;
+  int i;
+  for (i = 0; i < rounds; i++) {
+    if (rest(model, input, &seen, state) != PNEU_OK || pneu_observe(model, state, input, &out) != PNEU_OK)
+      return lab_fail(error, LAB_DATA, "%s:%d: the run begins with p = %g Pa gauge, x = %g m: no state of this rig",
+                      log->path, log->line[log->run[run]], seen.p, seen.x);
+    seen.p = read.p - (double)(out.pressure - state->p);
+    seen.x = read.x - (double)(out.position - state->x);
+  }
+  return LAB_OK;
+}

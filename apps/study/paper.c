@@ -1,0 +1,222 @@
+/* Closed forms of the paper and of the spring-loaded stem in quasi-equilibrium.
+ * SPDX-License-Identifier: MIT */
+#include "paper.h"
+
+#include <math.h>
+
+enum { HALVINGS = 60, PANELS = 200 };
+
+#define STROKE_FROM 0.05 /* part of the travel that a stroke is timed over: 5 % to 95 % */
+#define STROKE_TO 0.95
+
+const paper_constant paper_constants[PAPER_CONSTANT_COUNT] = {
+#define X(name, value, unit, where) {#name, value, unit, where},
+  PAPER_CONSTANT_LIST(X)
+#undef X
+};
+
+static double constant(int id)
+{
+  return paper_constants[id].value;
+}
+
+/* ---- Flow laws ---- */
+
+const paper_law paper_laws[PAPER_LAW_COUNT] = {
+  {"paper", paper_flow_unchoked},
+  {"choked", paper_flow_choked},
+};
+
+double paper_flow_unchoked(double P_up, double P_dn)
+{
+  return sqrt(P_up * (P_up - P_dn));
+}
+
+/* (2/(g+1))^(g/(g-1)) */
+double paper_choking_ratio(void)
+{
+  double g = constant(PAPER_HEAT_RATIO);
+  return pow(2.0 / (g + 1.0), g / (g - 1.0));
+}
+
+/* m' sqrt(RT)/(C a P_up) = sqrt(2 g/(g-1) (r^(2/g) - r^((g+1)/g))); the paper's unit takes sqrt(2) out */
+double paper_flow_choked(double P_up, double P_dn)
+{
+  double g = constant(PAPER_HEAT_RATIO);
+  double r = fmax(P_dn / P_up, paper_choking_ratio());
+  return P_up * sqrt(g / (g - 1.0) * (pow(r, 2.0 / g) - pow(r, (g + 1.0) / g)));
+}
+
+/* ---- The paper's velocities ---- */
+
+double paper_fill_speed(paper_flow flow, double P_s, double P)
+{
+  return flow(P_s, P) / P;
+}
+
+double paper_vent_speed(paper_flow flow, double P, double P_a)
+{
+  return flow(P, P_a) / P;
+}
+
+double paper_speed_change(paper_flow flow, double p_bl, double p_bh, double P_a)
+{
+  return 1.0 - paper_vent_speed(flow, p_bl + P_a, P_a) / paper_vent_speed(flow, p_bh + P_a, P_a);
+}
+
+double paper_critical_pressure(double pa_over_ps)
+{
+  double b = 2.0 * pa_over_ps + 1.0;
+  double discriminant = b * b + 4.0 * (pa_over_ps + 1.0);
+  return 0.5 * (sqrt(discriminant) - b);
+}
+
+/* inflow falls and outflow grows with the chamber pressure, so there is one root in 0..1 */
+double paper_crossing(paper_flow flow, double pa_over_ps)
+{
+  double a = pa_over_ps, lo = 0.0, hi = 1.0;
+  int i;
+  for (i = 0; i < HALVINGS; i++) {
+    double q = 0.5 * (lo + hi);
+    if (flow(1.0 + a, q + a) > flow(q + a, a))
+      lo = q;
+    else
+      hi = q;
+  }
+  return 0.5 * (lo + hi);
+}
+
+double paper_supply_threshold(double c)
+{
+  return 0.5 * (sqrt(1.0 + 4.0 * c) - 1.0);
+}
+
+double paper_speed_scale(double orifice, double area, double temperature)
+{
+  return orifice / area * sqrt(2.0 * constant(PAPER_GAS_CONSTANT) * temperature / constant(PAPER_MOLAR_MASS));
+}
+
+/* ---- Energy ---- */
+
+double paper_returned_share(double p_bl, double p_bh, double p_s)
+{
+  return (p_bl + p_bh) / (2.0 * p_s);
+}
+
+double paper_exergy_efficiency(double p_s, double P_a)
+{
+  double P_s = p_s + P_a;
+  return p_s / (P_s * log(P_s / P_a));
+}
+
+/* ---- Spring-loaded stem ---- */
+
+paper_actuator paper_actuator_printed(int which)
+{
+  static const struct { const char *key; int id[9]; } rows[PAPER_ACTUATOR_COUNT] = {
+    {"r1-400", {PAPER_R1_AREA, PAPER_R1_DEAD_VOLUME, PAPER_R1_TRAVEL, PAPER_R1_RATE, PAPER_R1_PRELOAD, PAPER_R1_SUPPLY,
+                PAPER_SPRINGS_6_LOW, PAPER_R1_BENCH_HIGH, PAPER_R1_ORIFICE}},
+    {"37-13", {PAPER_M37_AREA, PAPER_M37_DEAD_VOLUME, PAPER_M37_TRAVEL, PAPER_M37_RATE, PAPER_M37_PRELOAD,
+               PAPER_M37_SUPPLY, PAPER_M37_BENCH_LOW, PAPER_M37_BENCH_HIGH, PAPER_M37_ORIFICE}},
+  };
+  const int *id = rows[which].id;
+  paper_actuator a = {rows[which].key, constant(id[0]), constant(id[1]), constant(id[2]), constant(id[3]),
+                      constant(id[4]), constant(id[5]), constant(id[6]), constant(id[7]), constant(id[8]),
+                      constant(PAPER_FRICTION)};
+  return a;
+}
+
+paper_actuator paper_actuator_with_bench(const paper_actuator *base, double p_bl, double p_bh)
+{
+  paper_actuator a = *base;
+  a.bench_low = p_bl;
+  a.bench_high = p_bh;
+  a.rate = a.area * (p_bh - p_bl) / a.travel;
+  a.preload = p_bl * a.area / a.rate;
+  return a;
+}
+
+double paper_pressure(const paper_case *c, int direction, double x)
+{
+  const paper_actuator *a = &c->actuator;
+  return (a->rate * (x + a->preload) + direction * a->friction) / a->area;
+}
+
+double paper_speed(const paper_case *c, int direction, double x)
+{
+  const paper_actuator *a = &c->actuator;
+  double P = paper_pressure(c, direction, x) + c->P_a;
+  double volume = a->dead_volume + a->area * x;
+  double stored = c->storage * a->rate * volume / (a->area * a->area);
+  double flow = direction == PAPER_UP ? c->flow(a->supply + c->P_a, P) : c->flow(P, c->P_a);
+  return flow / (P + stored);
+}
+
+/* time over the scale C a/A sqrt(..) to pass the part y0..y1 of a stroke, y counted from its own start */
+static double panel_time(const paper_case *c, int direction, double y0, double y1)
+{
+  static const double weight[3] = {1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0};
+  double mean = 0.0;
+  int i;
+  for (i = 0; i < 3; i++) {
+    double y = y0 + 0.5 * i * (y1 - y0);
+    double x = c->actuator.travel * (direction == PAPER_UP ? y : 1.0 - y);
+    mean += weight[i] / paper_speed(c, direction, x);
+  }
+  return mean * (y1 - y0) * c->actuator.travel;
+}
+
+/* time[i] after i panels of the timed part of the stroke */
+static void stroke_times(const paper_case *c, int direction, double time[PANELS + 1])
+{
+  double step = (STROKE_TO - STROKE_FROM) / PANELS;
+  int i;
+  time[0] = 0.0;
+  for (i = 0; i < PANELS; i++)
+    time[i + 1] = time[i] + panel_time(c, direction, STROKE_FROM + i * step, STROKE_FROM + (i + 1) * step);
+}
+
+double paper_stroke_time(const paper_case *c, int direction)
+{
+  const paper_actuator *a = &c->actuator;
+  double time[PANELS + 1];
+  stroke_times(c, direction, time);
+  return time[PANELS] / paper_speed_scale(a->orifice, a->area, constant(PAPER_TEMPERATURE));
+}
+
+double paper_asymmetry(const paper_case *c)
+{
+  double up[PANELS + 1], down[PANELS + 1], sum = 0.0;
+  int i;
+  stroke_times(c, PAPER_UP, up);
+  stroke_times(c, PAPER_DOWN, down);
+  for (i = 1; i < PANELS; i++) /* the curves meet at both ends */
+    sum += fabs(up[i] / up[PANELS] - down[i] / down[PANELS]);
+  return sum / PANELS;
+}
+
+/* a falling stroke that cannot finish counts as slower */
+static int falls_slower(const paper_case *c, double p_bl, double width)
+{
+  paper_case trial = *c;
+  trial.actuator = paper_actuator_with_bench(&c->actuator, p_bl, p_bl + width);
+  return !(paper_stroke_time(&trial, PAPER_DOWN) <= paper_stroke_time(&trial, PAPER_UP));
+}
+
+double paper_symmetric_bench(const paper_case *c)
+{
+  const paper_actuator *a = &c->actuator;
+  double width = a->bench_high - a->bench_low;
+  double lo = 0.0, hi = a->supply - width - a->friction / a->area;
+  int i;
+  if (!(hi > lo) || falls_slower(c, hi, width) || !falls_slower(c, lo, width))
+    return (double)NAN;
+  for (i = 0; i < HALVINGS; i++) {
+    double p_bl = 0.5 * (lo + hi);
+    if (falls_slower(c, p_bl, width))
+      lo = p_bl;
+    else
+      hi = p_bl;
+  }
+  return 0.5 * (lo + hi);
+}

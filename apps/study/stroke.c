@@ -1,0 +1,116 @@
+#include "stroke.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double longest = 400.0; /* [s] for one stroke */
+static const double spacing = 0.02;  /* [s] longest step */
+
+/* Growing list of samples. */
+typedef struct samples {
+  size_t n, room;
+  double *t, *x;
+  int full; /* out of memory */
+} samples;
+
+static int append(samples *s, double t, double x)
+{
+  if (s->n == s->room) {
+    const size_t room = s->room ? 2 * s->room : 1024;
+    double *new_t = realloc(s->t, room * sizeof *new_t), *new_x;
+    if (new_t)
+      s->t = new_t;
+    new_x = new_t ? realloc(s->x, room * sizeof *new_x) : NULL;
+    if (!new_x)
+      return s->full = 1;
+    s->x = new_x;
+    s->room = room;
+  }
+  s->t[s->n] = t;
+  s->x[s->n++] = x;
+  return 0;
+}
+
+static int at_rest(const pneu_step_view *view)
+{
+  pneu_state end;
+  pneu_output out;
+  pneu_dense(view, 1, &end);
+  if (end.v != 0 && fabs(end.v) > 1e-9)
+    return 0;
+  return pneu_observe(view->model, &end, view->input, &out) == PNEU_OK &&
+         fabs(out.mass_in - out.mass_out) < 1e-12;
+}
+
+/* Collect dense output; stop the run once the flow has died out. */
+static int collect(void *context, const pneu_step_view *view)
+{
+  samples *s = context;
+  int i;
+  for (i = 1; i <= 4; i++) {
+    pneu_state at;
+    pneu_dense(view, i / 4.0, &at);
+    if (append(s, view->t + view->h * i / 4.0, at.x))
+      return 1;
+  }
+  return at_rest(view);
+}
+
+static int one_stroke(const pneu_model *model, pneu_state *state, double u, samples *s, lab_error *error)
+{
+  pneu_observer observer = {collect, NULL, s};
+  pneu_options options;
+  pneu_workspace work;
+  pneu_input input;
+  int status;
+  memset(&work, 0, sizeof work);
+  pneu_options_default(&options);
+  pneu_input_default(model, &input);
+  options.tol = 1e-8;
+  options.h_max = spacing;
+  input.u = u;
+  append(s, 0, state->x);
+  status = pneu_run(model, state, &input, longest, &options, &observer, &work);
+  if (s->full)
+    return lab_fail_memory(error, "a stroke");
+  if (status != PNEU_OK && status != PNEU_E_STOPPED)
+    return lab_fail(error, LAB_NUMERIC, "%s during a stroke with u = %g, %s, p = %.6g Pa, x = %.6g m",
+                    pneu_status_text(status), u, pneu_mode_text(state->mode), state->p, state->x);
+  return LAB_OK;
+}
+
+static int both_strokes(const pneu_model *model, samples *up, samples *down, lab_error *error)
+{
+  pneu_input shut;
+  pneu_state state;
+  int status;
+  pneu_input_default(model, &shut);
+  pneu_state_rest(model, 0, model->p.ambient_temperature, 0, &shut, &state);
+  status = one_stroke(model, &state, 1, up, error);
+  return status ? status : one_stroke(model, &state, -1, down, error);
+}
+
+int stroke_measure(const pneu_params *params, const pneu_laws *law, asymmetry_result *out, lab_error *error)
+{
+  pneu_model model;
+  pneu_param_info info;
+  samples up = {0}, down = {0};
+  int bad, status = pneu_model_init(&model, params, law, &bad);
+  if (status == PNEU_E_PARAM) {
+    pneu_param_describe(bad, &info);
+    return lab_fail(error, LAB_DATA, "%s is outside %g .. %g %s", info.name, info.lower, info.upper, info.unit);
+  }
+  if (status != PNEU_OK)
+    return lab_fail(error, LAB_DATA, "%s", pneu_status_text(status));
+  status = both_strokes(&model, &up, &down, error);
+  if (status == LAB_OK) {
+    const edge rising = {up.n, up.t, up.x}, falling = {down.n, down.t, down.x};
+    status = asymmetry_measure(&rising, &falling, out, error);
+  }
+  free(up.t);
+  free(up.x);
+  free(down.t);
+  free(down.x);
+  return status;
+}

@@ -1,0 +1,47 @@
+/* The study: what its file declares, and the products that it makes.
+ * SPDX-License-Identifier: MIT */
+#ifndef STUDY_STUDY_H
+#define STUDY_STUDY_H
+
+#include "../lab/message.h"
+#include "../lab/rig.h"
+#include "table.h"
+
+enum { STUDY_ACTUATOR_MAX = 8, STUDY_LAW_MAX = 8, STUDY_BENCH_MAX = 16, STUDY_PATH_TEXT = 1024 };
+
+/* Values of the varied quantity, in equal steps. */
+typedef struct study_range {
+  double from, to; /* in the SI unit of the hypothesis */
+  int points;
+} study_range;
+
+typedef struct study_bench {
+  double low, high; /* [Pa] gauge */
+} study_bench;
+
+typedef struct study {
+  char file[STUDY_PATH_TEXT];     /* the configuration */
+  char results[STUDY_PATH_TEXT];  /* folder */
+  char measured[STUDY_PATH_TEXT]; /* folder */
+  int n_actuators;
+  lab_rig actuator[STUDY_ACTUATOR_MAX];
+  int subject;                    /* index of the actuator that the hypotheses are tried on */
+  int n_gas, gas[STUDY_LAW_MAX];
+  int n_flow, flow[STUDY_LAW_MAX];
+  double confirmed_below;         /* [1] */
+  study_range range[5];           /* of H1, H2, H3, -, H5 */
+  int n_benches;
+  study_bench bench[STUDY_BENCH_MAX];
+} study;
+
+/* Read a study file; `measured` is overruled by the environment variable MEASURED.
+ * Returns: LAB_OK; LAB_DATA with file, line, key; LAB_WORLD. */
+int study_read(const char *path, study *s, lab_error *error);
+
+/* Write a table to a file of the results folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
+int study_save(const study *s, const char *name, const table *t, lab_error *error);
+
+/* The laws of a rig with other chamber and flow laws. */
+pneu_laws study_laws(const lab_rig *rig, int gas, int flow);
+
+#endif

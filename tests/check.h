@@ -1,0 +1,57 @@
+/* Assertions on floating-point numbers. Those of cmocka compare as float and let NaN pass.
+ * Include before anything that needs cmocka.
+ * SPDX-License-Identifier: MIT */
+#ifndef TESTS_CHECK_H
+#define TESTS_CHECK_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <cmocka.h>
+
+/* A tolerance for each precision of the library under test. */
+#ifdef PNEU_SINGLE
+#define TOL(in_double, in_single) (in_single)
+#else
+#define TOL(in_double, in_single) (in_double)
+#endif
+
+/* Case under test, printed in front of a failure: check_note("b = %g", b). */
+static char check_case[160];
+#define check_note(...) ((void)snprintf(check_case, sizeof check_case, __VA_ARGS__))
+
+/* Whether |got - want| <= atol + rtol |want|, both finite. */
+static inline int check_is_close(double got, double want, double atol, double rtol)
+{
+  return isfinite(got) && isfinite(want) && fabs(got - want) <= atol + rtol * fabs(want);
+}
+
+static inline void check_close(double got, double want, double atol, double rtol, const char *what, const char *file,
+                               int line)
+{
+  if (check_is_close(got, want, atol, rtol))
+    return;
+  print_error("%s: %s = %.17g, want %.17g; apart by %.3g, allowed %.3g\n", check_case, what, got, want,
+              fabs(got - want), atol + rtol * fabs(want));
+  _fail(file, line);
+}
+
+static inline void check_between(double got, double lo, double hi, const char *what, const char *file, int line)
+{
+  if (got >= lo && got <= hi)
+    return;
+  print_error("%s: %s = %.17g is not within %.17g .. %.17g\n", check_case, what, got, lo, hi);
+  _fail(file, line);
+}
+
+/* Fails on NaN and infinity as well; prints the numbers. */
+#define assert_close(got, want, atol, rtol)                                                                            \
+  check_close((double)(got), (double)(want), (double)(atol), (double)(rtol), #got, __FILE__, __LINE__)
+
+/* Fails on NaN as well. */
+#define assert_between(got, lo, hi) check_between((double)(got), (double)(lo), (double)(hi), #got, __FILE__, __LINE__)
+
+#endif

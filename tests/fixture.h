@@ -1,0 +1,78 @@
+/* Models, runs and samples that the tests of the library share.
+ * SPDX-License-Identifier: MIT */
+#ifndef TESTS_FIXTURE_H
+#define TESTS_FIXTURE_H
+
+#include "check.h"
+#include "../lib/pneu.h"
+
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
+/* Tolerance of runs that are compared with closed forms. */
+#define FIXTURE_TOL TOL(1e-10, 1e-5)
+
+/* The actuators of [B, Table A1]. */
+enum { FIXTURE_R1_400, FIXTURE_37_13, FIXTURE_ACTUATORS };
+
+/* What pneu_observe says, in double. */
+typedef struct fixture_sample {
+  double t, p, T, x, v, m, opening, in, out, heat, supply, friction;
+  int mode, choked;
+} fixture_sample;
+
+/* A constant input for some time. */
+typedef struct fixture_stretch {
+  double duration;
+  pneu_input input;
+} fixture_stretch;
+
+enum { FIXTURE_EVENTS = 64 };
+
+/* Events of a run: when, where, from which mode to which. */
+typedef struct fixture_events {
+  int n;
+  double t[FIXTURE_EVENTS], p[FIXTURE_EVENTS], x[FIXTURE_EVENTS];
+  int before[FIXTURE_EVENTS], after[FIXTURE_EVENTS];
+} fixture_events;
+
+pneu_params fixture_params(int actuator);
+
+/* A vessel of given volume [m3] with orifices of 1 mm2. */
+pneu_params fixture_vessel(double volume);
+
+/* Set a parameter by its name; fails the test where there is none. */
+void fixture_set(pneu_params *p, const char *name, double value);
+
+/* Index of an effect, or -1 where it was trimmed away. */
+int fixture_effect(const char *name);
+
+/* Initialised model; fails the test on error. */
+pneu_model fixture_model(const pneu_params *p, int gas, int flow);
+pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input);
+
+pneu_input fixture_input(const pneu_model *model, double u);
+
+/* At rest at ambient temperature. */
+pneu_state fixture_rest(const pneu_model *model, double pressure, double position, const pneu_input *input);
+
+fixture_sample fixture_look(const pneu_model *model, const pneu_state *state, const pneu_input *input);
+
+/* Run for `duration`; fails the test unless the run succeeds.  Out: events (may be NULL) */
+void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *input, double duration, double tol,
+                 fixture_events *events);
+
+/* Run through the stretches, with a sample every dt from time 0, by dense output.
+ * Returns: the number of samples, <= capacity. */
+int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stretch *stretch, int n, double dt,
+                  double tol, fixture_sample *sample, int capacity);
+
+/* The standard experiment: shut 0.5 s, fill 15 s, vent 15 s.  Out: 3 stretches */
+void fixture_standard(const pneu_model *model, fixture_stretch *stretch);
+
+/* Uniform in lo..hi, the same sequence in every build. */
+double fixture_random(uint64_t *seed, double lo, double hi);
+
+/* log2 of the ratio of two errors: the observed order when the step was halved. */
+double fixture_order(double coarse, double fine);
+
+#endif
