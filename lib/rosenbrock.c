@@ -114,7 +114,7 @@ static int stage(const pneu_model *model, const pneu_state *state, const pneu_in
   return PNEU_OK;
 }
 
-static pneu_real error_norm(const pneu_model *model, const pneu_state *state, int n, const pneu_real *e)
+static pneu_real error_norm(const pneu_model *model, int n, const pneu_real *e)
 {
   pneu_real scale[PNEU_STATE_MAX], worst = 0;
   int i;
@@ -143,7 +143,7 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
   for (i = 0; i < n; i++)
     work->y1[i] += work->k[PNEU_STAGE_COUNT - 1][i];
   if (error)
-    *error = error_norm(model, state, n, work->k[PNEU_STAGE_COUNT - 1]);
+    *error = error_norm(model, n, work->k[PNEU_STAGE_COUNT - 1]);
   return PNEU_OK;
 }
 

@@ -1,5 +1,5 @@
 /* apps/lab/names */
-#include "check.h"
+#include "words.h"
 
 #include "../apps/lab/names.h"
 

@@ -1,5 +1,5 @@
 /* apps/lab/number */
-#include "check.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>

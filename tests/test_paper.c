@@ -40,7 +40,7 @@ static void test_paper_flow_choked__below_critical__constant(void **state)
   assert_close(paper_flow_choked(500.0, 500.0 * pow(1.2, -3.5)), 500.0 * c, 0, TIGHT);
 }
 
-/* between choking and equality: 3.5 (r^(10/7) - r^(12/7)) with r = 2^-7/8... at r = (4/5)^(7/2): 3.5 (4/5)^5 (1 - 4/5) */
+/* 3.5 (r^(10/7) - r^(12/7)) at r = 0.9^3.5 is 3.5 0.9^5 (1 - 0.9) */
 static void test_paper_flow_choked__above_critical__isentropic(void **state)
 {
   double r = pow(0.9, 3.5);
@@ -399,6 +399,8 @@ static void test_paper_numbers__required_items__hand_values(void **state)
     {"conclusion5.pressure", 0.81 / 0.19 * 101.325 / 400.0, "no"},
     {"conclusion8.exponent", 0.5 * log(40.0 / 7.0 * 2.4 / 9.0) / log(40.0 / 7.0), "yes"},
     {"fig18.reach", 28.0, "yes"},
+    {"conclusion2.r1-400", sqrt(320.0 / 160.0) * 341.325 / 181.325, "yes"},
+    {"assumption5.r1-400.fill", 101.325 / 501.325 * pow(1.2, 3.5), "no"},
   };
   paper_row row[ROOM];
   size_t i, n = paper_numbers(row, ROOM);
@@ -470,7 +472,7 @@ static void test_paper_numbers_table__all__header_and_rows(void **state)
 
 /* ---- Figures ---- */
 
-/* v^2 + v_0^2 = (v_0 in the middle): sqrt(r^2 - r) and r, and for the nozzle a straight line above 1/0.528 */
+/* v^2 = r^2 - r for the paper's law; for the nozzle a straight line above r = 1/0.528 */
 static void test_paper_fig05__both_laws__known_curves(void **state)
 {
   double c = sqrt(0.7) / 1.728;

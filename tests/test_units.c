@@ -1,5 +1,5 @@
 /* apps/lab/units */
-#include "check.h"
+#include "words.h"
 
 #include "../apps/lab/units.h"
 

@@ -137,6 +137,7 @@ static int weights(N_Vector y, N_Vector w, void *data)
   lab_cvode *c = data;
   pneu_real scale[PNEU_STATE_MAX], *out = N_VGetArrayPointer(w);
   long i, n = N_VGetLength(w);
+  (void)y;
   pneu_scales(c->model, scale);
   for (i = 0; i < n; i++)
     out[i] = 1 / (c->tol * scale[i]);

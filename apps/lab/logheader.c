@@ -50,6 +50,13 @@ static int add_column(const char *text, const lab_log_format *format, double amb
   return LAB_OK;
 }
 
+static int has_control(const char *begin, const char *end)
+{
+  while (begin < end && !iscntrl((unsigned char)*begin))
+    begin++;
+  return begin < end;
+}
+
 /* One field of the header line, without the quotes and blanks around it. */
 static int add_field(const char *begin, const char *end, const lab_log_format *format, double ambient,
                      lab_header *header, lab_error *error)
@@ -61,7 +68,7 @@ static int add_field(const char *begin, const char *end, const lab_log_format *f
     end--;
   if (header->n == LAB_COLUMN_MAX)
     return lab_fail(error, LAB_DATA, "expected at most %d columns", LAB_COLUMN_MAX);
-  if (end - begin >= LAB_COLUMN_TEXT)
+  if (end - begin >= LAB_COLUMN_TEXT || has_control(begin, end))
     return lab_fail(error, LAB_DATA, "column %d: expected \"name [unit]\", found \"%s\"", header->n + 1,
                     lab_log_show(begin, end, shown));
   memcpy(text, begin, (size_t)(end - begin));

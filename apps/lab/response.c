@@ -94,7 +94,7 @@ static int stretch(engine *e, const pneu_model *model, pneu_state *state, const 
     return lab_cvode_run(e->cvode, model, state, input, duration, e->tol, sampler, &e->work.stats, error);
   pneu_options_default(&options);
   options.tol = e->tol;
-  status = pneu_run(model, state, input, duration, &options, sampler->n ? &observer : NULL, &e->work);
+  status = pneu_run(model, state, input, duration, &options, sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC,
@@ -103,23 +103,33 @@ static int stretch(engine *e, const pneu_model *model, pneu_state *state, const 
                   state->T, state->x, state->v);
 }
 
+/* Let the sampler take what lies in this stretch: a sample at a change of command belongs to what follows. */
+static void limit_samples(lab_sampler *sampler, size_t n, double to, int last)
+{
+  sampler->n = sampler->next;
+  while (sampler->n < n && (last || sampler->t[sampler->n] < to))
+    sampler->n++;
+}
+
 static int run_schedule(engine *e, const pneu_model *model, const pneu_state *start, const lab_schedule *schedule,
                         double t_end, lab_sampler *sampler, lab_error *error)
 {
   pneu_state state = *start;
+  const size_t n = sampler->n;
   size_t i;
   int status = LAB_OK;
   for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
     const double to = i + 1 < schedule->n && schedule->t[i + 1] < t_end ? schedule->t[i + 1] : t_end;
     sampler->origin = schedule->t[i];
     sampler->input = &schedule->input[i];
+    limit_samples(sampler, n, to, to >= t_end);
     pneu_settle(model, sampler->input, &state);
     while (lab_sampler_due(sampler) <= 0)
       lab_sampler_take(sampler, &state);
     status = stretch(e, model, &state, sampler->input, to - schedule->t[i], sampler, error);
+    while (status == LAB_OK && sampler->next < sampler->n)
+      lab_sampler_take(sampler, &state); /* the end, missed by rounding */
   }
-  while (status == LAB_OK && sampler->next < sampler->n)
-    lab_sampler_take(sampler, &state); /* the end, missed by rounding */
   return status;
 }
 

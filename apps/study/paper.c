@@ -209,7 +209,7 @@ double paper_symmetric_bench(const paper_case *c)
   double width = a->bench_high - a->bench_low;
   double lo = 0.0, hi = a->supply - width - a->friction / a->area;
   int i;
-  if (!(hi > lo) || falls_slower(c, hi, width) || !falls_slower(c, lo, width))
+  if (falls_slower(c, hi, width) || !falls_slower(c, lo, width))
     return (double)NAN;
   for (i = 0; i < HALVINGS; i++) {
     double p_bl = 0.5 * (lo + hi);

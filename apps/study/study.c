@@ -206,7 +206,19 @@ int study_save(const study *s, const char *name, const table *t, lab_error *erro
     lab_out_abandon(&out);
     return error->status;
   }
-  return lab_out_close(&out, error);
+  if (lab_out_close(&out, error))
+    return error->status;
+  study_note_saved(s, name);
+  return LAB_OK;
+}
+
+void study_note_saved(const study *s, const char *name)
+{
+  size_t used;
+  if (!s->saved)
+    return;
+  used = strlen(s->saved->names);
+  snprintf(s->saved->names + used, sizeof s->saved->names - used, "%s%s", used ? " " : "", name);
 }
 
 pneu_laws study_laws(const lab_rig *rig, int gas, int flow)

@@ -19,6 +19,11 @@ typedef struct study_bench {
   double low, high; /* [Pa] gauge */
 } study_bench;
 
+/* Names of the files that a product has saved, separated by blanks. */
+typedef struct study_saved {
+  char names[2048];
+} study_saved;
+
 typedef struct study {
   char file[STUDY_PATH_TEXT];     /* the configuration */
   char results[STUDY_PATH_TEXT];  /* folder */
@@ -32,6 +37,7 @@ typedef struct study {
   study_range range[5];           /* of H1, H2, H3, -, H5 */
   int n_benches;
   study_bench bench[STUDY_BENCH_MAX];
+  study_saved *saved;             /* NULL: nobody asks */
 } study;
 
 /* Read a study file; `measured` is overruled by the environment variable MEASURED.
@@ -40,6 +46,9 @@ int study_read(const char *path, study *s, lab_error *error);
 
 /* Write a table to a file of the results folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
 int study_save(const study *s, const char *name, const table *t, lab_error *error);
+
+/* Tell whoever asks that a file of the results folder has been written. */
+void study_note_saved(const study *s, const char *name);
 
 /* The laws of a rig with other chamber and flow laws. */
 pneu_laws study_laws(const lab_rig *rig, int gas, int flow);

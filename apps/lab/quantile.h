@@ -1,0 +1,14 @@
+/* Quantiles of the distributions that intervals are made of.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_QUANTILE_H
+#define LAB_QUANTILE_H
+
+/* Probability that Student's t is at most x.
+ * In:      degrees  of freedom, > 0; infinite: the normal distribution
+ * Error:   below 1e-13. */
+double lab_student_probability(double x, double degrees);
+
+/* The x at which that probability is p, 0 < p < 1.  Error: below 1e-12 relative for p within 1e-6 .. 1 - 1e-6. */
+double lab_student_quantile(double p, double degrees);
+
+#endif

@@ -1,0 +1,92 @@
+#include "done.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <unistd.h>
+
+#include "../lab/outfile.h"
+
+unsigned long long done_hash(unsigned long long key, const void *data, unsigned long size)
+{
+  const unsigned char *byte = data;
+  for (; size; size--)
+    key = (key ^ *byte++) * 1099511628211ULL;
+  return key;
+}
+
+unsigned long long done_hash_file(unsigned long long key, const char *path)
+{
+  unsigned char block[4096];
+  size_t n;
+  FILE *file = fopen(path, "rb");
+  if (!file)
+    return key;
+  while ((n = fread(block, 1, sizeof block, file)) > 0)
+    key = done_hash(key, block, n);
+  fclose(file);
+  return key;
+}
+
+void done_read(done *d, const char *folder)
+{
+  char text[DONE_TEXT + 128];
+  FILE *file;
+  memset(d, 0, sizeof *d);
+  snprintf(d->folder, sizeof d->folder, "%s", folder);
+  snprintf(d->path, sizeof d->path, "%s/.done", folder);
+  file = fopen(d->path, "r");
+  while (file && d->n < DONE_MAX && fgets(text, sizeof text, file)) {
+    done_line *line = &d->line[d->n];
+    if (sscanf(text, "%63s %llx %2047[^\n]", line->product, &line->key, line->files) == 3)
+      d->n++;
+  }
+  if (file)
+    fclose(file);
+}
+
+static done_line *find(const done *d, const char *product)
+{
+  int i;
+  for (i = 0; i < d->n; i++)
+    if (!strcmp(d->line[i].product, product))
+      return (done_line *)&d->line[i];
+  return NULL;
+}
+
+static int all_there(const done *d, const char *files)
+{
+  char names[DONE_TEXT], path[DONE_TEXT + 1200], *name;
+  snprintf(names, sizeof names, "%s", files);
+  for (name = strtok(names, " "); name; name = strtok(NULL, " ")) {
+    snprintf(path, sizeof path, "%s/%s", d->folder, name);
+    if (access(path, R_OK))
+      return 0;
+  }
+  return 1;
+}
+
+int done_is_fresh(const done *d, const char *product, unsigned long long key)
+{
+  const done_line *line = find(d, product);
+  return line && line->key == key && all_there(d, line->files);
+}
+
+int done_note(done *d, const char *product, unsigned long long key, const char *files, lab_error *error)
+{
+  done_line *line = find(d, product);
+  lab_outfile out;
+  int i;
+  if (!line && d->n == DONE_MAX)
+    return LAB_OK; /* not noted: made again next time */
+  if (!line)
+    line = &d->line[d->n++];
+  snprintf(line->product, sizeof line->product, "%s", product);
+  snprintf(line->files, sizeof line->files, "%s", files);
+  line->key = key;
+  if (lab_out_open(&out, d->path, error))
+    return error->status;
+  for (i = 0; i < d->n; i++)
+    fprintf(out.file, "%s %llx %s\n", d->line[i].product, d->line[i].key, d->line[i].files);
+  return lab_out_close(&out, error);
+}

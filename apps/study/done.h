@@ -1,0 +1,39 @@
+/* What has been made, from what: one line a product in the file .done of the results folder.
+ * SPDX-License-Identifier: MIT */
+#ifndef STUDY_DONE_H
+#define STUDY_DONE_H
+
+#include "../lab/message.h"
+
+enum { DONE_MAX = 128, DONE_TEXT = 2048 };
+
+typedef struct done_line {
+  char product[64];
+  unsigned long long key;
+  char files[DONE_TEXT]; /* names in the folder, separated by blanks */
+} done_line;
+
+typedef struct done {
+  char path[1200];
+  char folder[1100];
+  int n;
+  done_line line[DONE_MAX];
+} done;
+
+/* FNV-1a over bytes, going on from `key`; start with DONE_SEED. */
+#define DONE_SEED 14695981039346656037ULL
+unsigned long long done_hash(unsigned long long key, const void *data, unsigned long size);
+
+/* The same over a file's content; a missing file counts as empty. */
+unsigned long long done_hash_file(unsigned long long key, const char *path);
+
+/* Read the record; none is an empty one. */
+void done_read(done *d, const char *folder);
+
+/* Whether a product was made with this key and all its files are still there. */
+int done_is_fresh(const done *d, const char *product, unsigned long long key);
+
+/* Note that a product has been made, and write the record.  Returns: LAB_OK, LAB_WORLD. */
+int done_note(done *d, const char *product, unsigned long long key, const char *files, lab_error *error);
+
+#endif
