@@ -3,55 +3,108 @@ BUILD   ?= build
 CC      ?= cc
 CXX     ?= c++
 OPT     ?= -O2
+MEASURED ?= ../shared/data
+SANITIZE ?=
+PREFIX  ?= /usr/local
+
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef -Wwrite-strings -Wold-style-definition \
            -Wstrict-prototypes -Wmissing-prototypes -Wdouble-promotion -Wpointer-arith
-CFLAGS  ?= $(OPT) -g
-CFLAGS  += -std=c99 $(WARN) -MMD -MP $(if $(SINGLE),-DPNEU_SINGLE)
+FLAGS   := -std=c99 $(OPT) -g $(WARN) $(if $(WERROR),-Werror) $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer)
+DEPS    := -MMD -MP
+SINGLE_FLAG := $(if $(SINGLE),-DPNEU_SINGLE)
 
-PKGS     := libconfig nlopt udunits cjson
-LAB_LIBS := $(BUILD)/liblab.a $(BUILD)/libpneu.a -lsundials_cvode -lsundials_nvecserial \
-            -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
-LAB_FLAGS := -D_POSIX_C_SOURCE=200809L -I/usr/include/cminpack-1 -fopenmp
+# Floating-point contraction differs between machines; off, so that results/ is the same on all.
+FLAGS   += -ffp-contract=off
 
-LIB_C  := $(wildcard lib/*.c lib/effects/*.c)
-LAB_C  := $(wildcard apps/lab/*.c apps/study/*.c)
-PROGS  := sweep simulate
-TEST_C := $(wildcard tests/test_*.c)
+CMINPACK ?= $(firstword $(wildcard /usr/include/cminpack-1 /usr/local/include/cminpack-1 /opt/homebrew/include/cminpack-1))
+LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) -fopenmp
+LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
 
-LIB_O  := $(LIB_C:%.c=$(BUILD)/%.o)
-LAB_O  := $(LAB_C:%.c=$(BUILD)/%.o)
-TESTS  := $(TEST_C:tests/%.c=$(BUILD)/tests/%)
+LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
+LAB_C   := $(wildcard apps/lab/*.c apps/study/*.c)
+PROGS   := sweep simulate
+TEST_C  := $(wildcard tests/test_*.c)
+HELP_C  := tests/fixture.c $(filter-out %/main.c,$(wildcard tests/second/*.c))
+
+LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
+LAB_O   := $(LAB_C:%.c=$(BUILD)/%.o)
+HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
+TESTS   := $(TEST_C:%.c=$(BUILD)/%)
+STATIC  := $(BUILD)/libpneu.a
+LAB     := $(BUILD)/liblab.a
+
+# Tables made by another program are made again: the sources' checksum goes into the record of what is done.
+SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
-.PHONY: all help clean
+.SECONDARY:
+.PHONY: all help study check check-core check-single check-san check-readme verify bench figures install-packages clean
 
 ## Build the library and the programs
-all: $(BUILD)/libpneu.a $(PROGS)
+all: $(STATIC) $(PROGS)
 
 ## Show this list
 help:
-	@awk '/^## /{text=substr($$0,4)} /^[a-z-]+:/{if(text){sub(":.*","");printf "  make %-16s %s\n",$$0,text};text=""}' $(MAKEFILE_LIST)
+	@awk '/^## /{text=substr($$0,4)} /^[a-z-]+:/{if(text){name=$$1;sub(":.*","",name);printf "  make %-18s %s\n",name,text};text=""}' Makefile
 
-$(BUILD)/libpneu.a: $(LIB_O)
-	rm -f $@; $(AR) rcs $@ $^
+## Run the study: installs missing packages, then writes tables, figures and report to results/
+study: install-packages
+	@$(MAKE) --no-print-directory all
+	MEASURED='$(MEASURED)' ./sweep hypotheses.cfg
 
-$(BUILD)/liblab.a: $(LAB_O)
-	rm -f $@; $(AR) rcs $@ $^
+## Install missing packages (Debian, Ubuntu); names them for other systems
+install-packages:
+	@sh study/install-packages.sh
+
+## Run every test: library in double and single precision, with sanitizers, headers, README, short study
+check: install-packages
+	@$(MAKE) --no-print-directory all
+	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
+
+## Time one fill-and-vent beside CVODE, in one run; writes results/bench.csv and work_precision.csv
+bench: $(BUILD)/tests/bench/fill_and_vent
+	$< results
+	gnuplot -e "IN='results'; OUT='results/work_precision.svg'" study/figures/work_precision.gp
+
+## Build the test programs
+tests: $(TESTS)
+.PHONY: tests
+
+$(STATIC): $(LIB_O)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+$(LAB): $(LAB_O)
+	@rm -f $@
+	$(AR) rcs $@ $^
 
 $(BUILD)/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -c $< -o $@
+	$(CC) $(FLAGS) $(DEPS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/apps/%.o: apps/%.c
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LAB_FLAGS) -c $< -o $@
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-$(PROGS): %: $(BUILD)/apps/%.o $(BUILD)/liblab.a $(BUILD)/libpneu.a
-	$(CC) $(CFLAGS) -fopenmp $< $(LAB_LIBS) -o $@
-
-$(BUILD)/tests/%: tests/%.c $(BUILD)/liblab.a $(BUILD)/libpneu.a
+$(BUILD)/apps/study/products.o: apps/study/products.c $(SOURCES)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LAB_FLAGS) $< $(LAB_LIBS) -lcmocka -o $@
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DSTUDY_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
+
+$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+
+$(BUILD)/tests/%.o: tests/%.c
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
+
+$(BUILD)/tests/compare: $(BUILD)/tests/compare.o
+	$(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
+
+$(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP_O) $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
 ## Remove what was built, but no results
 clean:

@@ -224,6 +224,24 @@ static void test_paper_speed__dead_volume__slows(void **state)
   assert_close(paper_speed(&c, PAPER_DOWN, 0.0), sqrt(180.0 * 80.0) / 196.0, 0, TIGHT);
 }
 
+/* without dead volume the falling stem gains speed where p_bl (2 p + p_a) > p_a^2: PAPER.md 3.3 */
+static void test_paper_speed__falling__gains_speed_by_criterion(void **state)
+{
+  const double p_bl[] = {10e3, 20e3, 30e3, 40e3, 60e3, 80e3, 180e3};
+  paper_case c = ideal_case(paper_flow_unchoked, 1.0);
+  size_t i;
+  int j;
+  (void)state;
+  for (i = 0; i < sizeof p_bl / sizeof p_bl[0]; i++) {
+    c.actuator = paper_actuator_with_bench(&c.actuator, p_bl[i], p_bl[i] + 150e3);
+    for (j = 1; j < 20; j++) {
+      double x = j * 1e-3, p = paper_pressure(&c, PAPER_DOWN, x);
+      double gain = paper_speed(&c, PAPER_DOWN, x - 1e-6) - paper_speed(&c, PAPER_DOWN, x + 1e-6);
+      assert_int_equal(gain > 0.0, p_bl[i] * (2.0 * p + c.P_a) > c.P_a * c.P_a);
+    }
+  }
+}
+
 /* choked and without storage the falling velocity is the constant sqrt(0.7)/1.2^3 of the scale */
 static void test_paper_stroke_time__choked_vent__constant_velocity(void **state)
 {
@@ -579,6 +597,7 @@ int main(void)
     cmocka_unit_test(test_paper_pressure__both_directions__friction_changes_sign),
     cmocka_unit_test(test_paper_speed__top_of_bench_set__hand_values),
     cmocka_unit_test(test_paper_speed__dead_volume__slows),
+    cmocka_unit_test(test_paper_speed__falling__gains_speed_by_criterion),
     cmocka_unit_test(test_paper_stroke_time__choked_vent__constant_velocity),
     cmocka_unit_test(test_paper_stroke_time__table_a1__equals_integrated_mass),
     cmocka_unit_test(test_paper_asymmetry__constant_flow__closed_form),

@@ -33,6 +33,7 @@ int fit_open(fit_run *run, const lab_fit_problem *problem, const lab_fit_options
     run->unit[j] = linear_unit(p);
     run->lower[j] = to_z(p, run->unit[j], p->lower);
     run->upper[j] = to_z(p, run->unit[j], p->upper);
+    run->step[j] = cbrt(options->precision);
   }
   run->r = calloc(problem->m, sizeof(double));
   run->slope = calloc(problem->m * (size_t)problem->n, sizeof(double));
@@ -160,19 +161,31 @@ static int beside(fit_run *run, const double *z, const double *r0, int j, double
   return outcome == FIT_END ? FIT_END : FIT_GOOD;
 }
 
+/* Step for the next difference on axis j, from the length of the present column. */
+static double next_step(const fit_run *run, double length)
+{
+  const double longest = cbrt(run->options->precision), shortest = sqrt(run->options->precision);
+  const double tenth = 0.1 * sqrt(run->best / (double)run->problem->m) / length;
+  return clip(isfinite(tenth) ? tenth : longest, shortest, longest);
+}
+
 /* Column j by central differences, one-sided at a bound. Twice m numbers of scratch. */
 static int difference(fit_run *run, const double *z, const double *r0, int j, double *scratch)
 {
   const size_t m = run->problem->m;
-  const double h = cbrt(run->options->precision) * fmax(1, fabs(z[j]));
+  const double h = run->step[j] * fmax(1, fabs(z[j]));
+  double length = 0;
   double *above = scratch, *below = scratch + m, from, to;
   size_t i;
   if (beside(run, z, r0, j, h, &to, above) == FIT_END || beside(run, z, r0, j, -h, &from, below) == FIT_END)
     return FIT_END;
   if (!(to > from))
     return ended(run, lab_fail_in(&run->error, "the model fails on both sides of %s", run->problem->param[j].name));
-  for (i = 0; i < m; i++)
-    run->slope[(size_t)j * m + i] = (above[i] - below[i]) / (to - from);
+  for (i = 0; i < m; i++) {
+    const double slope = run->slope[(size_t)j * m + i] = (above[i] - below[i]) / (to - from);
+    length += slope * slope;
+  }
+  run->step[j] = next_step(run, sqrt(length));
   return FIT_GOOD;
 }
 

@@ -79,7 +79,7 @@ static int finish_of(int info)
 /* One run of lmder from s->z. */
 static int levenberg_marquardt(polish *s, double *memory)
 {
-  static const double ftol = 1e-13, xtol = 1e-10, gtol = 0, factor = 100;
+  static const double ftol = 1e-10, xtol = 1e-9, gtol = 0, factor = 100;
   enum { SCALE_BY_COLUMNS = 1, NO_PRINT = 0 };
   const int m = (int)s->run->problem->m, k = s->k;
   double z[LAB_FIT_MAX], diag[LAB_FIT_MAX], qtf[LAB_FIT_MAX], work[3][LAB_FIT_MAX];
@@ -95,12 +95,10 @@ static int levenberg_marquardt(polish *s, double *memory)
 }
 
 /* -1, 1: z[j] is on its lower, upper bound. */
-static int bound_at(const fit_run *run, int j)
+static int bound_at(const fit_run *run, const double *z, int j)
 {
-  const double width = 1e-12 * (1 + fabs(run->best_z[j]));
-  if (run->best_z[j] - run->lower[j] <= width)
-    return -1;
-  return run->upper[j] - run->best_z[j] <= width;
+  const double width = 1e-12 * (1 + fabs(z[j]));
+  return z[j] - run->lower[j] <= width ? -1 : run->upper[j] - z[j] <= width;
 }
 
 /* Slope of the sum of squares along axis j over its largest possible size: -1 .. 1. */
@@ -117,18 +115,19 @@ static double pull(const fit_run *run, int j)
   return length > 0 && run->best > 0 ? dot / sqrt(length * run->best) : 0;
 }
 
-/* Hold and release by the signs of the pulls at the best point.  Returns: whether anything changed; FIT_END as -1 */
+/* Hold and release by the signs of the pulls at the best point.
+ * Returns: 1 if that changed anything, 0 if not, -1 where the run has ended. */
 static int revise(fit_run *run)
 {
   static const double negligible = 1e-7;
-  double sum;
+  double z[LAB_FIT_MAX], sum;
   int j, changed = 0;
-  if (fit_evaluate(run, run->best_z, &sum) != FIT_GOOD || fit_differentiate(run, run->best_z, NULL) == FIT_END)
+  memcpy(z, run->best_z, sizeof z);
+  if (fit_evaluate(run, z, &sum) != FIT_GOOD || fit_differentiate(run, z, NULL) == FIT_END)
     return -1;
   for (j = 0; j < run->problem->n; j++) {
-    const int bound = bound_at(run, j);
-    const int outwards = bound && -bound * pull(run, j) < 0 ? 0 : bound && fabs(pull(run, j)) > negligible;
-    const int held = outwards ? bound : 0;
+    const int bound = bound_at(run, z, j);
+    const int held = bound * pull(run, j) < -negligible ? bound : 0;
     changed |= held != run->held[j];
     run->held[j] = held;
   }

@@ -12,6 +12,7 @@ typedef struct fit_run {
   const lab_fit_options *options;
   double unit[LAB_FIT_MAX];                     /* of linear parameters, in their unit */
   double lower[LAB_FIT_MAX], upper[LAB_FIT_MAX]; /* of z */
+  double step[LAB_FIT_MAX];                     /* of the next difference, in z */
   double *r, *slope;      /* m, and m * n column by column: of the latest fit_evaluate and fit_differentiate */
   double best;            /* least sum of squares seen; infinite before the first */
   double best_z[LAB_FIT_MAX];
@@ -41,6 +42,9 @@ int fit_evaluate(fit_run *run, const double *z, double *sum);
 
 /* d(residual over sigma)/dz at z, which the bounds contain, into run->slope; run->r is what fit_evaluate gave there
  * and is kept.
+ * Method:  the problem's own slopes, or central differences. Their step begins at the cube root of the precision and
+ *          is from then on what moves the residuals by a tenth of their scatter: models with stops have kinks in
+ *          their parameters, across which a longer step would average.
  * In:      hold  columns to leave at 0 where not 0; may be NULL
  * Returns: FIT_GOOD, or FIT_END. */
 int fit_differentiate(fit_run *run, const double *z, const int *hold);

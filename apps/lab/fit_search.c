@@ -18,8 +18,11 @@ static double objective(unsigned n, const double *z, double *gradient, void *dat
 {
   search *s = data;
   double sum;
-  int outcome = fit_evaluate(s->run, z, &sum);
+  int outcome;
   (void)n, (void)gradient;
+  if (s->run->status != LAB_OK) /* some methods ask on after a forced stop */
+    return s->penalty;
+  outcome = fit_evaluate(s->run, z, &sum);
   if (outcome == FIT_END)
     nlopt_force_stop(s->opt);
   return outcome == FIT_GOOD && sum < s->penalty ? sum : s->penalty;

@@ -20,6 +20,20 @@ static char *join(const char *a, const char *b)
 
 /* ---- Folders ---- */
 
+/* Make one folder.  Returns: 0 with errno set if there is none afterwards. */
+static int make_one(const char *path)
+{
+  struct stat info;
+  int reason;
+  if (mkdir(path, 0777) == 0)
+    return 1;
+  reason = errno;
+  if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+    return 1;
+  errno = reason == EEXIST ? ENOTDIR : reason;
+  return 0;
+}
+
 /* Make the folders named by path[0..length); path is restored. */
 static int make_folders(char *path, size_t length, lab_error *error)
 {
@@ -30,7 +44,7 @@ static int make_folders(char *path, size_t length, lab_error *error)
     if (i < length && kept != '/')
       continue;
     path[i] = '\0';
-    failed = mkdir(path, 0777) != 0 && errno != EEXIST;
+    failed = !make_one(path);
     if (failed)
       cannot("made", path, error);
     path[i] = kept;

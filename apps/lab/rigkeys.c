@@ -9,6 +9,7 @@ const lab_key lab_keys[] = {
     {"action", "actuator", LAB_KEY_ACTION, 0},
     PARAM("actuator", "area", area),
     PARAM("actuator", "dead_volume", dead_volume),
+    PARAM("actuator", "swept_ratio", swept_ratio),
     PARAM("actuator", "stroke", stroke),
     PARAM("actuator", "spring_rate", spring_rate),
     PARAM("actuator", "spring_preload", spring_preload),

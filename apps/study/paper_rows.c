@@ -8,7 +8,6 @@
 #include "paper.h"
 
 #include <math.h>
-#include <string.h>
 
 #define NONE ((double)NAN)
 enum { ARGS = 5 };

@@ -83,6 +83,17 @@ void table_row(table *t, const char *kinds, ...)
   va_end(args);
 }
 
+void table_row_of_text(table *t, const char *const *text)
+{
+  size_t i;
+  if (t->failed || !make_room(t)) {
+    t->failed = 1;
+    return;
+  }
+  for (i = 0; i < t->columns; i++)
+    fill_cell(t, text[i], (double)NAN);
+}
+
 size_t table_rows(const table *t)
 {
   return t->n / t->columns;

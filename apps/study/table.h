@@ -34,6 +34,9 @@ void table_close(table *t);
  * In: kinds  one letter a column: 's' takes a const char *, 'g' takes a double */
 void table_row(table *t, const char *kinds, ...);
 
+/* Append a row of texts, as many as there are columns. */
+void table_row_of_text(table *t, const char *const *text);
+
 /* Rows in the table. */
 size_t table_rows(const table *t);
 

@@ -1,0 +1,241 @@
+#include "report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../lab/outfile.h"
+#include "tableread.h"
+
+/* The paper's own verdicts, section 7. */
+static const struct {
+  const char *name, *words, *paper;
+} hypotheses[6] = {{"H1", "directional action of the spring", "not confirmed"},
+                   {"H2", "preload of the spring", "not confirmed"},
+                   {"H3", "travel limiters", "not confirmed"},
+                   {"H4", "place of the bench set", "not confirmed"},
+                   {"H5", "unequal fill and vent", "not confirmed"},
+                   {"H6", "different air processes when filling and venting", "confirmed"}};
+
+static int row_is(const table *t, size_t row, const char *gas, const char *flow)
+{
+  return !strcmp(table_text(t, row, "gas"), gas) && !strcmp(table_text(t, row, "flow"), flow);
+}
+
+/* Names of the laws as column heads: "isothermal, paper". */
+static void law_heads(const study *s, FILE *file)
+{
+  int g, f;
+  for (g = 0; g < s->n_gas; g++)
+    for (f = 0; f < s->n_flow; f++)
+      fprintf(file, " %s, %s |", pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f]));
+  fputc('\n', file);
+}
+
+static void rule(FILE *file, int columns)
+{
+  int i;
+  fputc('|', file);
+  for (i = 0; i < columns; i++)
+    fputs("---|", file);
+  fputc('\n', file);
+}
+
+static void introduction(const study *s, FILE *file)
+{
+  const lab_rig *rig = &s->actuator[s->subject];
+  fprintf(file,
+          "# The asymmetry of a single-acting actuator, re-examined\n\n"
+          "Made by `make study`; every number comes from a table in this folder. The paper is M. Bartys, \"Dynamics of "
+          "single-action\npneumatic actuators\"; what its equations imply where it prints something else is derived in "
+          "[PAPER.md](../study/PAPER.md).\nThe subject is the %s with the parameters of Table A1 as printed.\n\n"
+          "![Large step up and down](fig13.svg)\n\n",
+          rig->name);
+}
+
+/* One line of the verdict table: asymmetry with and without the cause in each law. */
+static void verdict_line(const study *s, FILE *file, const table *t, int h, int *survives)
+{
+  int g, f;
+  fprintf(file, "| %s %s | %s |", hypotheses[h].name, hypotheses[h].words, hypotheses[h].paper);
+  *survives = 1;
+  for (g = 0; g < s->n_gas; g++)
+    for (f = 0; f < s->n_flow; f++) {
+      size_t row;
+      for (row = 0; row < table_rows(t); row++)
+        if (row_is(t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])) &&
+            !strcmp(table_text(t, row, "hypothesis"), hypotheses[h].name)) {
+          const char *verdict = table_text(t, row, "verdict");
+          *survives &= !strncmp(verdict, hypotheses[h].paper, strlen(hypotheses[h].paper));
+          fprintf(file, " %.3f to %.3f: %s |", table_number(t, row, "asymmetry_base"),
+                  fabs(table_number(t, row, "asymmetry_without_cause")), verdict);
+        }
+    }
+  fputc('\n', file);
+}
+
+static int verdicts(const study *s, FILE *file, lab_error *error)
+{
+  int h, survives[6];
+  table t;
+  if (table_load(s, "hypotheses.csv", &t, error) == LAB_OK) {
+    fprintf(file,
+            "## Six hypotheses in %d laws\n\nAsymmetry with the cause, and without it; confirmed where it falls below "
+            "%.0f %% of its value. Asymmetry is the area\nbetween the two strokes, each scaled to unit time and travel, "
+            "the falling one mirrored; 0 is the same shape.\n\n![Asymmetry with and without each cause](hypotheses.svg)"
+            "\n\n| hypothesis | paper |",
+            s->n_gas * s->n_flow, 100 * s->confirmed_below);
+    law_heads(s, file);
+    rule(file, 2 + s->n_gas * s->n_flow);
+    for (h = 0; h < 6; h++)
+      verdict_line(s, file, &t, h, &survives[h]);
+    fputs("\nVerdicts of the paper that survive choking and temperature change:", file);
+    for (h = 0; h < 6; h++)
+      fprintf(file, "%s", survives[h] ? (fputc(' ', file), hypotheses[h].name) : "");
+    fputs(". That do not:", file);
+    for (h = 0; h < 6; h++)
+      fprintf(file, "%s", survives[h] ? "" : (fputc(' ', file), hypotheses[h].name));
+    fputs(".\nA cause marked as necessary carries the asymmetry (a spring ties pressure to travel; without stiffness the "
+          "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none.\n\n",
+          file);
+  }
+  table_close(&t);
+  return error->status;
+}
+
+static int attribution(const study *s, FILE *file, lab_error *error)
+{
+  table t;
+  size_t row;
+  if (table_load(s, "attribution.csv", &t, error) == LAB_OK) {
+    fputs("## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
+          "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
+          "A negative share makes the strokes more alike.\n\n![Shares of the causes](attribution.svg)\n\n"
+          "| chamber law | cause | share | asymmetry |\n|---|---|---|---|\n",
+          file);
+    for (row = 0; row < table_rows(&t); row++)
+      fprintf(file, "| %s | %s | %.1f %% | %.4f |\n", table_text(&t, row, "gas"), table_text(&t, row, "cause"),
+              100 * table_number(&t, row, "share") + 0.0, table_number(&t, row, "shapley") + 0.0);
+    fputc('\n', file);
+  }
+  table_close(&t);
+  return error->status;
+}
+
+static int conclusions(const study *s, FILE *file, lab_error *error)
+{
+  int i, g, f;
+  size_t row;
+  table t;
+  if (table_load(s, "conclusions.csv", &t, error) == LAB_OK) {
+    fputs("## Eighteen conclusions\n\nEvidence for each in [conclusions.csv](conclusions.csv).\n\n| conclusion |", file);
+    law_heads(s, file);
+    rule(file, 1 + s->n_gas * s->n_flow);
+    for (i = 1; i <= 18; i++) {
+      fprintf(file, "| %d |", i);
+      for (g = 0; g < s->n_gas; g++)
+        for (f = 0; f < s->n_flow; f++)
+          for (row = 0; row < table_rows(&t); row++)
+            if (atoi(table_text(&t, row, "conclusion")) == i &&
+                row_is(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
+              fprintf(file, " %s |", table_text(&t, row, "verdict"));
+      fputc('\n', file);
+    }
+    fputc('\n', file);
+  }
+  table_close(&t);
+  return error->status;
+}
+
+/* Numbers that the paper prints and that differ from ours. */
+static int disagreements(const study *s, FILE *file, lab_error *error)
+{
+  size_t row, printed = 0, wrong = 0;
+  table t;
+  if (table_load(s, "paper_numbers.csv", &t, error) == LAB_OK) {
+    for (row = 0; row < table_rows(&t); row++) {
+      wrong += !strcmp(table_text(&t, row, "agrees"), "no");
+      printed++;
+    }
+    fprintf(file,
+            "## Where the paper and its equations disagree\n\n%lu of %lu statements that can be recomputed do not agree "
+            "([paper_numbers.csv](paper_numbers.csv)). Those with a number in print:\n\n"
+            "| item | quantity | printed | computed | note |\n|---|---|---|---|---|\n",
+            (unsigned long)wrong, (unsigned long)printed);
+    for (row = 0; row < table_rows(&t); row++)
+      if (!strcmp(table_text(&t, row, "agrees"), "no") && *table_text(&t, row, "printed"))
+        fprintf(file, "| %s | %s | %.4g %s | %.4g %s | %s |\n", table_text(&t, row, "item"),
+                table_text(&t, row, "quantity"), table_number(&t, row, "printed"), table_text(&t, row, "unit"),
+                table_number(&t, row, "computed"), table_text(&t, row, "unit"), table_text(&t, row, "note"));
+    fputc('\n', file);
+  }
+  table_close(&t);
+  return error->status;
+}
+
+/* A table of the folder as it is, where it exists. */
+static void whole_table(const study *s, FILE *file, const char *name, const char *head)
+{
+  lab_error ignored;
+  table t;
+  size_t row;
+  int i;
+  const char *at;
+  if (table_load(s, name, &t, &ignored) == LAB_OK) {
+    fprintf(file, "%s\n\n| ", head);
+    for (at = t.header; *at; at++)
+      fputs(*at == ',' ? " | " : (char[]){*at, 0}, file);
+    fputs(" |\n", file);
+    rule(file, (int)t.columns);
+    for (row = 0; row < table_rows(&t); row++) {
+      for (i = 0; i < (int)t.columns; i++) {
+        const char *text = table_at(&t, row, (size_t)i)->text;
+        char *end;
+        const double value = strtod(text, &end);
+        if (end != text && !*end)
+          fprintf(file, "| %.4g ", value);
+        else
+          fprintf(file, "| %s ", text);
+      }
+      fputs("|\n", file);
+    }
+    fputc('\n', file);
+  }
+  table_close(&t);
+}
+
+static int write_report(const study *s, FILE *file, lab_error *error)
+{
+  error->status = LAB_OK;
+  introduction(s, file);
+  if (verdicts(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
+      disagreements(s, file, error))
+    return error->status;
+  whole_table(s, file, "measured_vessel.csv",
+              "## Measured: a vessel blows down through an orifice\n\n![Vessel](measured_vessel.svg)");
+  whole_table(s, file, "measured_damadics_static.csv",
+              "## Measured: a spring-and-diaphragm servomotor\n\n![Servomotor](measured_damadics.svg)");
+  whole_table(s, file, "measured_damadics_steps.csv", "Its two step responses beside the models'.");
+  whole_table(s, file, "agreement.csv",
+              "## Can these numbers be trusted\n\nThe library's stepper at 1e-8 against CVODE at 1e-12 on the standard "
+              "experiment, and the books of mass and energy.");
+  return LAB_OK;
+}
+
+int report_make(const study *s, lab_error *error)
+{
+  char path[STUDY_PATH_TEXT + 16];
+  lab_outfile out;
+  snprintf(path, sizeof path, "%s/REPORT.md", s->results);
+  if (lab_out_open(&out, path, error))
+    return error->status;
+  if (write_report(s, out.file, error)) {
+    lab_out_abandon(&out);
+    return error->status;
+  }
+  if (lab_out_close(&out, error))
+    return error->status;
+  study_note_saved(s, "REPORT.md");
+  return LAB_OK;
+}

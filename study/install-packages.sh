@@ -1,0 +1,45 @@
+#!/bin/sh
+# Install what is missing, on Debian and Ubuntu; name it for other systems.
+# Exits 0 where everything is there.
+set -eu
+
+apt_packages="gcc g++ make pkg-config libsundials-dev libnlopt-dev libconfig-dev libudunits2-dev libcjson-dev
+libcminpack-dev libcmocka-dev gnuplot-nox"
+
+missing() {
+  for package in $apt_packages; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || printf '%s ' "$package"
+  done
+}
+
+name_others() {
+  cat <<WORDS
+This system has no apt-get. Install the same libraries by its own package manager, then run make all:
+  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot
+  brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp
+WORDS
+}
+
+if ! command -v apt-get >/dev/null 2>&1; then
+  name_others
+  exit 0
+fi
+
+list=$(missing)
+[ -z "$list" ] && exit 0
+
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null 2>&1; then
+    echo "missing: $list" >&2
+    echo "neither root nor sudo: ask an administrator for  apt-get install $list" >&2
+    exit 1
+  fi
+  as_root=sudo
+fi
+echo "installing: $list"
+export DEBIAN_FRONTEND=noninteractive
+# shellcheck disable=SC2086
+$as_root apt-get update -q >/dev/null || echo "apt-get update failed; trying with the old list" >&2
+# shellcheck disable=SC2086
+$as_root apt-get install -q -y --no-install-recommends $list >/dev/null

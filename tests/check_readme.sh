@@ -1,0 +1,21 @@
+#!/bin/sh
+# The README's C example compiles and runs; its commands exist.
+set -eu
+: "${CC:=cc}" "${BUILD:=build}"
+folder="$BUILD/readme"
+mkdir -p "$folder"
+awk '/^```c$/{on=1;next} /^```$/{on=0} on' README.md >"$folder/example.c"
+[ -s "$folder/example.c" ]
+$CC -std=c90 -pedantic-errors -Wall -Wextra -Werror -Ilib "$folder/example.c" "$BUILD/libpneu.a" -lm -o "$folder/example"
+"$folder/example"
+./simulate study/actuators/r1-400.cfg --step >"$folder/step.csv"
+[ "$(wc -l <"$folder/step.csv")" -eq 3052 ]
+./simulate study/actuators/r1-400.cfg "$folder/step.csv" >"$folder/again.csv"
+[ "$(wc -l <"$folder/again.csv")" -eq 3052 ]
+for target in $(sed -n 's/^make \([a-z-]*\).*/\1/p' README.md); do
+  make -n "$target" >/dev/null
+done
+# every file that the README points to is there
+for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' README.md); do
+  case $path in http*) ;; *) [ -e "$path" ] || { echo "README points to $path, which is not there"; exit 1; } ;; esac
+done

@@ -1,0 +1,102 @@
+#!/bin/sh
+# Every test, from `make check`: units in double and single precision and with sanitizers, the core's symbols and
+# headers, the README's commands, and the study against results/. Ends with one line of totals.
+set -u
+: "${MAKE:=make}" "${CC:=cc}" "${CXX:=c++}" "${BUILD:=build}"
+passed=0
+failed=0
+skipped=0
+log="$BUILD/check.log"
+mkdir -p "$BUILD"
+
+say() { printf '%s\n' "$*"; }
+
+# One check that is a command: pass NAME COMMAND...
+pass() {
+  name=$1
+  shift
+  if "$@" >"$log" 2>&1; then
+    passed=$((passed + 1))
+    say "ok      $name"
+  else
+    failed=$((failed + 1))
+    say "FAILED  $name"
+    tail -n 40 "$log"
+  fi
+}
+
+count() { sed -n "s/^\[ *$1 *\] \([0-9]*\) test(s).*/\1/p" "$log" | tail -n 1; }
+
+# One cmocka program: suite LABEL PROGRAM
+suite() {
+  "$2" >"$log" 2>&1
+  status=$?
+  good=$(count PASSED)
+  bad=$(count FAILED)
+  gone=$(count SKIPPED)
+  good=${good:-0}
+  bad=${bad:-0}
+  passed=$((passed + good))
+  failed=$((failed + bad))
+  skipped=$((skipped + ${gone:-0}))
+  if [ "$status" -ne 0 ] && [ "$bad" -eq 0 ]; then
+    failed=$((failed + 1)) # died without a count
+    bad=1
+  fi
+  if [ "$bad" -ne 0 ]; then
+    say "FAILED  $1 $(basename "$2"): $bad of $((good + bad))"
+    grep -v '^\[ *\(RUN\|OK\) *\]' "$log" | tail -n 60
+  else
+    say "ok      $1 $(basename "$2"): $good"
+    grep '^absent:' "$log" || true
+  fi
+}
+
+# Build the tests in a folder of their own and run them: suites LABEL FOLDER PATTERN MAKE-ARGUMENTS...
+suites() {
+  label=$1
+  folder=$2
+  pattern=$3
+  shift 3
+  programs=""
+  for source in tests/test_*.c; do
+    name=$(basename "$source" .c)
+    case " $pattern " in *" $name "* | " all ") programs="$programs $folder/tests/$name" ;; esac
+  done
+  # shellcheck disable=SC2086
+  if ! $MAKE --no-print-directory BUILD="$folder" "$@" $programs >"$log" 2>&1; then
+    failed=$((failed + 1))
+    say "FAILED  $label: the tests do not build"
+    tail -n 40 "$log"
+    return
+  fi
+  for program in $programs; do
+    suite "$label" "$program"
+  done
+}
+
+# The study, without figures, against the committed tables.
+study_agrees() {
+  again="$BUILD/study-again"
+  rm -rf "$again"
+  ./sweep hypotheses.cfg --quiet --no-figures --results "$again" || return 1
+  wrong=0
+  for table in "$again"/*.csv; do
+    name=$(basename "$table")
+    "$BUILD/tests/compare" 1e-6 1e-7 "results/$name" "$table" || wrong=1
+  done
+  return $wrong
+}
+
+core="test_params test_flow test_chamber test_stem test_stepper test_jacobian test_effects test_audit"
+
+suites double "$BUILD" all
+suites single "$BUILD/single" "$core" SINGLE=1
+suites sanitized "$BUILD/sanitized" all SANITIZE=address,undefined OPT=-O1
+pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a"
+[ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
+[ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
+$MAKE --no-print-directory "$BUILD/tests/compare" >/dev/null && pass "study: same numbers as results/" study_agrees
+
+say "$passed passed, $failed failed, $skipped skipped"
+[ "$failed" -eq 0 ]

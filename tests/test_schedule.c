@@ -1,0 +1,341 @@
+/* apps/lab/schedule, start, standard and table */
+#include "scratch.h"
+
+#include "../apps/lab/schedule.h"
+#include "../apps/lab/standard.h"
+#include "../apps/lab/start.h"
+#include "../apps/lab/table.h"
+
+static lab_error error;
+static lab_rig rig;
+static pneu_model model;
+
+/* The default rig, R1-400: spring 400 kN/m compressed 10 mm, area 400 cm^2, dry friction 480 N. */
+static int fresh_rig(void **state)
+{
+  (void)state;
+  lab_rig_default(&rig);
+  return lab_rig_model(&rig, &model, &error);
+}
+
+static void set_inputs(int p, int x, int ps, int force)
+{
+  rig.input[LAB_CHANNEL_P] = (unsigned char)p;
+  rig.input[LAB_CHANNEL_X] = (unsigned char)x;
+  rig.input[LAB_CHANNEL_PS] = (unsigned char)ps;
+  rig.input[LAB_CHANNEL_FORCE] = (unsigned char)force;
+  rig.laws.pressure_input = p;
+  rig.laws.position_input = x;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+}
+
+static lab_log read_log(const char *text)
+{
+  lab_log log;
+  if (lab_log_read(scratch_text("log.csv", text), &rig.log, 101325, &log, &error))
+    fail_msg("%s", error.text);
+  return log;
+}
+
+static lab_drive drive_of(const lab_log *log, size_t run)
+{
+  lab_drive drive;
+  if (lab_drive_from_log(&model, &rig, log, run, &drive, &error))
+    fail_msg("%s", error.text);
+  return drive;
+}
+
+/* ---- Schedules ---- */
+
+static void test_lab_drive_from_log__equal_commands__are_one_entry(void **state)
+{
+  lab_log log = read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
+  lab_drive drive = drive_of(&log, 0);
+  (void)state;
+  assert_int_equal(drive.schedule.n, 3);
+  assert_close(drive.schedule.t[0], 0, 0, 0);
+  assert_close(drive.schedule.t[1], 2, 0, 0);
+  assert_close(drive.schedule.t[2], 4, 0, 0);
+  assert_close(drive.schedule.input[1].u, 1, 0, 0);
+  assert_close(drive.schedule.input[2].u, -0.5, 0, 0);
+  assert_close(drive.schedule.input[0].supply_pressure, 4e5, 0, 0);
+  assert_close(drive.schedule.input[0].pressure_rate, 0, 0, 0);
+  lab_drive_free(&drive);
+  lab_log_free(&log);
+}
+
+static void test_lab_drive_from_log__second_run__has_its_own_rows(void **state)
+{
+  lab_log log;
+  lab_drive drive;
+  (void)state;
+  rig.log.new_run = LAB_RUN_T_DROPS;
+  log = read_log("t [s],u [1]\n0,0\n1,1\n0.5,1\n2,-1\n");
+  drive = drive_of(&log, 1);
+  assert_int_equal(drive.schedule.n, 2);
+  assert_close(drive.schedule.t[0], 0.5, 0, 0);
+  assert_close(drive.schedule.input[1].u, -1, 0, 0);
+  lab_drive_free(&drive);
+  lab_log_free(&log);
+}
+
+static void test_lab_drive_from_log__measured_inputs__run_along_lines_over_gaps(void **state)
+{
+  lab_log log = read_log("t [s],p [kPa],x [mm]\n0,10,0\n1,,1\n3,40,1\n4,40,2\n");
+  lab_drive drive;
+  (void)state;
+  set_inputs(1, 1, 0, 0);
+  drive = drive_of(&log, 0);
+  assert_int_equal(drive.schedule.n, 4);
+  assert_close(drive.schedule.input[0].pressure_rate, 1e4, 1e-6, 0);
+  assert_close(drive.schedule.input[1].pressure_rate, 1e4, 1e-6, 0);
+  assert_close(drive.schedule.input[2].pressure_rate, 0, 0, 0);
+  assert_close(drive.schedule.input[0].position_rate, 1e-3, 1e-12, 0);
+  assert_close(drive.schedule.input[1].position_rate, 0, 0, 0);
+  assert_close(drive.schedule.input[3].position_rate, 0, 0, 0);
+  lab_drive_free(&drive);
+  lab_log_free(&log);
+}
+
+static void test_lab_drive_from_log__measured_supply_and_force__hold_over_gaps(void **state)
+{
+  lab_log log = read_log("t [s],u [1],ps [kPa],force [N]\n0,0,300,5\n1,0,,5\n2,0,290,7\n");
+  lab_drive drive;
+  (void)state;
+  set_inputs(0, 0, 1, 1);
+  drive = drive_of(&log, 0);
+  assert_int_equal(drive.schedule.n, 2);
+  assert_close(drive.schedule.input[0].supply_pressure, 300e3, 1e-9, 0);
+  assert_close(drive.schedule.input[1].supply_pressure, 290e3, 1e-9, 0);
+  assert_close(drive.schedule.input[1].force, 7, 0, 0);
+  lab_drive_free(&drive);
+  lab_log_free(&log);
+}
+
+static void test_lab_drive_from_log__measured_outputs__do_not_drive(void **state)
+{
+  lab_log log = read_log("t [s],u [1],p [kPa],ps [kPa],force [N]\n0,0,1,300,5\n1,0,2,290,7\n");
+  lab_drive drive = drive_of(&log, 0);
+  (void)state;
+  assert_int_equal(drive.schedule.n, 1);
+  assert_close(drive.schedule.input[0].supply_pressure, 4e5, 0, 0);
+  assert_close(drive.schedule.input[0].force, 0, 0, 0);
+  lab_drive_free(&drive);
+  lab_log_free(&log);
+}
+
+static void test_lab_drive_from_log__missing_input__is_named(void **state)
+{
+  lab_log log = read_log("t [s],p [kPa]\n0,1\n");
+  lab_drive drive;
+  (void)state;
+  assert_int_equal(lab_drive_from_log(&model, &rig, &log, 0, &drive, &error), LAB_DATA);
+  assert_contains(error.text, "log.csv: expected a column u");
+  set_inputs(1, 1, 0, 0);
+  assert_int_equal(lab_drive_from_log(&model, &rig, &log, 0, &drive, &error), LAB_DATA);
+  assert_contains(error.text, "expected a column x");
+  lab_log_free(&log);
+}
+
+/* ---- Starts ---- */
+
+static pneu_state start_of(const char *text, double u)
+{
+  lab_log log = read_log(text);
+  pneu_input input;
+  pneu_state start;
+  pneu_input_default(&model, &input);
+  input.u = (pneu_real)u;
+  if (lab_start_from_log(&model, &input, &log, 0, &start, &error))
+    fail_msg("%s", error.text);
+  lab_log_free(&log);
+  return start;
+}
+
+static void test_lab_start_from_log__noise_at_rest__is_averaged(void **state)
+{
+  char text[4096] = "t [s],u [1],p [kPa],x [mm]\n", row[64];
+  pneu_state start;
+  int i;
+  (void)state;
+  for (i = 0; i < 50; i++) {
+    snprintf(row, sizeof row, "%d,0,%g,%g\n", i, 200 + (i * 7 % 5 - 2) * 0.1, 10 + (i * 3 % 5 - 2) * 0.01);
+    strcat(text, row);
+  }
+  strcat(text, "50,1,900,900\n");
+  start = start_of(text, 0);
+  assert_close(start.p, 200e3, 1, 0);
+  assert_close(start.x, 10e-3, 1e-6, 0);
+  assert_close(start.v, 0, 0, 0);
+  assert_close(start.T, 298.15, 0, 0);
+}
+
+static void test_lab_start_from_log__moving_from_the_first_row__takes_the_first_rows(void **state)
+{
+  char text[65536] = "t [s],u [1],p [kPa],x [mm]\n", row[64];
+  pneu_state start;
+  int i;
+  (void)state;
+  for (i = 0; i < 1000; i++) {
+    snprintf(row, sizeof row, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
+    strcat(text, row);
+  }
+  start = start_of(text, 1);
+  assert_close(start.p, 0, 1e-6, 0);
+  assert_close(start.x, 0, 0, 0);
+}
+
+static void test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
+  (void)state;
+  assert_true(start.x == 0);
+  assert_int_equal(start.mode, PNEU_MODE_LOWER);
+  start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,19.97\n", 0);
+  assert_close(start.x, 0.02, 1e-15, 0);
+  assert_int_equal(start.mode, PNEU_MODE_UPPER);
+  start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0);
+  assert_close(start.x, 0.02, 1e-15, 0);
+}
+
+static void test_lab_start_from_log__held_by_friction__stays_where_it_is_seen(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0);
+  (void)state;
+  assert_close(start.x, 0.01, 1e-15, 0);
+  assert_int_equal(start.mode, PNEU_MODE_STUCK);
+}
+
+static void test_lab_start_from_log__no_position__follows_from_pressure(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0);
+  (void)state;
+  assert_close(start.x, 0.01, 1e-12, 0);
+  start = start_of("t [s],u [1],p [kPa]\n0,0,20\n", 0);
+  assert_true(start.x == 0);
+  start = start_of("t [s],u [1],p [kPa]\n0,0,390\n", 0);
+  assert_close(start.x, 0.02, 1e-15, 0);
+}
+
+static void test_lab_start_from_log__no_pressure__follows_from_position(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],x [mm]\n0,0,10\n", 0);
+  (void)state;
+  assert_close(start.p, 200e3, 1e-6, 0);
+  start = start_of("t [s],u [1],x [mm]\n0,0,0.02\n", 0);
+  assert_close(start.p, 0, 0, 0);
+  assert_true(start.x == 0);
+  start = start_of("t [s],u [1],x [mm]\n0,1,19.99\n", 1);
+  assert_close(start.p, 4e5, 0, 0);
+}
+
+static void test_lab_start_from_log__nothing_measured__is_empty_and_down(void **state)
+{
+  pneu_state start = start_of("t [s],u [1]\n0,0\n", 0);
+  (void)state;
+  assert_close(start.p, 0, 0, 0);
+  assert_true(start.x == 0);
+}
+
+static void test_lab_start_from_log__vessel__has_no_position(void **state)
+{
+  pneu_state start;
+  (void)state;
+  rig.params.stroke = 0;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  start = start_of("t [s],u [1],p [kPa]\n0,-1,700\n", -1);
+  assert_close(start.p, 700e3, 1e-6, 0);
+  assert_true(start.x == 0);
+}
+
+static void test_lab_start_from_log__driven_channels__start_at_their_first_value(void **state)
+{
+  pneu_state start;
+  (void)state;
+  set_inputs(1, 1, 0, 0);
+  start = start_of("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0);
+  assert_close(start.p, 12e3, 1e-6, 0);
+  assert_close(start.x, 0.5e-3, 1e-15, 0);
+}
+
+static void test_lab_start_from_log__below_vacuum__is_refused(void **state)
+{
+  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
+  pneu_input input;
+  pneu_state start;
+  (void)state;
+  pneu_input_default(&model, &input);
+  assert_int_equal(lab_start_from_log(&model, &input, &log, 0, &start, &error), LAB_DATA);
+  assert_contains(error.text, "log.csv:2:");
+  assert_contains(error.text, "-150000 Pa");
+  lab_log_free(&log);
+}
+
+/* ---- The standard experiment ---- */
+
+static void test_lab_standard_experiment__default_model__fills_and_vents(void **state)
+{
+  const lab_response_options options = {LAB_STEPPER, 1e-6, 0, 0};
+  lab_trace trace;
+  (void)state;
+  if (lab_standard_experiment(&model, &options, &trace, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(trace.n, 3051);
+  assert_close(trace.t[1], 0.01, 1e-15, 0);
+  assert_close(trace.t[3050], 30.5, 1e-12, 0);
+  assert_close(trace.u[49], 0, 0, 0);
+  assert_close(trace.u[51], 1, 0, 0);
+  assert_close(trace.u[1551], -1, 0, 0);
+  assert_close(trace.x[49], 0, 0, 0);
+  assert_close(trace.p[49], 0, 1e-9, 0);
+  assert_close(trace.x[1549], 0.02, 1e-9, 0);
+  assert_close(trace.p[1549], 4e5, 100, 0);
+  assert_close(trace.x[3050], 0, 1e-9, 0);
+  lab_trace_free(&trace);
+}
+
+/* ---- Tables ---- */
+
+static void test_lab_table_rows__numbers__are_scaled_and_gaps_empty(void **state)
+{
+  const double t[] = {0, 0.005}, p[] = {-0.0, 101325}, gap[] = {NAN, 1};
+  const lab_table_column columns[] = {{"t [s]", 1, t}, {"p [kPa]", 1e-3, p}, {"x [mm]", 1e3, gap}};
+  const char *path = scratch_path("table.csv");
+  FILE *file = fopen(path, "w");
+  char *got;
+  (void)state;
+  assert_non_null(file);
+  lab_table_header(file, columns, 3);
+  lab_table_rows(file, columns, 3, 2);
+  fclose(file);
+  got = scratch_read(path);
+  assert_string_equal(got, "t [s],p [kPa],x [mm]\n0,0,\n0.005,101.325,1000\n");
+  free(got);
+}
+
+#define CASE(name) cmocka_unit_test_setup(name, fresh_rig)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(test_lab_drive_from_log__equal_commands__are_one_entry),
+      CASE(test_lab_drive_from_log__second_run__has_its_own_rows),
+      CASE(test_lab_drive_from_log__measured_inputs__run_along_lines_over_gaps),
+      CASE(test_lab_drive_from_log__measured_supply_and_force__hold_over_gaps),
+      CASE(test_lab_drive_from_log__measured_outputs__do_not_drive),
+      CASE(test_lab_drive_from_log__missing_input__is_named),
+      CASE(test_lab_start_from_log__noise_at_rest__is_averaged),
+      CASE(test_lab_start_from_log__moving_from_the_first_row__takes_the_first_rows),
+      CASE(test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it),
+      CASE(test_lab_start_from_log__held_by_friction__stays_where_it_is_seen),
+      CASE(test_lab_start_from_log__no_position__follows_from_pressure),
+      CASE(test_lab_start_from_log__no_pressure__follows_from_position),
+      CASE(test_lab_start_from_log__nothing_measured__is_empty_and_down),
+      CASE(test_lab_start_from_log__vessel__has_no_position),
+      CASE(test_lab_start_from_log__driven_channels__start_at_their_first_value),
+      CASE(test_lab_start_from_log__below_vacuum__is_refused),
+      CASE(test_lab_standard_experiment__default_model__fills_and_vents),
+      CASE(test_lab_table_rows__numbers__are_scaled_and_gaps_empty),
+  };
+  return cmocka_run_group_tests_name("schedule", tests, scratch_open, scratch_close);
+}

@@ -1,0 +1,224 @@
+/* The program simulate, from outside: what it prints, what it leaves on the disk, its exit status. Runs ./simulate, or
+ * what the environment variable SIMULATE names. */
+#include "scratch.h"
+
+#include <sys/wait.h>
+
+enum { TEXT = 1 << 20 };
+
+static char out[TEXT], err[TEXT]; /* what the last run wrote */
+
+static void load(const char *name, char *text)
+{
+  char *got = scratch_read(scratch_path(name));
+  strcpy(text, got);
+  free(got);
+}
+
+/* Run with arguments in which @ stands for the scratch folder.  Returns: exit status; out and err are set. */
+static int run(const char *arguments)
+{
+  const char *program = getenv("SIMULATE");
+  char line[4096];
+  size_t n = (size_t)snprintf(line, sizeof line, "%s ", program ? program : "./simulate");
+  int status;
+  for (; *arguments && n < sizeof line - 256; arguments++)
+    if (*arguments == '@')
+      n += (size_t)snprintf(line + n, sizeof line - n, "%s", scratch_folder);
+    else
+      line[n++] = *arguments;
+  snprintf(line + n, sizeof line - n, " >%s 2>%s", scratch_path("out"), scratch_path("err"));
+  status = system(line);
+  load("out", out);
+  load("err", err);
+  assert_true(WIFEXITED(status));
+  return WEXITSTATUS(status);
+}
+
+static int write_inputs(void **state)
+{
+  int failed = scratch_open(state);
+  if (failed)
+    return failed;
+  scratch_text("m.cfg", "actuator = { name = \"R1-400\"; };\n");
+  scratch_text("bad.cfg", "actuator = {\n  aera = 1;\n};\n");
+  scratch_text("vessel.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 l\"; };\nsupply = { pressure = \"4 bar\"; };\n");
+  scratch_text("runs.cfg", "log = { new_run = \"t drops\"; };\n");
+  scratch_text("log.csv", "t [ms],u [%],p_abs [bar],x [cm]\n0,0,1.01325,0\n100,100,1,0\n500,100,2,0\n2000,-100,3,1\n3500,-100,1,0\n");
+  scratch_text("only_u.csv", "t [s],u [1]\n0,0\n1,1\n2,1\n");
+  scratch_text("only_x.csv", "t [s],u [1],x [mm]\n0,0,0\n1,1,0\n2,1,0\n");
+  scratch_text("runs.csv", "t [s],u [1],p [kPa]\n0,1,0\n1,1,0\n0,1,0\n1,1,0\n");
+  scratch_text("torn.csv", "t [s],u [1],p [kPa]\n0,0,0\n1,0\n");
+  return 0;
+}
+
+static int lines_of(const char *text)
+{
+  int n = 0;
+  for (; *text; text++)
+    n += *text == '\n';
+  return n;
+}
+
+/* Number in a row and column of out, both from 0; row 0 is the header. */
+static double cell(int row, int column)
+{
+  const char *at = out;
+  while (row-- > 0)
+    at = strchr(at, '\n') + 1;
+  while (column-- > 0)
+    at = strchr(at, ',') + 1;
+  return strtod(at, NULL);
+}
+
+static void test_simulate__step__prints_the_standard_experiment(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/m.cfg --step"), 0);
+  assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
+  assert_int_equal(lines_of(out), 3052);
+  assert_close(cell(2, 0), 0.01, 0, 0);
+  assert_close(cell(1540, 3), 20, 1e-6, 0);
+  assert_close(cell(3051, 0), 30.5, 0, 0);
+  assert_string_equal(err, "");
+}
+
+static void test_simulate__log__predicts_at_its_times(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/m.cfg @/log.csv"), 0);
+  assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
+  assert_int_equal(lines_of(out), 6);
+  assert_close(cell(1, 0), 0, 0, 0);
+  assert_close(cell(3, 0), 0.5, 0, 0);
+  assert_close(cell(4, 1), -1, 0, 0);
+  assert_close(cell(1, 2), 0, 1e-6, 0);
+  assert_true(cell(3, 2) > 100 && cell(3, 2) < 400);
+  assert_true(cell(4, 3) > 1);
+}
+
+static void test_simulate__log_without_outputs__gives_pressure_and_position(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/m.cfg @/only_u.csv"), 0);
+  assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
+}
+
+static void test_simulate__log_of_position__gives_position_alone(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/m.cfg @/only_x.csv"), 0);
+  assert_int_equal(strncmp(out, "t [s],u [1],x [mm]\n", 19), 0);
+  assert_true(cell(3, 2) > 1);
+}
+
+static void test_simulate__runs__start_afresh(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/runs.cfg @/runs.csv"), 0);
+  assert_int_equal(lines_of(out), 5);
+  assert_close(cell(3, 0), 0, 0, 0);
+  assert_close(cell(3, 2), 0, 1e-9, 0);
+  assert_close(cell(4, 2), cell(2, 2), 0, 0);
+}
+
+static void test_simulate__vessel__fills(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/vessel.cfg --step"), 0);
+  assert_close(cell(1540, 2), 400, 1, 0);
+  assert_close(cell(1540, 3), 0, 0, 0);
+}
+
+static void test_simulate__out__writes_the_file_and_nothing_else(void **state)
+{
+  (void)state;
+  assert_int_equal(run("--out @/deep/er/o.csv @/m.cfg @/log.csv"), 0);
+  assert_string_equal(out, "");
+  assert_true(scratch_exists(scratch_path("deep/er/o.csv")));
+  assert_false(scratch_exists(scratch_path("deep/er/o.csv.part")));
+}
+
+static void test_simulate__bad_log__leaves_no_file(void **state)
+{
+  (void)state;
+  assert_int_equal(run("--out @/torn_out.csv @/m.cfg @/torn.csv"), 1);
+  assert_contains(err, "torn.csv:3: expected 3 fields, found 2");
+  assert_false(scratch_exists(scratch_path("torn_out.csv")));
+  assert_false(scratch_exists(scratch_path("torn_out.csv.part")));
+}
+
+static void test_simulate__bad_model__is_1_with_line_and_key(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/bad.cfg --step"), 1);
+  assert_contains(err, "simulate: ");
+  assert_contains(err, "bad.cfg:2: actuator.aera: unknown key; the nearest known one is \"area\"");
+  assert_string_equal(out, "");
+}
+
+static void test_simulate__missing_files__are_1(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/none.cfg --step"), 1);
+  assert_contains(err, "none.cfg: there is no such file");
+  assert_int_equal(run("@/m.cfg @/none.csv"), 1);
+  assert_contains(err, "none.csv: there is no such file");
+}
+
+static void test_simulate__bad_usage__is_2(void **state)
+{
+  (void)state;
+  assert_int_equal(run(""), 2);
+  assert_int_equal(run("@/m.cfg"), 2);
+  assert_int_equal(run("@/m.cfg @/log.csv --step"), 2);
+  assert_int_equal(run("@/m.cfg --stpe"), 2);
+  assert_contains(err, "--step");
+}
+
+static void test_simulate__full_disk__is_4(void **state)
+{
+  (void)state;
+  if (!scratch_exists("/dev/full"))
+    skip();
+  assert_int_equal(run("@/m.cfg --step --out /dev/full"), 4);
+  assert_contains(err, "No space left on device");
+}
+
+static void test_simulate__unwritable_folder__is_4(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/m.cfg --step --out @/m.cfg/o.csv"), 4);
+  assert_contains(err, "cannot be");
+}
+
+static void test_simulate__help_and_version__are_0_on_stdout(void **state)
+{
+  (void)state;
+  assert_int_equal(run("--help"), 0);
+  assert_contains(out, "Usage: simulate");
+  assert_int_equal(run("--version"), 0);
+  assert_contains(out, "simulate (libpneu)");
+  assert_string_equal(err, "");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_simulate__step__prints_the_standard_experiment),
+      cmocka_unit_test(test_simulate__log__predicts_at_its_times),
+      cmocka_unit_test(test_simulate__log_without_outputs__gives_pressure_and_position),
+      cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
+      cmocka_unit_test(test_simulate__runs__start_afresh),
+      cmocka_unit_test(test_simulate__vessel__fills),
+      cmocka_unit_test(test_simulate__out__writes_the_file_and_nothing_else),
+      cmocka_unit_test(test_simulate__bad_log__leaves_no_file),
+      cmocka_unit_test(test_simulate__bad_model__is_1_with_line_and_key),
+      cmocka_unit_test(test_simulate__missing_files__are_1),
+      cmocka_unit_test(test_simulate__bad_usage__is_2),
+      cmocka_unit_test(test_simulate__full_disk__is_4),
+      cmocka_unit_test(test_simulate__unwritable_folder__is_4),
+      cmocka_unit_test(test_simulate__help_and_version__are_0_on_stdout),
+  };
+  return cmocka_run_group_tests_name("simulate", tests, write_inputs, scratch_close);
+}
