@@ -26,12 +26,13 @@ static const lab_program program = {"simulate", "MODEL.cfg LOG.csv | MODEL.cfg -
 static const lab_response_options accuracy = {LAB_STEPPER, 1e-7, 0, 0};
 
 /* Time, command, and those channels that are asked for; `u` may be NULL.  Returns: the number of columns. */
-static int columns(const lab_trace *trace, const double *u, int p, int x, int T, lab_table_column *column)
+static int columns(const pneu_model *model, const lab_trace *trace, const double *u, int p, int x, int T,
+                   lab_table_column *column)
 {
-  int n = 0;
+  int n = 0, opening = model->p.proportional_band == 0;
   column[n++] = (lab_table_column){"t [s]", 1, trace->t};
   if (u)
-    column[n++] = (lab_table_column){"u [1]", 1, u};
+    column[n++] = opening ? (lab_table_column){"u [1]", 1, u} : (lab_table_column){"u [kPa]", 1e-3, u};
   if (p)
     column[n++] = (lab_table_column){"p [kPa]", 1e-3, trace->p};
   if (x)
@@ -48,7 +49,7 @@ static int simulate_standard(const pneu_model *model, FILE *file, lab_error *err
   int n;
   if (lab_standard_experiment(model, &accuracy, &trace, error))
     return error->status;
-  n = columns(&trace, trace.u, 1, 1, 0, column);
+  n = columns(model, &trace, trace.u, 1, 1, 0, column);
   lab_table_header(file, column, n);
   lab_table_rows(file, column, n, trace.n);
   lab_trace_free(&trace);
@@ -87,7 +88,7 @@ static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_l
     int n;
     if (respond(model, rig, log, run, &trace, error))
       return error->status;
-    n = columns(&trace, value[LAB_CHANNEL_U] ? value[LAB_CHANNEL_U] + log->run[run] : NULL,
+    n = columns(model, &trace, value[LAB_CHANNEL_U] ? value[LAB_CHANNEL_U] + log->run[run] : NULL,
                 nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
     if (run == 0)
       lab_table_header(file, column, n);

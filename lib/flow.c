@@ -7,22 +7,25 @@ typedef struct shape {
   int choked;
 } shape;
 
-/* Square root of w = 1 - r; within PNEU_BLEND of equal pressures the odd polynomial
- * sqrt(w_b) z (45 - 18 z^2 + 5 z^4)/32, z = w/w_b, which meets value, slope and curvature of the
- * root at z = 1 and is linear at 0.  Out: slope in w. */
-static pneu_real root(pneu_real w, pneu_real *slope)
+/* w^m of w = 1 - r; within PNEU_BLEND of equal pressures the odd polynomial w_b^m z (a + b z^2 + c z^4),
+ * z = w/w_b, which meets value, slope and curvature of the power at z = 1 and is linear at 0:
+ * c = (m - 1)(m - 3)/8, b = (m - 1)(5 - m)/4, a = 1 - b - c.  Out: slope in w. */
+static pneu_real power(pneu_real w, pneu_real m, pneu_real *slope)
 {
-  const pneu_real edge = PNEU_C(0.022360679774997897); /* sqrt(PNEU_BLEND) */
-  pneu_real z, z2, s;
+  const int root = m == PNEU_C(0.5);
+  const pneu_real at = w >= PNEU_BLEND ? w : PNEU_BLEND, value = root ? PNEU_M(sqrt)(at) : PNEU_M(pow)(at, m);
+  pneu_real a, b, c, z, z2;
   if (w >= PNEU_BLEND) {
-    s = PNEU_M(sqrt)(w);
-    *slope = PNEU_C(0.5) / s;
-    return s;
+    *slope = m * value / w;
+    return value;
   }
+  c = (m - 1) * (m - 3) / 8;
+  b = (m - 1) * (5 - m) / 4;
+  a = 1 - b - c;
   z = w * (1 / PNEU_BLEND);
   z2 = z * z;
-  *slope = edge * (45 - 54 * z2 + 25 * z2 * z2) * (1 / (32 * PNEU_BLEND));
-  return edge * z * (45 - 18 * z2 + 5 * z2 * z2) * PNEU_C(0.03125);
+  *slope = value * (a + z2 * (3 * b + z2 * 5 * c)) * (1 / PNEU_BLEND);
+  return value * z * (a + z2 * (b + z2 * c));
 }
 
 /* [B, Eq. 8]: psi = sqrt(1 - r). */
@@ -30,7 +33,7 @@ static void paper(const pneu_model *model, pneu_real w, shape *s)
 {
   pneu_real slope;
   (void)model;
-  s->psi = root(w, &slope);
+  s->psi = power(w, PNEU_C(0.5), &slope);
   s->dpsi = -slope;
   s->choked = 0;
 }
@@ -51,7 +54,7 @@ static void nozzle(const pneu_model *model, pneu_real w, shape *s)
   ra = PNEU_M(exp)(a * lr);
   g2 = w > 0 ? -ra * PNEU_M(expm1)(d * lr) / w : d;
   g = PNEU_M(sqrt)(g2);
-  s0 = root(w, &slope);
+  s0 = power(w, PNEU_C(0.5), &slope);
   if (w < PNEU_BLEND) /* d(G^2)/dw at w = 0 is -d (a + (d - 1)/2) */
     dg = d * (a + (d - 1) / 2) / (2 * g);
   else
@@ -64,24 +67,18 @@ static void nozzle(const pneu_model *model, pneu_real w, shape *s)
 static void iso6358(const pneu_model *model, pneu_real w, shape *s)
 {
   const pneu_real b = model->p.critical_ratio, m = model->p.subsonic_index;
-  pneu_real z, c, slope, s0, c0, power = 1, dpower = 0;
+  pneu_real c, cm, s0, slope;
   s->choked = 1 - w <= b;
   if (s->choked) {
     s->psi = 1;
     s->dpsi = 0;
     return;
   }
-  z = (1 - w - b) / (1 - b);
-  c = (1 + z) / (1 - b);
-  s0 = root(w, &slope);
-  c0 = PNEU_M(sqrt)(c);
-  if (m != PNEU_C(0.5)) {
-    const pneu_real inside = (w < PNEU_BLEND ? PNEU_BLEND : w) * c;
-    power = PNEU_M(pow)(inside, m - PNEU_C(0.5));
-    dpower = (m - PNEU_C(0.5)) * power * (1 / ((1 + z) * (1 - b)) - (w < PNEU_BLEND ? 0 : 1 / w));
-  }
-  s->psi = s0 * c0 * power;
-  s->dpsi = (-slope * c0 + s0 / (2 * c0 * (1 - b) * (1 - b))) * power + s0 * c0 * dpower;
+  c = (2 - 2 * b - w) / ((1 - b) * (1 - b)); /* (1 + z)/(1 - b) */
+  cm = m == PNEU_C(0.5) ? PNEU_M(sqrt)(c) : PNEU_M(pow)(c, m);
+  s0 = power(w, m, &slope);
+  s->psi = s0 * cm;
+  s->dpsi = cm * (s0 * m / (c * (1 - b) * (1 - b)) - slope);
 }
 
 /* Flow in proportion to the pressure difference: psi = 1 - r. */

@@ -230,6 +230,7 @@ struct pneu_model {
   pneu_real nozzle_gain;     /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
   pneu_real paper_gain;      /* sqrt(2/R) [sqrt(kg K/J)] */
   pneu_real viscous;         /* viscous_friction + damping [N.s/m] */
+  pneu_real force_noise;     /* [N] rounding of the balance of forces; break-away asks for more */
   pneu_real scale[4];        /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
   int thermal;               /* gas temperature is a state */
   int bristle;               /* friction has its own state: no stick mode */
@@ -444,8 +445,8 @@ typedef struct pneu_flow {
  *          area    effective area C*a [m2], >= 0
  *          p_up    [Pa] abs, > 0;  T_up [K], > 0;  p_down [Pa] abs, 0..p_up
  * Out:     flow
- * Domain:  ideal gas; steady. Within PNEU_BLEND (5e-4) of equal pressures the square root is
- *          replaced by an odd polynomial that is linear at zero, with value, slope and curvature
+ * Domain:  ideal gas; steady. Within PNEU_BLEND (5e-4) of equal pressures the root is replaced
+ *          by an odd polynomial that is linear at zero, with value, slope and curvature
  *          continuous at the edge.
  * Omits:   vena contracta shift with ratio, upstream kinetic energy, heat, inertia of the gas.
  * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;

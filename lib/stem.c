@@ -10,12 +10,12 @@ void pneu_stem_force(pneu_terms *t)
   t->friction = p->dry_friction;
 }
 
-/* Force that friction has to hold at rest, and the level at which it gives way. With a bristle the
- * friction force is a state and no level is left. */
+/* Force that friction has to hold at rest, and the level at which it gives way: above the rounding of the balance, lest
+ * a stem that comes to rest in equilibrium chatter. With a bristle the friction force is a state and no level is left. */
 static void rest_balance(const pneu_terms *t, pneu_real *force, pneu_real *level)
 {
   *force = t->force - t->bristle_force;
-  *level = t->model->bristle ? 0 : t->friction;
+  *level = (t->model->bristle ? 0 : t->friction) + t->model->force_noise;
 }
 
 static pneu_real direction(int mode)

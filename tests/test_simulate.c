@@ -130,6 +130,16 @@ static void test_simulate__vessel__fills(void **state)
   assert_close(cell(1540, 3), 0, 0, 0);
 }
 
+static void test_simulate__pressure_command__is_written_as_one(void **state)
+{
+  (void)state;
+  scratch_text("band.cfg", "transducer = { proportional_band = \"5 kPa\"; };\n");
+  assert_int_equal(run("@/band.cfg --step"), 0);
+  assert_int_equal(strncmp(out, "t [s],u [kPa],p [kPa],x [mm]\n", 29), 0);
+  assert_close(cell(1540, 1), 400, 0, 0);
+  assert_true(cell(1540, 2) > 390 && cell(1540, 2) <= 400);
+}
+
 static void test_simulate__out__writes_the_file_and_nothing_else(void **state)
 {
   (void)state;
@@ -211,6 +221,7 @@ int main(void)
       cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
       cmocka_unit_test(test_simulate__runs__start_afresh),
       cmocka_unit_test(test_simulate__vessel__fills),
+      cmocka_unit_test(test_simulate__pressure_command__is_written_as_one),
       cmocka_unit_test(test_simulate__out__writes_the_file_and_nothing_else),
       cmocka_unit_test(test_simulate__bad_log__leaves_no_file),
       cmocka_unit_test(test_simulate__bad_model__is_1_with_line_and_key),

@@ -368,9 +368,9 @@ static void check_modes(const pneu_state *s, double stroke, double v_scale)
   const double over = TOL(2e-9, 2e-6); /* [s] to which an event is located */
   assert_between(s->x, -over * v_scale, stroke + over * v_scale);
   if (s->mode == PNEU_MODE_UP)
-    assert_between(s->v, -1e3 * over * v_scale, 1e3);
+    assert_between(s->v, -1e4 * over * v_scale, 1e3);
   else if (s->mode == PNEU_MODE_DOWN)
-    assert_between(s->v, -1e3, 1e3 * over * v_scale);
+    assert_between(s->v, -1e3, 1e4 * over * v_scale);
   else
     assert_true(s->v == 0);
   if (s->mode == PNEU_MODE_LOWER)

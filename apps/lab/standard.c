@@ -6,6 +6,14 @@ static const double phase_time[] = {0, 0.5, 15.5}; /* [s] */
 static const double phase_command[] = {0, 1, -1};
 enum { PHASES = sizeof phase_time / sizeof phase_time[0] };
 
+/* A transducer that regulates pressure is asked for the supply, then for ambient. */
+static double command_for(const pneu_model *model, double opening)
+{
+  if (model->p.proportional_band > 0)
+    return opening > 0 ? (double)model->p.supply_pressure : 0;
+  return opening;
+}
+
 int lab_standard_experiment(const pneu_model *model, const lab_response_options *options, lab_trace *trace,
                             lab_error *error)
 {
@@ -17,7 +25,7 @@ int lab_standard_experiment(const pneu_model *model, const lab_response_options 
   int i, status;
   for (i = 0; i < PHASES; i++) {
     pneu_input_default(model, &input[i]);
-    input[i].u = (pneu_real)phase_command[i];
+    input[i].u = (pneu_real)command_for(model, phase_command[i]);
   }
   for (i = 0; i < ROWS; i++)
     t[i] = i * PERIOD_MS / 1000.0;

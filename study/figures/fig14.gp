@@ -1,5 +1,5 @@
 # Fig. 14: step response of the 37-13 without its upper limiter, in the four laws.
-TITLE = "Without its upper limiter the 37-13 bends into the top and out of it"
+TITLE = "Without its upper limiter the 37-13 creeps to the top and leaves it at once"
 SUBTITLE = "Step response, fill at 0.5 s and vent at 15.5 s, parameters of Table A1"
 NAME = "Step_response_of_the_37_13_without_upper_limiter"
 HEIGHT = 740

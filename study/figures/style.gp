@@ -28,9 +28,6 @@ flow_of(law) = word(FLOWS, (law - 1) % 2 + 1)
 is_law(law) = strcol("gas") eq gas_of(law) && strcol("flow") eq flow_of(law)
 flow_name(flow) = flow eq "paper" ? "flow as in the paper" : "choked nozzle"
 law_name(law) = gas_of(law).", ".flow_name(flow_of(law))
-law_colour(law) = law < 3 ? BLUE : VERMILLION
-SOLID = "solid"
-DASHED = "7,4"
 set style line 1 lc rgb BLUE lw 2 dt solid
 set style line 2 lc rgb BLUE lw 2 dt (7,4)
 set style line 3 lc rgb VERMILLION lw 2 dt solid
@@ -43,7 +40,7 @@ set style fill solid noborder
 set xlabel textcolor rgb INK
 set ylabel textcolor rgb INK
 set title textcolor rgb INK font ",14"
-set key textcolor rgb INK samplen 3
+set key Left reverse textcolor rgb INK samplen 2.5
 set bars small
 
 # The name of the y axis lies flat above it: set label 1 "..." @ABOVE

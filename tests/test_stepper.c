@@ -1,0 +1,639 @@
+/* Rodas5P, runs, single steps, dense output and event location. */
+#include "fixture.h"
+
+static void clear(pneu_workspace *work)
+{
+  memset(work, 0, sizeof *work);
+}
+
+/* ---- order ---- */
+
+/* A stretch without events: the stem slides up in mid-stroke. */
+typedef struct smooth {
+  pneu_model model;
+  pneu_input input;
+  pneu_state start;
+} smooth;
+
+static smooth sliding(int gas, int flow)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  smooth s;
+  s.model = fixture_model(&p, gas, flow);
+  s.input = fixture_input(&s.model, 1);
+  s.start = fixture_rest(&s.model, 112.5e3, 0, &s.input);
+  fixture_run(&s.model, &s.start, &s.input, 0.5, TOL(1e-9, 1e-5), NULL);
+  assert_int_equal(s.start.mode, PNEU_MODE_UP);
+  return s;
+}
+
+static double apart(const pneu_state *a, const pneu_state *b)
+{
+  const double dp = fabs((double)a->p - (double)b->p) / 5e5, dx = fabs((double)a->x - (double)b->x) / 0.02;
+  const double dT = fabs((double)a->T - (double)b->T) / 300;
+  return fmax(fmax(dp, dx), dT);
+}
+
+#ifndef PNEU_SINGLE /* rounding in float is above the error of any step that is worth halving */
+/* A quick stretch: the stem flies up under pressure, hardly damped, and no rate is large for the steps. */
+static smooth flying(int gas, int flow)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  smooth s;
+  p.viscous_friction = 0;
+  p.damping = 100;
+  p.fill_area = 1e-5;
+  s.model = fixture_model(&p, gas, flow);
+  s.input = fixture_input(&s.model, 1);
+  s.start = fixture_rest(&s.model, 2.8e5, 0.004, &s.input);
+  s.start.v = 0.5;
+  s.start.mode = PNEU_MODE_UP;
+  return s;
+}
+
+static pneu_state in_steps(const smooth *s, double time, int n)
+{
+  pneu_workspace work;
+  pneu_state at = s->start;
+  int i;
+  clear(&work);
+  for (i = 0; i < n; i++)
+    assert_int_equal(pneu_step(&s->model, &at, &s->input, (pneu_real)(time / n), &work), PNEU_OK);
+  assert_int_equal(work.stats.steps, n);
+  return at;
+}
+
+static void test_pneu_step__smooth_stretch__converges_with_order_five(void **state)
+{
+  static const int gases[] = {PNEU_GAS_ISOTHERMAL, PNEU_GAS_ENERGY};
+  int i, j;
+  (void)state;
+  for (i = 0; i < COUNT(gases); i++) {
+    const smooth s = flying(gases[i], PNEU_FLOW_PAPER);
+    const pneu_state exact = in_steps(&s, 6e-3, 512);
+    double error[4];
+    for (j = 0; j < 4; j++) {
+      const pneu_state at = in_steps(&s, 6e-3, 2 << j);
+      error[j] = apart(&at, &exact);
+    }
+    check_note("%s: %g %g %g %g", pneu_gas_key(gases[i]), error[0], error[1], error[2], error[3]);
+    assert_between(fixture_order(error[1], error[2]), 4.5, 6.5);
+    assert_between(fixture_order(error[2], error[3]), 4.5, 6.5);
+  }
+}
+
+/* The dense output inside one step is off by the fifth power of its length. */
+static double dense_error;
+
+static int look_inside(void *context, const pneu_step_view *view)
+{
+  const smooth *s = context;
+  double theta;
+  dense_error = 0;
+  for (theta = 0.2; theta < 0.9; theta += 0.2) {
+    const pneu_state exact = in_steps(s, theta * view->h, 64);
+    pneu_state at;
+    pneu_dense(view, theta, &at);
+    dense_error = fmax(dense_error, apart(&at, &exact));
+  }
+  return 1;
+}
+
+static void test_pneu_dense__smooth_stretch__has_order_four(void **state)
+{
+  const smooth s = flying(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  smooth context = s;
+  pneu_observer observer = {look_inside, NULL, NULL};
+  pneu_options options;
+  pneu_workspace work;
+  double error[3];
+  int i;
+  (void)state;
+  observer.context = &context;
+  pneu_options_default(&options);
+  options.tol = 1e-2;
+  for (i = 0; i < 3; i++) {
+    pneu_state at = s.start;
+    clear(&work);
+    options.h_max = work.h = 4e-3 / (1 << i);
+    assert_int_equal(pneu_run(&s.model, &at, &s.input, 1, &options, &observer, &work), PNEU_E_STOPPED);
+    error[i] = dense_error;
+  }
+  check_note("%g %g %g", error[0], error[1], error[2]);
+  assert_between(fixture_order(error[0], error[1]), 4.3, 6.7);
+  assert_between(fixture_order(error[1], error[2]), 4.3, 6.7);
+}
+#endif
+
+static int ends_meet(void *context, const pneu_step_view *view)
+{
+  pneu_state a, b;
+  pneu_real y[PNEU_STATE_MAX];
+  const int n = pneu_dimension(view->model, view->start->mode);
+  int i;
+  (void)context;
+  pneu_dense(view, 0, &a);
+  assert_true(a.p == view->start->p && a.T == view->start->T && a.x == view->start->x && a.v == view->start->v);
+  pneu_dense(view, 1, &b);
+  pneu_pack(view->model, &b, y);
+  for (i = 0; i < n; i++)
+    assert_true(y[i] == view->work->y1[i]);
+  return 0;
+}
+
+static void test_pneu_dense__at_the_ends__is_the_step_itself(void **state)
+{
+  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_observer observer = {ends_meet, NULL, NULL};
+  pneu_options options;
+  pneu_workspace work;
+  pneu_state at = s.start;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  assert_int_equal(pneu_run(&s.model, &at, &s.input, 5, &options, &observer, &work), PNEU_OK);
+}
+
+/* A stem so light in so thick an oil that its velocity dies within 1e-11 s. */
+static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  pneu_workspace work;
+  (void)state;
+  p.spring_rate = p.dry_friction = 0;
+  p.moving_mass = (pneu_real)1e-4;
+  p.damping = (pneu_real)1e5;
+  p.dead_volume = 10;
+  p.stroke = 1;
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 1e4, 0.5, &input);
+  s.v = 1;
+  clear(&work);
+  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_OK);
+  assert_close(s.v, 1e4 * 0.04 / (1e5 + 500), 1e-5, 1e-2);
+}
+
+/* ---- events ---- */
+
+/* Fill at the lower stop: root of p_up - p falls at k/2 until p A = k x_0 + F. */
+static double break_away_time(const pneu_params *p)
+{
+  const double R = (double)p->gas_constant, T = (double)p->ambient_temperature, ps = (double)p->supply_pressure;
+  const double pu = ps + (double)p->ambient_pressure, a = (double)p->fill_area, V = (double)p->dead_volume;
+  const double k = a / V * sqrt(2 * R * T * pu);
+  const double go = ((double)p->spring_rate * (double)p->spring_preload + (double)p->dry_friction) / (double)p->area;
+  return 2 * (sqrt(ps) - sqrt(ps - go)) / k;
+}
+
+static void test_pneu_run__break_away__is_located_to_a_nanosecond(void **state)
+{
+  static const double tol[] = {1e-6, 1e-8, 1e-10};
+  int actuator, i;
+  (void)state;
+  for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
+    for (i = 0; i < COUNT(tol); i++) {
+      const pneu_params p = fixture_params(actuator);
+      const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+      const pneu_input input = fixture_input(&m, 1);
+      pneu_state s = fixture_rest(&m, 0, 0, &input);
+      fixture_events e;
+      fixture_run(&m, &s, &input, 0.1, TOL(tol[i], 1e-5), &e);
+      check_note("actuator %d, tol %g", actuator, tol[i]);
+      assert_int_equal(e.before[0], PNEU_MODE_LOWER);
+      assert_int_equal(e.after[0], PNEU_MODE_UP);
+      assert_close(e.t[0], break_away_time(&p), TOL(1e-9 + 0.01 * tol[i], 2e-6), 0);
+    }
+}
+
+/* The same by single steps: the state just after the event tells its time. */
+static void test_pneu_step__break_away_within_a_step__is_located(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 1);
+  const double t = break_away_time(&p);
+  pneu_state before = fixture_rest(&m, 0, 0, &input), after;
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  fixture_run(&m, &before, &input, 0.95 * t, FIXTURE_TOL, NULL);
+  after = before;
+  assert_int_equal(pneu_step(&m, &before, &input, (pneu_real)(0.05 * t - TOL(2e-9, 3e-6)), &work), PNEU_OK);
+  assert_int_equal(before.mode, PNEU_MODE_LOWER);
+  assert_int_equal(pneu_step(&m, &after, &input, (pneu_real)(0.05 * t + TOL(2e-9, 3e-6)), &work), PNEU_OK);
+  assert_int_equal(after.mode, PNEU_MODE_UP);
+}
+
+static void test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics(void **state)
+{
+  static const int want[] = {PNEU_MODE_UP, PNEU_MODE_UPPER, PNEU_MODE_DOWN, PNEU_MODE_LOWER};
+  int actuator, gas, flow;
+  (void)state;
+  for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+      for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
+        const pneu_params p = fixture_params(actuator);
+        const pneu_model m = fixture_model(&p, gas, flow);
+        const pneu_input fill = fixture_input(&m, 1), vent = fixture_input(&m, -1);
+        pneu_state s = fixture_rest(&m, 0, 0, &fill);
+        fixture_events up, down;
+        fixture_run(&m, &s, &fill, 30, TOL(1e-7, 1e-5), &up);
+        fixture_run(&m, &s, &vent, 60, TOL(1e-7, 1e-5), &down);
+        check_note("actuator %d, %s, %s", actuator, pneu_gas_key(gas), pneu_flow_key(flow));
+        assert_close(up.n, 2, 0, 0);
+        assert_close(down.n, 2, 0, 0);
+        assert_true(up.after[0] == want[0] && up.after[1] == want[1]);
+        assert_true(down.after[0] == want[2] && down.after[1] == want[3]);
+      }
+}
+
+/* ---- runs ---- */
+
+#ifndef PNEU_SINGLE
+static pneu_state fill_for(double time, double tol, double h_max, pneu_stats *stats)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_input input = fixture_input(&m, 1);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  pneu_options options;
+  pneu_workspace work;
+  clear(&work);
+  pneu_options_default(&options);
+  options.tol = (pneu_real)tol;
+  options.h_max = (pneu_real)h_max;
+  assert_int_equal(pneu_run(&m, &s, &input, (pneu_real)time, &options, NULL, &work), PNEU_OK);
+  if (stats)
+    *stats = work.stats;
+  return s;
+}
+
+static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
+{
+  static const double tol[] = {1e-4, 1e-6, 1e-8};
+  const pneu_state exact = fill_for(1.2, 1e-11, 0, NULL);
+  long steps = 0;
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(tol); i++) {
+    pneu_stats stats;
+    const pneu_state s = fill_for(1.2, tol[i], 0, &stats);
+    check_note("tol %g", tol[i]);
+    assert_between(apart(&s, &exact), 0, 10 * tol[i]);
+    assert_true(stats.steps > steps);
+    assert_true(stats.steps < 600 && stats.rhs >= 8 * stats.steps);
+    steps = stats.steps;
+  }
+}
+#endif
+
+static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
+{
+  const smooth s = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  pneu_state one = s.start, two = s.start;
+  (void)state;
+  fixture_run(&s.model, &one, &s.input, 2, TOL(1e-9, 1e-5), NULL);
+  fixture_run(&s.model, &two, &s.input, 0.7, TOL(1e-9, 1e-5), NULL);
+  fixture_run(&s.model, &two, &s.input, 1.3, TOL(1e-9, 1e-5), NULL);
+  assert_close(apart(&one, &two), 0, TOL(2e-9, 1e-4), 0);
+}
+
+static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  pneu_input input = fixture_input(&m, 1);
+  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input), was = s;
+  (void)state;
+  input.force = 2000;
+  fixture_run(&m, &s, &input, 0, 1e-5, NULL);
+  assert_int_equal(s.mode, PNEU_MODE_DOWN);
+  s.mode = was.mode;
+  assert_memory_equal(&s, &was, sizeof s);
+}
+
+/* Every end of a run is reached, whatever its length: sums of steps round. */
+static void test_pneu_run__any_duration__reaches_its_end(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  uint64_t seed = 3;
+  int i;
+  (void)state;
+  for (i = 0; i < 3000; i++) {
+    const pneu_input input = fixture_input(&m, i % 2 ? 1 : -1);
+    const double duration = pow(10, fixture_random(&seed, -4, 1));
+    pneu_state s = fixture_rest(&m, i % 2 ? 1e5 : 3e5, i % 2 ? 0 : 0.02, &input);
+    check_note("duration %.17g s", duration);
+    fixture_run(&m, &s, &input, duration, TOL(1e-4, 1e-3), NULL);
+  }
+}
+
+typedef struct walk {
+  double t, h_max;
+  int steps, stop_at;
+} walk;
+
+static int follow(void *context, const pneu_step_view *view)
+{
+  walk *w = context;
+  assert_true((double)view->t == w->t);
+  assert_true(view->h > 0 && (double)view->h <= w->h_max * 1.0000001);
+  w->t = (double)(view->t + view->h);
+  return ++w->steps == w->stop_at;
+}
+
+static int stop_at_event(void *context, pneu_real t, const pneu_state *state, int before)
+{
+  walk *w = context;
+  (void)before;
+  assert_true((double)t == w->t && state->mode == PNEU_MODE_UP);
+  return 1;
+}
+
+static int run_observed(walk *w, double duration, int stop_event)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 1);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  pneu_observer observer = {follow, NULL, NULL};
+  pneu_options options;
+  pneu_workspace work;
+  clear(&work);
+  observer.context = w;
+  observer.event = stop_event ? stop_at_event : NULL;
+  pneu_options_default(&options);
+  options.tol = (pneu_real)1e-4;
+  options.h_max = (pneu_real)w->h_max;
+  return pneu_run(&m, &s, &input, (pneu_real)duration, &options, &observer, &work);
+}
+
+static void test_pneu_run__longest_step__is_kept_and_steps_join(void **state)
+{
+  walk w = {0, 0.01, 0, 0};
+  (void)state;
+  assert_int_equal(run_observed(&w, 3, 0), PNEU_OK);
+  assert_close(w.t, 3, TOL(1e-14, 1e-5), 0);
+  assert_true(w.steps >= 300);
+}
+
+static void test_pneu_run__observer_stops__says_so(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  walk w = {0, 1, 0, 5}, at_event = {0, 1, 0, 0};
+  (void)state;
+  assert_int_equal(run_observed(&w, 3, 0), PNEU_E_STOPPED);
+  assert_int_equal(w.steps, 5);
+  assert_int_equal(run_observed(&at_event, 3, 1), PNEU_E_STOPPED);
+  assert_close(at_event.t, break_away_time(&p), 1e-5, 0);
+}
+
+static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
+{
+  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  pneu_workspace clean, dirty;
+  pneu_options options;
+  pneu_state a = s.start, b = s.start;
+  (void)state;
+  clear(&clean);
+  memset(&dirty, 0xff, sizeof dirty);
+  dirty.h = 0;
+  dirty.stats = clean.stats;
+  pneu_options_default(&options);
+  assert_int_equal(pneu_run(&s.model, &a, &s.input, 2, &options, NULL, &clean), PNEU_OK);
+  assert_int_equal(pneu_run(&s.model, &b, &s.input, 2, &options, NULL, &dirty), PNEU_OK);
+  assert_memory_equal(&a, &b, sizeof a);
+  memset(&dirty, 0xff, sizeof dirty);
+  assert_int_equal(pneu_step(&s.model, &a, &s.input, (pneu_real)1e-3, &clean), PNEU_OK);
+  assert_int_equal(pneu_step(&s.model, &b, &s.input, (pneu_real)1e-3, &dirty), PNEU_OK);
+  assert_memory_equal(&a, &b, sizeof a);
+}
+
+/* ---- single steps ---- */
+
+static void test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run(void **state)
+{
+  int actuator, gas, i;
+  (void)state;
+  for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
+      const pneu_params p = fixture_params(actuator);
+      const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+      pneu_input input = fixture_input(&m, 1);
+      pneu_state fixed = fixture_rest(&m, 0, 0, &input), adaptive = fixed;
+      pneu_workspace work;
+      clear(&work);
+      check_note("actuator %d, %s", actuator, pneu_gas_key(gas));
+      for (i = 1; i <= 12000; i++) {
+        if (i == 6001)
+          input.u = -1;
+        assert_int_equal(pneu_step(&m, &fixed, &input, (pneu_real)1e-3, &work), PNEU_OK);
+        if (i % 200)
+          continue;
+        fixture_run(&m, &adaptive, &input, 0.2, TOL(1e-9, 1e-5), NULL);
+        assert_close(fixed.x, adaptive.x, TOL(1e-5, 1e-3) * (double)p.stroke, 0);
+        assert_close(fixed.p, adaptive.p, TOL(100, 1000), 0);
+      }
+    }
+}
+
+/* Four switches, each located in eight repeats of eight evaluations, and one step more. */
+static void test_pneu_step__anywhere__work_is_bounded(void **state)
+{
+  uint64_t seed = 11;
+  int i;
+  (void)state;
+  for (i = 0; i < 4000; i++) {
+    const pneu_params p = fixture_params(i % 2);
+    const pneu_model m = fixture_model(&p, i % PNEU_GAS_COUNT, i % PNEU_FLOW_COUNT);
+    pneu_input input = fixture_input(&m, fixture_random(&seed, -1, 1));
+    pneu_state s = fixture_rest(&m, fixture_random(&seed, 0, 4e5), fixture_random(&seed, 0, (double)p.stroke), &input);
+    pneu_workspace work;
+    int status;
+    clear(&work);
+    input.force = (pneu_real)fixture_random(&seed, -5e3, 5e3);
+    s.v = (pneu_real)(i % 3 ? 0 : fixture_random(&seed, -1, 1));
+    status = pneu_step(&m, &s, &input, (pneu_real)1e-3, &work);
+    check_note("case %d", i);
+    assert_close(status, PNEU_OK, 0, 0);
+    assert_between(work.stats.rhs, 1, 5 * (1 + 9 * 8));
+    assert_between(work.stats.steps, 1, 5);
+  }
+}
+
+/* ---- errors ---- */
+
+/* Set the i-th number of an input and a state to `value`.  Returns: 0 past the last. */
+static int spoil(int i, double value, pneu_input *input, pneu_state *s)
+{
+  pneu_real *const number[] = {&input->u, &input->supply_pressure, &input->force, &s->p, &s->T, &s->x, &s->v};
+  if (i >= COUNT(number))
+    return 0;
+  *number[i] = (pneu_real)value;
+  return 1;
+}
+
+static int state_is_finite(const pneu_state *s)
+{
+  return isfinite(s->p) && isfinite(s->T) && isfinite(s->x) && isfinite(s->v);
+}
+
+typedef struct scene {
+  double p, x, v;
+} scene;
+
+static const scene scenes[] = {{0, 0, 0}, {2e5, 0.01, 0}, {2e5, 0.01, 0.05}, {4e5, 0.02, 0}};
+
+static void check_spoilt_step(const pneu_model *m, const scene *at, int i, double value)
+{
+  pneu_input input = fixture_input(m, 1);
+  pneu_state s = fixture_rest(m, at->p, at->x, &input), was;
+  pneu_workspace work;
+  int status;
+  clear(&work);
+  s.v = (pneu_real)at->v;
+  spoil(i, value, &input, &s);
+  was = s;
+  status = pneu_step(m, &s, &input, (pneu_real)1e-3, &work);
+  check_note("entry %d = %g, from p = %g, x = %g, v = %g: %s", i, value, at->p, at->x, at->v, pneu_status_text(status));
+  assert_close(status, PNEU_E_NONFINITE, 0, 0);
+  assert_memory_equal(&s, &was, sizeof s);
+}
+
+static void check_spoilt_run(const pneu_model *m, const scene *at, int i, double value)
+{
+  pneu_input input = fixture_input(m, 1);
+  pneu_state s = fixture_rest(m, at->p, at->x, &input);
+  pneu_options options;
+  pneu_workspace work;
+  int status;
+  clear(&work);
+  pneu_options_default(&options);
+  s.v = (pneu_real)at->v;
+  spoil(i, value, &input, &s);
+  status = pneu_run(m, &s, &input, (pneu_real)0.1, &options, NULL, &work);
+  check_note("entry %d = %g, from p = %g, x = %g, v = %g: %s", i, value, at->p, at->x, at->v, pneu_status_text(status));
+  assert_close(status, PNEU_E_NONFINITE, 0, 0);
+}
+
+typedef void spoilt(const pneu_model *, const scene *, int, double);
+
+static void check_all_spoilt(spoilt *check, double value)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  pneu_input input;
+  pneu_state s;
+  int i, j;
+  for (i = 0; spoil(i, 0, &input, &s); i++)
+    for (j = 0; j < COUNT(scenes); j++)
+      check(&m, &scenes[j], i, value);
+}
+
+static void test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept(void **state)
+{
+  (void)state;
+  check_all_spoilt(check_spoilt_step, NAN);
+}
+
+static void test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept(void **state)
+{
+  (void)state;
+  check_all_spoilt(check_spoilt_step, INFINITY);
+}
+
+static void test_pneu_run__nan_in_state_or_input__is_refused(void **state)
+{
+  (void)state;
+  check_all_spoilt(check_spoilt_run, NAN);
+}
+
+static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **state)
+{
+  static const double dt[] = {-1e-3, NAN, INFINITY};
+  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(dt); i++) {
+    pneu_state at = s.start;
+    pneu_workspace work;
+    int status;
+    clear(&work);
+    status = pneu_step(&s.model, &at, &s.input, (pneu_real)dt[i], &work);
+    check_note("dt = %g: %s", dt[i], pneu_status_text(status));
+    assert_between(status, -99, -1);
+    assert_memory_equal(&at, &s.start, sizeof at);
+  }
+}
+
+static void test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing(void **state)
+{
+  static const double bad[][2] = {{NAN, 1e-6}, {INFINITY, 1e-6}, {1, NAN}, {1, 0}, {1, -1}};
+  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(bad); i++) {
+    pneu_state at = s.start;
+    pneu_options options;
+    pneu_workspace work;
+    int status;
+    clear(&work);
+    pneu_options_default(&options);
+    options.tol = (pneu_real)bad[i][1];
+    status = pneu_run(&s.model, &at, &s.input, (pneu_real)bad[i][0], &options, NULL, &work);
+    check_note("duration %g, tol %g: %s", bad[i][0], bad[i][1], pneu_status_text(status));
+    assert_true(state_is_finite(&at));
+    assert_between(status, -99, -1);
+  }
+}
+
+static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void **state)
+{
+  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  pneu_state at = s.start;
+  pneu_options options;
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  options.max_steps = 3;
+  assert_int_equal(pneu_run(&s.model, &at, &s.input, 10, &options, NULL, &work), PNEU_E_STEP_COUNT);
+  assert_true(state_is_finite(&at) && at.p != s.start.p);
+  assert_between(work.stats.steps, 1, 3);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+#ifndef PNEU_SINGLE
+      cmocka_unit_test(test_pneu_step__smooth_stretch__converges_with_order_five),
+      cmocka_unit_test(test_pneu_dense__smooth_stretch__has_order_four),
+      cmocka_unit_test(test_pneu_run__smaller_tolerance__error_falls_with_it),
+#endif
+      cmocka_unit_test(test_pneu_dense__at_the_ends__is_the_step_itself),
+      cmocka_unit_test(test_pneu_step__stiff_stretch_and_huge_step__decays),
+      cmocka_unit_test(test_pneu_run__break_away__is_located_to_a_nanosecond),
+      cmocka_unit_test(test_pneu_step__break_away_within_a_step__is_located),
+      cmocka_unit_test(test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics),
+      cmocka_unit_test(test_pneu_run__in_two_parts__ends_where_one_run_does),
+      cmocka_unit_test(test_pneu_run__no_time__changes_the_mode_at_most),
+      cmocka_unit_test(test_pneu_run__any_duration__reaches_its_end),
+      cmocka_unit_test(test_pneu_run__longest_step__is_kept_and_steps_join),
+      cmocka_unit_test(test_pneu_run__observer_stops__says_so),
+      cmocka_unit_test(test_pneu_run__content_of_the_workspace__means_nothing),
+      cmocka_unit_test(test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run),
+      cmocka_unit_test(test_pneu_step__anywhere__work_is_bounded),
+      cmocka_unit_test(test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept),
+      cmocka_unit_test(test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept),
+      cmocka_unit_test(test_pneu_run__nan_in_state_or_input__is_refused),
+      cmocka_unit_test(test_pneu_step__step_not_positive__is_refused_and_state_kept),
+      cmocka_unit_test(test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing),
+      cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
