@@ -473,7 +473,7 @@ static void test_fit_run__library_with_noise__recovers_within_its_intervals(void
     options.precision = 1e-8; /* that of the runs below */
     make_bench(truth, (uint64_t)seed, &data);
     got = fitted(&problem, &options);
-    check_note("seed %d", seed);lab_fit_print(stderr,&problem,&got);
+    check_note("seed %d", seed);
     assert_between(got.reduced_chi2, 0.8, 1.2); /* 446 degrees of freedom: 1 +- 0.067, three times that */
     assert_string_equal(got.remark, "");
     for (j = 0; j < 4; j++) {

@@ -91,7 +91,7 @@ static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted
 
 static void test_lab_log_read__last_line_without_end__counts(void **state)
 {
-  lab_log log = read_log("t [s],u [1]\n0,0\n1,0.5");
+  lab_log log = read_log("\xEF\xBB\xBFt [s],u [1]\n0,0\n1,0.5");
   (void)state;
   assert_int_equal(log.n, 2);
   assert_close(CHANNEL(log, U)[1], 0.5, 0, 0);

@@ -508,6 +508,30 @@ static void test_lab_rig_write__declared_rig__comes_back_bit_for_bit(void **stat
   assert_same(&rig, &again);
 }
 
+static void test_lab_rig_write__remark__heads_the_file(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  char *text;
+  (void)state;
+  write_and_read(&rig);
+  text = scratch_read(scratch_path("model.cfg"));
+  assert_int_equal(strncmp(text, "// two lines\n// of remark\nactuator = {\n", 39), 0);
+  free(text);
+}
+
+static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
+{
+  char text[2000] = "log = { quantities = {", one[40];
+  int i;
+  (void)state;
+  for (i = 0; i <= LAB_QUANTITY_MAX; i++) {
+    snprintf(one, sizeof one, " q%d = \"-\";", i);
+    strcat(text, one);
+  }
+  strcat(text, " }; };\n");
+  assert_refused(text, "log.quantities", "at most 32 quantities");
+}
+
 static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(void **state)
 {
   lab_rig rig, again;
@@ -645,6 +669,8 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__bad_effects__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_log_group__is_refused),
       cmocka_unit_test(test_lab_rig_write__declared_rig__comes_back_bit_for_bit),
+      cmocka_unit_test(test_lab_rig_write__remark__heads_the_file),
+      cmocka_unit_test(test_lab_rig_read__too_many_quantities__are_refused),
       cmocka_unit_test(test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit),
       cmocka_unit_test(test_lab_rig_write__name_with_quotes__comes_back),
       cmocka_unit_test(test_lab_rig_write__friction_law_fitted_to_nothing__stays_off),

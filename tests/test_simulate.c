@@ -183,6 +183,7 @@ static void test_simulate__bad_usage__is_2(void **state)
   assert_int_equal(run("@/m.cfg"), 2);
   assert_int_equal(run("@/m.cfg @/log.csv --step"), 2);
   assert_int_equal(run("@/m.cfg --stpe"), 2);
+  assert_int_equal(lines_of(err), 1);
   assert_contains(err, "--step");
 }
 

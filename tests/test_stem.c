@@ -139,7 +139,7 @@ static double leaves_at(const pneu_params *p, double from, double x, double rate
 static void test_pneu_run__pressure_ramp__breaks_away_at_the_exact_pressure(void **state)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const double k = 4e5, F = 480, A = 0.04, x0 = 0.01, tol = TOL(1e-4, 2);
+  const double k = 4e5, F = 480, A = 0.04, x0 = 0.01, tol = TOL(1e-4, 20);
   (void)state;
   assert_close(leaves_at(&p, 0, 0, 1e4, 0), (k * x0 + F) / A, tol, 0);
   assert_close(leaves_at(&p, 2e5, 0.01, 1e4, 0), (k * (0.01 + x0) + F) / A, tol, 0);
@@ -157,7 +157,7 @@ static void test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area
     p.dry_friction = (pneu_real)friction[i];
     check_note("F = %g", friction[i]);
     assert_close(leaves_at(&p, 2e5 - 1, 0.01, 1e4, 0) - leaves_at(&p, 2e5 + 1, 0.01, -1e4, 0),
-                 2 * friction[i] / 0.04, TOL(1e-4, 4), 0);
+                 2 * friction[i] / 0.04, TOL(1e-4, 40), 0);
   }
 }
 
@@ -166,11 +166,11 @@ static void test_pneu_run__forces__are_positive_against_the_air(void **state)
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double base = leaves_at(&p, 0, 0, 1e4, 0);
   (void)state;
-  assert_close(leaves_at(&p, 0, 0, 1e4, 200) - base, 200 / 0.04, TOL(1e-3, 4), 0);
+  assert_close(leaves_at(&p, 0, 0, 1e4, 200) - base, 200 / 0.04, TOL(1e-3, 20), 0);
   p.external_force = 300;
-  assert_close(leaves_at(&p, 0, 0, 1e4, 200) - base, 500 / 0.04, TOL(1e-3, 4), 0);
+  assert_close(leaves_at(&p, 0, 0, 1e4, 200) - base, 500 / 0.04, TOL(1e-3, 20), 0);
   p.external_force = -300;
-  assert_close(leaves_at(&p, 0, 0, 1e4, 0) - base, -300 / 0.04, TOL(1e-3, 4), 0);
+  assert_close(leaves_at(&p, 0, 0, 1e4, 0) - base, -300 / 0.04, TOL(1e-3, 20), 0);
 }
 
 /* Quasi-static: p A = k (x + x_0) +- F + c v with v = A rate/k once the start has died out. */
@@ -348,16 +348,16 @@ static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(voi
   (void)state;
   pneu_pack(&m, &s, y);
   assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
-  assert_close(g[0], -480, TOL(1e-9, 2e-2), 0);
-  assert_close(g[1], -480, TOL(1e-9, 2e-2), 0);
+  assert_close(g[0], -480, TOL(1e-8, 0.5), 0);
+  assert_close(g[1], -480, TOL(1e-8, 0.5), 0);
   y[0] = (pneu_real)213e3;
   assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
-  assert_close(g[0], 40, TOL(1e-9, 2e-2), 0);
-  assert_close(g[1], -1000, TOL(1e-9, 2e-2), 0);
+  assert_close(g[0], 40, TOL(1e-8, 0.5), 0);
+  assert_close(g[1], -1000, TOL(1e-8, 0.5), 0);
   s = fixture_rest(&m, 400e3, 0.02, &input);
   pneu_pack(&m, &s, y);
   assert_int_equal(pneu_events(&m, &s, &input, y, g), 1);
-  assert_close(g[0], -(16000 - 12000 + 480), TOL(1e-9, 2e-2), 0);
+  assert_close(g[0], -(16000 - 12000 + 480), TOL(1e-8, 0.5), 0);
 }
 
 /* ---- invariants under anything ---- */

@@ -35,6 +35,7 @@ static void test_lab_quantity__units_of_rig_files__become_si(void **state)
   assert_quantity("-3 mm", "m", -3e-3);
   assert_quantity("0 mm", "m", 0);
   assert_quantity("1e-3 m", "m", 1e-3);
+  assert_quantity("+.5 mm", "m", 5e-4);
 }
 
 static void test_lab_quantity__plain_number__is_si(void **state)

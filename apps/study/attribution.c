@@ -80,13 +80,15 @@ static double shapley(const double *f, int cause)
   return sum;
 }
 
+/* A share sums up; alone and without show how the causes work against each other inside it. */
 static void share_rows(table *t, int gas, const double *f)
 {
   const double whole = f[CELLS - 1];
   int i;
   for (i = 0; i < CAUSES; i++)
-    table_row(t, "ssgg", pneu_gas_key(gas), cause_names[i], shapley(f, i) / whole, shapley(f, i));
-  table_row(t, "ssgg", pneu_gas_key(gas), "remainder", f[0] / whole, f[0]);
+    table_row(t, "ssgggg", pneu_gas_key(gas), cause_names[i], shapley(f, i) / whole, shapley(f, i), f[1 << i],
+              f[(CELLS - 1) & ~(1 << i)]);
+  table_row(t, "ssgggg", pneu_gas_key(gas), "remainder", f[0] / whole, f[0], f[0], f[0]);
 }
 
 static void cell_rows(table *t, int gas, const double *f)
@@ -109,7 +111,7 @@ static int attribution_of(const study *s, int actuator, lab_error *error)
     snprintf(shares_name, sizeof shares_name, "attribution_%s.csv", rig->name);
     snprintf(cells_name, sizeof cells_name, "attribution_cells_%s.csv", rig->name);
   }
-  table_open(&shares, "gas,cause,share,shapley");
+  table_open(&shares, "gas,cause,share,shapley,asymmetry_alone,asymmetry_without");
   table_open(&cells, "gas,density,volume,choking,temperature,place,asymmetry");
   for (i = 0; i < s->n_gas && status == LAB_OK; i++) {
     status = all_cells(rig, s->gas[i], f, error);

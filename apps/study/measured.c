@@ -29,7 +29,8 @@ int measured_path(const char *folder, const char *name, char *path, size_t size,
     return error->status;
   if (access(path, R_OK) == 0)
     return LAB_OK;
-  fprintf(stderr, "measured data absent, left out: %s (study/measured/fetch.sh; variable MEASURED)\n", path);
+  fprintf(stderr, "absent: %s; study/measured/fetch.sh loads what can be had, MEASURED names its folder\n",
+          path);
   return MEASURED_ABSENT;
 }
 

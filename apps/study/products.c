@@ -7,10 +7,12 @@
 #include "../lab/progress.h"
 #include "agreement.h"
 #include "attribution.h"
+#include "conclusions.h"
 #include "done.h"
 #include "gnuplot.h"
 #include "hypotheses.h"
 #include "numbers.h"
+#include "report.h"
 #include "responses.h"
 
 #ifndef STUDY_BUILD
@@ -24,7 +26,7 @@ static const struct {
 } tables[] = {{"standard", responses_standard},   {"steps", responses_steps},
               {"static", responses_static},       {"numbers", numbers_make},
               {"sweeps", hypotheses_sweep},       {"hypotheses", hypotheses_verdicts},
-              {"attribution", attribution_make},
+              {"attribution", attribution_make}, {"conclusions", conclusions_make},
               {"agreement", agreement_make}};
 
 /* Figures: study/figures/<name>.gp draws <name>.svg from the table <needs>. */
@@ -43,6 +45,7 @@ static const struct {
                {"fig17", "fig17.csv"},
                {"fig18", "fig18.csv"},
                {"fig19", "fig19.csv"},
+               {"hypotheses", "hypotheses.csv"},
                {"attribution", "attribution.csv"},
                {"work_precision", "work_precision.csv"},
                {"measured_vessel", "measured_vessel_curves.csv"},
@@ -102,14 +105,27 @@ static int exists(const char *path)
   return file != NULL;
 }
 
+/* What several figures load. */
+static unsigned long long hash_shared_scripts(const study *s, int folder)
+{
+  static const char *const shared[] = {"style.gp", "varied.gp"};
+  char path[STUDY_PATH_TEXT];
+  unsigned long long key = DONE_SEED;
+  int i;
+  for (i = 0; i < 2; i++) {
+    snprintf(path, sizeof path, "%.*sfigures/%s", folder, s->file, shared[i]);
+    key = done_hash_file(key, path);
+  }
+  return key;
+}
+
 static int make_figure(maker *m, const char *name, const char *needs, lab_error *error)
 {
   char script[STUDY_PATH_TEXT], table_path[STUDY_PATH_TEXT + 64], out[STUDY_PATH_TEXT + 64], product[64], file[64];
   const char *slash = strrchr(m->s->file, '/');
   const int folder = slash ? (int)(slash - m->s->file) + 1 : 0;
   unsigned long long key;
-  snprintf(script, sizeof script, "%.*sfigures/style.gp", folder, m->s->file);
-  key = done_hash_file(DONE_SEED, script);
+  key = hash_shared_scripts(m->s, folder);
   snprintf(script, sizeof script, "%.*sfigures/%s.gp", folder, m->s->file, name);
   snprintf(table_path, sizeof table_path, "%s/%s", m->s->results, needs);
   snprintf(file, sizeof file, "%s.svg", name);
@@ -130,7 +146,7 @@ static int make_all(maker *m, lab_error *error)
     status = make_table(m, tables[i].name, tables[i].make, m->inputs, error);
   for (i = 0; m->run->figures && i < FIGURES && status == LAB_OK; i++)
     status = make_figure(m, figures[i].name, figures[i].needs, error);
-  return status;
+  return status == LAB_OK ? make_table(m, "report", report_make, m->inputs, error) : status;
 }
 
 int products_make(study *s, const study_run *run, lab_error *error)

@@ -97,7 +97,9 @@ static int verdicts(const study *s, FILE *file, lab_error *error)
     for (h = 0; h < 6; h++)
       fprintf(file, "%s", survives[h] ? "" : (fputc(' ', file), hypotheses[h].name));
     fputs(".\nA cause marked as necessary carries the asymmetry (a spring ties pressure to travel; without stiffness the "
-          "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none.\n\n",
+          "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none. H4 and H5 take "
+          "nothing away\nwhere the bench set already lies in the middle of the supply range and both orifices are alike; "
+          "the other actuators\nhave tables of their own.\n\n",
           file);
   }
   table_close(&t);
@@ -111,12 +113,14 @@ static int attribution(const study *s, FILE *file, lab_error *error)
   if (table_load(s, "attribution.csv", &t, error) == LAB_OK) {
     fputs("## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
           "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
-          "A negative share makes the strokes more alike.\n\n![Shares of the causes](attribution.svg)\n\n"
-          "| chamber law | cause | share | asymmetry |\n|---|---|---|---|\n",
+          "A negative share makes the strokes more alike.\nCauses that bend the strokes in opposite ways hide each other: \"alone\" has the cause as the only one present, \"without\" as the only one "
+          "removed.\n\n![Shares of the causes](attribution.svg)\n\n"
+          "| chamber law | cause | share | Shapley value | alone | without |\n|---|---|---|---|---|---|\n",
           file);
     for (row = 0; row < table_rows(&t); row++)
-      fprintf(file, "| %s | %s | %.1f %% | %.4f |\n", table_text(&t, row, "gas"), table_text(&t, row, "cause"),
-              100 * table_number(&t, row, "share") + 0.0, table_number(&t, row, "shapley") + 0.0);
+      fprintf(file, "| %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", table_text(&t, row, "gas"),
+              table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
+              table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
     fputc('\n', file);
   }
   table_close(&t);
@@ -148,6 +152,15 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
   return error->status;
 }
 
+static void disagreement_line(FILE *file, const table *t, size_t row)
+{
+  const char *unit = table_text(t, row, "unit");
+  if (!strcmp(unit, "1"))
+    unit = "";
+  fprintf(file, "| %s | %s | %.4g %s | %.4g %s | %s |\n", table_text(t, row, "item"), table_text(t, row, "quantity"),
+          table_number(t, row, "printed"), unit, table_number(t, row, "computed"), unit, table_text(t, row, "note"));
+}
+
 /* Numbers that the paper prints and that differ from ours. */
 static int disagreements(const study *s, FILE *file, lab_error *error)
 {
@@ -165,9 +178,7 @@ static int disagreements(const study *s, FILE *file, lab_error *error)
             (unsigned long)wrong, (unsigned long)printed);
     for (row = 0; row < table_rows(&t); row++)
       if (!strcmp(table_text(&t, row, "agrees"), "no") && *table_text(&t, row, "printed"))
-        fprintf(file, "| %s | %s | %.4g %s | %.4g %s | %s |\n", table_text(&t, row, "item"),
-                table_text(&t, row, "quantity"), table_number(&t, row, "printed"), table_text(&t, row, "unit"),
-                table_number(&t, row, "computed"), table_text(&t, row, "unit"), table_text(&t, row, "note"));
+        disagreement_line(file, &t, row);
     fputc('\n', file);
   }
   table_close(&t);

@@ -7,28 +7,29 @@
 static const double longest = 400.0; /* [s] for one stroke */
 static const double spacing = 0.02;  /* [s] longest step */
 
-/* Growing list of samples. */
-typedef struct samples {
-  size_t n, room;
-  double *t, *x;
-  int full; /* out of memory */
-} samples;
-
-static int append(samples *s, double t, double x)
+static int grow(stroke_curve *s)
 {
-  if (s->n == s->room) {
-    const size_t room = s->room ? 2 * s->room : 1024;
-    double *new_t = realloc(s->t, room * sizeof *new_t), *new_x;
-    if (new_t)
-      s->t = new_t;
-    new_x = new_t ? realloc(s->x, room * sizeof *new_x) : NULL;
-    if (!new_x)
+  double **const column[] = {&s->t, &s->x, &s->v, &s->p};
+  const size_t room = s->room ? 2 * s->room : 1024;
+  size_t i;
+  for (i = 0; i < sizeof column / sizeof *column; i++) {
+    double *wider = realloc(*column[i], room * sizeof *wider);
+    if (!wider)
       return s->full = 1;
-    s->x = new_x;
-    s->room = room;
+    *column[i] = wider;
   }
+  s->room = room;
+  return 0;
+}
+
+static int append(stroke_curve *s, double t, const pneu_state *at)
+{
+  if (s->n == s->room && grow(s))
+    return 1;
   s->t[s->n] = t;
-  s->x[s->n++] = x;
+  s->x[s->n] = at->x;
+  s->v[s->n] = at->v;
+  s->p[s->n++] = at->p;
   return 0;
 }
 
@@ -46,18 +47,18 @@ static int at_rest(const pneu_step_view *view)
 /* Collect dense output; stop the run once the flow has died out. */
 static int collect(void *context, const pneu_step_view *view)
 {
-  samples *s = context;
+  stroke_curve *s = context;
   int i;
   for (i = 1; i <= 4; i++) {
     pneu_state at;
     pneu_dense(view, i / 4.0, &at);
-    if (append(s, view->t + view->h * i / 4.0, at.x))
+    if (append(s, view->t + view->h * i / 4.0, &at))
       return 1;
   }
   return at_rest(view);
 }
 
-static int one_stroke(const pneu_model *model, pneu_state *state, double u, samples *s, lab_error *error)
+static int one_stroke(const pneu_model *model, pneu_state *state, double u, stroke_curve *s, lab_error *error)
 {
   pneu_observer observer = {collect, NULL, s};
   pneu_options options;
@@ -70,7 +71,7 @@ static int one_stroke(const pneu_model *model, pneu_state *state, double u, samp
   options.tol = 1e-8;
   options.h_max = spacing;
   input.u = u;
-  append(s, 0, state->x);
+  append(s, 0, state);
   status = pneu_run(model, state, &input, longest, &options, &observer, &work);
   if (s->full)
     return lab_fail_memory(error, "a stroke");
@@ -80,37 +81,55 @@ static int one_stroke(const pneu_model *model, pneu_state *state, double u, samp
   return LAB_OK;
 }
 
-static int both_strokes(const pneu_model *model, samples *up, samples *down, lab_error *error)
+static int both_strokes(const pneu_model *model, stroke_pair *pair, lab_error *error)
 {
   pneu_input shut;
   pneu_state state;
   int status;
   pneu_input_default(model, &shut);
   pneu_state_rest(model, 0, model->p.ambient_temperature, 0, &shut, &state);
-  status = one_stroke(model, &state, 1, up, error);
-  return status ? status : one_stroke(model, &state, -1, down, error);
+  status = one_stroke(model, &state, 1, &pair->up, error);
+  return status ? status : one_stroke(model, &state, -1, &pair->down, error);
 }
 
-int stroke_measure(const pneu_params *params, const pneu_laws *law, asymmetry_result *out, lab_error *error)
+int stroke_sample(const pneu_params *params, const pneu_laws *law, stroke_pair *pair, lab_error *error)
 {
   pneu_model model;
   pneu_param_info info;
-  samples up = {0}, down = {0};
   int bad, status = pneu_model_init(&model, params, law, &bad);
+  memset(pair, 0, sizeof *pair);
   if (status == PNEU_E_PARAM) {
     pneu_param_describe(bad, &info);
     return lab_fail(error, LAB_DATA, "%s is outside %g .. %g %s", info.name, info.lower, info.upper, info.unit);
   }
   if (status != PNEU_OK)
     return lab_fail(error, LAB_DATA, "%s", pneu_status_text(status));
-  status = both_strokes(&model, &up, &down, error);
+  return both_strokes(&model, pair, error);
+}
+
+static void free_curve(stroke_curve *s)
+{
+  free(s->t);
+  free(s->x);
+  free(s->v);
+  free(s->p);
+}
+
+void stroke_pair_free(stroke_pair *pair)
+{
+  free_curve(&pair->up);
+  free_curve(&pair->down);
+  memset(pair, 0, sizeof *pair);
+}
+
+int stroke_measure(const pneu_params *params, const pneu_laws *law, asymmetry_result *out, lab_error *error)
+{
+  stroke_pair pair;
+  int status = stroke_sample(params, law, &pair, error);
   if (status == LAB_OK) {
-    const edge rising = {up.n, up.t, up.x}, falling = {down.n, down.t, down.x};
+    const edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
     status = asymmetry_measure(&rising, &falling, out, error);
   }
-  free(up.t);
-  free(up.x);
-  free(down.t);
-  free(down.x);
+  stroke_pair_free(&pair);
   return status;
 }

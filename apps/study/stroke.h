@@ -7,6 +7,27 @@
 #include "../lab/message.h"
 #include "asymmetry.h"
 
+/* A simulated stroke: dense output of the stepper, at most 20 ms apart. */
+typedef struct stroke_curve {
+  size_t n, room; /* samples in use, samples allocated */
+  double *t;      /* [s] from the change of command */
+  double *x;      /* [m] */
+  double *v;      /* [m/s] */
+  double *p;      /* [Pa] gauge */
+  int full;       /* out of memory */
+} stroke_curve;
+
+typedef struct stroke_pair {
+  stroke_curve up, down;
+} stroke_pair;
+
+/* Fill from rest on the lower stop until nothing moves, then vent until nothing moves.
+ * Method: the library's stepper at tol 1e-8.
+ * Out:     pair  free with stroke_pair_free, also after a failure
+ * Returns: LAB_OK, LAB_DATA (parameters out of bounds), LAB_NUMERIC, LAB_WORLD. */
+int stroke_sample(const pneu_params *params, const pneu_laws *law, stroke_pair *pair, lab_error *error);
+void stroke_pair_free(stroke_pair *pair);
+
 /* Fill from rest on the lower stop until nothing moves, then vent until nothing moves, and measure.
  * Method: the library's stepper at tol 1e-8.
  * Returns: LAB_OK, LAB_DATA (parameters out of bounds, or no travel), LAB_NUMERIC, LAB_WORLD. */

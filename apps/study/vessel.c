@@ -9,28 +9,29 @@
 
 static const double tolerance = 1e-9; /* of full scale; pressures are then good to 1 Pa and better */
 
+/* Weights where both channels are fitted: about the scatter that the energy balance leaves in each alone. Equal
+ * weights within a channel do not matter to a fit of that channel. */
+static const double sigma_p = 2e3, sigma_T = 2; /* [Pa], [K] */
+
+#define CHOKED PNEU_FLOW_CHOKED
 const vessel_law vessel_laws[] = {
-    {"paper", "isothermal, flow that never chokes [B, Eqs. 7-8]", PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1,
+    {"paper", "isothermal; flow that never chokes [B, Eqs. 7-8]", PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1,
      {VESSEL_ORIFICE}},
-    {"isothermal", "isothermal, choked nozzle", PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 1, {VESSEL_ORIFICE}},
-    {"adiabatic", "polytropic with n = 1.4, choked nozzle", PNEU_GAS_POLYTROPIC, PNEU_FLOW_CHOKED, 1,
-     {VESSEL_ORIFICE}},
-    {"polytropic", "polytropic with n fitted, choked nozzle", PNEU_GAS_POLYTROPIC, PNEU_FLOW_CHOKED, 2,
-     {VESSEL_ORIFICE, VESSEL_INDEX}},
-    {"film", "energy balance, constant conductance to the wall, choked nozzle", PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 2,
+    {"isothermal", "isothermal; nozzle", PNEU_GAS_ISOTHERMAL, CHOKED, 0, 1, {VESSEL_ORIFICE}},
+    {"adiabatic", "n = 1.4; nozzle", PNEU_GAS_POLYTROPIC, CHOKED, 0, 1, {VESSEL_ORIFICE}},
+    {"polytropic", "n fitted; nozzle", PNEU_GAS_POLYTROPIC, CHOKED, 0, 2, {VESSEL_ORIFICE, VESSEL_INDEX}},
+    {"film", "energy balance with a constant film; nozzle", PNEU_GAS_ENERGY, CHOKED, 0, 2,
      {VESSEL_ORIFICE, VESSEL_FILM}},
-    {"convection", "energy balance, natural convection at the wall, choked nozzle", PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED,
-     2, {VESSEL_ORIFICE, VESSEL_CONVECTION}},
-    {"convection-paper", "energy balance, natural convection, flow that never chokes", PNEU_GAS_ENERGY,
-     PNEU_FLOW_PAPER, 2, {VESSEL_ORIFICE, VESSEL_CONVECTION}},
-    {"convection-ends", "as convection, with start and outside pressure fitted too", PNEU_GAS_ENERGY,
-     PNEU_FLOW_CHOKED, 4, {VESSEL_ORIFICE, VESSEL_CONVECTION, VESSEL_START, VESSEL_OUTSIDE}},
-    {"film-iso", "energy balance, film, ISO 6358 flow with its critical ratio fitted", PNEU_GAS_ENERGY,
-     PNEU_FLOW_ISO6358, 3, {VESSEL_ORIFICE, VESSEL_FILM, VESSEL_RATIO}},
-    {"convection-iso", "energy balance, natural convection, ISO 6358 flow with its critical ratio fitted", PNEU_GAS_ENERGY,
-     PNEU_FLOW_ISO6358, 3, {VESSEL_ORIFICE, VESSEL_CONVECTION, VESSEL_RATIO}},
-    {"convection-iso-start", "same, start pressure fitted", PNEU_GAS_ENERGY,
-     PNEU_FLOW_ISO6358, 4, {VESSEL_ORIFICE, VESSEL_CONVECTION, VESSEL_RATIO, VESSEL_START}},
+    {"convection", "energy balance with natural convection; nozzle", PNEU_GAS_ENERGY, CHOKED, 0, 2,
+     {VESSEL_ORIFICE, VESSEL_CONVECTION}},
+    {"convection-paper", "energy balance with natural convection; flow that never chokes", PNEU_GAS_ENERGY,
+     PNEU_FLOW_PAPER, 0, 2, {VESSEL_ORIFICE, VESSEL_CONVECTION}},
+    {"convection-ends", "as convection; start and outside pressure fitted too", PNEU_GAS_ENERGY, CHOKED, 0, 4,
+     {VESSEL_ORIFICE, VESSEL_CONVECTION, VESSEL_START, VESSEL_OUTSIDE}},
+    {"film-both", "as film; fitted to pressure and temperature", PNEU_GAS_ENERGY, CHOKED, 1, 2,
+     {VESSEL_ORIFICE, VESSEL_FILM}},
+    {"convection-both", "as convection; fitted to pressure and temperature", PNEU_GAS_ENERGY, CHOKED, 1, 2,
+     {VESSEL_ORIFICE, VESSEL_CONVECTION}},
 };
 const int vessel_law_count = (int)(sizeof vessel_laws / sizeof vessel_laws[0]);
 
@@ -120,8 +121,6 @@ static pneu_params parameters(const vessel *v, const vessel_law *law, const doub
   put_effect(&p, "free_convection", isnan(value[VESSEL_CONVECTION]) ? 0 : value[VESSEL_CONVECTION]);
   if (!isnan(value[VESSEL_INDEX]))
     p.polytropic_index = (pneu_real)value[VESSEL_INDEX];
-  if (!isnan(value[VESSEL_RATIO]))
-    p.critical_ratio = (pneu_real)value[VESSEL_RATIO];
   if (!isnan(value[VESSEL_OUTSIDE]))
     p.ambient_pressure = (pneu_real)value[VESSEL_OUTSIDE];
   p.supply_pressure = (isnan(value[VESSEL_START]) ? start_abs : (pneu_real)value[VESSEL_START]) - p.ambient_pressure;
@@ -183,17 +182,25 @@ static int counts(const job *j, size_t row, int wanted)
   return !j->use || !!j->use[row] == wanted;
 }
 
+/* Whether a value of a row is fitted. */
+static int fitted(const job *j, int channel, size_t row)
+{
+  return !isnan(j->v->log.value[channel][row]) && counts(j, row, 1) && (channel == LAB_CHANNEL_P || j->law->with_T);
+}
+
 static int residuals(void *context, const double *theta, double *r, lab_error *error)
 {
   job *j = context;
   const lab_log *log = &j->v->log;
-  const double *data = log->value[LAB_CHANNEL_P];
   size_t i, k = 0;
   if (vessel_predict(j->v, j->law, theta, log->value[LAB_CHANNEL_TIME], log->n, j->p, j->T, error))
     return error->status;
-  for (i = 0; i < log->n; i++)
-    if (!isnan(data[i]) && counts(j, i, 1))
-      r[k++] = j->p[i] - data[i];
+  for (i = 0; i < log->n; i++) {
+    if (fitted(j, LAB_CHANNEL_P, i))
+      r[k++] = (j->p[i] - log->value[LAB_CHANNEL_P][i]) / sigma_p;
+    if (fitted(j, LAB_CHANNEL_T, i))
+      r[k++] = (j->T[i] - log->value[LAB_CHANNEL_T][i]) / sigma_T;
+  }
   return LAB_OK;
 }
 
@@ -220,7 +227,7 @@ int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use,
   describe(law, param);
   problem.context = &j;
   for (i = 0; i < v->log.n; i++)
-    problem.m += !isnan(v->log.value[LAB_CHANNEL_P][i]) && counts(&j, i, 1);
+    problem.m += (size_t)fitted(&j, LAB_CHANNEL_P, i) + (size_t)fitted(&j, LAB_CHANNEL_T, i);
   status = lab_fit_run(&problem, NULL, fit, error);
   free(j.p);
   return status;

@@ -19,9 +19,8 @@
   X(FILM,        "film_conductance",  "W/K",          1,     0,   2,      0,     50) \
   X(CONVECTION,  "free_convection",   "W/K^(4/3)",    1,     0,   1.5,    0,     50) \
   X(INDEX,       "polytropic_index",  "1",            1,     0,   1.2,    1,     1.4) \
-  X(RATIO,       "critical_ratio",    "1",            1,     0,   0.3,    0,     0.6) \
   X(START,       "start_pressure",    "kPa",          1e-3,  0,   790,    700,   850) \
-  X(OUTSIDE,     "outside_pressure",  "kPa",          1e-3,  0,   100,    97,    100.5)
+  X(OUTSIDE,     "outside_pressure",  "kPa",          1e-3,  0,   100,    95,    105)
 
 enum vessel_item {
 #define X(name, key, unit, scale, log, start, lower, upper) VESSEL_##name,
@@ -36,6 +35,7 @@ enum { VESSEL_FIT_MAX = 4 };
 typedef struct vessel_law {
   const char *name, *what;
   int gas, flow;               /* enum pneu_gas, enum pneu_flow_law */
+  int with_T;                  /* not 0: fitted to pressure and temperature; else to pressure alone */
   int n;
   int item[VESSEL_FIT_MAX];    /* enum vessel_item */
 } vessel_law;
@@ -74,7 +74,7 @@ double vessel_item_scale(int item);
 int vessel_predict(const vessel *v, const vessel_law *law, const double *theta, const double *t, size_t n, double *p,
                    double *T, lab_error *error);
 
-/* Fit a law to the pressures of the rows that are in use.
+/* Fit a law to the pressures, and the temperatures where the law says so, of the rows that are in use.
  * In:      use  not 0 for each row of the log that counts; NULL: all
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
 int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit,

@@ -29,7 +29,7 @@ set ytics 5
 plot file using "t [s]":"x [mm]" with lines ls 1
 
 set tmargin at screen 0.39
-set bmargin at screen 0.085
+set bmargin at screen 0.095
 set label 1 "Chamber pressure p [kPa, gauge]" @ABOVE
 set xlabel "Time t [s]"
 set xtics format "%g"

@@ -9,11 +9,11 @@ set lmargin at screen 0.08
 set rmargin at screen 0.97
 set tmargin at screen 0.80
 unset key
-set label 1 "Stem speed over (C a/A) (2 R T/δ)^{1/2} [1]" @ABOVE
+set label 1 "Stem speed over (C a/A) √(2 R T/δ) [1]" @ABOVE
 set label 2 "inverse law, Eq. (13)" at 3.0, 3.0 right offset -1,0.4 textcolor rgb GREY
-set label 3 flow_name("paper") at 4.0, 3.464 right offset -2,0 textcolor rgb BLUE
+set label 3 flow_name("paper") at 4.0, 3.464 left offset 0,-1.2 textcolor rgb BLUE
 set label 4 flow_name("choked") at 4.0, 1.937 left offset 0,-1.2 textcolor rgb BLUE
-set xlabel "Supply over chamber pressure P_1/P_2 [1], absolute"
+set xlabel "Supply over chamber pressure P_1/P_2, absolute [1]"
 set xrange [1:5]
 set yrange [0:5]
 is_flow(flow) = strcol("flow") eq flow

@@ -11,13 +11,13 @@ set rmargin at screen 0.97
 set tmargin at screen 0.80
 unset key
 set object 1 rectangle from STATS_min, graph 0 to STATS_max, graph 1 behind fillcolor rgb BAND fillstyle solid noborder
-set label 1 "Stem speed over (C a/A) (2 R T/δ)^{1/2} [1]" @ABOVE
-set label 2 "12 springs, 180 to 380 kPa" at (STATS_min + STATS_max)/2, graph 0.05 center textcolor rgb INK
+set label 1 "Stem speed over (C a/A) √(2 R T/δ) [1]" @ABOVE
+set label 2 "12 springs,\n180 to 380 kPa" at (STATS_min + STATS_max)/2, graph 0.10 center textcolor rgb INK
 set label 3 "pressure taken as constant, ".flow_name("paper") at 5, 0.913 left offset 0,-1.1 textcolor rgb BLUE
 set label 4 "pressure taken as constant, ".flow_name("choked") at 5, 0.484 left offset 0,-1 textcolor rgb BLUE
 set label 5 "on the springs, ".flow_name("paper") at STATS_max, 0.628 left offset 0.8,0 textcolor rgb GREEN
 set label 6 "on the springs, ".flow_name("choked") at STATS_max, 0.342 left offset 0.8,0 textcolor rgb GREEN
-set xlabel "Chamber pressure (gauge) over ambient pressure p/p_a [1]"
+set xlabel "Chamber over ambient pressure p/p_a, p gauge [1]"
 set xrange [0:10]
 set yrange [0:1]
 set format y "%.1f"

@@ -9,12 +9,12 @@ set lmargin at screen 0.08
 set rmargin at screen 0.97
 set tmargin at screen 0.80
 unset key
-set label 1 "Chamber over supply pressure p/p_s [1], both gauge" @ABOVE
+set label 1 "Chamber over supply pressure p/p_s, both gauge [1]" @ABOVE
 set label 2 flow_name("paper") at 0.5, 0.581 left offset 0,-1 textcolor rgb BLUE
 set label 3 flow_name("choked") at 0.5, 0.711 left offset 0,1 textcolor rgb BLUE
 set label 4 "venting is faster" at 1.5, 0.85 center textcolor rgb GREY
 set label 5 "filling is faster" at 1.5, 0.25 center textcolor rgb GREY
-set xlabel "Ambient over supply pressure (gauge) p_a/p_s [1]"
+set xlabel "Ambient over supply pressure p_a/p_s, supply in gauge pressure [1]"
 set xrange [0:2]
 set yrange [0:1]
 set format y "%.1f"

@@ -9,13 +9,13 @@ stats file using (strcol("flow") eq "paper" ? column("asymptote [1]") : NaN) nam
 stats file using (strcol("flow") eq "choked" ? column("asymptote [1]") : NaN) name "CHOKED" nooutput
 
 set lmargin at screen 0.08
-set rmargin at screen 0.90
+set rmargin at screen 0.885
 set tmargin at screen 0.80
 unset key
 set object 1 rectangle from STATS_min, graph 0 to STATS_max, graph 1 behind fillcolor rgb BAND fillstyle solid noborder
 set arrow 1 from graph 0, first PAPER_max to graph 1, first PAPER_max nohead dt (2,4) lw 1.5 lc rgb GREY
 set arrow 2 from graph 0, first CHOKED_max to graph 1, first CHOKED_max nohead dt (2,4) lw 1.5 lc rgb GREY
-set label 1 "Chamber over supply pressure p/p_s [1], both gauge" @ABOVE
+set label 1 "Chamber over supply pressure p/p_s, both gauge [1]" @ABOVE
 set label 2 "typical supply, 140 to 800 kPa" at (STATS_min + STATS_max)/2, graph 0.05 center textcolor rgb INK
 set label 3 sprintf("limit %.3f", PAPER_max) at graph 1, first PAPER_max left offset 0.6,0 textcolor rgb GREY
 set label 4 sprintf("limit %.3f", CHOKED_max) at graph 1, first CHOKED_max left offset 0.6,0 textcolor rgb GREY
@@ -23,7 +23,7 @@ set label 5 flow_name("paper") at 4.0, 0.596 left offset 0,-1 textcolor rgb BLUE
 set label 6 flow_name("choked") at 4.0, 0.759 left offset 0,-1 textcolor rgb BLUE
 set label 7 "venting is faster" at 4.7, 0.90 center textcolor rgb GREY
 set label 8 "filling is faster" at 4.7, 0.30 center textcolor rgb GREY
-set xlabel "Supply (gauge) over ambient pressure p_s/p_a [1]"
+set xlabel "Supply over ambient pressure p_s/p_a, supply in gauge pressure [1]"
 set xrange [0:10]
 set xtics 1
 set yrange [0:1]

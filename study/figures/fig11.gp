@@ -19,7 +19,6 @@ set label 1 "Travel x [mm]" @ABOVE
 set xlabel "Chamber pressure p [kPa, gauge]"
 set xrange [0:400]
 set yrange [-0.5:21]
-set style arrow 1 head filled size screen 0.018,18 fixed lw 2
 colour(branch) = branch eq "rising" ? BLUE : VERMILLION
 plot for [branch in "rising falling"] file using "p [kPa]":(strcol("branch") eq branch ? column("x [mm]") : NaN) with lines lw 2 lc rgb colour(branch) title "pressure ".branch, \
-     for [branch in "rising falling"] file using (advance(column("p [kPa]"), column("x [mm]")), strcol("branch") eq branch && has_head(column(0)) ? column("p [kPa]") : NaN):"x [mm]":(dp):(dx) with vectors as 1 lc rgb colour(branch) notitle
+     for [branch in "rising falling"] file using (advance(column("p [kPa]"), column("x [mm]")), strcol("branch") eq branch && has_head(column(0)) ? column("p [kPa]") : NaN):"x [mm]":(dp):(dx) with vectors head filled size screen 0.018,18 fixed lw 2 lc rgb colour(branch) notitle

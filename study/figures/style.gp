@@ -5,7 +5,7 @@ if (!exists("NAME")) NAME = "libpneu"
 WIDTH = 820
 
 set encoding utf8
-set terminal svg enhanced size WIDTH,HEIGHT font "sans-serif,13" background "#ffffff" name NAME
+set terminal svg enhanced size WIDTH,HEIGHT font "sans-serif,14" background "#ffffff" name NAME
 set output OUT
 
 # Tables: named columns. A filter gives NaN for the rows of another curve, which are skipped, so that rows of
@@ -33,20 +33,26 @@ set style line 2 lc rgb BLUE lw 2 dt (7,4)
 set style line 3 lc rgb VERMILLION lw 2 dt solid
 set style line 4 lc rgb VERMILLION lw 2 dt (7,4)
 
-set border 3 back lc rgb GREY
 set tics nomirror out scale 0.6 textcolor rgb INK
-set grid back lc rgb RULE lt 1 lw 1
 set style fill solid noborder
 set xlabel textcolor rgb INK
 set ylabel textcolor rgb INK
-set title textcolor rgb INK font ",14"
+set title textcolor rgb INK font ",15"
 set key Left reverse textcolor rgb INK samplen 2.5
 set bars small
+
+# A plot without a frame carries heading and key over the panels of a multiplot
+BLANK = 'unset border; unset xtics; unset ytics; unset grid'
+FRAME = 'set border 3 back lc rgb GREY; set tics nomirror out scale 0.6 textcolor rgb INK; set xtics nomirror; set ytics nomirror; set grid back lc rgb RULE lt 1 lw 1'
+@FRAME
 
 # The name of the y axis lies flat above it: set label 1 "..." @ABOVE
 ABOVE = 'at graph 0, graph 1 left offset 0,0.8 textcolor rgb INK'
 
+# The key in two columns below the heading
+KEY = 'set key at screen 0.06, screen 1 - 75.0/HEIGHT left top horizontal maxcols 2 width -8'
+
 # Heading, over the first plot; the others of a multiplot `@NEXT` first
 NEXT = 'unset label; unset key'
-set label 101 TITLE at screen 0.02, screen 1 left offset 0,-1.3 font ",17" textcolor rgb INK
-set label 102 SUBTITLE at screen 0.02, screen 1 left offset 0,-2.9 textcolor rgb GREY
+set label 101 TITLE at screen 0.02, screen 1 left offset 0,-1.25 font ",18" textcolor rgb INK
+set label 102 SUBTITLE at screen 0.02, screen 1 left offset 0,-2.75 textcolor rgb GREY

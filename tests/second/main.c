@@ -1,4 +1,5 @@
-/* The standard experiment by the virtual rig: main ACTUATOR GAS FLOW [STEP_IN_US], CSV on stdout. */
+/* The standard experiment by the virtual rig: main ACTUATOR GAS FLOW [STEP_IN_US], CSV on stdout.
+ * SPDX-License-Identifier: MIT */
 #include "rig.h"
 
 #include <stdio.h>

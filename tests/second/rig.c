@@ -1,4 +1,5 @@
-/* The virtual rig: laws and effects first, then the integrator with its events, then the measuring chain. */
+/* The virtual rig: laws and effects first, then the integrator with its events, then the measuring chain.
+ * SPDX-License-Identifier: MIT */
 #include "rig.h"
 
 #include <float.h>
@@ -7,12 +8,30 @@
 
 #define TAU 6.283185307179586476925
 
-/* M and U are the gas, the rest of the first block belongs to effects, then lags of sensors, then integrals for the audit. */
+/* M and U are the gas, the rest of the first block belongs to effects, then lags of sensors, then integrals for the
+ * audit. */
 enum {
-  M, U, X, V,
-  OPENING, WALL, TUBE, BRISTLE, HYST,
-  P_LAG, X_LAG, T_LAG,
-  MASS_IN, MASS_OUT, H_IN, H_OUT, HEAT, WORK, DRY, VISCOUS, OTHER,
+  M,
+  U,
+  X,
+  V,
+  OPENING,
+  WALL,
+  TUBE,
+  BRISTLE,
+  HYST,
+  P_LAG,
+  X_LAG,
+  T_LAG,
+  MASS_IN,
+  MASS_OUT,
+  H_IN,
+  H_OUT,
+  HEAT,
+  WORK,
+  DRY,
+  VISCOUS,
+  OTHER,
   STATES
 };
 
@@ -26,7 +45,7 @@ typedef struct {
   double y[STATES];
   enum mode mode;
   double impact;
-  long steps, events;
+  long steps, events, forced;
 } world;
 
 /* What the laws need of a state. */
@@ -75,7 +94,8 @@ static double orifice(const second_rig *g, double area, double P1, double T1, do
 }
 
 /* Orifice in series with a linear resistance r before it (P1 falls) or behind it (P2 rises), P1 > P2:
- * q = f(P1 - r q, P2) or f(P1, P2 + r q). The right side falls with q, so the root is unique; false position finds it. */
+ * q = f(P1 - r q, P2) or f(P1, P2 + r q). The right side falls with q, so the root is unique; false position finds it.
+ */
 static double orifice_in_series(const second_rig *g, double area, double P1, double T1, double P2, double r, int before)
 {
   double lo = 0.0, hi = orifice(g, area, P1, T1, P2, T1);
@@ -393,7 +413,8 @@ static void settle(world *w)
   }
 }
 
-/* Largest fraction of the step that the mode survives, by bisection on repeated steps; `out` is the state just past it. */
+/* Fraction of the step after which the mode has just ended, by bisection on repeated steps; `out` is the state there.
+ */
 static double cross(const world *w, double h, double *out)
 {
   double lo = 0.0, hi = 1.0, trial[STATES];
@@ -410,16 +431,18 @@ static double cross(const world *w, double h, double *out)
   return hi;
 }
 
-/* One step of the grid, through as many events as it holds. A mode that ends at once twice gives way to rest. */
+/* One step of the grid, through as many events as it holds; after too many the rest of it ignores events and is
+ * counted. */
 static void step_through(world *w, double h)
 {
+  const int too_many = 40;
   double left = h, next[STATES];
   for (int tries = 0; left > 0.0; tries++) {
     advance(w, w->y, left, 8, next);
     w->steps++;
-    if (guard(w, next, w->t + left) >= 0.0 || tries > 40) {
+    w->forced += tries == too_many;
+    if (tries == too_many || guard(w, next, w->t + left) >= 0.0) {
       memcpy(w->y, next, sizeof next);
-      w->t += left;
       return;
     }
     double part = cross(w, left, next) * left;
@@ -428,8 +451,6 @@ static void step_through(world *w, double h)
     left -= part;
     w->events++;
     settle(w);
-    if (tries == 39)
-      w->mode = w->mode == FREE ? FREE : REST;
   }
 }
 
@@ -554,13 +575,29 @@ static void close_audit(const world *w, const double *y0, second_audit *a)
   const second_rig *g = w->rig;
   const double *y = w->y;
   *a = (second_audit){
-      .mass_start = y0[M], .mass_end = y[M], .energy_start = y0[U], .energy_end = y[U],
-      .volume_start = volume_at(g, y0[X]), .volume_end = volume_at(g, y[X]),
-      .kinetic_start = 0.5 * g->mass * y0[V] * y0[V], .kinetic_end = 0.5 * g->mass * y[V] * y[V],
-      .spring_start = spring_energy(g, y0[X]), .spring_end = spring_energy(g, y[X]),
-      .mass_in = y[MASS_IN], .mass_out = y[MASS_OUT], .enthalpy_in = y[H_IN], .enthalpy_out = y[H_OUT],
-      .heat = y[HEAT], .gas_work = y[WORK], .dry = y[DRY], .viscous = y[VISCOUS],
-      .impact = w->impact, .other = y[OTHER], .steps = w->steps, .events = w->events,
+      .mass_start = y0[M],
+      .mass_end = y[M],
+      .energy_start = y0[U],
+      .energy_end = y[U],
+      .volume_start = volume_at(g, y0[X]),
+      .volume_end = volume_at(g, y[X]),
+      .kinetic_start = 0.5 * g->mass * y0[V] * y0[V],
+      .kinetic_end = 0.5 * g->mass * y[V] * y[V],
+      .spring_start = spring_energy(g, y0[X]),
+      .spring_end = spring_energy(g, y[X]),
+      .mass_in = y[MASS_IN],
+      .mass_out = y[MASS_OUT],
+      .enthalpy_in = y[H_IN],
+      .enthalpy_out = y[H_OUT],
+      .heat = y[HEAT],
+      .gas_work = y[WORK],
+      .dry = y[DRY],
+      .viscous = y[VISCOUS],
+      .impact = w->impact,
+      .other = y[OTHER],
+      .steps = w->steps,
+      .events = w->events,
+      .forced = w->forced,
   };
 }
 
@@ -590,10 +627,8 @@ int second_run(const second_rig *rig, const double *t_cmd, const double *u_cmd, 
       return 1;
     if (tx <= w.t)
       sample_position(&w, out, ix++, noise);
-    if (tp <= w.t) {
-      w.u = command(&w, tp + rig->dead_time); /* the log shows the command as sent */
-      sample(&w, out, ip++, tp, w.u, noise);
-    }
+    if (tp <= w.t) /* the log shows the command as sent */
+      sample(&w, out, ip++, tp, command(&w, tp + rig->dead_time), noise);
   }
   if (audit)
     close_audit(&w, y0, audit);
