@@ -1,0 +1,93 @@
+/* Modes of the stem: what ends each, and what follows. */
+#include "internal.h"
+
+/* Force that friction has to hold at rest, and the level at which it gives way: above the rounding of the balance, lest
+ * a stem that comes to rest in equilibrium chatter. With a bristle the friction force is a state and no level is left. */
+static void rest_balance(const pneu_terms *t, pneu_real *force, pneu_real *level)
+{
+  *force = t->force - t->bristle_force;
+  *level = (t->model->bristle ? 0 : t->friction) + t->model->force_noise;
+}
+
+int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                pneu_real *g)
+{
+  pneu_terms t;
+  pneu_real force, level;
+  const int i_x = model->n_gas, i_v = model->n_gas + 1;
+  switch (state->mode) {
+  case PNEU_MODE_UP:
+    g[0] = -y[i_v];
+    g[1] = y[i_x] - model->p.stroke;
+    return 2;
+  case PNEU_MODE_DOWN:
+    g[0] = y[i_v];
+    g[1] = -y[i_x];
+    return 2;
+  case PNEU_MODE_FREE:
+    g[0] = y[i_x] - model->p.stroke;
+    g[1] = -y[i_x];
+    return 2;
+  case PNEU_MODE_DRIVEN:
+  case PNEU_MODE_FIXED:
+    return 0;
+  default:
+    break;
+  }
+  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+    return 0;
+  rest_balance(&t, &force, &level);
+  g[0] = state->mode == PNEU_MODE_UPPER ? -force - level : force - level;
+  g[1] = -force - level;
+  return state->mode == PNEU_MODE_STUCK ? 2 : 1;
+}
+
+/* Mode of a stem with v = 0. */
+static int rest_mode(const pneu_model *model, pneu_real x, pneu_real force, pneu_real level)
+{
+  const int up = force > level, down = force < -level;
+  if (x <= 0)
+    return up ? (model->bristle ? PNEU_MODE_FREE : PNEU_MODE_UP) : PNEU_MODE_LOWER;
+  if (x >= model->p.stroke)
+    return down ? (model->bristle ? PNEU_MODE_FREE : PNEU_MODE_DOWN) : PNEU_MODE_UPPER;
+  if (model->bristle)
+    return PNEU_MODE_FREE;
+  return up ? PNEU_MODE_UP : down ? PNEU_MODE_DOWN : PNEU_MODE_STUCK;
+}
+
+void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state)
+{
+  pneu_terms t;
+  pneu_real y[PNEU_STATE_MAX], force, level;
+  if (model->law.position_input || model->p.stroke <= 0) {
+    state->mode = model->law.position_input ? PNEU_MODE_DRIVEN : PNEU_MODE_FIXED;
+    state->v = model->law.position_input ? input->position_rate : 0;
+    return;
+  }
+  if (state->v != 0) {
+    state->mode = model->bristle ? PNEU_MODE_FREE : state->v > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+    return;
+  }
+  state->mode = PNEU_MODE_STUCK;
+  pneu_pack(model, state, y);
+  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+    return;
+  rest_balance(&t, &force, &level);
+  state->mode = rest_mode(model, state->x, force, level);
+}
+
+void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
+{
+  const int mode = state->mode;
+  if (mode == PNEU_MODE_LOWER || mode == PNEU_MODE_STUCK || mode == PNEU_MODE_UPPER) {
+    const int up = which == 0 && mode != PNEU_MODE_UPPER;
+    state->mode = model->bristle ? PNEU_MODE_FREE : up ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+    return;
+  }
+  if (mode == PNEU_MODE_FREE || which == 1) { /* a stop */
+    const int upper = mode == PNEU_MODE_UP || (mode == PNEU_MODE_FREE && which == 0);
+    state->x = upper ? model->p.stroke : 0;
+  }
+  state->v = 0;
+  pneu_settle(model, input, state);
+}
