@@ -18,10 +18,13 @@ static const lab_option options[] = {
     {"step", LAB_OPTION_FLAG, &standard, NULL, "fill for 15 s and vent for 15 s instead of following a log", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
-static const lab_program program = {"simulate", "MODEL.cfg LOG.csv | MODEL.cfg --step",
+static const lab_program program = {"simulate",
+                                    "MODEL.cfg LOG.csv | MODEL.cfg --step",
                                     "Predict the measured channels of LOG.csv, at its times and from its input "
                                     "channels, by the model in MODEL.cfg.",
-                                    options, 1, 2};
+                                    options,
+                                    1,
+                                    2};
 
 static const lab_response_options accuracy = {LAB_STEPPER, 1e-7, 0, 0};
 

@@ -151,8 +151,17 @@ static char *output_of(const char *line)
 static void test_lab_cli_read__help__lists_every_option(void **state)
 {
   char *shown = output_of("--help");
-  const char *words[] = {"Usage: sample MODEL.cfg [LOG.csv]", "--out FILE", "--step", "--grid N", "--tol X",
-                         "--threads N", "--quiet", "--help", "--version", "where to write", "Exit status"};
+  const char *words[] = {"Usage: sample MODEL.cfg [LOG.csv]",
+                         "--out FILE",
+                         "--step",
+                         "--grid N",
+                         "--tol X",
+                         "--threads N",
+                         "--quiet",
+                         "--help",
+                         "--version",
+                         "where to write",
+                         "Exit status"};
   size_t i;
   (void)state;
   assert_int_equal(cli.done, 1);
@@ -179,6 +188,8 @@ static void test_lab_progress_show__no_terminal_or_quiet__writes_nothing(void **
   lab_progress_show(&progress, 1, 2);
   lab_progress_end(&progress);
   assert_int_equal(progress.written, 0);
+  lab_progress_begin(&progress, "fit", 0);
+  assert_int_equal(progress.stream != NULL, isatty(STDERR_FILENO));
 }
 
 /* A progress that writes to a file and thinks that a second has gone by. */

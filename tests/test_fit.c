@@ -242,8 +242,10 @@ static int product(void *context, const double *theta, double *r, lab_error *e)
 
 static void test_fit_run__product_of_two__pair_named(void **state)
 {
-  static const lab_fit_param params[4] = {
-      {"a", "1", 1, 0.1, 9, 0, 0}, {"b", "1", -1, -9, -0.1, 0, 0}, {"c", "1", 1, -9, 9, 0, 0}, {"d", "1", 2, 1, 3, 0, 0}};
+  static const lab_fit_param params[4] = {{"a", "1", 1, 0.1, 9, 0, 0},
+                                          {"b", "1", -1, -9, -0.1, 0, 0},
+                                          {"c", "1", 1, -9, 9, 0, 0},
+                                          {"d", "1", 2, 1, 3, 0, 0}};
   line data = make_line();
   const lab_fit_problem problem = {4, params, LINE, product, NULL, &data, NULL, 0};
   const lab_fit_result got = fitted(&problem, NULL);

@@ -52,7 +52,7 @@ static void set_columns(const char *a, const char *b, const char *c)
 static void test_lab_log_read__documented_format__gives_si(void **state)
 {
   lab_log log = read_log("# a remark\nt [ms],u [%],p [bar],x [mm],T [degC],force [kN]\n"
-                     "0,0,0,0,25,0\n# another\n10,50,1.5,2.5,26,-0.25\n");
+                         "0,0,0,0,25,0\n# another\n10,50,1.5,2.5,26,-0.25\n");
   (void)state;
   assert_int_equal(log.n, 2);
   assert_close(CHANNEL(log, TIME)[1], 0.01, 1e-15, 0);
@@ -386,8 +386,8 @@ static void test_lab_log_read__zero_bytes__are_not_text(void **state)
   const char bytes[] = "t [s],u [1]\n0,0\n1\0,0\n";
   lab_log log;
   (void)state;
-  assert_int_equal(
-      lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &log, &error), LAB_DATA);
+  assert_int_equal(lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &log, &error),
+                   LAB_DATA);
   assert_contains(error.text, "log.csv:3:");
   assert_contains(error.text, "0 byte");
 }
@@ -421,7 +421,8 @@ static void test_lab_log_read__numbers_first__asks_for_a_header(void **state)
 static void test_lab_log_read__unknown_channel__names_the_nearest(void **state)
 {
   (void)state;
-  assert_refused("t [s],forse [N]\n0,0\n", "log.csv:1: column 2", "unknown channel \"forse\"; the nearest known one is \"force\"");
+  assert_refused("t [s],forse [N]\n0,0\n", "log.csv:1: column 2",
+                 "unknown channel \"forse\"; the nearest known one is \"force\"");
 }
 
 static void test_lab_log_read__no_unit__asks_for_one(void **state)

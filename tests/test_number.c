@@ -83,8 +83,8 @@ static void test_lab_number_read__nothing_or_nan__is_a_gap(void **state)
 
 static void test_lab_number_read__not_a_finite_decimal__is_bad(void **state)
 {
-  const char *bad[] = {"abc", "1.2.3", "1,5", "0x1A", "inf", "-inf", "1e999", "--1", "1 2", "-", ".", "1e", "nan(1)",
-                       "12kPa"};
+  const char *bad[] = {"abc", "1.2.3", "1,5", "0x1A", "inf", "-inf",   "1e999",
+                       "--1", "1 2",   "-",   ".",    "1e",  "nan(1)", "12kPa"};
   size_t i;
   (void)state;
   for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {

@@ -6,22 +6,25 @@
 
 static lab_error error;
 
-static const char declared[] = "// A rig as it may be declared.\n"
-                               "actuator = {\n"
-                               "  name = \"37-13\";  action = \"reverse\";\n"
-                               "  area = \"677 cm^2\";  dead_volume = \"120 cm^3\";  stroke = \"38.1 mm\";\n"
-                               "  spring_rate = \"120 kN/m\";  spring_preload = \"7.62 mm\";\n"
-                               "  moving_mass = \"2.5 kg\";  dry_friction = \"481 N\";\n"
-                               "  viscous_friction = \"501 N.s/m\";  damping = 1001;  external_force = \"-12 N\";\n"
-                               "};\n"
-                               "transducer = { fill_area = \"2.177 mm^2\";  vent_area = \"2.2 mm^2\";\n"
-                               "  critical_ratio = 0.4; subsonic_index = 0.6; };\n"
-                               "supply = { pressure = \"140 kPa\";  temperature = \"20 degC\"; };\n"
-                               "ambient = { pressure = \"1 bar\";  temperature = \"297 K\"; };\n"
-                               "gas = { gas_constant = \"296.8 J/kg/K\"; heat_ratio = 1.39; polytropic_index = 1.2; };\n"
-                               "laws = { gas = \"energy\";  flow = \"iso6358\";  friction = \"coulomb\"; };\n"
-                               "fit = ( \"orifice_area\", \"dry_friction\", \"damping\" );\n"
-                               "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; };\n";
+static const char declared[] =
+    "// A rig as it may be declared.\n"
+    "actuator = {\n"
+    "  name = \"37-13\";  action = \"reverse\";\n"
+    "  area = \"677 cm^2\";  dead_volume = \"120 cm^3\";  stroke = \"38.1 mm\";\n"
+    "  spring_rate = \"120 kN/m\";  spring_preload = \"7.62 mm\";\n"
+    "  moving_mass = \"2.5 kg\";  dry_friction = \"481 N\";\n"
+    "  viscous_friction = \"501 N.s/m\";  damping = 1001;\n"
+    "  external_force = \"-12 N\";  swept_ratio = 0.9;\n"
+    "};\n"
+    "transducer = { fill_area = \"2.177 mm^2\";  vent_area = \"2.2 mm^2\";\n"
+    "  critical_ratio = 0.4; subsonic_index = 0.6; };\n"
+    "supply = { pressure = \"140 kPa\";  temperature = \"20 degC\"; };\n"
+    "ambient = { pressure = \"1 bar\";  temperature = \"297 K\"; };\n"
+    "gas = { gas_constant = \"296.8 J/kg/K\"; heat_ratio = 1.39;\n"
+    "  polytropic_index = 1.2; };\n"
+    "laws = { gas = \"energy\";  flow = \"iso6358\";  friction = \"coulomb\"; };\n"
+    "fit = ( \"orifice_area\", \"dry_friction\", \"damping\" );\n"
+    "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; };\n";
 
 static lab_rig read_rig(const char *text)
 {
@@ -75,6 +78,7 @@ static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
   (void)state;
   assert_close(rig.params.area, 0.0677, 0, 1e-14);
   assert_close(rig.params.dead_volume, 120e-6, 0, 1e-14);
+  assert_close(rig.params.swept_ratio, 0.9, 0, 1e-14);
   assert_close(rig.params.stroke, 0.0381, 0, 1e-14);
   assert_close(rig.params.spring_rate, 120e3, 0, 1e-14);
   assert_close(rig.params.spring_preload, 7.62e-3, 0, 1e-14);
@@ -284,7 +288,8 @@ static void test_lab_rig_read__empty_file__says_so(void **state)
 
 static void test_lab_rig_read__binary_file__is_refused(void **state)
 {
-  const char bytes[] = "\x7f" "ELF\0\0\0\1";
+  const char bytes[] = "\x7f"
+                       "ELF\0\0\0\1";
   lab_rig rig;
   (void)state;
   assert_int_equal(lab_rig_read(scratch_bytes("rig.cfg", bytes, sizeof bytes), &rig, &error), LAB_DATA);
@@ -308,8 +313,8 @@ static void test_lab_rig_read__key_twice__has_its_line(void **state)
 static void test_lab_rig_read__unknown_key__names_the_nearest(void **state)
 {
   (void)state;
-  assert_refused("actuator = {\n  spring_rat = \"4 kN/m\";\n};\n", "rig.cfg:2: actuator.spring_rat:",
-                 "nearest known one is \"spring_rate\"");
+  assert_refused("actuator = {\n  spring_rat = \"4 kN/m\";\n};\n",
+                 "rig.cfg:2: actuator.spring_rat:", "nearest known one is \"spring_rate\"");
 }
 
 static void test_lab_rig_read__key_of_another_group__says_where_it_belongs(void **state)
@@ -333,8 +338,8 @@ static void test_lab_rig_read__value_for_a_group__is_refused(void **state)
 static void test_lab_rig_read__wrong_unit__names_both(void **state)
 {
   (void)state;
-  assert_refused("actuator = {\n area = \"40 cm\";\n};\n", "rig.cfg:2: actuator.area:",
-                 "expected a unit like m2 (m2), found \"cm\"");
+  assert_refused("actuator = {\n area = \"40 cm\";\n};\n",
+                 "rig.cfg:2: actuator.area:", "expected a unit like m2 (m2), found \"cm\"");
   assert_refused("supply = { pressure = \"4 barr\"; };\n", "supply.pressure", "unknown unit \"barr\"");
 }
 
@@ -357,8 +362,8 @@ static void test_lab_rig_read__no_number__is_refused(void **state)
 static void test_lab_rig_read__out_of_bounds__gives_the_bounds(void **state)
 {
   (void)state;
-  assert_refused("actuator = {\n area = \"-400 cm^2\";\n};\n", "rig.cfg:2: actuator.area:",
-                 "expected 1e-06 to 10 m2, found \"-400 cm^2\", which is -0.04 m2");
+  assert_refused("actuator = {\n area = \"-400 cm^2\";\n};\n",
+                 "rig.cfg:2: actuator.area:", "expected 1e-06 to 10 m2, found \"-400 cm^2\", which is -0.04 m2");
   assert_refused("ambient = { pressure = \"0 Pa\"; };\n", "ambient.pressure", "expected 100 to 1e+07 Pa");
   assert_refused("actuator = { dead_volume = -1; };\n", "actuator.dead_volume", "found -1");
   assert_refused("actuator = { area = 1e999; };\n", "actuator.area", "expected");

@@ -42,9 +42,11 @@ static int write_inputs(void **state)
     return failed;
   scratch_text("m.cfg", "actuator = { name = \"R1-400\"; };\n");
   scratch_text("bad.cfg", "actuator = {\n  aera = 1;\n};\n");
-  scratch_text("vessel.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 l\"; };\nsupply = { pressure = \"4 bar\"; };\n");
+  scratch_text("vessel.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 l\"; };\n"
+                             "supply = { pressure = \"4 bar\"; };\n");
   scratch_text("runs.cfg", "log = { new_run = \"t drops\"; };\n");
-  scratch_text("log.csv", "t [ms],u [%],p_abs [bar],x [cm]\n0,0,1.01325,0\n100,100,1,0\n500,100,2,0\n2000,-100,3,1\n3500,-100,1,0\n");
+  scratch_text("log.csv", "t [ms],u [%],p_abs [bar],x [cm]\n0,0,1.01325,0\n100,100,1,0\n"
+                          "500,100,2,0\n2000,-100,3,1\n3500,-100,1,0\n");
   scratch_text("only_u.csv", "t [s],u [1]\n0,0\n1,1\n2,1\n");
   scratch_text("only_x.csv", "t [s],u [1],x [mm]\n0,0,0\n1,1,0\n2,1,0\n");
   scratch_text("runs.csv", "t [s],u [1],p [kPa]\n0,1,0\n1,1,0\n0,1,0\n1,1,0\n");
@@ -190,9 +192,8 @@ static void test_simulate__bad_usage__is_2(void **state)
 static void test_simulate__full_disk__is_4(void **state)
 {
   (void)state;
-  if (!scratch_exists("/dev/full"))
-    skip();
-  assert_int_equal(run("@/m.cfg --step --out /dev/full"), 4);
+  scratch_device("full", "/dev/full");
+  assert_int_equal(run("@/m.cfg --step --out @/full"), 4);
   assert_contains(err, "No space left on device");
 }
 

@@ -89,6 +89,7 @@ static void test_lab_quantity__unknown_unit__is_named(void **state)
 {
   (void)state;
   assert_bad("5 furlongs_per_fortnight", "m2", "furlongs_per_fortnight");
+  assert_bad("5 furlongs_per_fortnight", "m2", "expected a unit like m2, found the unknown unit");
   assert_bad("5 m^0.5", "m", "m^0.5");
   assert_bad("5 ,5 mm", "m", "unknown unit");
 }

@@ -141,8 +141,7 @@ int lab_cli_read(const lab_program *program, int argc, char **argv, lab_cli *cli
   cli->n_operands = argc - optind;
   cli->operand = argv + optind;
   if (!cli->done && (cli->n_operands < program->min_operands || cli->n_operands > program->max_operands))
-    return lab_fail(error, LAB_USAGE, "expected %s, found %d operands; see --help", program->operands,
-                    cli->n_operands);
+    return lab_fail(error, LAB_USAGE, "expected %s, found %d operands; see --help", program->operands, cli->n_operands);
 #ifdef _OPENMP
   if (cli->threads > 0)
     omp_set_num_threads(cli->threads);

@@ -90,8 +90,7 @@ int lab_config_expected(const config_setting_t *setting, const char *expected, l
   return lab_config_fail(setting, error, "expected %s, found %s", expected, found);
 }
 
-int lab_config_unknown(const config_setting_t *setting, const void *table, size_t n, size_t stride,
-                       lab_error *error)
+int lab_config_unknown(const config_setting_t *setting, const void *table, size_t n, size_t stride, lab_error *error)
 {
   return lab_config_fail(setting, error, "unknown key; the nearest known one is \"%s\"",
                          lab_name_nearest(config_setting_name(setting), table, n, stride));
@@ -135,8 +134,8 @@ static int number_or_text(const config_setting_t *setting, const char *unit,
   }
 }
 
-int lab_config_quantity(const config_setting_t *setting, const char *unit, double lower, double upper,
-                        double *value, lab_error *error)
+int lab_config_quantity(const config_setting_t *setting, const char *unit, double lower, double upper, double *value,
+                        lab_error *error)
 {
   char found[FOUND_TEXT];
   if (number_or_text(setting, unit, lab_quantity, value, error))
@@ -186,8 +185,7 @@ int lab_config_text(const config_setting_t *setting, char *text, size_t size, la
   if (!found)
     return lab_config_expected(setting, "a text in quotes", error);
   if (strlen(found) >= size)
-    return lab_config_fail(setting, error, "expected a text of at most %zu bytes, found %zu", size - 1,
-                           strlen(found));
+    return lab_config_fail(setting, error, "expected a text of at most %zu bytes, found %zu", size - 1, strlen(found));
   snprintf(text, size, "%s", found);
   return LAB_OK;
 }

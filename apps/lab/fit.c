@@ -13,7 +13,7 @@ void lab_fit_options_default(lab_fit_options *options)
   options->search = LAB_FIT_BOBYQA;
   options->starts = 1;
   options->threads = 1;
-  options->search_count = 25;
+  options->search_count = 8;
   options->polish_count = 200;
   options->precision = 1e-10;
 }

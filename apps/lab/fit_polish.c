@@ -12,10 +12,10 @@
 /* The free parameters of a run, as lmder sees them. */
 typedef struct polish {
   fit_run *run;
-  int k;                  /* free ones */
-  int of[LAB_FIT_MAX];    /* their places */
-  double z[LAB_FIT_MAX];  /* all of them */
-  double penalty;         /* length of a residual where the model fails: lmder then shortens its step */
+  int k;                 /* free ones */
+  int of[LAB_FIT_MAX];   /* their places */
+  double z[LAB_FIT_MAX]; /* all of them */
+  double penalty;        /* length of a residual where the model fails: lmder then shortens its step */
 } polish;
 
 static void choose_free(polish *s)
@@ -87,9 +87,9 @@ static int levenberg_marquardt(polish *s, double *memory)
   int pivot[LAB_FIT_MAX], i, info, n_residuals, n_slopes;
   for (i = 0; i < k; i++)
     z[i] = s->z[s->of[i]];
-  info = lmder(ask, s, m, k, z, r, jacobian, m, ftol, xtol, gtol, s->run->options->polish_count * k, diag,
-               SCALE_BY_COLUMNS, factor, NO_PRINT, &n_residuals, &n_slopes, pivot, qtf, work[0], work[1], work[2],
-               work_m);
+  info =
+      lmder(ask, s, m, k, z, r, jacobian, m, ftol, xtol, gtol, s->run->options->polish_count * k, diag,
+            SCALE_BY_COLUMNS, factor, NO_PRINT, &n_residuals, &n_slopes, pivot, qtf, work[0], work[1], work[2], work_m);
   s->run->finish = finish_of(info);
   return info < 0 ? FIT_END : FIT_GOOD;
 }

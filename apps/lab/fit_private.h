@@ -59,7 +59,4 @@ int fit_polish(fit_run *run);
 /* Covariance, intervals and remarks at the best point.  Returns: FIT_GOOD, FIT_END. */
 int fit_spread(fit_run *run, lab_fit_result *result);
 
-/* Put a sentence into result->remark; cut where it is full. */
-void fit_remark(lab_fit_result *result, const char *format, ...) LAB_PRINTF(2, 3);
-
 #endif

@@ -12,12 +12,12 @@
 /* Singular value decomposition of the slopes of k parameters, columns scaled to unit length. */
 typedef struct spectrum {
   int k;
-  int of[LAB_FIT_MAX];                    /* their places */
-  double length[LAB_FIT_MAX];             /* of the column before scaling */
-  double *column[LAB_FIT_MAX];            /* m entries each; orthogonal afterwards, lengths are singular values */
+  int of[LAB_FIT_MAX];         /* their places */
+  double length[LAB_FIT_MAX];  /* of the column before scaling */
+  double *column[LAB_FIT_MAX]; /* m entries each; orthogonal afterwards, lengths are singular values */
   double V[LAB_FIT_MAX][LAB_FIT_MAX];
   double singular[LAB_FIT_MAX];
-  double floor;                           /* singular values below it are no more than errors of the differences */
+  double floor; /* singular values below it are no more than errors of the differences */
 } spectrum;
 
 static double dot(const double *a, const double *b, size_t m)
@@ -76,7 +76,10 @@ static void decompose(spectrum *s, size_t m)
 
 /* ---- Words ---- */
 
-void fit_remark(lab_fit_result *result, const char *format, ...)
+static void remark(lab_fit_result *result, const char *format, ...) LAB_PRINTF(2, 3);
+
+/* Put a sentence into result->remark; cut where it is full. */
+static void remark(lab_fit_result *result, const char *format, ...)
 {
   size_t used = strlen(result->remark);
   va_list args;
@@ -106,7 +109,7 @@ static void remark_direction(const fit_run *run, const spectrum *s, int d, lab_f
     result->state[s->of[i]] = LAB_FIT_UNDETERMINED;
     snprintf(names + used, sizeof names - used, "%s%s", used ? " and " : "", name_of(run, s->of[i]));
   }
-  fit_remark(result, "only a combination of %s is determined", names);
+  remark(result, "only a combination of %s is determined", names);
 }
 
 static void remark_wide(const fit_run *run, int j, lab_fit_result *result)
@@ -114,10 +117,10 @@ static void remark_wide(const fit_run *run, int j, lab_fit_result *result)
   const lab_fit_param *p = &run->problem->param[j];
   if (p->log_scaled) {
     if (result->high[j] > 100 * result->low[j])
-      fit_remark(result, "%s is known only within a factor of %.2g either way", p->name,
-                 sqrt(result->high[j] / result->low[j]));
+      remark(result, "%s is known only within a factor of %.2g either way", p->name,
+             sqrt(result->high[j] / result->low[j]));
   } else if (result->low[j] < p->lower && result->high[j] > p->upper) {
-    fit_remark(result, "the interval of %s is wider than its bounds", p->name);
+    remark(result, "the interval of %s is wider than its bounds", p->name);
   }
 }
 
@@ -125,7 +128,7 @@ static void remark_pair(const fit_run *run, int i, int j, lab_fit_result *result
 {
   const double c = result->covariance[i][j] / sqrt(result->covariance[i][i] * result->covariance[j][j]);
   if (fabs(c) > 0.995)
-    fit_remark(result, "%s and %s are hard to tell apart (correlation %.4f)", name_of(run, i), name_of(run, j), c);
+    remark(result, "%s and %s are hard to tell apart (correlation %.4f)", name_of(run, i), name_of(run, j), c);
 }
 
 static void remark_free(const fit_run *run, lab_fit_result *result)
@@ -154,12 +157,12 @@ static void sort_params(const fit_run *run, lab_fit_result *result, spectrum *s)
     const double length = sqrt(dot(column, column, m));
     result->state[j] = run->held[j] < 0 ? LAB_FIT_AT_LOWER : run->held[j] > 0 ? LAB_FIT_AT_UPPER : LAB_FIT_FREE;
     if (run->held[j]) {
-      fit_remark(result, "%s is at its %s bound", name_of(run, j), run->held[j] < 0 ? "lower" : "upper");
+      remark(result, "%s is at its %s bound", name_of(run, j), run->held[j] < 0 ? "lower" : "upper");
       continue;
     }
     if (!(length > 1e-12 * (1 + sqrt(run->best)))) {
       result->state[j] = LAB_FIT_UNDETERMINED;
-      fit_remark(result, "%s has no effect on the data", name_of(run, j));
+      remark(result, "%s has no effect on the data", name_of(run, j));
       continue;
     }
     for (i = 0; i < m; i++)
@@ -213,8 +216,7 @@ static void fill_covariance(const fit_run *run, const spectrum *s, double varian
     for (b = 0; b < s->k; b++) {
       const int i = s->of[a], j = s->of[b];
       if (result->state[i] == LAB_FIT_FREE && result->state[j] == LAB_FIT_FREE)
-        result->covariance[i][j] =
-            covariance_z(s, a, b, variance) * stretch(run, result, i) * stretch(run, result, j);
+        result->covariance[i][j] = covariance_z(s, a, b, variance) * stretch(run, result, i) * stretch(run, result, j);
     }
 }
 

@@ -17,10 +17,10 @@ struct reader {
   const lab_log_format *format;
   lab_header header;
   lab_log *log;
-  size_t run_room;  /* entries allocated for log->run */
-  double last_t;    /* [s] of the last row taken */
-  double value;     /* long format: number of the row being read */
-  int quantity;     /* long format: its row in format->quantity */
+  size_t run_room; /* entries allocated for log->run */
+  double last_t;   /* [s] of the last row taken */
+  double value;    /* long format: number of the row being read */
+  int quantity;    /* long format: its row in format->quantity */
   lab_error *error;
 };
 
@@ -118,8 +118,10 @@ static int check_command(struct reader *r)
   if (isnan(now))
     return lab_fail(r->error, LAB_DATA, "channel u: expected a number, found a gap; u holds until the next row");
   if (!r->format->command_is_pressure && fabs(now) > command_max)
-    return lab_fail(r->error, LAB_DATA, "channel u: expected -1..1, found %g; is its unit %%, or a pressure "
-                                        "(transducer.proportional_band)?", now);
+    return lab_fail(r->error, LAB_DATA,
+                    "channel u: expected -1..1, found %g; is its unit %%, or a pressure "
+                    "(transducer.proportional_band)?",
+                    now);
   return LAB_OK;
 }
 

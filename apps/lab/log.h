@@ -10,7 +10,7 @@
 typedef struct lab_log {
   char *path;                       /* for messages */
   size_t n;                         /* rows */
-  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap; NULL where the channel is absent. t and u have no gap */
+  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap (never in t, u); NULL where the channel is absent */
   int *line;                        /* line of each row in the file */
   size_t n_runs;
   size_t *run;     /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */

@@ -130,16 +130,14 @@ static int read_damaged(const config_setting_t *setting, lab_log_format *format,
 
 /* A number a channel, such as `scale` or `constants`, by `read`. */
 static int read_channels(const config_setting_t *group, const lab_log_format *format, double *value,
-                         int (*read)(const config_setting_t *, const char *, double *, lab_error *),
-                         lab_error *error)
+                         int (*read)(const config_setting_t *, const char *, double *, lab_error *), lab_error *error)
 {
   int i, status = lab_config_is_group(group, error);
   if (status == LAB_OK)
     status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
-    int channel =
-        lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    int channel = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
     status = read(member, lab_log_unit(format, channel), &value[channel], error);
   }
   return status;

@@ -93,8 +93,8 @@ static int split_header(const lab_log_source *source, const char *begin, const c
 static int begins_with_number(const lab_log_source *source, const char *begin, const char *end)
 {
   double value;
-  return lab_number_read(begin, lab_log_field(source, begin, end), source->format->decimal,
-                         source->format->thousands, &value) == LAB_NUMBER_FINITE;
+  return lab_number_read(begin, lab_log_field(source, begin, end), source->format->decimal, source->format->thousands,
+                         &value) == LAB_NUMBER_FINITE;
 }
 
 static int read_line(lab_log_source *source, double ambient, lab_header *header, lab_error *error)
@@ -107,8 +107,9 @@ static int read_line(lab_log_source *source, double ambient, lab_header *header,
     return lab_fail(error, LAB_DATA, "%s: expected a header \"name [unit], ...\", found the end of the file",
                     source->path);
   if (begins_with_number(source, begin, end)) {
-    lab_fail(error, LAB_DATA, "expected a header \"name [unit], ...\", found numbers; for a file without a header "
-                              "give log.columns in the rig file");
+    lab_fail(error, LAB_DATA,
+             "expected a header \"name [unit], ...\", found numbers; for a file without a header "
+             "give log.columns in the rig file");
     return lab_log_fail_in(source, error);
   }
   return split_header(source, begin, end, ambient, header, error);
@@ -179,8 +180,9 @@ static int check_long(const lab_header *header, const lab_log_format *format, la
   if (lab_header_count(header, format, LAB_COLUMN_QUANTITY) == is_long &&
       lab_header_count(header, format, LAB_COLUMN_VALUE) == is_long)
     return LAB_OK;
-  return lab_fail(error, LAB_DATA, "expected one column \"quantity\" and one \"value\" with the group "
-                                   "log.quantities, or none of the three");
+  return lab_fail(error, LAB_DATA,
+                  "expected one column \"quantity\" and one \"value\" with the group "
+                  "log.quantities, or none of the three");
 }
 
 int lab_header_read(lab_log_source *source, double ambient, lab_header *header, lab_error *error)

@@ -17,8 +17,8 @@ static int by_time(const void *a, const void *b)
 }
 
 /* Put the rows of one channel in order, joined into `to[i]` for the i-th instant. */
-static int join_channel(const lab_log *log, const struct instant *order, const size_t *to, int channel,
-                        double *joined, lab_error *error)
+static int join_channel(const lab_log *log, const struct instant *order, const size_t *to, int channel, double *joined,
+                        lab_error *error)
 {
   double *value = log->value[channel];
   size_t i;
@@ -30,8 +30,8 @@ static int join_channel(const lab_log *log, const struct instant *order, const s
     if (isnan(now))
       continue;
     if (!isnan(*place) && *place != now)
-      return lab_fail(error, LAB_DATA, "%s:%d: expected one value of %s at t = %g s, found another before",
-                      log->path, log->line[order[i].row], lab_channels[channel].key, order[i].t);
+      return lab_fail(error, LAB_DATA, "%s:%d: expected one value of %s at t = %g s, found another before", log->path,
+                      log->line[order[i].row], lab_channels[channel].key, order[i].t);
     *place = now;
   }
   for (i = 0; i < log->n; i++)

@@ -23,8 +23,8 @@ static void write_columns(FILE *file, const lab_log_format *format)
 }
 
 /* A number a channel, those equal to `dflt` left out. */
-static void write_channels(FILE *file, const char *key, const lab_log_format *format, const double *value,
-                           double dflt, int with_unit)
+static void write_channels(FILE *file, const char *key, const lab_log_format *format, const double *value, double dflt,
+                           int with_unit)
 {
   int i, any = 0;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
@@ -42,8 +42,7 @@ static void write_quantities(FILE *file, const lab_log_format *format)
 {
   int i;
   for (i = 0; i < format->n_quantities; i++)
-    fprintf(file, "%s %s = \"%s\";", i ? "" : "  quantities = {", format->quantity[i].word,
-            format->quantity[i].column);
+    fprintf(file, "%s %s = \"%s\";", i ? "" : "  quantities = {", format->quantity[i].word, format->quantity[i].column);
   if (format->n_quantities)
     fputs(" };\n", file);
 }

@@ -7,8 +7,8 @@
 #include <strings.h>
 
 enum {
-  FIELD_MAX = 128,  /* longest number with its marks */
-  EXACT_POWER = 22  /* largest power of ten that a double holds exactly */
+  FIELD_MAX = 128, /* longest number with its marks */
+  EXACT_POWER = 22 /* largest power of ten that a double holds exactly */
 };
 
 static const double power_of_ten[EXACT_POWER + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,

@@ -109,8 +109,8 @@ static int read_friction(const config_setting_t *setting, int param, lab_rig *ri
 }
 
 /* Indexed by enum lab_key_kind. */
-static int (*const read_kind[])(const config_setting_t *, int, lab_rig *, lab_error *) = {
-    read_param, read_name, read_action, read_gas, read_flow, read_friction};
+static int (*const read_kind[])(const config_setting_t *, int, lab_rig *,
+                                lab_error *) = {read_param, read_name, read_action, read_gas, read_flow, read_friction};
 
 /* ---- Groups ---- */
 
@@ -253,8 +253,11 @@ static int read_inputs(const config_setting_t *list, lab_rig *rig, lab_error *er
   static const struct input_word {
     const char *name;
     int channel;
-  } words[] = {{"u", LAB_CHANNEL_U}, {"p", LAB_CHANNEL_P},         {"x", LAB_CHANNEL_X},
-               {"ps", LAB_CHANNEL_PS}, {"force", LAB_CHANNEL_FORCE}};
+  } words[] = {{"u", LAB_CHANNEL_U},
+               {"p", LAB_CHANNEL_P},
+               {"x", LAB_CHANNEL_X},
+               {"ps", LAB_CHANNEL_PS},
+               {"force", LAB_CHANNEL_FORCE}};
   enum { WORDS = sizeof words / sizeof words[0] };
   int i, word, status = lab_config_list(list, 1, WORDS, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
@@ -315,8 +318,9 @@ static int check_supply(const config_t *config, const lab_rig *rig, lab_error *e
   const config_setting_t *setting = config_lookup(config, "supply.pressure");
   if (rig->params.supply_pressure > 0 || rig->params.fill_area == 0 || rig->laws.pressure_input || !setting)
     return LAB_OK;
-  return lab_config_fail(setting, error, "expected more than 0 Pa gauge (supply above ambient), found %g Pa; a rig "
-                                         "that only vents has transducer.fill_area = 0",
+  return lab_config_fail(setting, error,
+                         "expected more than 0 Pa gauge (supply above ambient), found %g Pa; a rig "
+                         "that only vents has transducer.fill_area = 0",
                          (double)rig->params.supply_pressure);
 }
 

@@ -10,8 +10,10 @@ static int check_inputs(const lab_rig *rig, const lab_log *log, lab_error *error
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
     if (!rig->input[i] || log->value[i] || (i == LAB_CHANNEL_U && rig->laws.pressure_input))
       continue;
-    return lab_fail(error, LAB_DATA, "%s: expected a column %s, which drives the model; where it is constant give "
-                                     "log.constants in the rig file", log->path, lab_channels[i].key);
+    return lab_fail(error, LAB_DATA,
+                    "%s: expected a column %s, which drives the model; where it is constant give "
+                    "log.constants in the rig file",
+                    log->path, lab_channels[i].key);
   }
   return LAB_OK;
 }
@@ -63,8 +65,8 @@ static void fill(const lab_rig *rig, const lab_log *log, size_t first, size_t en
   drive->schedule.input = drive->input;
 }
 
-int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run,
-                       lab_drive *drive, lab_error *error)
+int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_drive *drive,
+                       lab_error *error)
 {
   size_t first = log->run[run], end = log->run[run + 1];
   pneu_input input;

@@ -124,8 +124,7 @@ int lab_start_from_log(const pneu_model *model, const pneu_input *input, const l
 {
   const int rounds = 3; /* a bias is gone after one, a gain of 10 % to 1e-3 after three */
   const struct seen read = {look(log, LAB_CHANNEL_P, run, model->law.pressure_input),
-                            look(log, LAB_CHANNEL_X, run, model->law.position_input),
-                            look(log, LAB_CHANNEL_T, run, 0)};
+                            look(log, LAB_CHANNEL_X, run, model->law.position_input), look(log, LAB_CHANNEL_T, run, 0)};
   struct seen seen = read;
   pneu_output out;
   int i;

@@ -52,8 +52,7 @@ static void dimension(const ut_unit *unit, char text[UNIT_TEXT])
     snprintf(text, UNIT_TEXT, "?");
 }
 
-static int wrong_dimension(const char *from, const ut_unit *have, const char *to, const ut_unit *want,
-                           lab_error *error)
+static int wrong_dimension(const char *from, const ut_unit *have, const char *to, const ut_unit *want, lab_error *error)
 {
   char found[UNIT_TEXT], expected[UNIT_TEXT];
   dimension(have, found);

@@ -29,8 +29,7 @@ int measured_path(const char *folder, const char *name, char *path, size_t size,
     return error->status;
   if (access(path, R_OK) == 0)
     return LAB_OK;
-  fprintf(stderr, "absent: %s; study/measured/fetch.sh loads what can be had, MEASURED names its folder\n",
-          path);
+  fprintf(stderr, "absent: %s; study/measured/fetch.sh loads what can be had, MEASURED names its folder\n", path);
   return MEASURED_ABSENT;
 }
 

@@ -27,8 +27,8 @@ typedef struct finding {
 /* ---- Errors ---- */
 
 /* Sum of squared errors over the sliding points whose `use` is `wanted`.  Out: their number */
-static int squares(const servomotor *s, const servo_law *law, const double *theta, const unsigned char *use,
-                   int wanted, double *sum, size_t *n, lab_error *error)
+static int squares(const servomotor *s, const servo_law *law, const double *theta, const unsigned char *use, int wanted,
+                   double *sum, size_t *n, lab_error *error)
 {
   size_t i;
   for (i = 0; i < s->n; i++) {
@@ -152,8 +152,8 @@ static int add_points(table *t, const servomotor *s, const servo_law *law, const
     double p = (double)NAN;
     if (s->sliding[i] && servo_pressure(s, law, theta, s->x[i], s->direction[i], &p, error))
       return error->status;
-    table_row(t, "ssgggggg", law->name, "point", (double)s->direction[i], 1e-3 * s->p[i],
-              100 * s->x[i] / s->nominal, (double)s->sliding[i], 1e-3 * p, 1e-3 * (s->p[i] - p));
+    table_row(t, "ssgggggg", law->name, "point", (double)s->direction[i], 1e-3 * s->p[i], 100 * s->x[i] / s->nominal,
+              (double)s->sliding[i], 1e-3 * p, 1e-3 * (s->p[i] - p));
   }
   return LAB_OK;
 }

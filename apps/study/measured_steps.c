@@ -82,13 +82,12 @@ static edge edge_of(const record *r)
 
 /* ---- One row a pair of edges ---- */
 
-static const char steps_header[] =
-    "source,gas,flow,rise_time [s],fall_time [s],duration_ratio [1],asymmetry [1],"
-    "rise_lag_T [s],rise_lag_rms [1],rise_ramp_T [s],rise_ramp_rms [1],"
-    "fall_lag_T [s],fall_lag_rms [1],fall_ramp_T [s],fall_ramp_rms [1],note";
+static const char steps_header[] = "source,gas,flow,rise_time [s],fall_time [s],duration_ratio [1],asymmetry [1],"
+                                   "rise_lag_T [s],rise_lag_rms [1],rise_ramp_T [s],rise_ramp_rms [1],"
+                                   "fall_lag_T [s],fall_lag_rms [1],fall_ramp_T [s],fall_ramp_rms [1],note";
 
-static int add_pair(table *t, const char *source, const char *gas, const char *flow, const edge *up,
-                    const edge *down, const char *note, lab_error *error)
+static int add_pair(table *t, const char *source, const char *gas, const char *flow, const edge *up, const edge *down,
+                    const char *note, lab_error *error)
 {
   asymmetry_result a;
   double rise_ramp, rise_ramp_rms, fall_lag, fall_lag_rms;

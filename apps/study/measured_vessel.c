@@ -16,9 +16,9 @@ static const double source_cd = 0.84;          /* [1] its discharge coefficient 
 /* What is found out about one law. */
 typedef struct finding {
   lab_fit_result fit;
-  vessel_error p, T;           /* of the fit to all rows */
-  vessel_error second_half;    /* of pressure, fitted to the first half of the record */
-  vessel_error left_out;       /* of pressure, each point predicted from the others */
+  vessel_error p, T;        /* of the fit to all rows */
+  vessel_error second_half; /* of pressure, fitted to the first half of the record */
+  vessel_error left_out;    /* of pressure, each point predicted from the others */
 } finding;
 
 /* ---- Held-out rows ---- */
@@ -62,8 +62,7 @@ static int leave_one_out(const vessel *v, const vessel_law *law, unsigned char *
     if (isnan(v->log.value[LAB_CHANNEL_P][i]))
       continue;
     use[i] = 0;
-    if (vessel_fit(v, law, use, &fit, error) ||
-        vessel_errors(v, law, fit.theta, LAB_CHANNEL_P, use, 0, &one, error))
+    if (vessel_fit(v, law, use, &fit, error) || vessel_errors(v, law, fit.theta, LAB_CHANNEL_P, use, 0, &one, error))
       return error->status;
     use[i] = 1;
     squares += one.rmse * one.rmse;
@@ -79,8 +78,7 @@ static int find(const vessel *v, const vessel_law *law, unsigned char *use, find
   if (vessel_fit(v, law, NULL, &f->fit, error) ||
       vessel_errors(v, law, f->fit.theta, LAB_CHANNEL_P, NULL, 1, &f->p, error) ||
       vessel_errors(v, law, f->fit.theta, LAB_CHANNEL_T, NULL, 1, &f->T, error) ||
-      predict_second_half(v, law, use, &f->second_half, error) ||
-      leave_one_out(v, law, use, &f->left_out, error))
+      predict_second_half(v, law, use, &f->second_half, error) || leave_one_out(v, law, use, &f->left_out, error))
     return lab_fail_in(error, "law %s", law->name);
   return LAB_OK;
 }
@@ -95,10 +93,10 @@ static void add_summary(table *t, const vessel_law *law, const finding *f)
 {
   static const double quarter_pi = 0.78539816339744830962;
   const double area = f->fit.theta[0];
-  table_row(t, "sssggggggggggggs", law->name, law->what, law->with_T ? "p and T" : "p", 1e6 * area,
-            1e6 * f->fit.low[0], 1e6 * f->fit.high[0], area / (quarter_pi * source_diameter * source_diameter),
-            1e3 * sqrt(area / (source_cd * quarter_pi)), 1e-3 * f->p.rmse, 1e-3 * f->p.largest,
-            1e-3 * f->left_out.rmse, 1e-3 * f->second_half.rmse, f->p.lag1, f->T.rmse, f->T.largest, f->fit.remark);
+  table_row(t, "sssggggggggggggs", law->name, law->what, law->with_T ? "p and T" : "p", 1e6 * area, 1e6 * f->fit.low[0],
+            1e6 * f->fit.high[0], area / (quarter_pi * source_diameter * source_diameter),
+            1e3 * sqrt(area / (source_cd * quarter_pi)), 1e-3 * f->p.rmse, 1e-3 * f->p.largest, 1e-3 * f->left_out.rmse,
+            1e-3 * f->second_half.rmse, f->p.lag1, f->T.rmse, f->T.largest, f->fit.remark);
 }
 
 static const char parameter_header[] = "law,parameter,value,unit,ci95_low,ci95_high,state";
@@ -118,8 +116,7 @@ static void add_parameters(table *t, const vessel_law *law, const lab_fit_result
 
 /* ---- Curves ---- */
 
-static const char curve_header[] =
-    "law,t [s],p_data [kPa],p [kPa],p_residual [kPa],T_data [K],T [K],T_residual [K]";
+static const char curve_header[] = "law,t [s],p_data [kPa],p [kPa],p_residual [kPa],T_data [K],T [K],T_residual [K]";
 
 enum { GRID = 224 };
 static const double grid_end = 56; /* [s], every quarter of a second; the record ends at 54.8 s */

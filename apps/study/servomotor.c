@@ -15,8 +15,7 @@ const servo_law servo_laws[] = {
     {"friction-position+hardening", 2, {SERVO_FRICTION_POSITION, SERVO_SPRING_HARDENING}},
     {"friction-pressure+hardening", 2, {SERVO_FRICTION_PRESSURE, SERVO_SPRING_HARDENING}},
     {"friction-position+area", 2, {SERVO_FRICTION_POSITION, SERVO_AREA_VARIATION}},
-    {"friction-position+hardening+area", 3,
-     {SERVO_FRICTION_POSITION, SERVO_SPRING_HARDENING, SERVO_AREA_VARIATION}},
+    {"friction-position+hardening+area", 3, {SERVO_FRICTION_POSITION, SERVO_SPRING_HARDENING, SERVO_AREA_VARIATION}},
 };
 const int servo_law_count = (int)(sizeof servo_laws / sizeof servo_laws[0]);
 
@@ -27,9 +26,8 @@ typedef struct term_info {
   double scale, start, lower, upper; /* of reports; theta = value / scale */
 } term_info;
 
-static const term_info base[SERVO_BASE_COUNT] = {{"bench_low", "kPa", 1e-3, 20, -50, 200},
-                                                 {"span", "kPa", 1e-3, 80, 1, 500},
-                                                 {"friction", "kPa", 1e-3, 4, 0, 50}};
+static const term_info base[SERVO_BASE_COUNT] = {
+    {"bench_low", "kPa", 1e-3, 20, -50, 200}, {"span", "kPa", 1e-3, 80, 1, 500}, {"friction", "kPa", 1e-3, 4, 0, 50}};
 
 static const term_info terms[SERVO_TERM_COUNT] = {
 #define X(name, key, unit, scale, start, lower, upper, what) {key, unit, scale, start, lower, upper},
@@ -196,8 +194,8 @@ static double balancing_pressure(const balance *b, double x, int direction)
   return high * at_zero / (at_zero - at_high);
 }
 
-int servo_pressure(const servomotor *s, const servo_law *law, const double *theta, double x, int direction,
-                   double *p, lab_error *error)
+int servo_pressure(const servomotor *s, const servo_law *law, const double *theta, double x, int direction, double *p,
+                   lab_error *error)
 {
   balance b;
   if (balance_open(&b, s, law, theta, error))
@@ -247,7 +245,7 @@ int servo_fit(const servomotor *s, const servo_law *law, const unsigned char *us
 
 /* ---- Ramp ---- */
 
-static const double ramp_rate = 1e3; /* [Pa/s]: viscous friction then is below 10 Pa */
+static const double ramp_rate = 1e3;  /* [Pa/s]: viscous friction then is below 10 Pa */
 static const double rounding = 1e-12; /* a stretch that ends so close to its pressure has ended */
 
 /* From one pressure to the next, in the direction of `direction`. */

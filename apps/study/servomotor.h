@@ -4,6 +4,8 @@
  * The loop does not tell the diaphragm's area, so all is worked in pressure: with spring rate k, preload x0, dry
  * friction F, area A and nominal stroke s, sliding up (+) or down (-),
  *   p = bench_low + span x/s +- friction,  bench_low = k x0/A,  span = k s/A,  friction = F/A.
+ * On a slow loop pressure and position run together, so that friction by travel and friction by pressure fit alike to
+ * the last digit: the loop cannot tell which it is.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_SERVOMOTOR_H
 #define STUDY_SERVOMOTOR_H
@@ -21,7 +23,7 @@
   X(FRICTION_POSITION,    "friction_position",  "kPa", 1e-3,  0,   -10,  10,   "+- c xi: friction grows with travel") \
   X(FRICTION_PRESSURE,    "friction_pressure",  "1",   1,     0,   -0.5, 0.5,  "+- c p: friction grows with pressure") \
   X(SPRING_HARDENING,     "spring_hardening",   "kPa", 1e-3,  0,   -50,  50,   "c xi^3: the spring hardens") \
-  X(AREA_VARIATION,       "area_variation",     "1",   1,     0,   -0.5, 0.5,  "p (1 + c xi): the area grows with travel")
+  X(AREA_VARIATION,       "area_variation",     "1",   1,     0,   -0.5, 0.5,  "p (1 + c xi): the area grows")
 
 enum servo_term {
 #define X(name, key, unit, scale, start, lower, upper, what) SERVO_##name,

@@ -10,7 +10,7 @@ edges = table("measured_damadics_edges")
 LAWS = "coulomb friction-position friction-position+hardening"
 array COLOUR[3] = [BLUE, ORANGE, GREEN]
 array POINT[3] = [7, 5, 9]
-array TEXT[3] = ["Coulomb friction, linear spring", "friction grows with travel", "the same, and the spring hardens"]
+array TEXT[3] = ["Coulomb friction, linear spring", "friction grows with travel (or pressure)", "the same, and the spring hardens"]
 set for [i = 1:3] style line 10+i lc rgb COLOUR[i] lw 2 dt solid
 of(i, kind, name) = strcol("law") eq word(LAWS, i) && strcol("kind") eq kind ? column(name) : NaN
 branch(i, sign, name) = column("direction [1]") == sign ? of(i, "point", name) : NaN
@@ -23,7 +23,8 @@ set lmargin at screen 0.075
 set rmargin at screen 0.975
 @BLANK
 @KEY width 0
-plot [0:1][0:1] NaN with points pt 7 ps 0.9 lc rgb INK title "measured, pressure rising", \
+plot [0:1][0:1] \
+  NaN with points pt 7 ps 0.9 lc rgb INK title "measured, pressure rising", \
   NaN with points pt 6 ps 0.9 lc rgb INK title "measured, falling", \
   for [i = 1:3] NaN with lines ls 10+i title TEXT[i]
 @NEXT
@@ -40,7 +41,8 @@ set xrange [0:118]
 set yrange [-3:113]
 set xtics 20
 set ytics 25
-plot for [i in "1 3"] loop using (of(int(i), "ramp", "p [kPa]")):(of(int(i), "ramp", "x [%]")) with lines ls 10+int(i), \
+plot for [i in "1 3"] loop using (of(int(i), "ramp", "p [kPa]")):(of(int(i), "ramp", "x [%]")) \
+    with lines ls 10+int(i), \
   loop using (branch(1, 1, "p [kPa]")):(branch(1, 1, "x [%]")) with points pt 7 ps 0.6 lc rgb INK, \
   loop using (branch(1, -1, "p [kPa]")):(branch(1, -1, "x [%]")) with points pt 6 ps 0.6 lc rgb INK
 
@@ -54,8 +56,10 @@ set xrange [0:108]
 set yrange [-1.7:1.7]
 set ytics 0.5
 set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead back lw 1 lc rgb GREY
-plot for [i = 1:3] loop using (branch(i, 1, "x [%]")):(branch(i, 1, "residual [kPa]")) with linespoints ls 10+i lw 1 pt POINT[i] ps 0.6, \
-  for [i = 1:3] loop using (branch(i, -1, "x [%]")):(branch(i, -1, "residual [kPa]")) with linespoints ls 10+i lw 1 dt (4,3) pt POINT[i]-1 ps 0.6
+plot for [i = 1:3] loop using (branch(i, 1, "x [%]")):(branch(i, 1, "residual [kPa]")) \
+    with linespoints ls 10+i lw 1 pt POINT[i] ps 0.6, \
+  for [i = 1:3] loop using (branch(i, -1, "x [%]")):(branch(i, -1, "residual [kPa]")) \
+    with linespoints ls 10+i lw 1 dt (4,3) pt POINT[i]-1 ps 0.6
 
 # heading and key of the steps
 @NEXT
@@ -66,9 +70,11 @@ set rmargin at screen 0.975
 set tmargin at screen 0.40
 set bmargin at screen 0.36
 @BLANK
-set label 3 "Two steps of the same kind of servomotor, both nearer to a first-order lag than to an integrator" at screen 0.02, screen 0.405 left textcolor rgb INK
+set label 3 "Two steps of the same kind of servomotor, both nearer to a first-order lag than to an integrator" \
+  at screen 0.02, screen 0.405 left textcolor rgb INK
 set key at screen 0.06, screen 0.385 left top horizontal maxcols 4 width 1
-plot [0:1][0:1] NaN with points pt 7 ps 0.9 lc rgb INK title "pressure up", NaN with points pt 6 ps 0.9 lc rgb INK title "pressure down", \
+plot [0:1][0:1] NaN with points pt 7 ps 0.9 lc rgb INK title "pressure up", \
+  NaN with points pt 6 ps 0.9 lc rgb INK title "pressure down", \
   NaN with lines lw 2 lc rgb BLUE title "lag", NaN with lines lw 2 dt (7,4) lc rgb VERMILLION title "integrator"
 @NEXT
 @FRAME
@@ -96,8 +102,9 @@ set label 2 "Time [s]" at graph 1, graph 0 right offset 0,-2.2 textcolor rgb INK
 set yrange [-1.2:1.9]
 set ytics 0.5
 set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead back lw 1 lc rgb GREY
-plot edges using "t [s]":(on("up", "ramp_residual [1]")) with linespoints lw 1 dt (7,4) lc rgb VERMILLION pt 7 ps 0.35, \
-  edges using "t [s]":(on("down", "ramp_residual [1]")) with linespoints lw 1 dt (7,4) lc rgb VERMILLION pt 6 ps 0.6, \
+INTEGRATOR = 'with linespoints lw 1 dt (7,4) lc rgb VERMILLION'
+plot edges using "t [s]":(on("up", "ramp_residual [1]")) @INTEGRATOR pt 7 ps 0.35, \
+  edges using "t [s]":(on("down", "ramp_residual [1]")) @INTEGRATOR pt 6 ps 0.6, \
   edges using "t [s]":(on("up", "lag_residual [1]")) with linespoints lw 1 lc rgb BLUE pt 7 ps 0.35, \
   edges using "t [s]":(on("down", "lag_residual [1]")) with linespoints lw 1 lc rgb BLUE pt 6 ps 0.6
 unset multiplot

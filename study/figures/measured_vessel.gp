@@ -56,7 +56,8 @@ do for [side = 1:2] {
   set label 1 "Measured less model".unit @ABOVE
   if (side == 1) { set yrange [-28:28]; set ytics 10 } else { set yrange [-50:120]; set ytics 50 }
   set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead back lw 1 lc rgb GREY
-  plot for [i = 1:COUNT] file using "t [s]":(of(i, channel."_residual".unit)) with linespoints ls 10+i lw 1 pt POINT[i] ps 0.55
+  plot for [i = 1:COUNT] file using "t [s]":(of(i, channel."_residual".unit)) \
+    with linespoints ls 10+i lw 1 pt POINT[i] ps 0.55
   unset arrow 1
 }
 unset multiplot
