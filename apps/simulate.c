@@ -8,7 +8,7 @@
 #include "lab/schedule.h"
 #include "lab/standard.h"
 #include "lab/start.h"
-#include "lab/table.h"
+#include "lab/series.h"
 
 static const char *out_path;
 static int standard;
@@ -30,31 +30,31 @@ static const lab_response_options accuracy = {LAB_STEPPER, 1e-7, 0, 0};
 
 /* Time, command, and those channels that are asked for; `u` may be NULL.  Returns: the number of columns. */
 static int columns(const pneu_model *model, const lab_trace *trace, const double *u, int p, int x, int T,
-                   lab_table_column *column)
+                   lab_series_column *column)
 {
   int n = 0, opening = model->p.proportional_band == 0;
-  column[n++] = (lab_table_column){"t [s]", 1, trace->t};
+  column[n++] = (lab_series_column){"t [s]", 1, trace->t};
   if (u)
-    column[n++] = opening ? (lab_table_column){"u [1]", 1, u} : (lab_table_column){"u [kPa]", 1e-3, u};
+    column[n++] = opening ? (lab_series_column){"u [1]", 1, u} : (lab_series_column){"u [kPa]", 1e-3, u};
   if (p)
-    column[n++] = (lab_table_column){"p [kPa]", 1e-3, trace->p};
+    column[n++] = (lab_series_column){"p [kPa]", 1e-3, trace->p};
   if (x)
-    column[n++] = (lab_table_column){"x [mm]", 1e3, trace->x};
+    column[n++] = (lab_series_column){"x [mm]", 1e3, trace->x};
   if (T)
-    column[n++] = (lab_table_column){"T [K]", 1, trace->T};
+    column[n++] = (lab_series_column){"T [K]", 1, trace->T};
   return n;
 }
 
 static int simulate_standard(const pneu_model *model, FILE *file, lab_error *error)
 {
-  lab_table_column column[5];
+  lab_series_column column[5];
   lab_trace trace;
   int n;
   if (lab_standard_experiment(model, &accuracy, &trace, error))
     return error->status;
   n = columns(model, &trace, trace.u, 1, 1, 0, column);
-  lab_table_header(file, column, n);
-  lab_table_rows(file, column, n, trace.n);
+  lab_series_header(file, column, n);
+  lab_series_rows(file, column, n, trace.n);
   lab_trace_free(&trace);
   return LAB_OK;
 }
@@ -86,7 +86,7 @@ static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_l
   int nothing = !value[LAB_CHANNEL_P] && !value[LAB_CHANNEL_X] && !value[LAB_CHANNEL_T];
   size_t run;
   for (run = 0; run < log->n_runs; run++) {
-    lab_table_column column[5];
+    lab_series_column column[5];
     lab_trace trace;
     int n;
     if (respond(model, rig, log, run, &trace, error))
@@ -94,8 +94,8 @@ static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_l
     n = columns(model, &trace, value[LAB_CHANNEL_U] ? value[LAB_CHANNEL_U] + log->run[run] : NULL,
                 nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
     if (run == 0)
-      lab_table_header(file, column, n);
-    lab_table_rows(file, column, n, trace.n);
+      lab_series_header(file, column, n);
+    lab_series_rows(file, column, n, trace.n);
     lab_trace_free(&trace);
   }
   return LAB_OK;

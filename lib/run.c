@@ -62,7 +62,7 @@ static int accept(run *r, pneu_real h, int which)
   if (status != PNEU_OK)
     return status;
   pneu_unpack(r->model, r->work->y1, r->state);
-  r->t += h;
+  r->t = which < 0 && h >= r->end - r->t ? r->end : r->t + h;
   r->work->stats.steps++;
   r->events_in_a_row = which < 0 ? 0 : r->events_in_a_row + 1;
   if (which < 0)
@@ -174,7 +174,7 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   r.steps = 0;
   r.events_in_a_row = 0;
   pneu_settle(model, input, state);
-  while (r.t < r.end && status == PNEU_OK) {
+  while (r.end - r.t > 8 * PNEU_EPS * r.end && status == PNEU_OK) {
     if (r.steps++ >= options->max_steps)
       return PNEU_E_STEP_COUNT;
     status = advance(&r);

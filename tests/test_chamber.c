@@ -151,6 +151,35 @@ static void test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure(vo
     }
 }
 
+/* A long step must not leap over the point of equal pressures. */
+static void test_pneu_run__loose_tolerance__pressure_keeps_within_supply_and_ambient(void **state)
+{
+  static fixture_sample s[2001];
+  static const double volume[] = {1e-6, 1e-5, 1e-4, 1e-3}, tol[] = {1e-3, 1e-4, 1e-5};
+  int i, j, k, flow;
+  (void)state;
+  for (flow = 0; flow < PNEU_FLOW_COUNT; flow++)
+    for (i = 0; i < COUNT(volume); i++)
+      for (j = 0; j < COUNT(tol); j++) {
+        const pneu_params p = fixture_vessel(volume[i]);
+        const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+        fixture_stretch stretch[2];
+        pneu_state at;
+        const double over = 20 * tol[j] * 5e5;
+        int n;
+        stretch[0].duration = stretch[1].duration = volume[i] * 1e4;
+        stretch[0].input = fixture_input(&m, 1);
+        stretch[1].input = fixture_input(&m, -1);
+        at = fixture_rest(&m, 0, 0, &stretch[0].input);
+        n = fixture_trace(&m, &at, stretch, 2, volume[i] * 10, tol[j], s, 2001);
+        check_note("%s, V = %g, tol = %g", pneu_flow_key(flow), volume[i], tol[j]);
+        for (k = 0; k < n; k++)
+          assert_between(s[k].p, -over, 4e5 + over);
+        assert_close(s[999].p, 4e5, over + (flow < PNEU_FLOW_LINEAR ? 400 : 2e4), 0); /* the last takes long */
+        assert_close(at.p, 0, over + (flow < PNEU_FLOW_LINEAR ? 400 : 2e4), 0);
+      }
+}
+
 /* ---- moved chambers, both orifices shut ---- */
 
 /* A piston in a chamber of 1e-4 m3 that doubles over the stroke. */
@@ -174,6 +203,7 @@ static double expand(const pneu_model *m, double time, pneu_state *s)
   input.position_rate = (pneu_real)(0.1 / time);
   fixture_run(m, s, &input, time, FIXTURE_TOL, NULL);
   assert_close(s->x, 0.1, 0, TOL(1e-12, 1e-5));
+  assert_true(s->mode == PNEU_MODE_DRIVEN && s->v == input.position_rate);
   return absolute(&m->p, s) / p0;
 }
 
@@ -441,6 +471,7 @@ int main(void)
       cmocka_unit_test(test_pneu_run__adiabatic_fill__keeps_the_first_law),
       cmocka_unit_test(test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_times_supply_temperature),
       cmocka_unit_test(test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure),
+      cmocka_unit_test(test_pneu_run__loose_tolerance__pressure_keeps_within_supply_and_ambient),
       cmocka_unit_test(test_pneu_run__moved_shut_chamber__keeps_p_times_volume_to_the_n),
       cmocka_unit_test(test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isothermal_law_boyle),
       cmocka_unit_test(test_pneu_run__moved_shut_chamber__keeps_its_mass),

@@ -214,6 +214,12 @@ static void footprint_chamber_leak(void)
   assert_close((double)s.p + pa, (5e5 + pa) * exp(-2e-8 * c * R * sqrt(T) / 1e-4 * 10), 0, TOL(1e-8, 1e-4));
   s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, -3e4, 0, 1);
   assert_between(s.p, -3e4 + 1, 0);
+  {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 1, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    s = fixture_rest(&m, 2e5, 0, &input);
+    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
+  }
 }
 
 static double inflow(const pneu_params *p, int flow, double pressure)
@@ -238,6 +244,14 @@ static void footprint_choked_flow(void)
     fixture_set(&p, "choked_share", 0.25);
     assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), 0.75 * paper + 0.25 * nozzle, 0, TOL(1e-14, 1e-6));
     assert_true(nozzle < paper);
+  }
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 1);
+    pneu_state s = fixture_rest(&m, 0, 0, &input);
+    assert_true(fixture_look(&m, &s, &input).choked);
+    s = fixture_rest(&m, 3e5, 0, &input);
+    assert_false(fixture_look(&m, &s, &input).choked);
   }
 }
 
@@ -284,6 +298,12 @@ static void footprint_transducer_lag(void)
       assert_close(late.p, prompt.p, TOL(0.01, 50), 0);
       assert_close(late.extra[0], u * (1 - exp(-t / tau)), TOL(1e-8, 1e-4), 0);
     }
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input half = fixture_input(&m, 0.5);
+    const pneu_state rest = fixture_rest(&m, 0, 0, &half);
+    assert_close(fixture_look(&m, &rest, &half).opening, 0.5, 0, 0);
+  }
 }
 
 /* Venting takes 1/(1 - r) of the time, filling what it took. */
@@ -353,6 +373,7 @@ static void footprint_heat_transfer(void)
   pneu_state s;
   pneu_model m;
   pneu_input shut;
+  p.polytropic_index = (pneu_real)1.2; /* must not matter */
   fixture_set(&p, "film_conductance", 2);
   assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
   fixture_set(&p, "film_conductance", 0);
@@ -370,6 +391,109 @@ static void footprint_heat_transfer(void)
   fixture_run(&m, &s, &shut, 30, FIXTURE_TOL, NULL);
   assert_true(fast.T < 280);
   assert_close((double)s.p + 101325, ((double)fast.p + 101325) * 298.15 / (double)fast.T, 0, TOL(1e-7, 1e-4));
+}
+
+/* A film of the energy law does nothing under the other laws, a resistance nothing under any but the isothermal. */
+static void test_heat_transfer__parameter_of_another_law__does_not_act(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  (void)state;
+  if (fixture_effect("heat_transfer") < 0)
+    skip();
+  fixture_set(&p, "film_conductance", 2);
+  fixture_set(&p, "free_convection", 2);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 0);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER).n_active, 0);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 1);
+  p = fixture_params(FIXTURE_R1_400);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
+}
+
+/* Canudas de Wit 1995: z' = v - |v| z F/F(v) over d, friction F z + s1 d z', here with Stribeck's F(v). */
+static void check_bristle(double v, double z)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  const double F = 480, d = 2e-5, s1 = 800, excess = fixture_effect("stribeck_friction") < 0 ? 0 : 0.4;
+  const double level = F * (1 + excess * exp(-v * v / 1e-4)), slip = v - fabs(v) * z * F / level;
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
+  fixture_set(&p, "presliding_length", d);
+  fixture_set(&p, "bristle_damping", s1);
+  if (excess > 0) {
+    fixture_set(&p, "stribeck_excess", excess);
+    fixture_set(&p, "stribeck_velocity", 1e-2);
+  }
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 2e5, 0.012, &input);
+  s.v = (pneu_real)v;
+  s.extra[0] = (pneu_real)z;
+  s.mode = PNEU_MODE_FREE;
+  assert_int_equal(pneu_pack(&m, &s, y), 4);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  check_note("v = %g, z = %g", v, z);
+  assert_close(f[1], slip / d, 1e-9, TOL(1e-12, 1e-5));
+  assert_close(f[3], (2e5 * 0.04 - 4e5 * 0.022 - 1500 * v - F * z - s1 * slip) / 2, TOL(1e-9, 1e-2), TOL(1e-12, 1e-5));
+}
+
+static void test_presliding__moving__friction_is_that_of_lugre(void **state)
+{
+  (void)state;
+  if (fixture_effect("presliding") < 0)
+    skip();
+  check_bristle(3e-3, 0.3);
+  check_bristle(-3e-3, 0.3);
+  check_bristle(0.05, -0.8);
+  check_bristle(0, 0.5);
+}
+
+/* Bristles bent on the way down help the stem up from the lower stop: it leaves at k x_0 - F. */
+static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  fixture_events e;
+  (void)state;
+  if (fixture_effect("presliding") < 0)
+    skip();
+  fixture_set(&p, "presliding_length", 2e-5);
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 1.5e5, 0.004, &input);
+  input.pressure_rate = (pneu_real)-1e5;
+  fixture_run(&m, &s, &input, 1, TOL(1e-7, 1e-4), NULL);
+  assert_int_equal(s.mode, PNEU_MODE_LOWER);
+  input.pressure_rate = (pneu_real)1e5;
+  fixture_run(&m, &s, &input, 0.6, TOL(1e-7, 1e-4), &e);
+  assert_true(e.n > 0 && e.before[0] == PNEU_MODE_LOWER);
+  assert_close(e.p[0], (4e5 * 0.01 - 480) / 0.04, 100, 0);
+}
+
+static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (fixture_effect("presliding") < 0 || fixture_effect("transducer_lag") < 0)
+    skip();
+  fixture_set(&p, "presliding_length", 2e-5);
+  fixture_set(&p, "transducer_time", 0.5);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 1.2e5, 0.001, &input);
+  input.u = 1;
+  fixture_run(&m, &s, &input, 0.4, TOL(1e-7, 1e-5), NULL);
+  assert_int_equal(m.n_extra, 2);
+  assert_close(fixture_look(&m, &s, &input).opening, 1 - exp(-0.4 / 0.5), TOL(1e-6, 1e-4), 0);
+  assert_close(s.extra[m.state_of[fixture_effect("presliding")]], 1, 0.02, 0);
 }
 
 /* Quasi-static from z = 0: dz/dx = (1 - z)/d, so that x = -d ln(1 - force/F) before break-away. */
@@ -521,6 +645,10 @@ int main(void)
       cmocka_unit_test(test_supply_droop__filling__is_slowed_and_venting_is_not),
       cmocka_unit_test(test_transducer_lag__vessel__runs_late_by_the_integral_of_the_lag),
       cmocka_unit_test(test_vent_restriction__venting__takes_longer_and_filling_does_not),
+      cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
+      cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
+      cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
+      cmocka_unit_test(test_pneu_run__two_effects_with_states__each_keeps_its_own),
       cmocka_unit_test(test_pneu_run__all_effects_together__stays_physical),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,7 @@
 #include "../apps/lab/schedule.h"
 #include "../apps/lab/standard.h"
 #include "../apps/lab/start.h"
-#include "../apps/lab/table.h"
+#include "../apps/lab/series.h"
 
 static lab_error error;
 static lab_rig rig;
@@ -296,17 +296,17 @@ static void test_lab_standard_experiment__default_model__fills_and_vents(void **
 
 /* ---- Tables ---- */
 
-static void test_lab_table_rows__numbers__are_scaled_and_gaps_empty(void **state)
+static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **state)
 {
   const double t[] = {0, 0.005}, p[] = {-0.0, 101325}, gap[] = {NAN, 1};
-  const lab_table_column columns[] = {{"t [s]", 1, t}, {"p [kPa]", 1e-3, p}, {"x [mm]", 1e3, gap}};
+  const lab_series_column columns[] = {{"t [s]", 1, t}, {"p [kPa]", 1e-3, p}, {"x [mm]", 1e3, gap}};
   const char *path = scratch_path("table.csv");
   FILE *file = fopen(path, "w");
   char *got;
   (void)state;
   assert_non_null(file);
-  lab_table_header(file, columns, 3);
-  lab_table_rows(file, columns, 3, 2);
+  lab_series_header(file, columns, 3);
+  lab_series_rows(file, columns, 3, 2);
   fclose(file);
   got = scratch_read(path);
   assert_string_equal(got, "t [s],p [kPa],x [mm]\n0,0,\n0.005,101.325,1000\n");
@@ -335,7 +335,7 @@ int main(void)
       CASE(test_lab_start_from_log__driven_channels__start_at_their_first_value),
       CASE(test_lab_start_from_log__below_vacuum__is_refused),
       CASE(test_lab_standard_experiment__default_model__fills_and_vents),
-      CASE(test_lab_table_rows__numbers__are_scaled_and_gaps_empty),
+      CASE(test_lab_series_rows__numbers__are_scaled_and_gaps_empty),
   };
   return cmocka_run_group_tests_name("schedule", tests, scratch_open, scratch_close);
 }

@@ -209,6 +209,65 @@ static void test_pneu_run__break_away__is_located_to_a_nanosecond(void **state)
     }
 }
 
+/* However rough the steps, the event lies on its root: pressure is that of break-away. */
+static void test_pneu_run__rough_steps__event_lies_on_its_root(void **state)
+{
+  static const double tol[] = {1e-2, 1e-3, 1e-4};
+  int actuator, i, gas;
+  (void)state;
+  for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+      for (i = 0; i < COUNT(tol); i++) {
+        const pneu_params p = fixture_params(actuator);
+        const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+        const pneu_input input = fixture_input(&m, 1);
+        const double go = ((double)p.spring_rate * (double)p.spring_preload + 480) / (double)p.area;
+        pneu_state s = fixture_rest(&m, 0, 0, &input);
+        fixture_events e;
+        fixture_run(&m, &s, &input, 0.1, tol[i], &e);
+        check_note("actuator %d, %s, tol %g", actuator, pneu_gas_key(gas), tol[i]);
+        assert_close(e.p[0], go, TOL(2e-9, 1e-6) * go / break_away_time(&p), TOL(0, 1e-4));
+      }
+}
+
+/* A step that would carry the stem past the stop and back again ends its way at the stop. */
+static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  const double w = 200;
+  double turn;
+  (void)state;
+  p.spring_rate = (pneu_real)(w * w * 2);
+  p.spring_preload = p.dry_friction = p.viscous_friction = p.damping = 0;
+  for (turn = 0.5; turn < 4.5; turn += 0.25) {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    pneu_state s = fixture_rest(&m, w * w * 2 * 0.018 / 0.04, 0.018, &input);
+    pneu_workspace work;
+    clear(&work);
+    s.v = (pneu_real)(0.005 * w);
+    check_note("w dt = %g", turn);
+    assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)(turn / w), &work), PNEU_OK);
+    assert_between(s.x, 0, 0.02 + 1e-8);
+  }
+}
+
+static void test_pneu_step__force_jumps__stem_moves_at_once_in_one_step(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_input input = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  input.force = 1000;
+  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-4, &work), PNEU_OK);
+  assert_int_equal(s.mode, PNEU_MODE_DOWN);
+  assert_int_equal(work.stats.steps, 1);
+  assert_true(s.v < 0);
+}
+
 /* The same by single steps: the state just after the event tells its time. */
 static void test_pneu_step__break_away_within_a_step__is_located(void **state)
 {
@@ -286,10 +345,58 @@ static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
     assert_between(apart(&s, &exact), 0, 10 * tol[i]);
     assert_true(stats.steps > steps);
     assert_true(stats.steps < 600 && stats.rhs >= 8 * stats.steps);
+    assert_true(stats.jacobians >= stats.steps && stats.rejected > 0);
     steps = stats.steps;
   }
 }
 #endif
+
+/* Near equal pressures the flow is so steep that the error estimate of a long step can miss it. */
+static void test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures(void **state)
+{
+  static fixture_sample s[320];
+  int actuator, gas, flow, i, n;
+  (void)state;
+  for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+      for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
+        const pneu_params p = fixture_params(actuator);
+        const pneu_model m = fixture_model(&p, gas, flow);
+        fixture_stretch stretch[3];
+        pneu_state at;
+        fixture_standard(&m, stretch);
+        at = fixture_rest(&m, 0, 0, &stretch[0].input);
+        n = fixture_trace(&m, &at, stretch, 3, 0.1, 1e-3, s, 320);
+        for (i = 0; i < n; i++) {
+          check_note("actuator %d, %s, %s, t = %g s", actuator, pneu_gas_key(gas), pneu_flow_key(flow), s[i].t);
+          assert_between(s[i].p, -20, (double)p.supply_pressure + 20);
+        }
+      }
+}
+
+/* A change of the command through zero while pressure is at that of the supply is no leap either. */
+static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  pneu_options options;
+  pneu_workspace work;
+  (void)state;
+  if (fixture_effect("transducer_lag") < 0)
+    skip();
+  fixture_set(&p, "transducer_time", 0.02);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 1);
+  s = fixture_rest(&m, 4e5, 0.02, &input);
+  input.u = -1;
+  clear(&work);
+  pneu_options_default(&options);
+  options.tol = (pneu_real)TOL(1e-6, 1e-4);
+  assert_int_equal(pneu_run(&m, &s, &input, 15, &options, NULL, &work), PNEU_OK);
+  assert_between(work.stats.steps, 10, 400);
+}
 
 static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
 {
@@ -380,6 +487,33 @@ static void test_pneu_run__longest_step__is_kept_and_steps_join(void **state)
   assert_int_equal(run_observed(&w, 3, 0), PNEU_OK);
   assert_close(w.t, 3, TOL(1e-14, 1e-5), 0);
   assert_true(w.steps >= 300);
+}
+
+/* work->h is the step to try first, once. */
+static double first_h;
+
+static int note_first(void *context, const pneu_step_view *view)
+{
+  (void)context;
+  if (view->t <= 0)
+    first_h = (double)view->h;
+  return 0;
+}
+
+static void test_pneu_run__step_to_try_first__is_tried_and_forgotten(void **state)
+{
+  const smooth s = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_observer observer = {note_first, NULL, NULL};
+  pneu_options options;
+  pneu_workspace work;
+  pneu_state at = s.start;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  work.h = (pneu_real)1e-5;
+  assert_int_equal(pneu_run(&s.model, &at, &s.input, 1, &options, &observer, &work), PNEU_OK);
+  assert_close(first_h, 1e-5, 0, TOL(1e-15, 1e-6));
+  assert_close(work.h, 0, 0, 0);
 }
 
 static void test_pneu_run__observer_stops__says_so(void **state)
@@ -618,12 +752,18 @@ int main(void)
       cmocka_unit_test(test_pneu_dense__at_the_ends__is_the_step_itself),
       cmocka_unit_test(test_pneu_step__stiff_stretch_and_huge_step__decays),
       cmocka_unit_test(test_pneu_run__break_away__is_located_to_a_nanosecond),
+      cmocka_unit_test(test_pneu_run__rough_steps__event_lies_on_its_root),
+      cmocka_unit_test(test_pneu_step__two_events_in_one_step__takes_the_first),
+      cmocka_unit_test(test_pneu_step__force_jumps__stem_moves_at_once_in_one_step),
       cmocka_unit_test(test_pneu_step__break_away_within_a_step__is_located),
       cmocka_unit_test(test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics),
+      cmocka_unit_test(test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures),
+      cmocka_unit_test(test_pneu_run__lagging_command_through_zero__takes_few_steps),
       cmocka_unit_test(test_pneu_run__in_two_parts__ends_where_one_run_does),
       cmocka_unit_test(test_pneu_run__no_time__changes_the_mode_at_most),
       cmocka_unit_test(test_pneu_run__any_duration__reaches_its_end),
       cmocka_unit_test(test_pneu_run__longest_step__is_kept_and_steps_join),
+      cmocka_unit_test(test_pneu_run__step_to_try_first__is_tried_and_forgotten),
       cmocka_unit_test(test_pneu_run__observer_stops__says_so),
       cmocka_unit_test(test_pneu_run__content_of_the_workspace__means_nothing),
       cmocka_unit_test(test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run),

@@ -11,6 +11,7 @@
 #include "done.h"
 #include "gnuplot.h"
 #include "hypotheses.h"
+#include "measured_products.h"
 #include "numbers.h"
 #include "report.h"
 #include "responses.h"
@@ -27,7 +28,9 @@ static const struct {
               {"static", responses_static},       {"numbers", numbers_make},
               {"sweeps", hypotheses_sweep},       {"hypotheses", hypotheses_verdicts},
               {"attribution", attribution_make}, {"conclusions", conclusions_make},
-              {"agreement", agreement_make}};
+              {"agreement", agreement_make},
+              {"vessel", measured_vessel_product},
+              {"servomotor", measured_damadics_product}};
 
 /* Figures: study/figures/<name>.gp draws <name>.svg from the table <needs>. */
 static const struct {

@@ -5,7 +5,7 @@
 
 #include "../lab/outfile.h"
 #include "../lab/standard.h"
-#include "../lab/table.h"
+#include "../lab/series.h"
 
 static const double accuracy = 1e-9; /* local error in units of full scale */
 
@@ -20,15 +20,15 @@ static int model_of(const lab_rig *rig, int gas, int flow, double stroke, pneu_m
 
 static int save_trace(const study *s, const char *name, const lab_trace *trace, lab_error *error)
 {
-  const lab_table_column column[] = {
+  const lab_series_column column[] = {
       {"t [s]", 1, trace->t}, {"u [1]", 1, trace->u}, {"p [kPa]", 1e-3, trace->p}, {"x [mm]", 1e3, trace->x}};
   char path[STUDY_PATH_TEXT + 2 * LAB_NAME_TEXT];
   lab_outfile out;
   snprintf(path, sizeof path, "%s/%s", s->results, name);
   if (lab_out_open(&out, path, error))
     return error->status;
-  lab_table_header(out.file, column, 4);
-  lab_table_rows(out.file, column, 4, trace->n);
+  lab_series_header(out.file, column, 4);
+  lab_series_rows(out.file, column, 4, trace->n);
   if (lab_out_close(&out, error))
     return error->status;
   study_note_saved(s, name);

@@ -245,8 +245,7 @@ int servo_fit(const servomotor *s, const servo_law *law, const unsigned char *us
 
 /* ---- Ramp ---- */
 
-static const double ramp_rate = 1e3;  /* [Pa/s]: viscous friction then is below 10 Pa */
-static const double rounding = 1e-12; /* a stretch that ends so close to its pressure has ended */
+static const double ramp_rate = 1e3; /* [Pa/s]: viscous friction then is below 10 Pa */
 
 /* From one pressure to the next, in the direction of `direction`. */
 static int ramp_step(const balance *b, pneu_state *state, double to, int direction, pneu_workspace *work,
@@ -262,7 +261,7 @@ static int ramp_step(const balance *b, pneu_state *state, double to, int directi
   input.force = added_force(b, (double)state->p, (double)state->x, direction);
   pneu_settle(&b->model, &input, state);
   status = pneu_run(&b->model, state, &input, (pneu_real)duration, &options, NULL, work);
-  if (status == PNEU_OK || fabs(to - (double)state->p) < rounding * to)
+  if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC, "ramp of pressure at p = %.6g Pa, x = %.6g m: %s", (double)state->p,
                   (double)state->x, pneu_status_text(status));

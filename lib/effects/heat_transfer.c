@@ -1,6 +1,7 @@
-/* Heat between gas and wall: Q = (G + c |T_w - T|^(1/3)) (T_w - T), wall at ambient temperature.
- * Under the isothermal law the film is perfect; its resistance 1/G makes it real. Under the other
- * laws there is no film; its conductance makes one. c is the natural convection of a closed vessel. */
+/* Heat between gas and wall: Q = (G + c (rho/rho_a)^(2/3) |T_w - T|^(1/3)) (T_w - T), wall at ambient temperature,
+ * rho_a the density of ambient air. Under the isothermal law the film is perfect; its resistance 1/G makes it real.
+ * Under the other laws there is no film; its conductance makes one. c is turbulent natural convection in a closed
+ * vessel, Nu ~ Ra^(1/3): the length cancels, and Ra grows with the square of density. */
 #include "../internal.h"
 
 enum { RESISTANCE, CONDUCTANCE, FREE };
@@ -9,7 +10,7 @@ static const pneu_param_info params[] = {
     {"film_resistance", "K/W", 0, PNEU_C(1e4), PNEU_C(0.2), 0, 0, "1/(h A) of the film, for the isothermal law"},
     {"film_conductance", "W/K", 0, PNEU_C(1e5), PNEU_C(5.0), 0, 0, "h A of the film, for the energy law"},
     {"free_convection", "W/K^1.333333333333333", 0, PNEU_C(1e4), PNEU_C(1.0), 0, 0,
-     "natural convection: heat per 4/3 power of the temperature difference"}};
+     "natural convection at ambient density: heat per 4/3 power of the temperature difference"}};
 
 static int acts(const pneu_model *model, const pneu_real *param)
 {
@@ -22,13 +23,15 @@ static int acts(const pneu_model *model, const pneu_real *param)
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
-  const pneu_real dT = t->model->p.ambient_temperature - t->T;
+  const pneu_params *p = &t->model->p;
+  const pneu_real dT = p->ambient_temperature - t->T;
+  const pneu_real density = t->p * p->ambient_temperature / (p->ambient_pressure * t->T); /* over ambient */
   pneu_real conductance = param[CONDUCTANCE];
   (void)state, (void)rate;
   if (param[RESISTANCE] > 0)
     conductance += 1 / param[RESISTANCE];
   if (param[FREE] > 0)
-    conductance += param[FREE] * PNEU_M(cbrt)(PNEU_M(fabs)(dT));
+    conductance += param[FREE] * PNEU_M(cbrt)(density * density * PNEU_M(fabs)(dT));
   t->heat += conductance * dT;
 }
 

@@ -10,7 +10,7 @@ edges = table("measured_damadics_edges")
 LAWS = "coulomb friction-position friction-position+hardening"
 array COLOUR[3] = [BLUE, ORANGE, GREEN]
 array POINT[3] = [7, 5, 9]
-array TEXT[3] = ["Coulomb friction, linear spring", "friction grows with travel (or pressure)", "the same, and the spring hardens"]
+array TEXT[3] = ["Coulomb, linear spring", "friction grows with travel", "and the spring hardens"]
 set for [i = 1:3] style line 10+i lc rgb COLOUR[i] lw 2 dt solid
 of(i, kind, name) = strcol("law") eq word(LAWS, i) && strcol("kind") eq kind ? column(name) : NaN
 branch(i, sign, name) = column("direction [1]") == sign ? of(i, "point", name) : NaN
@@ -22,10 +22,10 @@ set multiplot
 set lmargin at screen 0.075
 set rmargin at screen 0.975
 @BLANK
-@KEY width 0
+@KEY width -4
 plot [0:1][0:1] \
-  NaN with points pt 7 ps 0.9 lc rgb INK title "measured, pressure rising", \
-  NaN with points pt 6 ps 0.9 lc rgb INK title "measured, falling", \
+  NaN with points pt 7 ps 0.9 lc rgb INK title "pressure rising", \
+  NaN with points pt 6 ps 0.9 lc rgb INK title "pressure falling", \
   for [i = 1:3] NaN with lines ls 10+i title TEXT[i]
 @NEXT
 @FRAME

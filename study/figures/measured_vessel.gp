@@ -10,8 +10,8 @@ LAWS = "paper isothermal adiabatic convection convection-both"
 COUNT = words(LAWS)
 array COLOUR[COUNT] = [BLUE, BLUE, VERMILLION, GREEN, PURPLE]
 array POINT[COUNT] = [6, 7, 5, 9, 11]
-array TEXT[COUNT] = ["isothermal, flow as in the paper", "isothermal, choked nozzle", "adiabatic, choked nozzle", \
-  "energy balance with natural convection", "the same, fitted to temperature as well"]
+array TEXT[COUNT] = ["isothermal, paper's flow", "isothermal, nozzle", "adiabatic, nozzle", \
+  "natural convection, nozzle", "the same, fitted to T as well"]
 set for [i = 1:COUNT] style line 10+i lc rgb COLOUR[i] lw 2 dt solid
 set style line 11 lc rgb BLUE lw 2 dt (7,4)
 set style line 15 lc rgb PURPLE lw 2 dt (7,4)
@@ -23,7 +23,7 @@ set multiplot
 set lmargin at screen 0.075
 set rmargin at screen 0.975
 @BLANK
-@KEY width 0
+@KEY width -4
 plot [0:1][0:1] NaN with points pt 7 ps 0.9 lc rgb INK title "measured", \
   for [i = 1:COUNT] NaN with lines ls 10+i title TEXT[i]
 @NEXT

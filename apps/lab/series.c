@@ -1,8 +1,8 @@
-#include "table.h"
+#include "series.h"
 
 #include <math.h>
 
-void lab_table_header(FILE *file, const lab_table_column *column, int n_columns)
+void lab_series_header(FILE *file, const lab_series_column *column, int n_columns)
 {
   int i;
   for (i = 0; i < n_columns; i++)
@@ -16,7 +16,7 @@ static void write_number(FILE *file, double value)
     fprintf(file, "%.10g", value + 0.0); /* no "-0" */
 }
 
-void lab_table_rows(FILE *file, const lab_table_column *column, int n_columns, size_t n_rows)
+void lab_series_rows(FILE *file, const lab_series_column *column, int n_columns, size_t n_rows)
 {
   size_t row;
   int i;
