@@ -1,7 +1,7 @@
 /* Where inside a step an event happens. */
 #include "internal.h"
 
-enum { LOCATE_MAX = 8, BISECTIONS = 40 };
+enum { BISECTIONS = 40 };
 
 /* g of event `which` at theta of the present step. */
 static pneu_real event_at(const pneu_model *model, const pneu_state *state, const pneu_input *input,
@@ -38,16 +38,17 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
   return hi;
 }
 
-/* Earliest event inside the step, judged at half and whole of it.  Returns: theta; Out: which, -1 if none. */
+/* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out: which, -1 if none. */
 static pneu_real first_event(const pneu_model *model, const pneu_state *state, const pneu_input *input,
                              const pneu_workspace *work, int *which)
 {
   const int n = pneu_dimension(model, state->mode);
   pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX], first = 2;
-  int half, i, count;
+  const int parts = n > model->n_gas ? 4 : 2;
+  int part, i, count;
   *which = -1;
-  for (half = 1; half <= 2 && *which < 0; half++) {
-    const pneu_real theta = half * PNEU_C(0.5);
+  for (part = 1; part <= parts && *which < 0; part++) {
+    const pneu_real theta = (pneu_real)part / (pneu_real)parts;
     pneu_dense_packed(work, n, theta, y);
     count = pneu_events(model, state, input, y, g);
     for (i = 0; i < count; i++) {
@@ -76,7 +77,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
   length = theta * *h;
   if (*which < 0)
     return PNEU_OK;
-  for (i = 0; i < LOCATE_MAX; i++) {
+  for (i = 0; i < PNEU_LOCATE_MAX; i++) {
     int status = pneu_step_try(model, state, input, length, work, NULL);
     pneu_real g0, g1, correction;
     if (status != PNEU_OK)

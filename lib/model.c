@@ -90,7 +90,8 @@ static void derive_scales(pneu_model *model)
 {
   const pneu_params *p = &model->p;
   model->force_noise = 64 * PNEU_EPS * ((p->supply_pressure + p->ambient_pressure) * p->area +
-                                        p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke));
+                                        p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) +
+                                        PNEU_M(fabs)(p->external_force));
   model->scale[0] = model->p.supply_pressure + model->p.ambient_pressure;
   model->scale[1] = model->p.ambient_temperature;
   model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;

@@ -41,7 +41,7 @@ extern "C" {
   X(PNEU_RETRY_STATE,           1, "trial state outside the model's domain") \
   X(PNEU_E_PARAM,              -1, "parameter outside its bounds or not finite") \
   X(PNEU_E_LAW,                -2, "unknown law or role") \
-  X(PNEU_E_NONFINITE,          -3, "non-finite or unphysical input or state") \
+  X(PNEU_E_NONFINITE,          -3, "non-finite or unphysical input, state, step or tolerance") \
   X(PNEU_E_STEP_SIZE,          -4, "step size fell below its limit") \
   X(PNEU_E_STEP_COUNT,         -5, "more steps than allowed") \
   X(PNEU_E_EVENTS,             -6, "more events than allowed in one step") \
@@ -268,8 +268,8 @@ typedef struct pneu_stats {
   long steps, rejected, events, rhs, jacobians;
 } pneu_stats;
 
-/* Scratch of the stepper. Its content need not be set and means nothing between calls, but for
- * h, the step to try first: 0 lets the stepper choose. */
+/* Scratch of the stepper. Its content need not be set and means nothing between calls, but for h, the step to try
+ * first (0 lets the stepper choose), and stats, which are added up: set both to 0 once. */
 typedef struct pneu_workspace {
   pneu_real h;
   pneu_real y0[PNEU_STATE_MAX], y1[PNEU_STATE_MAX], f0[PNEU_STATE_MAX];
@@ -381,7 +381,8 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
 
 /* ---- Modes and events: one set for every integrator ---- */
 
-enum { PNEU_EVENT_MAX = 2 };
+/* Events at once; parts of a pneu_step, and repeats by which the end of one is located. */
+enum { PNEU_EVENT_MAX = 2, PNEU_PARTS_MAX = 32, PNEU_LOCATE_MAX = 8 };
 
 /* Event functions of the state's mode: an event happens where g rises through 0.
  * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
@@ -416,8 +417,9 @@ void pneu_options_default(pneu_options *options);
 int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real duration,
              const pneu_options *options, const pneu_observer *observer, pneu_workspace *work);
 
-/* One step of fixed length, for a firmware loop: the work is bounded (at most four mode switches,
- * each located in at most PNEU_LOCATE_MAX repeats).
+/* One step of fixed length, for a firmware loop. The work is bounded: one Rosenbrock step as a rule, at
+ * most PNEU_PARTS_MAX where modes switch within it or a trial point leaves the chamber without volume,
+ * each end on an event located in at most PNEU_LOCATE_MAX repeats.
  * In:      dt  [s] > 0, at most a tenth of the fill time for 1e-3 of stroke
  * In/out:  state, work
  * Returns: PNEU_OK, PNEU_E_NONFINITE, PNEU_E_SINGULAR, PNEU_E_EVENTS; `state` then is unchanged. */

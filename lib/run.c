@@ -1,7 +1,7 @@
 /* Runs with adaptive steps, and single steps of fixed length. */
 #include "internal.h"
 
-enum { EVENTS_PER_STEP = 4, EVENTS_AT_ONE_TIME = 16 };
+enum { EVENTS_AT_ONE_TIME = 16 };
 
 /* One run in progress. */
 typedef struct run {
@@ -82,18 +82,31 @@ static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
   return value < lo ? lo : value > hi ? hi : value;
 }
 
-/* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so
- * steep that the error estimate can miss it: pressure then heads back about as fast as it came. */
+/* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so steep that the error
+ * estimate can miss it: flow through the open orifice brings pressure up to that point and not beyond. Judged at
+ * quarters of the step's curve, with the width of the blend as margin. */
 static int leaps(const run *r)
 {
   pneu_workspace *w = r->work;
-  pneu_real f[PNEU_STATE_MAX];
-  if (pneu_dimension(r->model, r->state->mode) != r->model->n_gas)
+  const pneu_real ambient = r->model->p.ambient_pressure;
+  pneu_terms t;
+  pneu_real equal, before;
+  int quarter;
+  if (pneu_dimension(r->model, r->state->mode) != r->model->n_gas || r->model->law.pressure_input)
     return 0;
-  w->stats.rhs++;
-  if (pneu_rhs(r->model, r->state, r->input, w->y1, f) != PNEU_OK)
+  if (pneu_evaluate(r->model, r->state, r->input, w->y1, &t, NULL) != PNEU_OK)
     return 1;
-  return f[0] * w->f0[0] < 0 && PNEU_M(fabs)(f[0]) > PNEU_C(0.1) * PNEU_M(fabs)(w->f0[0]);
+  equal = t.opening > 0 ? t.supply : t.exhaust;
+  before = w->y0[0] + ambient - equal;
+  pneu_dense_prepare(1, w);
+  for (quarter = 1; quarter <= 4 && t.opening != 0; quarter++) {
+    pneu_real p;
+    pneu_dense_packed(w, 1, quarter * PNEU_C(0.25), &p);
+    p += ambient - equal;
+    if (p * before < 0 && PNEU_M(fabs)(p) > PNEU_BLEND * equal && PNEU_M(fabs)(before) > PNEU_BLEND * equal)
+      return 1;
+  }
+  return 0;
 }
 
 /* Growth of the step by the error of this one, and by the trend since the last where that asks for
@@ -108,6 +121,19 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
     return factor;
   trend = factor * h / r->h_before * PNEU_M(pow)(r->error_before / error, PNEU_C(0.2));
   return PNEU_M(fmin)(factor, trend);
+}
+
+/* Whether state and input are numbers. */
+static int finite(const pneu_model *model, const pneu_state *state, const pneu_input *input)
+{
+  pneu_real zero = 0 * (state->p + state->x + state->v + input->u + input->supply_pressure + input->force +
+                        input->pressure_rate + input->position_rate);
+  int i;
+  if (model->thermal)
+    zero += 0 * state->T;
+  for (i = 0; i < model->n_extra; i++)
+    zero += 0 * state->extra[i];
+  return zero == 0;
 }
 
 /* Try steps from the present state until one is accepted. */
@@ -129,7 +155,7 @@ static int advance(run *r)
       h = PNEU_M(fmin)(h, r->options->h_max);
     if (h > left * PNEU_C(0.999))
       h = left;
-    if (!(h > 8 * PNEU_EPS * r->end))
+    if (!(h > 8 * PNEU_EPS * r->t + PNEU_C(1e-15)))
       return PNEU_E_STEP_SIZE;
     status = pneu_step_try(r->model, r->state, r->input, h, w, &error);
     if (status < 0)
@@ -160,6 +186,8 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
 {
   run r;
   int status = PNEU_OK;
+  if (!finite(model, state, input) || !(duration * 0 == 0) || !(options->tol > 0 && options->tol < 1))
+    return PNEU_E_NONFINITE;
   r.model = model;
   r.input = input;
   r.options = options;
@@ -183,33 +211,50 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   return status;
 }
 
+/* One step of length *h from `now`, shortened to end on an event. */
+static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_input *input, pneu_workspace *work,
+                        pneu_real *h, int *which)
+{
+  int status;
+  pneu_pack(model, now, work->y0);
+  status = pneu_step_prepare(model, now, input, work);
+  if (status == PNEU_OK)
+    status = pneu_step_try(model, now, input, *h, work, NULL);
+  if (status == PNEU_OK)
+    status = pneu_locate(model, now, input, work, h, which);
+  if (status != PNEU_OK)
+    return status;
+  pneu_unpack(model, work->y1, now);
+  work->stats.steps++;
+  return PNEU_OK;
+}
+
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
               pneu_workspace *work)
 {
   pneu_state now = *state;
-  pneu_real left = dt;
+  pneu_real left = dt, h = dt;
   int i;
+  if (!finite(model, state, input) || !(dt > 0 && dt * 0 == 0))
+    return PNEU_E_NONFINITE;
   pneu_settle(model, input, &now);
-  for (i = 0; i <= EVENTS_PER_STEP; i++) {
-    pneu_real h = left;
-    int which = -1, status;
-    pneu_pack(model, &now, work->y0);
-    status = pneu_step_prepare(model, &now, input, work);
-    if (status == PNEU_OK)
-      status = pneu_step_try(model, &now, input, h, work, NULL);
-    if (status == PNEU_OK)
-      status = pneu_locate(model, &now, input, work, &h, &which);
-    if (status != PNEU_OK)
-      return status < 0 ? status : PNEU_E_NONFINITE;
-    pneu_unpack(model, work->y1, &now);
-    work->stats.steps++;
-    left -= h;
-    if (which < 0) {
-      *state = now;
-      return PNEU_OK;
+  for (i = 0; i < PNEU_PARTS_MAX; i++) {
+    int which = -1;
+    const int status = part_of_step(model, &now, input, work, &h, &which);
+    if (status < 0)
+      return status;
+    if (status != PNEU_OK) { /* a trial point beyond a stop, where there is no volume */
+      h *= PNEU_C(0.25);
+      work->stats.rejected++;
+      continue;
     }
-    pneu_switch(model, input, which, &now);
-    if (!(left > PNEU_EVENT_TIME)) {
+    left -= h;
+    h = left;
+    if (which >= 0) {
+      pneu_switch(model, input, which, &now);
+      work->stats.events++;
+    }
+    if (left <= 0 || (which >= 0 && left <= PNEU_EVENT_TIME)) {
       *state = now;
       return PNEU_OK;
     }

@@ -80,9 +80,9 @@ pneu_input fixture_input(const pneu_model *model, double u)
 pneu_state fixture_rest(const pneu_model *model, double pressure, double position, const pneu_input *input)
 {
   pneu_state state;
-  assert_int_equal(pneu_state_rest(model, (pneu_real)pressure, model->p.ambient_temperature, (pneu_real)position,
-                                   input, &state),
-                   PNEU_OK);
+  assert_int_equal(
+      pneu_state_rest(model, (pneu_real)pressure, model->p.ambient_temperature, (pneu_real)position, input, &state),
+      PNEU_OK);
   return state;
 }
 
@@ -176,9 +176,8 @@ int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stre
   r.capacity = capacity;
   r.dt = dt;
   for (i = 0; i < n; i++) {
-    assert_int_equal(pneu_run(model, state, &stretch[i].input, (pneu_real)stretch[i].duration, &options, &observer,
-                              &work),
-                     PNEU_OK);
+    assert_int_equal(
+        pneu_run(model, state, &stretch[i].input, (pneu_real)stretch[i].duration, &options, &observer, &work), PNEU_OK);
     r.origin += stretch[i].duration;
   }
   return r.n;

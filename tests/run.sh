@@ -13,14 +13,14 @@ say() { printf '%s\n' "$*"; }
 
 # One check that is a command: pass NAME COMMAND...
 pass() {
-  name=$1
+  what=$1
   shift
   if "$@" >"$log" 2>&1; then
     passed=$((passed + 1))
-    say "ok      $name"
+    say "ok      $what"
   else
     failed=$((failed + 1))
-    say "FAILED  $name"
+    say "FAILED  $what"
     tail -n 40 "$log"
   fi
 }
@@ -93,7 +93,8 @@ core="test_params test_flow test_chamber test_stem test_stepper test_jacobian te
 suites double "$BUILD" all
 suites single "$BUILD/single" "$core" SINGLE=1
 suites sanitized "$BUILD/sanitized" all SANITIZE=address,undefined OPT=-O1
-pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a"
+pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a" lib
+pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
 $MAKE --no-print-directory "$BUILD/tests/compare" >/dev/null && pass "study: same numbers as results/" study_agrees

@@ -5,12 +5,12 @@
 typedef struct audit {
   const pneu_model *model;
   const pneu_input *input;
-  double T_in;                                 /* [K] of all inflow of the run */
-  double mass, mass_turned_over;               /* [kg] */
-  double enthalpy_in, enthalpy_out, heat;      /* [J] */
-  double gas_work, spring_side_work;           /* [J] p_abs dV, p_gauge A dx */
-  double dry, viscous, external, impact;       /* [J] */
-  double v_end;                                /* [m/s] at the end of the last step */
+  double T_in;                            /* [K] of all inflow of the run */
+  double mass, mass_turned_over;          /* [kg] */
+  double enthalpy_in, enthalpy_out, heat; /* [J] */
+  double gas_work, spring_side_work;      /* [J] p_abs dV, p_gauge A dx */
+  double dry, viscous, external, impact;  /* [J] */
+  double v_end;                           /* [m/s] at the end of the last step */
 } audit;
 
 /* Rates at one instant, times dt. */

@@ -423,17 +423,16 @@ static void test_pneu_state_rest__outside_the_domain__is_refused(void **state)
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 0);
-  static const double bad[][3] = {{-101325, 300, 0}, {-2e5, 300, 0}, {NAN, 300, 0},     {0, 0, 0},     {0, -5, 0},
-                                  {0, NAN, 0},       {0, 300, -1e-3}, {0, 300, 0.0201}, {0, 300, NAN}, {INFINITY, 300, 0},
-                                  {0, INFINITY, 0}};
+  static const double bad[][3] = {{-101325, 300, 0}, {-2e5, 300, 0},     {NAN, 300, 0},   {0, 0, 0},
+                                  {0, -5, 0},        {0, NAN, 0},        {0, 300, -1e-3}, {0, 300, 0.0201},
+                                  {0, 300, NAN},     {INFINITY, 300, 0}, {0, INFINITY, 0}};
   pneu_state s;
   int i;
   (void)state;
   for (i = 0; i < COUNT(bad); i++) {
     check_note("case %d", i);
-    assert_int_equal(
-        pneu_state_rest(&m, (pneu_real)bad[i][0], (pneu_real)bad[i][1], (pneu_real)bad[i][2], &input, &s),
-        PNEU_E_NONFINITE);
+    assert_int_equal(pneu_state_rest(&m, (pneu_real)bad[i][0], (pneu_real)bad[i][1], (pneu_real)bad[i][2], &input, &s),
+                     PNEU_E_NONFINITE);
   }
   assert_int_equal(pneu_state_rest(&m, (pneu_real)-1e5, 250, p.stroke, &input, &s), PNEU_OK);
 }

@@ -8,8 +8,8 @@ typedef struct scene {
 } scene;
 
 static const scene scenes[] = {
-    {5e4, 0, 0, PNEU_MODE_LOWER},      {2e5, 0.01, 0, PNEU_MODE_STUCK}, {2.5e5, 0.008, 0.03, PNEU_MODE_UP},
-    {1e5, 0.012, -0.04, PNEU_MODE_DOWN}, {3.9e5, 0.02, 0, PNEU_MODE_UPPER}, {5e5, 0.01, 0.02, PNEU_MODE_UP},
+    {5e4, 0, 0, PNEU_MODE_LOWER},         {2e5, 0.01, 0, PNEU_MODE_STUCK},   {2.5e5, 0.008, 0.03, PNEU_MODE_UP},
+    {1e5, 0.012, -0.04, PNEU_MODE_DOWN},  {3.9e5, 0.02, 0, PNEU_MODE_UPPER}, {5e5, 0.01, 0.02, PNEU_MODE_UP},
     {-4e4, 0.01, -0.02, PNEU_MODE_DOWN},
 #ifndef PNEU_SINGLE /* steps of a difference in float are longer than the blend */
     {3.9995e5, 0.01, 0.01, PNEU_MODE_UP},

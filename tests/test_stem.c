@@ -156,8 +156,8 @@ static void test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area
     pneu_params p = fixture_params(FIXTURE_R1_400);
     p.dry_friction = (pneu_real)friction[i];
     check_note("F = %g", friction[i]);
-    assert_close(leaves_at(&p, 2e5 - 1, 0.01, 1e4, 0) - leaves_at(&p, 2e5 + 1, 0.01, -1e4, 0),
-                 2 * friction[i] / 0.04, TOL(1e-4, 40), 0);
+    assert_close(leaves_at(&p, 2e5 - 1, 0.01, 1e4, 0) - leaves_at(&p, 2e5 + 1, 0.01, -1e4, 0), 2 * friction[i] / 0.04,
+                 TOL(1e-4, 40), 0);
   }
 }
 
@@ -277,7 +277,7 @@ static void test_pneu_settle__at_rest__mode_follows_the_balance_of_forces(void *
     double p, x, v;
     int mode;
   } cases[] = {
-      {0, 0, 0, PNEU_MODE_LOWER},        {111e3, 0, 0, PNEU_MODE_LOWER}, {113e3, 0, 0, PNEU_MODE_UP},
+      {0, 0, 0, PNEU_MODE_LOWER},        {111e3, 0, 0, PNEU_MODE_LOWER},    {113e3, 0, 0, PNEU_MODE_UP},
       {4e5, 0.02, 0, PNEU_MODE_UPPER},   {289e3, 0.02, 0, PNEU_MODE_UPPER}, {287e3, 0.02, 0, PNEU_MODE_DOWN},
       {200e3, 0.01, 0, PNEU_MODE_STUCK}, {211e3, 0.01, 0, PNEU_MODE_STUCK}, {213e3, 0.01, 0, PNEU_MODE_UP},
       {187e3, 0.01, 0, PNEU_MODE_DOWN},  {189e3, 0.01, 0, PNEU_MODE_STUCK}, {0, 0.01, 0.1, PNEU_MODE_UP},

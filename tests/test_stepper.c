@@ -369,7 +369,7 @@ static void test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures(v
         n = fixture_trace(&m, &at, stretch, 3, 0.1, 1e-3, s, 320);
         for (i = 0; i < n; i++) {
           check_note("actuator %d, %s, %s, t = %g s", actuator, pneu_gas_key(gas), pneu_flow_key(flow), s[i].t);
-          assert_between(s[i].p, -20, (double)p.supply_pressure + 20);
+          assert_between(s[i].p, -2e3, (double)p.supply_pressure + 2e3); /* a few of 1e-3 of full scale */
         }
       }
 }
@@ -389,7 +389,7 @@ static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **
   fixture_set(&p, "transducer_time", 0.02);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   input = fixture_input(&m, 1);
-  s = fixture_rest(&m, 4e5, 0.02, &input);
+  s = fixture_rest(&m, 4e5 - 0.1, 0.02, &input);
   input.u = -1;
   clear(&work);
   pneu_options_default(&options);
@@ -576,7 +576,12 @@ static void test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run(vo
     }
 }
 
-/* Four switches, each located in eight repeats of eight evaluations, and one step more. */
+static int state_is_finite(const pneu_state *s)
+{
+  return isfinite(s->p) && isfinite(s->T) && isfinite(s->x) && isfinite(s->v);
+}
+
+/* Any state within the stops, any command, forces to 5 kN: one call is done within a few parts. */
 static void test_pneu_step__anywhere__work_is_bounded(void **state)
 {
   uint64_t seed = 11;
@@ -592,11 +597,12 @@ static void test_pneu_step__anywhere__work_is_bounded(void **state)
     clear(&work);
     input.force = (pneu_real)fixture_random(&seed, -5e3, 5e3);
     s.v = (pneu_real)(i % 3 ? 0 : fixture_random(&seed, -0.2, 0.2));
-    status = pneu_step(&m, &s, &input, (pneu_real)2e-4, &work);
+    status = pneu_step(&m, &s, &input, (pneu_real)(i % 4 ? 1e-3 : 2e-4), &work);
     check_note("case %d: %s", i, pneu_status_text(status));
     assert_close(status, PNEU_OK, 0, 0);
-    assert_between(work.stats.rhs, 1, 5 * (1 + 9 * 8));
-    assert_between(work.stats.steps, 1, 5);
+    assert_between(work.stats.rhs, 1, 200); /* 153 was the most */
+    assert_between(work.stats.steps + work.stats.rejected, 1, PNEU_PARTS_MAX);
+    assert_true(state_is_finite(&s));
   }
 }
 
@@ -610,11 +616,6 @@ static int spoil(int i, double value, pneu_input *input, pneu_state *s)
     return 0;
   *number[i] = (pneu_real)value;
   return 1;
-}
-
-static int state_is_finite(const pneu_state *s)
-{
-  return isfinite(s->p) && isfinite(s->T) && isfinite(s->x) && isfinite(s->v);
 }
 
 typedef struct scene {
