@@ -18,10 +18,13 @@ static const lab_option options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
-    "sweep", "STUDY.cfg",
+    "sweep",
+    "STUDY.cfg",
     "Run a study: the hypotheses on the asymmetry of a single-acting actuator, in every chamber and flow law, with "
     "tables (CSV), figures (SVG) and a report. A bare name that is no file is looked up in study/.",
-    options, 1, 1};
+    options,
+    1,
+    1};
 
 /* A bare name that is not a file is looked up in study/. */
 static const char *find_study(const char *name, char *path, size_t size)

@@ -28,8 +28,8 @@ void pneu_chamber_rates(const pneu_terms *t, pneu_real *y_dot)
   /* first law with u = R T/(g - 1): g = gamma is the energy balance, g = n the polytropic law.
    * V p' = g (R sum_in T_in q - R T q_out - p V') + (g - 1) Q,  and T from p V = m R T */
   y_dot[0] = (g * (R * (t->mass_in_T - t->T * t->mass_out) - t->p * expansion) + (g - 1) * t->heat) / t->volume;
-  y_dot[1] = t->T * (y_dot[0] / t->p + expansion / t->volume -
-                     R * t->T * (t->mass_in - t->mass_out) / (t->p * t->volume));
+  y_dot[1] =
+      t->T * (y_dot[0] / t->p + expansion / t->volume - R * t->T * (t->mass_in - t->mass_out) / (t->p * t->volume));
 }
 
 int pneu_chamber_ok(const pneu_terms *t)

@@ -103,11 +103,11 @@ static void linear_choked(const pneu_model *model, pneu_real w, shape *s)
 typedef void shape_function(const pneu_model *, pneu_real, shape *);
 static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, linear, linear_choked};
 
-void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up,
-                  pneu_real p_down, pneu_flow *flow)
+void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                  pneu_flow *flow)
 {
-  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain,
-                                           model->paper_gain, model->paper_gain};
+  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain, model->paper_gain,
+                                           model->paper_gain};
   const pneu_real T = law < PNEU_FLOW_LINEAR ? T_up : model->p.ambient_temperature;
   const pneu_real k = area * gain[law] / PNEU_M(sqrt)(T);
   const pneu_real r = p_down / p_up;

@@ -9,15 +9,15 @@
 #include "pneu.h"
 
 #ifdef PNEU_SINGLE
-#define PNEU_C(literal) literal##f
+#define PNEU_C(literal)  literal##f
 #define PNEU_M(function) function##f
-#define PNEU_EPS PNEU_C(1.1920929e-7)
-#define PNEU_EVENT_TIME PNEU_C(1e-6)
+#define PNEU_EPS         PNEU_C(1.1920929e-7)
+#define PNEU_EVENT_TIME  PNEU_C(1e-6)
 #else
-#define PNEU_C(literal) literal
+#define PNEU_C(literal)  literal
 #define PNEU_M(function) function
-#define PNEU_EPS 2.220446049250313e-16
-#define PNEU_EVENT_TIME 1e-9
+#define PNEU_EPS         2.220446049250313e-16
+#define PNEU_EVENT_TIME  1e-9
 #endif
 
 /* Relative distance from equal pressures below which flow is nearly linear in the difference. */
@@ -38,20 +38,20 @@ enum pneu_stage {
 struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
-  pneu_real p, T, x, v;                          /* p [Pa] abs */
-  pneu_real volume, area, swept_area;            /* [m3], [m2] that pressure acts on, [m2] dV/dx */
-  pneu_real opening;                             /* [1] */
-  pneu_real supply, exhaust;                     /* [Pa] abs, behind the orifices */
-  pneu_real supply_resistance;                   /* [Pa s/kg] pressure lost on the way from the supply */
-  pneu_real fill_area, vent_area;                /* [m2] */
-  pneu_real choked_share;                        /* [1] of the flow that follows the nozzle law */
-  pneu_real mass_in, mass_out;                   /* [kg/s] */
-  pneu_real mass_in_T;                           /* [kg K/s] inflow times its temperature */
-  pneu_real heat;                                /* [W] */
-  pneu_real force;                               /* [N] sum without friction and viscous terms */
-  pneu_real friction;                            /* [N] level of dry friction at the present velocity */
-  pneu_real bristle_force;                       /* [N] */
-  pneu_real din_dp, dout_dp, dout_dT;            /* slopes of the flows, base model only */
+  pneu_real p, T, x, v;               /* p [Pa] abs */
+  pneu_real volume, area, swept_area; /* [m3], [m2] that pressure acts on, [m2] dV/dx */
+  pneu_real opening;                  /* [1] */
+  pneu_real supply, exhaust;          /* [Pa] abs, behind the orifices */
+  pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
+  pneu_real fill_area, vent_area;     /* [m2] */
+  pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
+  pneu_real mass_in, mass_out;        /* [kg/s] */
+  pneu_real mass_in_T;                /* [kg K/s] inflow times its temperature */
+  pneu_real heat;                     /* [W] */
+  pneu_real force;                    /* [N] sum without friction and viscous terms */
+  pneu_real friction;                 /* [N] level of dry friction at the present velocity */
+  pneu_real bristle_force;            /* [N] */
+  pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
   int choked;
 };
 typedef struct pneu_terms pneu_terms;
@@ -68,8 +68,7 @@ void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_re
 int pneu_invert(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX]);
 
 /* Right-hand side and Jacobian at work->y0, for all tries from there. */
-int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input,
-                      pneu_workspace *work);
+int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work);
 
 /* One Rosenbrock step from work->y0 to work->y1.  Out: error, in units of full scale (may be NULL).
  * Returns: PNEU_OK, PNEU_RETRY_STATE, PNEU_E_SINGULAR. */

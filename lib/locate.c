@@ -38,7 +38,8 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
   return hi;
 }
 
-/* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out: which, -1 if none. */
+/* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:
+ * which, -1 if none. */
 static pneu_real first_event(const pneu_model *model, const pneu_state *state, const pneu_input *input,
                              const pneu_workspace *work, int *which)
 {

@@ -70,8 +70,7 @@ static void derive_flow(pneu_model *model)
   model->critical_ratio = PNEU_M(pow)(2 / (gamma + 1), gamma / (gamma - 1));
   model->paper_gain = PNEU_M(sqrt)(2 / R);
   model->nozzle_gain = PNEU_M(sqrt)(2 * gamma / ((gamma - 1) * R));
-  model->choked_gain =
-      PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
+  model->choked_gain = PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
 }
 
 /* The chamber law: which exponent, and whether the gas has a temperature of its own. A film
@@ -89,9 +88,10 @@ static void derive_gas(pneu_model *model)
 static void derive_scales(pneu_model *model)
 {
   const pneu_params *p = &model->p;
-  model->force_noise = 64 * PNEU_EPS * ((p->supply_pressure + p->ambient_pressure) * p->area +
-                                        p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) +
-                                        PNEU_M(fabs)(p->external_force));
+  model->force_noise =
+      64 * PNEU_EPS *
+      ((p->supply_pressure + p->ambient_pressure) * p->area +
+       p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) + PNEU_M(fabs)(p->external_force));
   model->scale[0] = model->p.supply_pressure + model->p.ambient_pressure;
   model->scale[1] = model->p.ambient_temperature;
   model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;

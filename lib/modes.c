@@ -2,7 +2,8 @@
 #include "internal.h"
 
 /* Force that friction has to hold at rest, and the level at which it gives way: above the rounding of the balance, lest
- * a stem that comes to rest in equilibrium chatter. With a bristle the friction force is a state and no level is left. */
+ * a stem that comes to rest in equilibrium chatter. With a bristle the friction force is a state and no level is left.
+ */
 static void rest_balance(const pneu_terms *t, pneu_real *force, pneu_real *level)
 {
   *force = t->force - t->bristle_force;

@@ -33,6 +33,8 @@ typedef double pneu_real;
 extern "C" {
 #endif
 
+/* clang-format off */
+
 /* ---- Lists: each expands into an enum, a table of words, a struct, wherever it is needed ---- */
 
 /*    name                   code  text */
@@ -158,6 +160,8 @@ enum pneu_effect_sizes {
   PNEU_STAGE_COUNT = 8                          /* of the Rosenbrock method */
 };
 
+/* clang-format on */
+
 /* ---- Types; all open, so that they can be placed statically ---- */
 
 typedef struct pneu_params {
@@ -168,10 +172,10 @@ typedef struct pneu_params {
 } pneu_params;
 
 typedef struct pneu_laws {
-  int gas;             /* enum pneu_gas */
-  int flow;            /* enum pneu_flow_law */
-  int pressure_input;  /* not 0: chamber pressure is an input, the mass balance is off */
-  int position_input;  /* not 0: stem position is an input, the force balance is off */
+  int gas;            /* enum pneu_gas */
+  int flow;           /* enum pneu_flow_law */
+  int pressure_input; /* not 0: chamber pressure is an input, the mass balance is off */
+  int position_input; /* not 0: stem position is an input, the force balance is off */
 } pneu_laws;
 
 /* What drives the model over one stretch of time. Opening holds; pressure and position, where
@@ -197,9 +201,9 @@ typedef struct pneu_state {
 typedef struct pneu_param_info {
   const char *name, *unit;
   pneu_real lower, upper;
-  pneu_real value;     /* base model: default. Effect: the size it starts from when switched on */
-  pneu_real neutral;   /* effect: value at which the model is the base model */
-  int shape;           /* effect: not 0 if it only gives form to what another parameter switches on */
+  pneu_real value;   /* base model: default. Effect: the size it starts from when switched on */
+  pneu_real neutral; /* effect: value at which the model is the base model */
+  int shape;         /* effect: not 0 if it only gives form to what another parameter switches on */
   const char *meaning;
 } pneu_param_info;
 
@@ -208,12 +212,12 @@ struct pneu_terms; /* the running sums of one evaluation; private to lib/ */
 
 /* An effect: what it is, and the function that adds its terms. One per file in lib/effects/. */
 typedef struct pneu_effect {
-  const char *name;      /* as in reports and files */
-  const char *what;      /* one sentence */
-  const char *source;    /* author, year, equation */
-  const char *equation;  /* mass, energy, force, command or sensor */
-  const char *footprint; /* where its absence shows in a residual */
-  int stage;             /* enum pneu_stage: when in an evaluation it adds its terms */
+  const char *name;             /* as in reports and files */
+  const char *what;             /* one sentence */
+  const char *source;           /* author, year, equation */
+  const char *equation;         /* mass, energy, force, command or sensor */
+  const char *footprint;        /* where its absence shows in a residual */
+  int stage;                    /* enum pneu_stage: when in an evaluation it adds its terms */
   const pneu_param_info *param; /* as many as effects.def says */
   void (*add)(const pneu_real *param, const pneu_real *state, struct pneu_terms *terms, pneu_real *rate);
   void (*start)(const pneu_real *param, const struct pneu_terms *terms, pneu_real *state); /* at rest; NULL: 0 */
@@ -224,18 +228,18 @@ typedef struct pneu_effect {
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
-  pneu_real g;               /* exponent of the energy balance: 1, n or gamma */
-  pneu_real critical_ratio;  /* of the isentropic nozzle */
-  pneu_real choked_gain;     /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
-  pneu_real nozzle_gain;     /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
-  pneu_real paper_gain;      /* sqrt(2/R) [sqrt(kg K/J)] */
-  pneu_real viscous;         /* viscous_friction + damping [N.s/m] */
-  pneu_real force_noise;     /* [N] rounding of the balance of forces; break-away asks for more */
-  pneu_real scale[4];        /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
-  int thermal;               /* gas temperature is a state */
-  int bristle;               /* friction has its own state: no stick mode */
-  int n_extra;               /* states of active effects */
-  int n_gas;                 /* states before x in the packed vector: p, [T], effects */
+  pneu_real g;              /* exponent of the energy balance: 1, n or gamma */
+  pneu_real critical_ratio; /* of the isentropic nozzle */
+  pneu_real choked_gain;    /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
+  pneu_real nozzle_gain;    /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
+  pneu_real paper_gain;     /* sqrt(2/R) [sqrt(kg K/J)] */
+  pneu_real viscous;        /* viscous_friction + damping [N.s/m] */
+  pneu_real force_noise;    /* [N] rounding of the balance of forces; break-away asks for more */
+  pneu_real scale[4];       /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
+  int thermal;              /* gas temperature is a state */
+  int bristle;              /* friction has its own state: no stick mode */
+  int n_extra;              /* states of active effects */
+  int n_gas;                /* states before x in the packed vector: p, [T], effects */
   int n_active;
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
@@ -244,24 +248,24 @@ struct pneu_model {
 
 /* What can be read off a state, by pneu_observe. */
 typedef struct pneu_output {
-  pneu_real pressure;      /* [Pa] gauge, in the chamber */
-  pneu_real temperature;   /* [K] of the gas */
-  pneu_real mass;          /* [kg] of gas in the chamber [B, Eq. 6] */
-  pneu_real position;      /* [m] */
-  pneu_real velocity;      /* [m/s] */
-  pneu_real opening;       /* [1] of the transducer, after its own dynamics */
-  pneu_real mass_in;       /* [kg/s] from the supply */
-  pneu_real mass_out;      /* [kg/s] to ambient, leaks included */
-  pneu_real heat;          /* [W] from the wall into the gas */
-  pneu_real supply;        /* [Pa] gauge, at the transducer */
-  pneu_real friction;      /* [N] level of dry friction while sliding */
-  int choked;              /* 1: the flow in use is choked */
+  pneu_real pressure;    /* [Pa] gauge, in the chamber */
+  pneu_real temperature; /* [K] of the gas */
+  pneu_real mass;        /* [kg] of gas in the chamber [B, Eq. 6] */
+  pneu_real position;    /* [m] */
+  pneu_real velocity;    /* [m/s] */
+  pneu_real opening;     /* [1] of the transducer, after its own dynamics */
+  pneu_real mass_in;     /* [kg/s] from the supply */
+  pneu_real mass_out;    /* [kg/s] to ambient, leaks included */
+  pneu_real heat;        /* [W] from the wall into the gas */
+  pneu_real supply;      /* [Pa] gauge, at the transducer */
+  pneu_real friction;    /* [N] level of dry friction while sliding */
+  int choked;            /* 1: the flow in use is choked */
 } pneu_output;
 
 typedef struct pneu_options {
-  pneu_real tol;           /* local error in units of stroke, full pressure and so on; 1e-10..1e-2 */
-  pneu_real h_max;         /* [s] longest step; 0: none */
-  int max_steps;           /* per run */
+  pneu_real tol;   /* local error in units of stroke, full pressure and so on; 1e-10..1e-2 */
+  pneu_real h_max; /* [s] longest step; 0: none */
+  int max_steps;   /* per run */
 } pneu_options;
 
 typedef struct pneu_stats {
@@ -285,8 +289,8 @@ typedef struct pneu_step_view {
   const pneu_model *model;
   const pneu_input *input;
   const pneu_workspace *work;
-  const pneu_state *start;   /* state at t */
-  pneu_real t, h;            /* [s] from the start of the run */
+  const pneu_state *start; /* state at t */
+  pneu_real t, h;          /* [s] from the start of the run */
 } pneu_step_view;
 
 /* Called after each accepted step and each event; any pointer may be NULL. A result other than
@@ -423,8 +427,7 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * In:      dt  [s] > 0, at most a tenth of the fill time for 1e-3 of stroke
  * In/out:  state, work
  * Returns: PNEU_OK, PNEU_E_NONFINITE, PNEU_E_SINGULAR, PNEU_E_EVENTS; `state` then is unchanged. */
-int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
-              pneu_workspace *work);
+int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work);
 
 /* State inside an accepted step, order 4.
  * In:      theta  0..1: start to end of the step
@@ -435,10 +438,10 @@ void pneu_dense(const pneu_step_view *view, pneu_real theta, pneu_state *state);
 
 /* A mass flow and its slopes. */
 typedef struct pneu_flow {
-  pneu_real q;         /* [kg/s] from up to down, >= 0 */
-  pneu_real dq_dup;    /* [kg/s/Pa] */
-  pneu_real dq_ddown;  /* [kg/s/Pa] */
-  pneu_real dq_dT;     /* [kg/s/K] by upstream temperature */
+  pneu_real q;        /* [kg/s] from up to down, >= 0 */
+  pneu_real dq_dup;   /* [kg/s/Pa] */
+  pneu_real dq_ddown; /* [kg/s/Pa] */
+  pneu_real dq_dT;    /* [kg/s/K] by upstream temperature */
   int choked;
 } pneu_flow;
 
@@ -454,8 +457,8 @@ typedef struct pneu_flow {
  * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;
  *          iso6358: ISO 6358-1:2013, with C = area * pneu_sonic_conductance(model, 1);
  *          linear: area sqrt(2/(R T_a)) (p_up - p_down), T_a ambient, an idealisation. */
-void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up,
-                  pneu_real p_down, pneu_flow *flow);
+void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                  pneu_flow *flow);
 
 /* Sonic conductance C [m3/(s Pa), ANR 293.15 K, 100 kPa] of an effective area [m2]: the choked
  * flow of both is the same. */

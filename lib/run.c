@@ -12,7 +12,7 @@ typedef struct run {
   pneu_state *state;
   pneu_workspace *work;
   pneu_real t, end;
-  pneu_real h;         /* to try next; 0: choose */
+  pneu_real h;                      /* to try next; 0: choose */
   pneu_real h_before, error_before; /* of the last accepted step; 0: none */
   int steps, events_in_a_row;
 } run;
@@ -82,8 +82,8 @@ static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
   return value < lo ? lo : value > hi ? hi : value;
 }
 
-/* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so steep that the error
- * estimate can miss it: flow through the open orifice brings pressure up to that point and not beyond. Judged at
+/* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so steep that the
+ * error estimate can miss it: flow through the open orifice brings pressure up to that point and not beyond. Judged at
  * quarters of the step's curve, with the width of the blend as margin. */
 static int leaps(const run *r)
 {
@@ -229,8 +229,7 @@ static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_inp
   return PNEU_OK;
 }
 
-int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
-              pneu_workspace *work)
+int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work)
 {
   pneu_state now = *state;
   pneu_real left = dt, h = dt;

@@ -5,8 +5,8 @@ void pneu_stem_force(pneu_terms *t)
 {
   /* p A - k (x + x0) - external [B, Eq. 2], gauge pressure; friction and viscous terms come apart */
   const pneu_params *p = &t->model->p;
-  t->force = (t->p - p->ambient_pressure) * t->area - p->spring_rate * (t->x + p->spring_preload) -
-             p->external_force - t->input->force;
+  t->force = (t->p - p->ambient_pressure) * t->area - p->spring_rate * (t->x + p->spring_preload) - p->external_force -
+             t->input->force;
   t->friction = p->dry_friction;
 }
 

@@ -114,13 +114,13 @@ static void test_table_write__memory_ran_out__world_error(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_table_write__numbers_and_text__rows_in_order),
-    cmocka_unit_test(test_table_write__commas_quotes_breaks__quoted),
-    cmocka_unit_test(test_table_write__nan_infinity_negative_zero__empty_inf_zero),
-    cmocka_unit_test(test_table_row__many_rows__all_kept),
-    cmocka_unit_test(test_table_row__text_given__copied),
-    cmocka_unit_test(test_table_write__file_refuses__world_error),
-    cmocka_unit_test(test_table_write__memory_ran_out__world_error),
+      cmocka_unit_test(test_table_write__numbers_and_text__rows_in_order),
+      cmocka_unit_test(test_table_write__commas_quotes_breaks__quoted),
+      cmocka_unit_test(test_table_write__nan_infinity_negative_zero__empty_inf_zero),
+      cmocka_unit_test(test_table_row__many_rows__all_kept),
+      cmocka_unit_test(test_table_row__text_given__copied),
+      cmocka_unit_test(test_table_write__file_refuses__world_error),
+      cmocka_unit_test(test_table_write__memory_ran_out__world_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,21 +4,21 @@
 #define LAB_CHANNEL_H
 
 /*    name     key      unit  quantity       meaning */
-#define LAB_CHANNEL_LIST(X) \
-  X(TIME,    "t",     "s",  "time",        "time") \
-  X(U,       "u",     "1",  "command",     "command: 1 supply orifice fully open, -1 vent fully open, 0 both shut") \
-  X(P,       "p",     "Pa", "pressure",    "chamber pressure, gauge") \
-  X(X,       "x",     "m",  "position",    "stem position") \
-  X(PS,      "ps",    "Pa", "supply",      "supply pressure, gauge") \
-  X(T,       "T",     "K",  "temperature", "gas temperature in the chamber") \
-  X(FORCE,   "force", "N",  "force",       "force on the stem, positive against the air") \
-  X(P2,      "p2",    "Pa", "far_pressure", "pressure at the far end of a line, gauge")
+#define LAB_CHANNEL_LIST(X)                                                                                            \
+  X(TIME, "t", "s", "time", "time")                                                                                    \
+  X(U, "u", "1", "command", "command: 1 supply orifice fully open, -1 vent fully open, 0 both shut")                   \
+  X(P, "p", "Pa", "pressure", "chamber pressure, gauge")                                                               \
+  X(X, "x", "m", "position", "stem position")                                                                          \
+  X(PS, "ps", "Pa", "supply", "supply pressure, gauge")                                                                \
+  X(T, "T", "K", "temperature", "gas temperature in the chamber")                                                      \
+  X(FORCE, "force", "N", "force", "force on the stem, positive against the air")                                       \
+  X(P2, "p2", "Pa", "far_pressure", "pressure at the far end of a line, gauge")
 
 enum lab_channel {
 #define X(name, key, unit, quantity, meaning) LAB_CHANNEL_##name,
   LAB_CHANNEL_LIST(X)
 #undef X
-  LAB_CHANNEL_COUNT
+      LAB_CHANNEL_COUNT
 };
 
 typedef struct lab_channel_info {

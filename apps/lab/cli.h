@@ -6,10 +6,10 @@
 #include "message.h"
 
 enum lab_option_kind {
-  LAB_OPTION_FLAG, /* value: int *, set to 1 */
-  LAB_OPTION_TEXT, /* value: const char **, points into argv */
-  LAB_OPTION_COUNT,/* value: int *, a whole number in lower..upper */
-  LAB_OPTION_REAL  /* value: double *, a number in lower..upper */
+  LAB_OPTION_FLAG,  /* value: int *, set to 1 */
+  LAB_OPTION_TEXT,  /* value: const char **, points into argv */
+  LAB_OPTION_COUNT, /* value: int *, a whole number in lower..upper */
+  LAB_OPTION_REAL   /* value: double *, a number in lower..upper */
 };
 
 /* A row of a program's own table; the last row has name NULL. */
@@ -24,16 +24,16 @@ typedef struct lab_option {
 
 typedef struct lab_program {
   const char *name;
-  const char *operands;      /* "MODEL.cfg LOG.csv", for the usage text */
-  const char *what;          /* what the program does, a sentence or more */
-  const lab_option *option;  /* its own table */
+  const char *operands;     /* "MODEL.cfg LOG.csv", for the usage text */
+  const char *what;         /* what the program does, a sentence or more */
+  const lab_option *option; /* its own table */
   int min_operands, max_operands;
 } lab_program;
 
 typedef struct lab_cli {
   int quiet;
-  int threads;    /* 0: as many as the machine has */
-  int done;       /* not 0: --help or --version has been answered, nothing is left to do */
+  int threads; /* 0: as many as the machine has */
+  int done;    /* not 0: --help or --version has been answered, nothing is left to do */
   int n_operands;
   char **operand; /* points into argv */
 } lab_cli;

@@ -30,8 +30,7 @@ int lab_config_expected(const config_setting_t *setting, const char *expected, l
 int lab_config_known(const config_setting_t *group, const void *table, size_t n, size_t stride, lab_error *error);
 
 /* Fail at a setting whose key is in no table; names the nearest one.  Returns: LAB_DATA. */
-int lab_config_unknown(const config_setting_t *setting, const void *table, size_t n, size_t stride,
-                       lab_error *error);
+int lab_config_unknown(const config_setting_t *setting, const void *table, size_t n, size_t stride, lab_error *error);
 
 /* Check that a setting is a group.  Returns: LAB_OK, LAB_DATA. */
 int lab_config_is_group(const config_setting_t *setting, lab_error *error);
@@ -39,8 +38,8 @@ int lab_config_is_group(const config_setting_t *setting, lab_error *error);
 /* Read a string with a unit, or a plain number in `unit`.
  * In:      lower, upper  bounds in `unit`, inclusive; may be infinite
  * Returns: LAB_OK, LAB_DATA. */
-int lab_config_quantity(const config_setting_t *setting, const char *unit, double lower, double upper,
-                        double *value, lab_error *error);
+int lab_config_quantity(const config_setting_t *setting, const char *unit, double lower, double upper, double *value,
+                        lab_error *error);
 
 /* The same for a difference or a spread (see lab_quantity_difference), of any finite size. */
 int lab_config_difference(const config_setting_t *setting, const char *unit, double *value, lab_error *error);

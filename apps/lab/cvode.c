@@ -196,8 +196,9 @@ static void count(solver *s, pneu_stats *stats)
 static int give_up(lab_cvode *c, int flag, double t, lab_error *error)
 {
   char *name = CVodeGetReturnFlagName(flag);
-  lab_fail(error, LAB_NUMERIC, "CVODE stopped with %s at t = %.9g s, %s, p = %.9g Pa, T = %.6g K, x = %.9g m, v = %.6g m/s",
-           name, t, pneu_mode_text(c->state->mode), c->state->p, c->state->T, c->state->x, c->state->v);
+  lab_fail(error, LAB_NUMERIC,
+           "CVODE stopped with %s at t = %.9g s, %s, p = %.9g Pa, T = %.6g K, x = %.9g m, v = %.6g m/s", name, t,
+           pneu_mode_text(c->state->mode), c->state->p, c->state->T, c->state->x, c->state->v);
   free(name);
   return LAB_NUMERIC;
 }
@@ -227,8 +228,8 @@ static int sample_step(lab_cvode *c, solver *s, double t, lab_sampler *sampler)
   return 0;
 }
 
-int lab_cvode_run(lab_cvode *c, const pneu_model *model, pneu_state *state, const pneu_input *input,
-                  double duration, double tol, lab_sampler *sampler, pneu_stats *stats, lab_error *error)
+int lab_cvode_run(lab_cvode *c, const pneu_model *model, pneu_state *state, const pneu_input *input, double duration,
+                  double tol, lab_sampler *sampler, pneu_stats *stats, lab_error *error)
 {
   double t = 0;
   c->model = model;

@@ -41,32 +41,32 @@ typedef struct lab_fit_problem {
   lab_fit_residuals *residuals;
   lab_fit_slopes *slopes; /* NULL: central differences */
   void *context;
-  const double *sigma;    /* m standard deviations, each > 0, in units of the residuals; NULL: all equal */
-  int sigma_known;        /* not 0: sigma is the noise itself, so intervals are normal; else the residuals set its
-                             size and intervals are Student's t with m - n degrees of freedom */
+  const double *sigma; /* m standard deviations, each > 0, in units of the residuals; NULL: all equal */
+  int sigma_known;     /* not 0: sigma is the noise itself, so intervals are normal; else the residuals set its
+                          size and intervals are Student's t with m - n degrees of freedom */
 } lab_fit_problem;
 
 enum lab_fit_search {
-  LAB_FIT_POLISH_ONLY,  /* Levenberg-Marquardt from the start */
-  LAB_FIT_BOBYQA,       /* quadratic model; for smooth residuals */
-  LAB_FIT_SBPLX,        /* simplex on subspaces; for kinks */
-  LAB_FIT_CRS           /* controlled random search over the whole box, seeded by the number of the start */
+  LAB_FIT_POLISH_ONLY, /* Levenberg-Marquardt from the start */
+  LAB_FIT_BOBYQA,      /* quadratic model; for smooth residuals */
+  LAB_FIT_SBPLX,       /* simplex on subspaces; for kinks */
+  LAB_FIT_CRS          /* controlled random search over the whole box, seeded by the number of the start */
 };
 
 typedef struct lab_fit_options {
-  int search;           /* enum lab_fit_search */
-  int starts;           /* 1: param.start alone; more: also points spread evenly over the box (Halton) */
-  int threads;          /* 1 .. ; over starts */
-  int search_count;     /* evaluations of the search per start and parameter */
-  int polish_count;     /* evaluations of Levenberg-Marquardt per start and parameter */
-  double precision;     /* relative precision of the residuals; the step of the differences is its cube root */
+  int search;       /* enum lab_fit_search */
+  int starts;       /* 1: param.start alone; more: also points spread evenly over the box (Halton) */
+  int threads;      /* 1 .. ; over starts */
+  int search_count; /* evaluations of the search per start and parameter */
+  int polish_count; /* evaluations of Levenberg-Marquardt per start and parameter */
+  double precision; /* relative precision of the residuals; the step of the differences is its cube root */
 } lab_fit_options;
 
 enum lab_fit_state {
-  LAB_FIT_FREE,         /* found inside its bounds */
-  LAB_FIT_AT_LOWER,     /* the data pull it against a bound: no interval */
+  LAB_FIT_FREE,     /* found inside its bounds */
+  LAB_FIT_AT_LOWER, /* the data pull it against a bound: no interval */
   LAB_FIT_AT_UPPER,
-  LAB_FIT_UNDETERMINED  /* the data say nothing of it, or only of a combination: the interval is the bounds */
+  LAB_FIT_UNDETERMINED /* the data say nothing of it, or only of a combination: the interval is the bounds */
 };
 
 enum lab_fit_finish {
@@ -80,7 +80,7 @@ typedef struct lab_fit_result {
   int n;
   size_t m;
   double theta[LAB_FIT_MAX];
-  int state[LAB_FIT_MAX];      /* enum lab_fit_state */
+  int state[LAB_FIT_MAX];                      /* enum lab_fit_state */
   double low[LAB_FIT_MAX], high[LAB_FIT_MAX];  /* 95 % interval */
   double deviation[LAB_FIT_MAX];               /* standard deviation; infinite where undetermined, 0 at a bound */
   double covariance[LAB_FIT_MAX][LAB_FIT_MAX]; /* of theta; rows and columns of parameters not free are 0 */

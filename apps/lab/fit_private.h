@@ -10,16 +10,16 @@
 typedef struct fit_run {
   const lab_fit_problem *problem;
   const lab_fit_options *options;
-  double unit[LAB_FIT_MAX];                     /* of linear parameters, in their unit */
+  double unit[LAB_FIT_MAX];                      /* of linear parameters, in their unit */
   double lower[LAB_FIT_MAX], upper[LAB_FIT_MAX]; /* of z */
-  double step[LAB_FIT_MAX];                     /* of the next difference, in z */
-  double *r, *slope;      /* m, and m * n column by column: of the latest fit_evaluate and fit_differentiate */
-  double best;            /* least sum of squares seen; infinite before the first */
+  double step[LAB_FIT_MAX];                      /* of the next difference, in z */
+  double *r, *slope; /* m, and m * n column by column: of the latest fit_evaluate and fit_differentiate */
+  double best;       /* least sum of squares seen; infinite before the first */
   double best_z[LAB_FIT_MAX];
-  int held[LAB_FIT_MAX];  /* -1, 1: kept at its lower, upper bound by the polish; 0: free */
-  int finish;             /* enum lab_fit_finish */
+  int held[LAB_FIT_MAX]; /* -1, 1: kept at its lower, upper bound by the polish; 0: free */
+  int finish;            /* enum lab_fit_finish */
   long evaluations, failed;
-  int status;             /* LAB_OK, or what ended this start, with the error */
+  int status; /* LAB_OK, or what ended this start, with the error */
   lab_error error;
 } fit_run;
 

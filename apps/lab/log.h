@@ -13,9 +13,9 @@ typedef struct lab_log {
   double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap (never in t, u); NULL where the channel is absent */
   int *line;                        /* line of each row in the file */
   size_t n_runs;
-  size_t *run;     /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
-  size_t dropped;  /* damaged rows left out, as the format asks */
-  size_t outside;  /* rows left out by the window */
+  size_t *run;    /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
+  size_t dropped; /* damaged rows left out, as the format asks */
+  size_t outside; /* rows left out by the window */
 } lab_log;
 
 /* Read a log.

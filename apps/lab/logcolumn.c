@@ -15,7 +15,7 @@ static const struct column_name {
 #define X(name, key, unit, quantity, meaning) {key, LAB_CHANNEL_##name, 0},
     LAB_CHANNEL_LIST(X)
 #undef X
-    {"p_abs", LAB_CHANNEL_P, 1},
+        {"p_abs", LAB_CHANNEL_P, 1},
     {"ps_abs", LAB_CHANNEL_PS, 1},
     {"p2_abs", LAB_CHANNEL_P2, 1},
     {"quantity", LAB_COLUMN_QUANTITY, 0},
@@ -34,13 +34,13 @@ static int split(const char *text, char name[LAB_COLUMN_TEXT], char unit[LAB_COL
   return sscanf(text, " %63[^][ \t] %1s", name, rest) == 1;
 }
 
-static int read_unit(const char *text, const struct column_name *found, const char *unit,
-                     const lab_log_format *format, lab_column *column, lab_error *error)
+static int read_unit(const char *text, const struct column_name *found, const char *unit, const lab_log_format *format,
+                     lab_column *column, lab_error *error)
 {
   const char *si = lab_log_unit(format, found->channel);
   if (!*unit)
-    return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text,
-                    found->name, si);
+    return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text, found->name,
+                    si);
   if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
     return lab_fail_in(error, "column \"%s\"", text);
   return LAB_OK;

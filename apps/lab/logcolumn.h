@@ -9,7 +9,7 @@
 enum { LAB_COLUMN_IGNORED = -1, LAB_COLUMN_QUANTITY = -2, LAB_COLUMN_VALUE = -3 };
 
 typedef struct lab_column {
-  int channel; /* enum lab_channel, or one of the roles above */
+  int channel;          /* enum lab_channel, or one of the roles above */
   double scale, offset; /* SI value = scale * number + offset */
 } lab_column;
 

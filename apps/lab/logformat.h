@@ -48,18 +48,18 @@ typedef struct lab_log_format {
   char thousands; /* 0: none */
   char comment;   /* 0: none */
   int skip_lines;
-  int new_run; /* enum lab_new_run */
-  int damaged; /* enum lab_damaged */
+  int new_run;   /* enum lab_new_run */
+  int damaged;   /* enum lab_damaged */
   int n_columns; /* 0: the file has a header */
   char column[LAB_COLUMN_MAX][LAB_COLUMN_TEXT];
   int n_quantities; /* 0: one column a channel */
   lab_long_quantity quantity[LAB_QUANTITY_MAX];
-  double time_step;         /* [s]; 0: the file has a column t */
-  double from, to;          /* [s] window, infinite where there is none */
+  double time_step; /* [s]; 0: the file has a column t */
+  double from, to;  /* [s] window, infinite where there is none */
   double scale[LAB_CHANNEL_COUNT];
   double offset[LAB_CHANNEL_COUNT];   /* SI */
   double constant[LAB_CHANNEL_COUNT]; /* SI; NaN: none */
-  int command_is_pressure;  /* u is a set pressure [Pa], not an opening */
+  int command_is_pressure;            /* u is a set pressure [Pa], not an opening */
 } lab_log_format;
 
 /* The format of interface.md.  Out: format */

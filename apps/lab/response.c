@@ -11,7 +11,7 @@ enum { COLUMNS = 10 };
 
 static double **trace_column(lab_trace *trace, int i)
 {
-  double **const column[COLUMNS] = {&trace->t, &trace->u,       &trace->p,        &trace->x,    &trace->v,
+  double **const column[COLUMNS] = {&trace->t, &trace->u, &trace->p,       &trace->x,        &trace->v,
                                     &trace->T, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat};
   return column[i];
 }
@@ -99,8 +99,8 @@ static int stretch(engine *e, const pneu_model *model, pneu_state *state, const 
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC,
                   "%s within %.9g s after t = %.9g s, %s, p = %.9g Pa, T = %.6g K, x = %.9g m, v = %.6g m/s",
-                  pneu_status_text(status), duration, sampler->origin, pneu_mode_text(state->mode), state->p,
-                  state->T, state->x, state->v);
+                  pneu_status_text(status), duration, sampler->origin, pneu_mode_text(state->mode), state->p, state->T,
+                  state->x, state->v);
 }
 
 /* Let the sampler take what lies in this stretch: a sample at a change of command belongs to what follows. */

@@ -11,7 +11,7 @@
 /* Inputs over time: row i holds from t[i] to t[i+1]; the last one to the end. */
 typedef struct lab_schedule {
   size_t n;
-  const double *t;          /* [s], strictly increasing */
+  const double *t; /* [s], strictly increasing */
   const pneu_input *input;
 } lab_schedule;
 
@@ -36,19 +36,18 @@ enum lab_integrator { LAB_STEPPER, LAB_CVODE };
 
 /* Integrals over the run, for the audit of mass and energy (energies [J], mass [kg]). */
 typedef struct lab_response_options {
-  int integrator;  /* enum lab_integrator */
-  double tol;      /* relative to full scale: 1e-4 .. 1e-10 */
-  double t_end;    /* [s] */
-  int count_only;  /* not 0: no samples, statistics only (trace may be NULL) */
+  int integrator; /* enum lab_integrator */
+  double tol;     /* relative to full scale: 1e-4 .. 1e-10 */
+  double t_end;   /* [s] */
+  int count_only; /* not 0: no samples, statistics only (trace may be NULL) */
 } lab_response_options;
 
 /* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run).
  * Out:     trace  allocated; free with lab_trace_free
  *          stats  may be NULL
  * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */
-int lab_respond(const pneu_model *model, const pneu_state *start, const lab_schedule *schedule,
-                const double *t, size_t n, const lab_response_options *options, lab_trace *trace,
-                pneu_stats *stats, lab_error *error);
+int lab_respond(const pneu_model *model, const pneu_state *start, const lab_schedule *schedule, const double *t,
+                size_t n, const lab_response_options *options, lab_trace *trace, pneu_stats *stats, lab_error *error);
 
 void lab_trace_free(lab_trace *trace);
 

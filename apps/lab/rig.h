@@ -22,7 +22,7 @@ enum {
   LAB_FIT_ORIFICE_AREA = PNEU_PARAM_COUNT, /* in lab_rig.fit: scales fill_area and vent_area together */
   LAB_FIT_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
   LAB_NAME_TEXT = 64,
-  LAB_FIT_TEXT = 96,                       /* bytes of a name from lab_fit_name */
+  LAB_FIT_TEXT = 96, /* bytes of a name from lab_fit_name */
   LAB_PATH_TEXT = 1024
 };
 
@@ -38,8 +38,8 @@ typedef struct lab_rig {
   pneu_params params;
   pneu_laws laws;
   int n_fit;
-  int fit[LAB_FIT_COUNT];   /* parameters (as in pneu_param_describe) or LAB_FIT_ORIFICE_AREA */
-  double noise[LAB_CHANNEL_COUNT];      /* standard deviation, SI; NaN: estimate it from the log */
+  int fit[LAB_FIT_COUNT];                 /* parameters (as in pneu_param_describe) or LAB_FIT_ORIFICE_AREA */
+  double noise[LAB_CHANNEL_COUNT];        /* standard deviation, SI; NaN: estimate it from the log */
   unsigned char input[LAB_CHANNEL_COUNT]; /* 1: drives the model; u always does */
   lab_log_format log;
 } lab_rig;

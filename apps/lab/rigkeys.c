@@ -2,7 +2,10 @@
 
 #include <string.h>
 
-#define PARAM(group, key, name) {key, group, LAB_KEY_PARAM, PNEU_PARAM_##name}
+#define PARAM(group, key, name)                                                                                        \
+  {                                                                                                                    \
+    key, group, LAB_KEY_PARAM, PNEU_PARAM_##name                                                                       \
+  }
 
 const lab_key lab_keys[] = {
     {"name", "actuator", LAB_KEY_NAME, 0},

@@ -21,8 +21,8 @@ typedef struct lab_drive {
  *          run    0 <= run < log->n_runs
  * Out:     drive  to be freed with lab_drive_free
  * Returns: LAB_OK; LAB_DATA if a channel that drives the model is not in the log; LAB_WORLD. */
-int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run,
-                       lab_drive *drive, lab_error *error);
+int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_drive *drive,
+                       lab_error *error);
 
 void lab_drive_free(lab_drive *drive);
 

@@ -40,8 +40,7 @@ static double resample(const edge *e, double *y)
     const double t = from + (to - from) * i / GRID;
     while (at + 1 < e->n && e->t[at] < t)
       at++;
-    y[i] = share(e, at - 1) +
-           (share(e, at) - share(e, at - 1)) * (t - e->t[at - 1]) / (e->t[at] - e->t[at - 1]);
+    y[i] = share(e, at - 1) + (share(e, at) - share(e, at - 1)) * (t - e->t[at - 1]) / (e->t[at] - e->t[at - 1]);
   }
   return to - from;
 }

@@ -5,8 +5,7 @@
 
 /* Gauss-Legendre on 0..1, four points (Abramowitz and Stegun 1964, table 25.4). */
 enum { NODES = 4 };
-static const double node[NODES] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
-                                   0.93056815579702629};
+static const double node[NODES] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
 static const double weight[NODES] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                      0.17392742256872693};
 

@@ -10,18 +10,18 @@ enum { SCAN_POINTS = 25 };
 
 /* What is read at each place of the bench set. */
 enum scan_quantity {
-  SCAN_FALL_RANGE,   /* [1] largest over smallest velocity of the falling edge */
-  SCAN_FIRST_OVER,   /* [1] smallest velocity of the falling edge over largest of the rising one */
-  SCAN_LAST_OVER,    /* [1] smallest velocity of the rising edge over largest of the falling one */
-  SCAN_DURATIONS,    /* [1] fall over rise */
-  SCAN_ASYMMETRY,    /* [1] as asymmetry_result */
+  SCAN_FALL_RANGE, /* [1] largest over smallest velocity of the falling edge */
+  SCAN_FIRST_OVER, /* [1] smallest velocity of the falling edge over largest of the rising one */
+  SCAN_LAST_OVER,  /* [1] smallest velocity of the rising edge over largest of the falling one */
+  SCAN_DURATIONS,  /* [1] fall over rise */
+  SCAN_ASYMMETRY,  /* [1] as asymmetry_result */
   SCAN_QUANTITIES
 };
 
 typedef struct bench_scan {
-  double low, width;                           /* [Pa] the bench set itself */
-  double nominal[SCAN_QUANTITIES];             /* there */
-  double from[SCAN_POINTS];                    /* [Pa] lower end of the bench set at each point, rising */
+  double low, width;               /* [Pa] the bench set itself */
+  double nominal[SCAN_QUANTITIES]; /* there */
+  double from[SCAN_POINTS];        /* [Pa] lower end of the bench set at each point, rising */
   double value[SCAN_QUANTITIES][SCAN_POINTS];
 } bench_scan;
 

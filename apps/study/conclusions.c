@@ -65,8 +65,8 @@ static void add_row(const study *s, const conclusion *c, int law, const finding 
   finding_verdict_text(f, finding_judge(f, c->low, c->high), verdict, sizeof verdict);
   finding_evidence(f, c->what, c->low, c->high, evidence, sizeof evidence);
   snprintf(number, sizeof number, "%d", c->number);
-  table_row(t, "sssss", number, pneu_gas_key(s->gas[law / s->n_flow]), pneu_flow_key(s->flow[law % s->n_flow]),
-            verdict, evidence);
+  table_row(t, "sssss", number, pneu_gas_key(s->gas[law / s->n_flow]), pneu_flow_key(s->flow[law % s->n_flow]), verdict,
+            evidence);
 }
 
 int conclusions_table(const study *s, table *t, lab_error *error)

@@ -11,9 +11,9 @@ enum { CONCLUSIONS = 18 };
 
 /* A conclusion as a statement that can be tested; study/PAPER.md, section 9, says why so. */
 typedef struct conclusion {
-  int number;        /* of the paper */
-  const char *what;  /* is measured */
-  double low, high;  /* between which it lies if the conclusion is right */
+  int number;       /* of the paper */
+  const char *what; /* is measured */
+  double low, high; /* between which it lies if the conclusion is right */
   int (*measure)(const conclusion_trial *t, const struct conclusion *c, finding *f, lab_error *error);
 } conclusion;
 

@@ -311,8 +311,8 @@ int conclusion_last_fall(const conclusion_trial *t, const conclusion *c, finding
     if (run(t, a, &p, &weak, error))
       return error->status;
     finding_add(f, nominal->down.arrival / speed_max(&nominal->down), "%s", name_of(t, a));
-    finding_add(f, weak.down.arrival / speed_max(&weak.down), "%s with p_bl = %.2g kPa, F/A = %.2g kPa",
-                name_of(t, a), 0.5 * p.dry_friction / p.area / kPa, p.dry_friction / p.area / kPa);
+    finding_add(f, weak.down.arrival / speed_max(&weak.down), "%s with p_bl = %.2g kPa, F/A = %.2g kPa", name_of(t, a),
+                0.5 * p.dry_friction / p.area / kPa, p.dry_friction / p.area / kPa);
     finding_add_conditioned(f, nominal->down.arrival / speed_max(&nominal->down));
   }
   return LAB_OK;

@@ -199,8 +199,8 @@ typedef struct removal {
   void (*apply)(pneu_params *p, pneu_laws *laws);
 } removal;
 
-static const removal removals[6] = {{"H1", without_spring},       {"H2", without_preload},
-                                    {"H3", without_limiter},      {"H4", without_bench_offset},
+static const removal removals[6] = {{"H1", without_spring},        {"H2", without_preload},
+                                    {"H3", without_limiter},       {"H4", without_bench_offset},
                                     {"H5", without_unequal_times}, {"H6", without_air_process}};
 
 /* A cause that carries the asymmetry but does not make it: without it nothing is left, and alone it makes none. */
@@ -220,9 +220,8 @@ static const char *verdict(const study *s, const lab_rig *rig, const removal *ca
 {
   if (!(without < s->confirmed_below * base))
     return "not confirmed";
-  return makes_it_alone(rig, cause, base, s->confirmed_below)
-             ? "confirmed"
-             : "confirmed as necessary; alone it makes no asymmetry";
+  return makes_it_alone(rig, cause, base, s->confirmed_below) ? "confirmed"
+                                                              : "confirmed as necessary; alone it makes no asymmetry";
 }
 
 static int verdict_row(const study *s, const lab_rig *rig, int gas, int flow, const removal *cause, table *t,
@@ -236,9 +235,8 @@ static int verdict_row(const study *s, const lab_rig *rig, int gas, int flow, co
   cause->apply(&p, &laws);
   if (stroke_measure(&p, &laws, &without, error))
     return lab_fail_in(error, "%s without its cause", cause->hypothesis);
-  table_row(t, "sssggggs", cause->hypothesis, pneu_gas_key(gas), pneu_flow_key(flow), base.asymmetry,
-            without.asymmetry, base.duration_ratio, without.duration_ratio,
-            verdict(s, rig, cause, base.asymmetry, without.asymmetry));
+  table_row(t, "sssggggs", cause->hypothesis, pneu_gas_key(gas), pneu_flow_key(flow), base.asymmetry, without.asymmetry,
+            base.duration_ratio, without.duration_ratio, verdict(s, rig, cause, base.asymmetry, without.asymmetry));
   return LAB_OK;
 }
 

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double period = 0.02;  /* [s] between settings of the load */
-static const double longest = 400;  /* [s] for one stroke */
-static const double settling = 30;  /* [s] to fill up to the supply */
+static const double period = 0.02; /* [s] between settings of the load */
+static const double longest = 400; /* [s] for one stroke */
+static const double settling = 30; /* [s] to fill up to the supply */
 
 typedef struct bench {
   const pneu_model *model;

@@ -24,7 +24,7 @@ int measured_vessel_product(const study *s, lab_error *error)
 
 int measured_damadics_product(const study *s, lab_error *error)
 {
-  static const char *const files[] = {"measured_damadics_static.csv",    "measured_damadics_loop.csv",
+  static const char *const files[] = {"measured_damadics_static.csv", "measured_damadics_loop.csv",
                                       "measured_damadics_catalogue.csv", "measured_damadics_steps.csv",
                                       "measured_damadics_edges.csv"};
   return note(s, measured_damadics(s->measured, s->results, error), files, 5);

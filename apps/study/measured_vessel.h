@@ -13,10 +13,10 @@
  *   - 6 kPa at the first point, under every law with that start: 0.1 s of time, or 6 kPa of start pressure;
  *   - 2 kPa elsewhere under the energy balance, without a pattern: reading the figure;
  *   - 16 K of gas temperature, because pressure alone weighs the heat but little. Fitting both channels leaves 3 kPa
- *     and 9 to 15 K, with a pattern in each, so that two numbers for orifice and heat are not enough. The thermometer falls
- *     by 12 K in the first 3.6 s, in which gas without any heat from the wall cools by 22 K: it lags, or the gas is not
- *     mixed. From measured pressure and temperature the mass that leaves asks for an area that shrinks by an eighth
- *     as the pressure falls, as the discharge coefficient of a sharp edge does and the nozzle's does not.
+ *     and 9 to 15 K, with a pattern in each, so that two numbers for orifice and heat are not enough. The thermometer
+ * falls by 12 K in the first 3.6 s, in which gas without any heat from the wall cools by 22 K: it lags, or the gas is
+ * not mixed. From measured pressure and temperature the mass that leaves asks for an area that shrinks by an eighth as
+ * the pressure falls, as the discharge coefficient of a sharp edge does and the nozzle's does not.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_MEASURED_VESSEL_H
 #define STUDY_MEASURED_VESSEL_H

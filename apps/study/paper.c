@@ -7,11 +7,11 @@
 enum { HALVINGS = 60, PANELS = 200 };
 
 #define STROKE_FROM 0.05 /* part of the travel that a stroke is timed over: 5 % to 95 % */
-#define STROKE_TO 0.95
+#define STROKE_TO   0.95
 
 const paper_constant paper_constants[PAPER_CONSTANT_COUNT] = {
 #define X(name, value, unit, where) {#name, value, unit, where},
-  PAPER_CONSTANT_LIST(X)
+    PAPER_CONSTANT_LIST(X)
 #undef X
 };
 
@@ -23,8 +23,8 @@ static double constant(int id)
 /* ---- Flow laws ---- */
 
 const paper_law paper_laws[PAPER_LAW_COUNT] = {
-  {"paper", paper_flow_unchoked},
-  {"choked", paper_flow_choked},
+    {"paper", paper_flow_unchoked},
+    {"choked", paper_flow_choked},
 };
 
 double paper_flow_unchoked(double P_up, double P_dn)
@@ -113,16 +113,21 @@ double paper_exergy_efficiency(double p_s, double P_a)
 
 paper_actuator paper_actuator_printed(int which)
 {
-  static const struct { const char *key; int id[9]; } rows[PAPER_ACTUATOR_COUNT] = {
-    {"r1-400", {PAPER_R1_AREA, PAPER_R1_DEAD_VOLUME, PAPER_R1_TRAVEL, PAPER_R1_RATE, PAPER_R1_PRELOAD, PAPER_R1_SUPPLY,
-                PAPER_SPRINGS_6_LOW, PAPER_R1_BENCH_HIGH, PAPER_R1_ORIFICE}},
-    {"37-13", {PAPER_M37_AREA, PAPER_M37_DEAD_VOLUME, PAPER_M37_TRAVEL, PAPER_M37_RATE, PAPER_M37_PRELOAD,
-               PAPER_M37_SUPPLY, PAPER_M37_BENCH_LOW, PAPER_M37_BENCH_HIGH, PAPER_M37_ORIFICE}},
+  static const struct {
+    const char *key;
+    int id[9];
+  } rows[PAPER_ACTUATOR_COUNT] = {
+      {"r1-400",
+       {PAPER_R1_AREA, PAPER_R1_DEAD_VOLUME, PAPER_R1_TRAVEL, PAPER_R1_RATE, PAPER_R1_PRELOAD, PAPER_R1_SUPPLY,
+        PAPER_SPRINGS_6_LOW, PAPER_R1_BENCH_HIGH, PAPER_R1_ORIFICE}},
+      {"37-13",
+       {PAPER_M37_AREA, PAPER_M37_DEAD_VOLUME, PAPER_M37_TRAVEL, PAPER_M37_RATE, PAPER_M37_PRELOAD, PAPER_M37_SUPPLY,
+        PAPER_M37_BENCH_LOW, PAPER_M37_BENCH_HIGH, PAPER_M37_ORIFICE}},
   };
   const int *id = rows[which].id;
-  paper_actuator a = {rows[which].key, constant(id[0]), constant(id[1]), constant(id[2]), constant(id[3]),
-                      constant(id[4]), constant(id[5]), constant(id[6]), constant(id[7]), constant(id[8]),
-                      constant(PAPER_FRICTION)};
+  paper_actuator a = {rows[which].key, constant(id[0]), constant(id[1]),         constant(id[2]),
+                      constant(id[3]), constant(id[4]), constant(id[5]),         constant(id[6]),
+                      constant(id[7]), constant(id[8]), constant(PAPER_FRICTION)};
   return a;
 }
 

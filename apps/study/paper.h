@@ -12,6 +12,7 @@
 
 #include "table.h"
 
+/* clang-format off */
 /* Numbers that the paper prints and that the formulae start from, in SI.
  *    name              value        unit         where */
 #define PAPER_CONSTANT_LIST(X) \
@@ -67,16 +68,18 @@
   X(CLASS_4_LOW,        200e3,       "Pa",        "Fig. 18") \
   X(CLASS_4_HIGH,       360e3,       "Pa",        "Fig. 18")
 
+/* clang-format on */
+
 enum paper_constant_id {
 #define X(name, value, unit, where) PAPER_##name,
   PAPER_CONSTANT_LIST(X)
 #undef X
-  PAPER_CONSTANT_COUNT
+      PAPER_CONSTANT_COUNT
 };
 
 typedef struct paper_constant {
   const char *name;
-  double value;       /* SI */
+  double value; /* SI */
   const char *unit, *where;
 } paper_constant;
 
@@ -98,7 +101,7 @@ double paper_flow_choked(double P_up, double P_dn);
 double paper_choking_ratio(void);
 
 typedef struct paper_law {
-  const char *key;    /* as in results/: "paper", "choked" */
+  const char *key; /* as in results/: "paper", "choked" */
   paper_flow flow;
 } paper_law;
 
@@ -141,17 +144,17 @@ double paper_exergy_efficiency(double p_s, double P_a);
 /* ---- A spring-loaded stem in quasi-equilibrium (PAPER.md 3.2) ---- */
 
 typedef struct paper_actuator {
-  const char *key;      /* as in results/: "r1-400", "37-13" */
-  double area;          /* [m2] */
-  double dead_volume;   /* [m3] */
-  double travel;        /* [m] */
-  double rate;          /* [N/m] of the spring */
-  double preload;       /* [m] compression at x = 0 */
-  double supply;        /* [Pa] gauge */
-  double bench_low;     /* [Pa] gauge, at x = 0 without friction */
-  double bench_high;    /* [Pa] gauge, at x = travel without friction */
-  double orifice;       /* C a [m2], fill and vent */
-  double friction;      /* [N] Coulomb */
+  const char *key;    /* as in results/: "r1-400", "37-13" */
+  double area;        /* [m2] */
+  double dead_volume; /* [m3] */
+  double travel;      /* [m] */
+  double rate;        /* [N/m] of the spring */
+  double preload;     /* [m] compression at x = 0 */
+  double supply;      /* [Pa] gauge */
+  double bench_low;   /* [Pa] gauge, at x = 0 without friction */
+  double bench_high;  /* [Pa] gauge, at x = travel without friction */
+  double orifice;     /* C a [m2], fill and vent */
+  double friction;    /* [N] Coulomb */
 } paper_actuator;
 
 enum { PAPER_R1_400, PAPER_37_13, PAPER_ACTUATOR_COUNT };
@@ -169,7 +172,7 @@ typedef struct paper_case {
   paper_actuator actuator;
   paper_flow flow;
   double P_a;
-  double storage;      /* 1: V dp/dt stays in the mass balance [B, Eq. 7]; 0: dropped, [B, Eqs. 10, 18] */
+  double storage; /* 1: V dp/dt stays in the mass balance [B, Eq. 7]; 0: dropped, [B, Eqs. 10, 18] */
 } paper_case;
 
 enum { PAPER_DOWN = -1, PAPER_UP = 1 };
@@ -199,9 +202,9 @@ double paper_symmetric_bench(const paper_case *c);
 /* One number or claim of the paper beside ours. */
 typedef struct paper_row {
   const char *item, *quantity, *unit;
-  double printed;       /* NaN: a claim without a number */
-  double computed;      /* NaN: a matter of form, without a number */
-  const char *agrees;   /* "yes", "no", "rounding" */
+  double printed;     /* NaN: a claim without a number */
+  double computed;    /* NaN: a matter of form, without a number */
+  const char *agrees; /* "yes", "no", "rounding" */
   const char *note;
 } paper_row;
 
@@ -221,9 +224,9 @@ const char *paper_agreement(double printed, double computed, double digit, doubl
 /* ---- Tables of figures 5 to 8; each opens t, the caller closes it ---- */
 
 void paper_numbers_table(table *t); /* every row of paper_numbers */
-void paper_fig05(table *t); /* velocity of the leading edge over P_1/P_2, R1-400 */
-void paper_fig06(table *t); /* velocity of the falling edge over p/p_a, and that of the spring-loaded stem */
-void paper_fig07(table *t); /* p/p_s where both edges are equally fast, over p_a/p_s */
-void paper_fig08(table *t); /* the same over p_s/p_a, with the asymptote */
+void paper_fig05(table *t);         /* velocity of the leading edge over P_1/P_2, R1-400 */
+void paper_fig06(table *t);         /* velocity of the falling edge over p/p_a, and that of the spring-loaded stem */
+void paper_fig07(table *t);         /* p/p_s where both edges are equally fast, over p_a/p_s */
+void paper_fig08(table *t);         /* the same over p_s/p_a, with the asymptote */
 
 #endif

@@ -30,14 +30,14 @@ enum relation { SAME, AT_MOST, AT_LEAST, MORE, FORM };
 
 typedef struct claim {
   const char *item, *quantity, *unit;
-  double printed, digit;    /* in `unit`; digit: unit of the last printed place, or what MORE must exceed */
-  double slack;             /* what rounding on the way may add */
-  int relation;             /* of the computed number to `printed`, */
-  double bound;             /* or to this where nothing is printed */
-  double per;               /* SI value of `unit` */
+  double printed, digit; /* in `unit`; digit: unit of the last printed place, or what MORE must exceed */
+  double slack;          /* what rounding on the way may add */
+  int relation;          /* of the computed number to `printed`, */
+  double bound;          /* or to this where nothing is printed */
+  double per;            /* SI value of `unit` */
   formula compute;
   int actuator;
-  int arg[ARGS];            /* enum paper_constant_id */
+  int arg[ARGS]; /* enum paper_constant_id */
   const char *note;
 } claim;
 
@@ -612,9 +612,9 @@ static double room_temperature(const given *g)
 
 /* ---- The claims ---- */
 
-#define TENTH 0.1 /* "negligible", "roughly", "approximately", "almost": PAPER.md 1 */
-#define R1 PAPER_R1_400
-#define M37 PAPER_37_13
+#define TENTH   0.1 /* "negligible", "roughly", "approximately", "almost": PAPER.md 1 */
+#define R1      PAPER_R1_400
+#define M37     PAPER_37_13
 #define C(name) PAPER_##name
 
 static const claim claims[] = {
@@ -639,11 +639,11 @@ static const char *judge(const claim *c, double computed)
 {
   double target = isnan(c->printed) ? c->bound : c->printed;
   const char *verdict[] = {
-    [SAME] = paper_agreement(target, computed, c->digit, c->slack),
-    [AT_MOST] = word[computed <= target],
-    [AT_LEAST] = word[computed >= target],
-    [MORE] = word[computed > target + c->digit],
-    [FORM] = word[0],
+      [SAME] = paper_agreement(target, computed, c->digit, c->slack),
+      [AT_MOST] = word[computed <= target],
+      [AT_LEAST] = word[computed >= target],
+      [MORE] = word[computed > target + c->digit],
+      [FORM] = word[0],
   };
   return verdict[c->relation];
 }

@@ -24,10 +24,14 @@
 static const struct {
   const char *name;
   int (*make)(const study *s, lab_error *error);
-} tables[] = {{"standard", responses_standard},   {"steps", responses_steps},
-              {"static", responses_static},       {"numbers", numbers_make},
-              {"sweeps", hypotheses_sweep},       {"hypotheses", hypotheses_verdicts},
-              {"attribution", attribution_make}, {"conclusions", conclusions_make},
+} tables[] = {{"standard", responses_standard},
+              {"steps", responses_steps},
+              {"static", responses_static},
+              {"numbers", numbers_make},
+              {"sweeps", hypotheses_sweep},
+              {"hypotheses", hypotheses_verdicts},
+              {"attribution", attribution_make},
+              {"conclusions", conclusions_make},
               {"agreement", agreement_make},
               {"vessel", measured_vessel_product},
               {"servomotor", measured_damadics_product}};

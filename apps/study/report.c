@@ -80,12 +80,13 @@ static int verdicts(const study *s, FILE *file, lab_error *error)
   int h, survives[6];
   table t;
   if (table_load(s, "hypotheses.csv", &t, error) == LAB_OK) {
-    fprintf(file,
-            "## Six hypotheses in %d laws\n\nAsymmetry with the cause, and without it; confirmed where it falls below "
-            "%.0f %% of its value. Asymmetry is the area\nbetween the two strokes, each scaled to unit time and travel, "
-            "the falling one mirrored; 0 is the same shape.\n\n![Asymmetry with and without each cause](hypotheses.svg)"
-            "\n\n| hypothesis | paper |",
-            s->n_gas * s->n_flow, 100 * s->confirmed_below);
+    fprintf(
+        file,
+        "## Six hypotheses in %d laws\n\nAsymmetry with the cause, and without it; confirmed where it falls below "
+        "%.0f %% of its value. Asymmetry is the area\nbetween the two strokes, each scaled to unit time and travel, "
+        "the falling one mirrored; 0 is the same shape.\n\n![Asymmetry with and without each cause](hypotheses.svg)"
+        "\n\n| hypothesis | paper |",
+        s->n_gas * s->n_flow, 100 * s->confirmed_below);
     law_heads(s, file);
     rule(file, 2 + s->n_gas * s->n_flow);
     for (h = 0; h < 6; h++)
@@ -96,11 +97,13 @@ static int verdicts(const study *s, FILE *file, lab_error *error)
     fputs(". That do not:", file);
     for (h = 0; h < 6; h++)
       fprintf(file, "%s", survives[h] ? "" : (fputc(' ', file), hypotheses[h].name));
-    fputs(".\nA cause marked as necessary carries the asymmetry (a spring ties pressure to travel; without stiffness the "
-          "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none. H4 and H5 take "
-          "nothing away\nwhere the bench set already lies in the middle of the supply range and both orifices are alike; "
-          "the other actuators\nhave tables of their own.\n\n",
-          file);
+    fputs(
+        ".\nA cause marked as necessary carries the asymmetry (a spring ties pressure to travel; without stiffness the "
+        "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none. H4 and H5 "
+        "take "
+        "nothing away\nwhere the bench set already lies in the middle of the supply range and both orifices are alike; "
+        "the other actuators\nhave tables of their own.\n\n",
+        file);
   }
   table_close(&t);
   return error->status;
@@ -111,12 +114,14 @@ static int attribution(const study *s, FILE *file, lab_error *error)
   table t;
   size_t row;
   if (table_load(s, "attribution.csv", &t, error) == LAB_OK) {
-    fputs("## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
-          "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
-          "A negative share makes the strokes more alike.\nCauses that bend the strokes in opposite ways hide each other: \"alone\" has the cause as the only one present, \"without\" as the only one "
-          "removed.\n\n![Shares of the causes](attribution.svg)\n\n"
-          "| chamber law | cause | share | Shapley value | alone | without |\n|---|---|---|---|---|---|\n",
-          file);
+    fputs(
+        "## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
+        "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
+        "A negative share makes the strokes more alike.\nCauses that bend the strokes in opposite ways hide each "
+        "other: \"alone\" has the cause as the only one present, \"without\" as the only one "
+        "removed.\n\n![Shares of the causes](attribution.svg)\n\n"
+        "| chamber law | cause | share | Shapley value | alone | without |\n|---|---|---|---|---|---|\n",
+        file);
     for (row = 0; row < table_rows(&t); row++)
       fprintf(file, "| %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", table_text(&t, row, "gas"),
               table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
@@ -133,7 +138,8 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
   size_t row;
   table t;
   if (table_load(s, "conclusions.csv", &t, error) == LAB_OK) {
-    fputs("## Eighteen conclusions\n\nEvidence for each in [conclusions.csv](conclusions.csv).\n\n| conclusion |", file);
+    fputs("## Eighteen conclusions\n\nEvidence for each in [conclusions.csv](conclusions.csv).\n\n| conclusion |",
+          file);
     law_heads(s, file);
     rule(file, 1 + s->n_gas * s->n_flow);
     for (i = 1; i <= 18; i++) {
@@ -171,11 +177,12 @@ static int disagreements(const study *s, FILE *file, lab_error *error)
       wrong += !strcmp(table_text(&t, row, "agrees"), "no");
       printed++;
     }
-    fprintf(file,
-            "## Where the paper and its equations disagree\n\n%lu of %lu statements that can be recomputed do not agree "
-            "([paper_numbers.csv](paper_numbers.csv)). Those with a number in print:\n\n"
-            "| item | quantity | printed | computed | note |\n|---|---|---|---|---|\n",
-            (unsigned long)wrong, (unsigned long)printed);
+    fprintf(
+        file,
+        "## Where the paper and its equations disagree\n\n%lu of %lu statements that can be recomputed do not agree "
+        "([paper_numbers.csv](paper_numbers.csv)). Those with a number in print:\n\n"
+        "| item | quantity | printed | computed | note |\n|---|---|---|---|---|\n",
+        (unsigned long)wrong, (unsigned long)printed);
     for (row = 0; row < table_rows(&t); row++)
       if (!strcmp(table_text(&t, row, "agrees"), "no") && *table_text(&t, row, "printed"))
         disagreement_line(file, &t, row);
@@ -227,10 +234,12 @@ static void show(const study *s, FILE *file, const shown *what)
 
 static const shown tables[] = {
     {"measured_vessel.csv",
-     "## Measured: a vessel blows down through an orifice\n\n![Vessel](measured_vessel.svg)\n\nEffective area Ca in mm2 "
+     "## Measured: a vessel blows down through an orifice\n\n![Vessel](measured_vessel.svg)\n\nEffective area Ca in "
+     "mm2 "
      "and discharge coefficient Cd of a 2.71 mm hole (the file that comes with the data says 0.84), rms of pressure in "
      "kPa\n(as fitted; each point left out in turn), rms of the gas temperature in K, which is predicted except where "
-     "`fitted_to` says so.\nWhat remains is described in `apps/study/measured_vessel.h`: thermometer lag or mixing, and "
+     "`fitted_to` says so.\nWhat remains is described in `apps/study/measured_vessel.h`: thermometer lag or mixing, "
+     "and "
      "an orifice whose coefficient falls with pressure.",
      {"law", "what", "fitted_to", "Ca", "Cd_of_2.71_mm", "rmse_p", "rmse_p_left_out", "rmse_T"}},
     {"measured_damadics_static.csv",

@@ -75,8 +75,8 @@ static int step_rows(const lab_rig *rig, int gas, int flow, double stroke, table
   return LAB_OK;
 }
 
-static int step_figure(const study *s, const char *name, const lab_rig *rig, int gas_laws, int flow_laws,
-                       double stroke, lab_error *error)
+static int step_figure(const study *s, const char *name, const lab_rig *rig, int gas_laws, int flow_laws, double stroke,
+                       lab_error *error)
 {
   int law, status = LAB_OK;
   table t;

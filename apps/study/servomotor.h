@@ -19,21 +19,24 @@
 
 /* What may be added, with xi = x/s; the force goes through pneu_input.force.
  *    name                 key                  unit   scale  start lower upper  adds to p */
-#define SERVO_TERM_LIST(X) \
-  X(FRICTION_POSITION,    "friction_position",  "kPa", 1e-3,  0,   -10,  10,   "+- c xi: friction grows with travel") \
-  X(FRICTION_PRESSURE,    "friction_pressure",  "1",   1,     0,   -0.5, 0.5,  "+- c p: friction grows with pressure") \
-  X(SPRING_HARDENING,     "spring_hardening",   "kPa", 1e-3,  0,   -50,  50,   "c xi^3: the spring hardens") \
-  X(AREA_VARIATION,       "area_variation",     "1",   1,     0,   -0.5, 0.5,  "p (1 + c xi): the area grows")
+#define SERVO_TERM_LIST(X)                                                                                             \
+  X(FRICTION_POSITION, "friction_position", "kPa", 1e-3, 0, -10, 10, "+- c xi: friction grows with travel")            \
+  X(FRICTION_PRESSURE, "friction_pressure", "1", 1, 0, -0.5, 0.5, "+- c p: friction grows with pressure")              \
+  X(SPRING_HARDENING, "spring_hardening", "kPa", 1e-3, 0, -50, 50, "c xi^3: the spring hardens")                       \
+  X(AREA_VARIATION, "area_variation", "1", 1, 0, -0.5, 0.5, "p (1 + c xi): the area grows")
 
 enum servo_term {
 #define X(name, key, unit, scale, start, lower, upper, what) SERVO_##name,
   SERVO_TERM_LIST(X)
 #undef X
-  SERVO_TERM_COUNT
+      SERVO_TERM_COUNT
 };
 
 enum {
-  SERVO_BENCH_LOW, SERVO_SPAN, SERVO_FRICTION, SERVO_BASE_COUNT, /* of theta, [Pa] */
+  SERVO_BENCH_LOW,
+  SERVO_SPAN,
+  SERVO_FRICTION,
+  SERVO_BASE_COUNT, /* of theta, [Pa] */
   SERVO_FIT_MAX = SERVO_BASE_COUNT + SERVO_TERM_COUNT,
   SERVO_POINTS = 128
 };
@@ -41,8 +44,8 @@ enum {
 /* The base balance with some terms: a law to be tried. */
 typedef struct servo_law {
   const char *name;
-  int n;                        /* terms */
-  int term[SERVO_TERM_COUNT];   /* enum servo_term */
+  int n;                      /* terms */
+  int term[SERVO_TERM_COUNT]; /* enum servo_term */
 } servo_law;
 
 extern const servo_law servo_laws[];
@@ -51,11 +54,11 @@ extern const int servo_law_count;
 /* Measured loop and rig; plain data. */
 typedef struct servomotor {
   lab_rig rig;
-  double nominal;                  /* [m] stroke that positions are given in */
+  double nominal; /* [m] stroke that positions are given in */
   size_t n;
-  int direction[SERVO_POINTS];     /* 1: pressure rising, -1: falling */
-  double p[SERVO_POINTS];          /* [Pa] gauge */
-  double x[SERVO_POINTS];          /* [m] */
+  int direction[SERVO_POINTS];         /* 1: pressure rising, -1: falling */
+  double p[SERVO_POINTS];              /* [Pa] gauge */
+  double x[SERVO_POINTS];              /* [m] */
   unsigned char sliding[SERVO_POINTS]; /* between the stops, by more than twice the resolution of the drawing */
 } servomotor;
 
@@ -73,8 +76,8 @@ double servo_scale(const servo_law *law, int j);
  *          x          [m];  direction  1 or -1
  * Out:     p          [Pa] gauge
  * Returns: LAB_OK, LAB_NUMERIC. */
-int servo_pressure(const servomotor *s, const servo_law *law, const double *theta, double x, int direction,
-                   double *p, lab_error *error);
+int servo_pressure(const servomotor *s, const servo_law *law, const double *theta, double x, int direction, double *p,
+                   lab_error *error);
 
 /* Fit a law to the pressures of the sliding points that are in use.
  * In:      use  not 0 for each point that counts; NULL: all

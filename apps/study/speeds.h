@@ -22,7 +22,7 @@ typedef struct speed_edge {
 typedef struct speed_pair {
   speed_edge up, down;
   asymmetry_result shape;
-  double returned;        /* [J] work of the stem on the air over the whole falling edge, gauge */
+  double returned; /* [J] work of the stem on the air over the whole falling edge, gauge */
 } speed_pair;
 
 /* Simulate both edges and read them.

@@ -40,8 +40,7 @@ static int at_rest(const pneu_step_view *view)
   pneu_dense(view, 1, &end);
   if (end.v != 0 && fabs(end.v) > 1e-9)
     return 0;
-  return pneu_observe(view->model, &end, view->input, &out) == PNEU_OK &&
-         fabs(out.mass_in - out.mass_out) < 1e-12;
+  return pneu_observe(view->model, &end, view->input, &out) == PNEU_OK && fabs(out.mass_in - out.mass_out) < 1e-12;
 }
 
 /* Collect dense output; stop the run once the flow has died out. */

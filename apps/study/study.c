@@ -153,12 +153,17 @@ static int read_h4(const config_setting_t *group, study *s, lab_error *error)
   return LAB_OK;
 }
 
-static const key keys[] = {{"actuators", read_actuators}, {"subject", read_subject},
-                           {"gas", read_gas},             {"flow", read_flow},
-                           {"results", read_results},     {"measured", read_measured},
+static const key keys[] = {{"actuators", read_actuators},
+                           {"subject", read_subject},
+                           {"gas", read_gas},
+                           {"flow", read_flow},
+                           {"results", read_results},
+                           {"measured", read_measured},
                            {"confirmed_below", read_confirmed},
-                           {"H1", read_h1},               {"H2", read_h2},
-                           {"H3", read_h3},               {"H4", read_h4},
+                           {"H1", read_h1},
+                           {"H2", read_h2},
+                           {"H3", read_h3},
+                           {"H4", read_h4},
                            {"H5", read_h5}};
 enum { KEYS = sizeof keys / sizeof *keys };
 

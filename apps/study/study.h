@@ -30,14 +30,14 @@ typedef struct study {
   char measured[STUDY_PATH_TEXT]; /* folder */
   int n_actuators;
   lab_rig actuator[STUDY_ACTUATOR_MAX];
-  int subject;                    /* index of the actuator that the hypotheses are tried on */
+  int subject; /* index of the actuator that the hypotheses are tried on */
   int n_gas, gas[STUDY_LAW_MAX];
   int n_flow, flow[STUDY_LAW_MAX];
-  double confirmed_below;         /* [1] */
-  study_range range[5];           /* of H1, H2, H3, -, H5 */
+  double confirmed_below; /* [1] */
+  study_range range[5];   /* of H1, H2, H3, -, H5 */
   int n_benches;
   study_bench bench[STUDY_BENCH_MAX];
-  study_saved *saved;             /* NULL: nobody asks */
+  study_saved *saved; /* NULL: nobody asks */
 } study;
 
 /* Read a study file; `measured` is overruled by the environment variable MEASURED.

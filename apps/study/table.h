@@ -17,9 +17,9 @@ typedef struct table_cell {
 /* Cells row by row. Running out of memory is remembered and reported by table_write, so that rows
  * can be added without a check on each. */
 typedef struct table {
-  char *header;      /* column names, comma separated, units in brackets */
+  char *header; /* column names, comma separated, units in brackets */
   size_t columns;
-  size_t n, room;    /* cells in use, cells allocated */
+  size_t n, room; /* cells in use, cells allocated */
   table_cell *cell;
   int failed;
 } table;

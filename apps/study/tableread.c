@@ -66,8 +66,8 @@ int table_load(const study *s, const char *name, table *t, lab_error *error)
   table_open(t, header);
   while (status == LAB_OK && lab_lines_next(&lines, &begin, &end))
     if (add_line(t, begin, end))
-      status = lab_fail(error, LAB_DATA, "%s:%d: expected %d fields, as in the header", path, lines.number,
-                        (int)t->columns);
+      status =
+          lab_fail(error, LAB_DATA, "%s:%d: expected %d fields, as in the header", path, lines.number, (int)t->columns);
   lab_text_free(&text);
   return status;
 }

@@ -15,22 +15,57 @@ static const double sigma_p = 2e3, sigma_T = 2; /* [Pa], [K] */
 
 #define CHOKED PNEU_FLOW_CHOKED
 const vessel_law vessel_laws[] = {
-    {"paper", "isothermal; flow that never chokes [B, Eqs. 7-8]", PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1,
+    {"paper",
+     "isothermal; flow that never chokes [B, Eqs. 7-8]",
+     PNEU_GAS_ISOTHERMAL,
+     PNEU_FLOW_PAPER,
+     0,
+     1,
      {VESSEL_ORIFICE}},
     {"isothermal", "isothermal; nozzle", PNEU_GAS_ISOTHERMAL, CHOKED, 0, 1, {VESSEL_ORIFICE}},
     {"adiabatic", "n = 1.4; nozzle", PNEU_GAS_POLYTROPIC, CHOKED, 0, 1, {VESSEL_ORIFICE}},
     {"polytropic", "n fitted; nozzle", PNEU_GAS_POLYTROPIC, CHOKED, 0, 2, {VESSEL_ORIFICE, VESSEL_INDEX}},
-    {"film", "energy balance with a constant film; nozzle", PNEU_GAS_ENERGY, CHOKED, 0, 2,
+    {"film",
+     "energy balance with a constant film; nozzle",
+     PNEU_GAS_ENERGY,
+     CHOKED,
+     0,
+     2,
      {VESSEL_ORIFICE, VESSEL_FILM}},
-    {"convection", "energy balance with natural convection; nozzle", PNEU_GAS_ENERGY, CHOKED, 0, 2,
+    {"convection",
+     "energy balance with natural convection; nozzle",
+     PNEU_GAS_ENERGY,
+     CHOKED,
+     0,
+     2,
      {VESSEL_ORIFICE, VESSEL_CONVECTION}},
-    {"convection-paper", "energy balance with natural convection; flow that never chokes", PNEU_GAS_ENERGY,
-     PNEU_FLOW_PAPER, 0, 2, {VESSEL_ORIFICE, VESSEL_CONVECTION}},
-    {"convection-ends", "as convection; start and outside pressure fitted too", PNEU_GAS_ENERGY, CHOKED, 0, 4,
+    {"convection-paper",
+     "energy balance with natural convection; flow that never chokes",
+     PNEU_GAS_ENERGY,
+     PNEU_FLOW_PAPER,
+     0,
+     2,
+     {VESSEL_ORIFICE, VESSEL_CONVECTION}},
+    {"convection-ends",
+     "as convection; start and outside pressure fitted too",
+     PNEU_GAS_ENERGY,
+     CHOKED,
+     0,
+     4,
      {VESSEL_ORIFICE, VESSEL_CONVECTION, VESSEL_START, VESSEL_OUTSIDE}},
-    {"film-both", "as film; fitted to pressure and temperature", PNEU_GAS_ENERGY, CHOKED, 1, 2,
+    {"film-both",
+     "as film; fitted to pressure and temperature",
+     PNEU_GAS_ENERGY,
+     CHOKED,
+     1,
+     2,
      {VESSEL_ORIFICE, VESSEL_FILM}},
-    {"convection-both", "as convection; fitted to pressure and temperature", PNEU_GAS_ENERGY, CHOKED, 1, 2,
+    {"convection-both",
+     "as convection; fitted to pressure and temperature",
+     PNEU_GAS_ENERGY,
+     CHOKED,
+     1,
+     2,
      {VESSEL_ORIFICE, VESSEL_CONVECTION}},
 };
 const int vessel_law_count = (int)(sizeof vessel_laws / sizeof vessel_laws[0]);
@@ -70,8 +105,8 @@ static void describe(const vessel_law *law, lab_fit_param *param)
   int j;
   for (j = 0; j < law->n; j++) {
     const item_info *i = &items[law->item[j]];
-    const lab_fit_param made = {i->key,           "SI",           i->start / i->scale, i->lower / i->scale,
-                                i->upper / i->scale, i->log_scaled, 0};
+    const lab_fit_param made = {i->key,        "SI", i->start / i->scale, i->lower / i->scale, i->upper / i->scale,
+                                i->log_scaled, 0};
     param[j] = made;
   }
 }
@@ -214,8 +249,7 @@ static int job_open(job *j, const vessel *v, const vessel_law *law, const unsign
   return j->p ? LAB_OK : lab_fail_memory(error, "a vessel");
 }
 
-int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit,
-               lab_error *error)
+int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit, lab_error *error)
 {
   lab_fit_param param[VESSEL_FIT_MAX];
   lab_fit_problem problem = {law->n, param, 0, residuals, NULL, NULL, NULL, 0};

@@ -14,19 +14,19 @@
 /* What can be fitted.
  *    name        key                  unit           scale  log  start   lower  upper   (in the unit)
  * The unit is that of reports: SI is value / scale. */
-#define VESSEL_ITEM_LIST(X) \
-  X(ORIFICE,     "orifice_area",      "mm2",          1e6,   1,   4.845,  0.5,   50) \
-  X(FILM,        "film_conductance",  "W/K",          1,     0,   2,      0,     50) \
-  X(CONVECTION,  "free_convection",   "W/K^(4/3)",    1,     0,   1.5,    0,     50) \
-  X(INDEX,       "polytropic_index",  "1",            1,     0,   1.2,    1,     1.4) \
-  X(START,       "start_pressure",    "kPa",          1e-3,  0,   790,    700,   850) \
-  X(OUTSIDE,     "outside_pressure",  "kPa",          1e-3,  0,   100,    95,    105)
+#define VESSEL_ITEM_LIST(X)                                                                                            \
+  X(ORIFICE, "orifice_area", "mm2", 1e6, 1, 4.845, 0.5, 50)                                                            \
+  X(FILM, "film_conductance", "W/K", 1, 0, 2, 0, 50)                                                                   \
+  X(CONVECTION, "free_convection", "W/K^(4/3)", 1, 0, 1.5, 0, 50)                                                      \
+  X(INDEX, "polytropic_index", "1", 1, 0, 1.2, 1, 1.4)                                                                 \
+  X(START, "start_pressure", "kPa", 1e-3, 0, 790, 700, 850)                                                            \
+  X(OUTSIDE, "outside_pressure", "kPa", 1e-3, 0, 100, 95, 105)
 
 enum vessel_item {
 #define X(name, key, unit, scale, log, start, lower, upper) VESSEL_##name,
   VESSEL_ITEM_LIST(X)
 #undef X
-  VESSEL_ITEM_COUNT
+      VESSEL_ITEM_COUNT
 };
 
 enum { VESSEL_FIT_MAX = 4 };
@@ -34,10 +34,10 @@ enum { VESSEL_FIT_MAX = 4 };
 /* A law to be tried. */
 typedef struct vessel_law {
   const char *name, *what;
-  int gas, flow;               /* enum pneu_gas, enum pneu_flow_law */
-  int with_T;                  /* not 0: fitted to pressure and temperature; else to pressure alone */
+  int gas, flow; /* enum pneu_gas, enum pneu_flow_law */
+  int with_T;    /* not 0: fitted to pressure and temperature; else to pressure alone */
   int n;
-  int item[VESSEL_FIT_MAX];    /* enum vessel_item */
+  int item[VESSEL_FIT_MAX]; /* enum vessel_item */
 } vessel_law;
 
 extern const vessel_law vessel_laws[];
@@ -77,8 +77,7 @@ int vessel_predict(const vessel *v, const vessel_law *law, const double *theta, 
 /* Fit a law to the pressures, and the temperatures where the law says so, of the rows that are in use.
  * In:      use  not 0 for each row of the log that counts; NULL: all
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
-int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit,
-               lab_error *error);
+int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit, lab_error *error);
 
 /* Errors, model minus data, of a channel (LAB_CHANNEL_P or LAB_CHANNEL_T) over the rows whose `use` is `wanted`. */
 int vessel_errors(const vessel *v, const vessel_law *law, const double *theta, int channel, const unsigned char *use,

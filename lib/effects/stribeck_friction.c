@@ -6,7 +6,8 @@ enum { EXCESS, VELOCITY };
 
 static const pneu_param_info params[] = {
     {"stribeck_excess", "1", 0, 10, PNEU_C(0.3), 0, 0, "static over Coulomb friction, less one"},
-    {"stribeck_velocity", "m/s", PNEU_C(1e-5), 1, PNEU_C(1e-3), PNEU_C(1e-3), 1, "velocity at which the excess has fallen to 1/e"}};
+    {"stribeck_velocity", "m/s", PNEU_C(1e-5), 1, PNEU_C(1e-3), PNEU_C(1e-3), 1,
+     "velocity at which the excess has fallen to 1/e"}};
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {

@@ -4,8 +4,8 @@
 
 enum { SHARE };
 
-static const pneu_param_info params[] = {
-    {"vent_restriction", "1", PNEU_C(-10.0), PNEU_C(0.999), PNEU_C(0.1), 0, 0, "share of the declared vent area that is missing"}};
+static const pneu_param_info params[] = {{"vent_restriction", "1", PNEU_C(-10.0), PNEU_C(0.999), PNEU_C(0.1), 0, 0,
+                                          "share of the declared vent area that is missing"}};
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {

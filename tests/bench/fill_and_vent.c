@@ -164,7 +164,7 @@ static int bench_law(lab_cvode *cvode, int law, table *diagram, table *summary, 
     return error->status;
   for (i = 0; i < TOLERANCES; i++)
     measure(cvode, &model, &reference, pow(10, -3 - i * 0.75), p[i]);
-  rows(&model, (const point (*)[2])p, diagram, summary);
+  rows(&model, (const point(*)[2])p, diagram, summary);
   lab_trace_free(&reference);
   return LAB_OK;
 }
