@@ -143,18 +143,33 @@ static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu
   flow->choked = nozzle_flow.choked;
 }
 
+enum { RESISTANCE_ITERATIONS = 6 };
+
 /* Inflow through a line that loses resistance * q before the orifice: Newton on
  * q = flow(p_up - resistance q, p_down), a fixed number of times. */
 static void flow_behind_resistance(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up,
                                    pneu_real resistance, pneu_flow *flow)
 {
-  enum { ITERATIONS = 6 };
   pneu_real q = 0;
   int i;
-  for (i = 0; i < ITERATIONS; i++) {
+  for (i = 0; i < RESISTANCE_ITERATIONS; i++) {
     const pneu_real p = p_up - resistance * q;
     mixed_flow(t, area, p > t->p ? p : t->p, T_up, t->p, flow);
     q += (flow->q - q) / (1 + resistance * flow->dq_dup);
+  }
+  flow->q = q;
+}
+
+/* Outflow into a line that builds up resistance * q behind the orifice. */
+static void flow_before_resistance(const pneu_terms *t, pneu_real area, pneu_real p_down, pneu_real resistance,
+                                   pneu_flow *flow)
+{
+  pneu_real q = 0;
+  int i;
+  for (i = 0; i < RESISTANCE_ITERATIONS; i++) {
+    const pneu_real p = p_down + resistance * q;
+    mixed_flow(t, area, t->p, t->T, p < t->p ? p : t->p, flow);
+    q += (flow->q - q) / (1 - resistance * flow->dq_ddown);
   }
   flow->q = q;
 }
@@ -165,7 +180,10 @@ void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T
   if (area <= 0)
     return;
   if (p_other < t->p) {
-    mixed_flow(t, area, t->p, t->T, p_other, &flow);
+    if (resistance > 0)
+      flow_before_resistance(t, area, p_other, resistance, &flow);
+    else
+      mixed_flow(t, area, t->p, t->T, p_other, &flow);
     t->mass_out += flow.q;
     t->dout_dp += flow.dq_dup;
     t->dout_dT += flow.dq_dT;

@@ -28,30 +28,37 @@ enum pneu_stage {
   PNEU_STAGE_GEOMETRY, /* area, volume */
   PNEU_STAGE_COMMAND,  /* opening */
   PNEU_STAGE_BOUNDARY, /* what the orifices see */
+  PNEU_STAGE_LINE,     /* between transducer and chamber: takes the transducer's flow, gives the chamber's */
   PNEU_STAGE_LEAK,     /* flows beside the transducer */
   PNEU_STAGE_HEAT,     /* heat into the gas */
+  PNEU_STAGE_WALL,     /* what the heat does to the wall */
   PNEU_STAGE_FORCE,    /* forces and friction level */
-  PNEU_STAGE_BRISTLE   /* friction with a state of its own, from the level */
+  PNEU_STAGE_BRISTLE,  /* friction with a state of its own, from the level */
+  PNEU_STAGE_LAG,      /* sensors: what they follow */
+  PNEU_STAGE_SENSOR    /* sensors: what they show of it */
 };
 
 /* The running sums of one evaluation. */
 struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
-  pneu_real p, T, x, v;               /* p [Pa] abs */
-  pneu_real volume, area, swept_area; /* [m3], [m2] that pressure acts on, [m2] dV/dx */
-  pneu_real opening;                  /* [1] */
-  pneu_real supply, exhaust;          /* [Pa] abs, behind the orifices */
-  pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
-  pneu_real fill_area, vent_area;     /* [m2] */
-  pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
-  pneu_real mass_in, mass_out;        /* [kg/s] */
-  pneu_real mass_in_T;                /* [kg K/s] inflow times its temperature */
-  pneu_real heat;                     /* [W] */
-  pneu_real force;                    /* [N] sum without friction and viscous terms */
-  pneu_real friction;                 /* [N] level of dry friction at the present velocity */
-  pneu_real bristle_force;            /* [N] */
-  pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
+  pneu_real p, T, x, v;                /* p [Pa] abs */
+  pneu_real volume, area, swept_area;  /* [m3], [m2] that pressure acts on, [m2] dV/dx */
+  pneu_real opening;                   /* [1] */
+  pneu_real supply, exhaust;           /* [Pa] abs, behind the orifices */
+  pneu_real supply_resistance;         /* [Pa s/kg] pressure lost on the way from the supply */
+  pneu_real exhaust_resistance;        /* [Pa s/kg] pressure built up on the way out */
+  pneu_real fill_area, vent_area;      /* [m2] */
+  pneu_real choked_share;              /* [1] of the flow that follows the nozzle law */
+  pneu_real mass_in, mass_out;         /* [kg/s] */
+  pneu_real mass_in_T;                 /* [kg K/s] inflow times its temperature */
+  pneu_real heat;                      /* [W] from the wall into the gas */
+  pneu_real film;                      /* [W/K] its conductance */
+  pneu_real force;                     /* [N] sum without friction and viscous terms */
+  pneu_real friction;                  /* [N] level of dry friction at the present velocity */
+  pneu_real bristle_force;             /* [N] */
+  pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
+  pneu_real din_dp, dout_dp, dout_dT;  /* slopes of the flows, base model only */
   int choked;
 };
 typedef struct pneu_terms pneu_terms;
@@ -60,6 +67,9 @@ typedef struct pneu_terms pneu_terms;
  * Returns: PNEU_OK or PNEU_RETRY_STATE. */
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *terms, pneu_real *rate);
+
+/* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
+void pneu_transducer_flow(pneu_terms *terms);
 
 /* Flow between the chamber and a reservoir, either way, added to the sums. */
 void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);

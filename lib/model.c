@@ -51,13 +51,15 @@ static void activate(pneu_model *model)
   int e, stage;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
     model->param_of[e] = (unsigned char)(pneu_effect_params(e, NULL) - PNEU_PARAM_BASE_COUNT);
-  for (stage = 0; stage <= PNEU_STAGE_BRISTLE; stage++)
+  for (stage = 0; stage <= PNEU_STAGE_SENSOR; stage++)
     for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
       if (pneu_effect_at(e)->stage != stage || !is_active(model, e))
         continue;
       model->active[model->n_active++] = (unsigned char)e;
       model->state_of[e] = (unsigned char)model->n_extra;
       model->n_extra += state_count(e);
+      if (pneu_effect_at(e)->prepare)
+        pneu_effect_at(e)->prepare(model, &model->p.effect[model->param_of[e]]);
       model->bristle |= stage == PNEU_STAGE_BRISTLE;
       model->thermal |= stage == PNEU_STAGE_HEAT;
     }
@@ -117,6 +119,7 @@ int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *la
   if (bad_law(law))
     return PNEU_E_LAW;
   model->viscous = p->viscous_friction + p->damping;
+  model->upper_stop = p->stroke;
   activate(model);
   derive_flow(model);
   derive_gas(model);

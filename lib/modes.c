@@ -19,15 +19,15 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
   switch (state->mode) {
   case PNEU_MODE_UP:
     g[0] = -y[i_v];
-    g[1] = y[i_x] - model->p.stroke;
+    g[1] = y[i_x] - model->upper_stop;
     return 2;
   case PNEU_MODE_DOWN:
     g[0] = y[i_v];
-    g[1] = -y[i_x];
+    g[1] = model->lower_stop - y[i_x];
     return 2;
   case PNEU_MODE_FREE:
-    g[0] = y[i_x] - model->p.stroke;
-    g[1] = -y[i_x];
+    g[0] = y[i_x] - model->upper_stop;
+    g[1] = model->lower_stop - y[i_x];
     return 2;
   case PNEU_MODE_DRIVEN:
   case PNEU_MODE_FIXED:
@@ -47,9 +47,9 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
 static int rest_mode(const pneu_model *model, pneu_real x, pneu_real force, pneu_real level)
 {
   const int up = force > level, down = force < -level;
-  if (x <= 0)
+  if (x <= model->lower_stop)
     return up ? (model->bristle ? PNEU_MODE_FREE : PNEU_MODE_UP) : PNEU_MODE_LOWER;
-  if (x >= model->p.stroke)
+  if (x >= model->upper_stop)
     return down ? (model->bristle ? PNEU_MODE_FREE : PNEU_MODE_DOWN) : PNEU_MODE_UPPER;
   if (model->bristle)
     return PNEU_MODE_FREE;
@@ -87,7 +87,7 @@ void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pn
   }
   if (mode == PNEU_MODE_FREE || which == 1) { /* a stop */
     const int upper = mode == PNEU_MODE_UP || (mode == PNEU_MODE_FREE && which == 0);
-    state->x = upper ? model->p.stroke : 0;
+    state->x = upper ? model->upper_stop : model->lower_stop;
   }
   state->v = 0;
   pneu_settle(model, input, state);

@@ -24,6 +24,9 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   out->supply = t.supply - t.supply_resistance * t.mass_in - model->p.ambient_pressure;
   out->friction = t.friction;
   out->choked = t.choked;
+  out->shown_pressure = t.p_shown;
+  out->shown_temperature = t.T_shown;
+  out->shown_position = t.x_shown;
   return PNEU_OK;
 }
 
@@ -49,7 +52,7 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
 {
   const pneu_real p_abs = pressure + model->p.ambient_pressure;
   const pneu_real T = model->thermal ? temperature : model->p.ambient_temperature;
-  if (!(p_abs > 0) || !(T > 0) || !(position >= 0 && position <= model->p.stroke) || p_abs * T > PNEU_C(1e30))
+  if (!(p_abs > 0) || !(T > 0) || !(position >= 0 && position <= model->upper_stop) || p_abs * T > PNEU_C(1e30))
     return PNEU_E_NONFINITE;
   memset(state, 0, sizeof *state);
   state->p = pressure;

@@ -222,24 +222,26 @@ typedef struct pneu_effect {
   void (*add)(const pneu_real *param, const pneu_real *state, struct pneu_terms *terms, pneu_real *rate);
   void (*start)(const pneu_real *param, const struct pneu_terms *terms, pneu_real *state); /* at rest; NULL: 0 */
   int (*acts)(const struct pneu_model *model, const pneu_real *param); /* NULL: where any parameter is not neutral */
+  void (*prepare)(struct pneu_model *model, const pneu_real *param);   /* change the model's constants; may be NULL */
 } pneu_effect;
 
 /* Constant after pneu_model_init; may lie in read-only memory. */
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
-  pneu_real g;              /* exponent of the energy balance: 1, n or gamma */
-  pneu_real critical_ratio; /* of the isentropic nozzle */
-  pneu_real choked_gain;    /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
-  pneu_real nozzle_gain;    /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
-  pneu_real paper_gain;     /* sqrt(2/R) [sqrt(kg K/J)] */
-  pneu_real viscous;        /* viscous_friction + damping [N.s/m] */
-  pneu_real force_noise;    /* [N] rounding of the balance of forces; break-away asks for more */
-  pneu_real scale[4];       /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
-  int thermal;              /* gas temperature is a state */
-  int bristle;              /* friction has its own state: no stick mode */
-  int n_extra;              /* states of active effects */
-  int n_gas;                /* states before x in the packed vector: p, [T], effects */
+  pneu_real g;                      /* exponent of the energy balance: 1, n or gamma */
+  pneu_real critical_ratio;         /* of the isentropic nozzle */
+  pneu_real choked_gain;            /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
+  pneu_real nozzle_gain;            /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
+  pneu_real paper_gain;             /* sqrt(2/R) [sqrt(kg K/J)] */
+  pneu_real viscous;                /* viscous_friction + damping [N.s/m] */
+  pneu_real lower_stop, upper_stop; /* [m] where the stem is stopped: 0 and stroke, unless an effect moves them */
+  pneu_real force_noise;            /* [N] rounding of the balance of forces; break-away asks for more */
+  pneu_real scale[4];               /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
+  int thermal;                      /* gas temperature is a state */
+  int bristle;                      /* friction has its own state: no stick mode */
+  int n_extra;                      /* states of active effects */
+  int n_gas;                        /* states before x in the packed vector: p, [T], effects */
   int n_active;
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
@@ -248,18 +250,21 @@ struct pneu_model {
 
 /* What can be read off a state, by pneu_observe. */
 typedef struct pneu_output {
-  pneu_real pressure;    /* [Pa] gauge, in the chamber */
-  pneu_real temperature; /* [K] of the gas */
-  pneu_real mass;        /* [kg] of gas in the chamber [B, Eq. 6] */
-  pneu_real position;    /* [m] */
-  pneu_real velocity;    /* [m/s] */
-  pneu_real opening;     /* [1] of the transducer, after its own dynamics */
-  pneu_real mass_in;     /* [kg/s] from the supply */
-  pneu_real mass_out;    /* [kg/s] to ambient, leaks included */
-  pneu_real heat;        /* [W] from the wall into the gas */
-  pneu_real supply;      /* [Pa] gauge, at the transducer */
-  pneu_real friction;    /* [N] level of dry friction while sliding */
-  int choked;            /* 1: the flow in use is choked */
+  pneu_real pressure;          /* [Pa] gauge, in the chamber */
+  pneu_real temperature;       /* [K] of the gas */
+  pneu_real mass;              /* [kg] of gas in the chamber [B, Eq. 6] */
+  pneu_real position;          /* [m] */
+  pneu_real velocity;          /* [m/s] */
+  pneu_real opening;           /* [1] of the transducer, after its own dynamics */
+  pneu_real mass_in;           /* [kg/s] from the supply */
+  pneu_real mass_out;          /* [kg/s] to ambient, leaks included */
+  pneu_real heat;              /* [W] from the wall into the gas */
+  pneu_real supply;            /* [Pa] gauge, at the transducer */
+  pneu_real friction;          /* [N] level of dry friction while sliding */
+  int choked;                  /* 1: the flow in use is choked */
+  pneu_real shown_pressure;    /* [Pa] gauge, by its sensor */
+  pneu_real shown_temperature; /* [K] by its sensor */
+  pneu_real shown_position;    /* [m] by its sensor */
 } pneu_output;
 
 typedef struct pneu_options {

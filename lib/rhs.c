@@ -88,9 +88,13 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
     add_effects(t, y, PNEU_STAGE_BOUNDARY, &next, rate);
     pneu_transducer_flow(t);
   }
-  add_effects(t, y, PNEU_STAGE_HEAT, &next, rate);
+  add_effects(t, y, PNEU_STAGE_WALL, &next, rate);
   pneu_stem_force(t);
   add_effects(t, y, PNEU_STAGE_BRISTLE, &next, rate);
+  t->p_shown = t->p - model->p.ambient_pressure;
+  t->T_shown = t->T;
+  t->x_shown = t->x;
+  add_effects(t, y, PNEU_STAGE_SENSOR, &next, rate);
   return PNEU_OK;
 }
 

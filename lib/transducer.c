@@ -22,5 +22,5 @@ void pneu_transducer_flow(pneu_terms *t)
   if (t->opening > 0)
     pneu_exchange(t, t->opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
   else if (t->opening < 0)
-    pneu_exchange(t, -t->opening * t->vent_area, t->exhaust, p->ambient_temperature, 0);
+    pneu_exchange(t, -t->opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
 }

@@ -6,7 +6,4 @@
 /* Opening that the command asks for, before any dynamics of the transducer. */
 pneu_real pneu_command_opening(const pneu_terms *t);
 
-/* Add the flow through the open orifice. */
-void pneu_transducer_flow(pneu_terms *t);
-
 #endif

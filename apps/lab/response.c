@@ -54,10 +54,10 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   memset(&out, 0, sizeof out);
   pneu_observe(r->model, state, input, &out);
   trace->u[i] = input->u;
-  trace->p[i] = out.pressure;
-  trace->x[i] = out.position;
+  trace->p[i] = out.shown_pressure;
+  trace->x[i] = out.shown_position;
   trace->v[i] = out.velocity;
-  trace->T[i] = out.temperature;
+  trace->T[i] = out.shown_temperature;
   trace->m[i] = out.mass;
   trace->mass_in[i] = out.mass_in;
   trace->mass_out[i] = out.mass_out;

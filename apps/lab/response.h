@@ -20,7 +20,7 @@ typedef struct lab_trace {
   size_t n;
   double *t;        /* [s] */
   double *u;        /* [1] command */
-  double *p;        /* [Pa] gauge */
+  double *p;        /* [Pa] gauge, as its sensor shows it; x and T likewise */
   double *x;        /* [m] */
   double *v;        /* [m/s] */
   double *T;        /* [K] */

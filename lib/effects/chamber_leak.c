@@ -26,4 +26,5 @@ const pneu_effect pneu_effect_record_chamber_leak = {
     params,
     add,
     NULL,
+    NULL,
     NULL};

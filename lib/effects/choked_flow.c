@@ -23,4 +23,5 @@ const pneu_effect pneu_effect_record_choked_flow = {
     params,
     add,
     NULL,
+    NULL,
     NULL};

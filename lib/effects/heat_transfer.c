@@ -32,6 +32,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
     conductance += 1 / param[RESISTANCE];
   if (param[FREE] > 0)
     conductance += param[FREE] * PNEU_M(cbrt)(density * density * PNEU_M(fabs)(dT));
+  t->film += conductance;
   t->heat += conductance * dT;
 }
 
@@ -45,4 +46,5 @@ const pneu_effect pneu_effect_record_heat_transfer = {
     params,
     add,
     NULL,
-    acts};
+    acts,
+    NULL};

@@ -29,4 +29,5 @@ const pneu_effect pneu_effect_record_presliding = {
     params,
     add,
     NULL,
+    NULL,
     NULL};

@@ -26,4 +26,5 @@ const pneu_effect pneu_effect_record_stribeck_friction = {
     params,
     add,
     NULL,
+    NULL,
     NULL};

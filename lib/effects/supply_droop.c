@@ -22,4 +22,5 @@ const pneu_effect pneu_effect_record_supply_droop = {
     params,
     add,
     NULL,
+    NULL,
     NULL};

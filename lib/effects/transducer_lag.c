@@ -28,4 +28,5 @@ const pneu_effect pneu_effect_record_transducer_lag = {
     params,
     add,
     start,
+    NULL,
     NULL};

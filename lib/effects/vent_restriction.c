@@ -23,4 +23,5 @@ const pneu_effect pneu_effect_record_vent_restriction = {
     params,
     add,
     NULL,
+    NULL,
     NULL};
