@@ -124,7 +124,7 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
 }
 
 /* Whether state and input are numbers. */
-static int finite(const pneu_model *model, const pneu_state *state, const pneu_input *input)
+static int all_finite(const pneu_model *model, const pneu_state *state, const pneu_input *input)
 {
   pneu_real zero = 0 * (state->p + state->x + state->v + input->u + input->supply_pressure + input->force +
                         input->pressure_rate + input->position_rate);
@@ -186,7 +186,7 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
 {
   run r;
   int status = PNEU_OK;
-  if (!finite(model, state, input) || !(duration * 0 == 0) || !(options->tol > 0 && options->tol < 1))
+  if (!all_finite(model, state, input) || !(duration * 0 == 0) || !(options->tol > 0 && options->tol < 1))
     return PNEU_E_NONFINITE;
   r.model = model;
   r.input = input;
@@ -234,7 +234,7 @@ int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *inpu
   pneu_state now = *state;
   pneu_real left = dt, h = dt;
   int i;
-  if (!finite(model, state, input) || !(dt > 0 && dt * 0 == 0))
+  if (!all_finite(model, state, input) || !(dt > 0 && dt * 0 == 0))
     return PNEU_E_NONFINITE;
   pneu_settle(model, input, &now);
   for (i = 0; i < PNEU_PARTS_MAX; i++) {

@@ -13,7 +13,7 @@
 
 #include "message.h"
 
-enum { LAB_FIT_MAX = 24, LAB_FIT_REMARK = 640 };
+enum { LAB_FIT_MAX = 96, LAB_FIT_REMARK = 640 };
 
 /* A parameter to be found. */
 typedef struct lab_fit_param {

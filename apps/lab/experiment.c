@@ -1,0 +1,150 @@
+#include "experiment.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "noise.h"
+#include "response.h"
+#include "start.h"
+
+static int is_predicted(int channel)
+{
+  return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T;
+}
+
+static int add_channel(lab_experiment *e, int channel, lab_error *error)
+{
+  double sigma = e->rig->noise[channel];
+  if (isnan(sigma))
+    sigma = lab_noise_estimate(e->log->value[channel] + e->first, e->n);
+  if (!(sigma > 0))
+    return lab_fail(error, LAB_DATA,
+                    "%s: channel %s does not change, or has too few values to tell its noise; declare it in the group "
+                    "noise of the rig file",
+                    e->log->path, lab_channels[channel].key);
+  e->channel[e->n_channels] = channel;
+  e->sigma[e->n_channels++] = sigma;
+  return LAB_OK;
+}
+
+static int add_channels(lab_experiment *e, lab_error *error)
+{
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (is_predicted(c) && e->log->value[c] && !e->rig->input[c] && add_channel(e, c, error))
+      return error->status;
+  if (e->n_channels == 0)
+    return lab_fail(error, LAB_DATA, "%s: expected a measured channel that is no input: p, x or T", e->log->path);
+  return LAB_OK;
+}
+
+/* Whether the command is all that changes. */
+static int only_command_changes(const lab_schedule *s)
+{
+  size_t i;
+  for (i = 1; i < s->n; i++)
+    if (s->input[i].supply_pressure != s->input[0].supply_pressure || s->input[i].force != s->input[0].force ||
+        s->input[i].pressure_rate != 0 || s->input[i].position_rate != 0)
+      return 0;
+  return 1;
+}
+
+static size_t row_at(const double *t, size_t n, double at)
+{
+  size_t i = 0;
+  while (i + 1 < n && t[i] < at)
+    i++;
+  return i;
+}
+
+static int bracket_switches(lab_experiment *e, lab_error *error)
+{
+  const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
+  size_t k;
+  if (e->drive.schedule.n < 2 || !only_command_changes(&e->drive.schedule))
+    return LAB_OK;
+  e->n_switches = e->drive.schedule.n - 1;
+  e->bracket = calloc(e->n_switches, sizeof *e->bracket);
+  if (!e->bracket)
+    return lab_fail_memory(error, "an experiment");
+  for (k = 0; k < e->n_switches; k++) {
+    const size_t row = row_at(t, e->n, e->drive.t[k + 1]);
+    e->bracket[k] = row > 0 ? t[row] - t[row - 1] : 0;
+  }
+  return LAB_OK;
+}
+
+int lab_experiment_open(const lab_rig *rig, const lab_log *log, size_t run, lab_experiment *e, lab_error *error)
+{
+  pneu_model model;
+  memset(e, 0, sizeof *e);
+  e->rig = rig;
+  e->log = log;
+  e->run = run;
+  e->first = log->run[run];
+  e->n = log->run[run + 1] - e->first;
+  if (lab_rig_model(rig, &model, error) || lab_drive_from_log(&model, rig, log, run, &e->drive, error) ||
+      add_channels(e, error))
+    return error->status;
+  return bracket_switches(e, error);
+}
+
+void lab_experiment_close(lab_experiment *e)
+{
+  lab_drive_free(&e->drive);
+  free(e->bracket);
+  memset(e, 0, sizeof *e);
+}
+
+double lab_experiment_measured(const lab_experiment *e, int c, size_t i)
+{
+  return e->log->value[e->channel[c]][e->first + i];
+}
+
+static const double *column_of(const lab_trace *trace, int channel)
+{
+  return channel == LAB_CHANNEL_P ? trace->p : channel == LAB_CHANNEL_X ? trace->x : trace->T;
+}
+
+/* The schedule with its changes at other instants. */
+static int shift(const lab_experiment *e, const double *early, lab_schedule *schedule, lab_error *error)
+{
+  const size_t n = e->drive.schedule.n;
+  double *t = malloc(n * sizeof *t);
+  size_t k;
+  *schedule = e->drive.schedule;
+  if (!t)
+    return lab_fail_memory(error, "a schedule");
+  memcpy(t, e->drive.t, n * sizeof *t);
+  for (k = 0; early && k < e->n_switches; k++)
+    t[k + 1] -= early[k];
+  schedule->t = t;
+  return LAB_OK;
+}
+
+int lab_experiment_predict(const lab_experiment *e, const pneu_params *params, const double *early, double tol,
+                           double *y, lab_error *error)
+{
+  const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
+  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0};
+  lab_rig rig = *e->rig;
+  lab_schedule schedule;
+  lab_trace trace;
+  pneu_model model;
+  pneu_state start;
+  int c, status;
+  rig.params = *params;
+  if (lab_rig_model(&rig, &model, error) || lab_start_from_log(&model, e->drive.input, e->log, e->run, &start, error))
+    return error->status = error->status == LAB_DATA ? LAB_NUMERIC : error->status;
+  if (shift(e, early, &schedule, error))
+    return error->status;
+  status = lab_respond(&model, &start, &schedule, t, e->n, &options, &trace, NULL, error);
+  free((double *)schedule.t);
+  if (status != LAB_OK)
+    return status;
+  for (c = 0; c < e->n_channels; c++)
+    memcpy(y + (size_t)c * e->n, column_of(&trace, e->channel[c]), e->n * sizeof *y);
+  lab_trace_free(&trace);
+  return LAB_OK;
+}

@@ -1,0 +1,51 @@
+#include "noise.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Second difference of white noise has 6 times its variance; the median of |z| is 0.6745 for a normal z. */
+static const double second_difference = 2.449489742783178;
+static const double median_of_size = 0.6744897501960817;
+enum { FEWEST = 8 };
+
+static int ascending(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double median(double *value, size_t n)
+{
+  qsort(value, n, sizeof *value, ascending);
+  return n % 2 ? value[n / 2] : (value[n / 2 - 1] + value[n / 2]) / 2;
+}
+
+/* Smallest difference between neighbouring values that is not zero. */
+static double smallest_step(const double *value, size_t n)
+{
+  double step = HUGE_VAL;
+  size_t i;
+  for (i = 1; i < n; i++) {
+    const double d = fabs(value[i] - value[i - 1]);
+    if (d > 0 && d < step)
+      step = d;
+  }
+  return isfinite(step) ? step : 0;
+}
+
+double lab_noise_estimate(const double *value, size_t n)
+{
+  double *size = malloc((n ? n : 1) * sizeof *size), estimate = (double)NAN;
+  size_t i, m = 0;
+  if (!size)
+    return estimate;
+  for (i = 2; i < n; i++) {
+    const double d = value[i] - 2 * value[i - 1] + value[i - 2];
+    if (!isnan(d))
+      size[m++] = fabs(d);
+  }
+  if (m >= FEWEST)
+    estimate = fmax(median(size, m) / (second_difference * median_of_size), smallest_step(value, n) / 4);
+  free(size);
+  return estimate;
+}

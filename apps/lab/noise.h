@@ -1,0 +1,15 @@
+/* How noisy a channel is, from the log alone.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_NOISE_H
+#define LAB_NOISE_H
+
+#include <stddef.h>
+
+/* Standard deviation of the noise on a channel that otherwise changes smoothly from row to row: from the median size of
+ * second differences, which a jump or a stroke in a part of the log does not disturb; no less than a quarter of the
+ * smallest step between values (quantisation).
+ * In:      value  n values; NaN is a gap
+ * Returns: in the unit of the channel; NaN with fewer than eight differences. */
+double lab_noise_estimate(const double *value, size_t n);
+
+#endif
