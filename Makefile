@@ -22,7 +22,7 @@ LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 
 
 LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
 LAB_C   := $(wildcard apps/lab/*.c apps/study/*.c)
-PROGS   := sweep simulate
+PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
 HELP_C  := tests/fixture.c $(filter-out %/main.c,$(wildcard tests/second/*.c))
 

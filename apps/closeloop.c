@@ -1,0 +1,158 @@
+/* closeloop: which effect does a model lack that would explain a log?
+ * SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "lab/cli.h"
+#include "lab/log.h"
+#include "lab/loop.h"
+#include "lab/loopfiles.h"
+#include "lab/outfile.h"
+
+enum { LOG_MAX = 32, RUN_MAX = 256 };
+
+static const char *holdout, *out;
+static double alpha = 0.01, min_gain = 0.02;
+
+static const lab_option options[] = {
+    {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv", "judge the completed model on this log, which it has not seen", 0, 0},
+    {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>", 0, 0},
+    {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
+    {"min-gain", LAB_OPTION_REAL, &min_gain, "SHARE", "error that an effect must save to be added (0.02)", 0, 1},
+    {NULL, 0, NULL, NULL, NULL, 0, 0}};
+
+static const lab_program program = {
+    "closeloop", "RIG.cfg LOG.csv [LOG2.csv ...]",
+    "Fit the declared model to logs of a test bench, trace the residual to a physical effect that the model lacks, add "
+    "it, and report the error before and after.",
+    options, 2, 1 + LOG_MAX};
+
+/* The logs of a run of the program, and an experiment for each of their runs. */
+typedef struct bench {
+  lab_log log[LOG_MAX];
+  int n_logs;
+  lab_experiment experiment[RUN_MAX];
+  int n;
+} bench;
+
+static void close_bench(bench *b)
+{
+  while (b->n > 0)
+    lab_experiment_close(&b->experiment[--b->n]);
+  while (b->n_logs > 0)
+    lab_log_free(&b->log[--b->n_logs]);
+}
+
+static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *error)
+{
+  lab_log *log = &b->log[b->n_logs];
+  size_t run;
+  if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
+    return error->status;
+  b->n_logs++;
+  for (run = 0; run < log->n_runs; run++) {
+    if (b->n == RUN_MAX)
+      return lab_fail(error, LAB_DATA, "%s: more than %d runs in all", path, (int)RUN_MAX);
+    if (lab_experiment_open(rig, log, run, &b->experiment[b->n++], error))
+      return error->status;
+  }
+  return LAB_OK;
+}
+
+/* Error of a model on the log that was held out. Nothing of the model is fitted; only the instants at which the command
+ * changed are, within the row that shows each. */
+static int judge(const lab_rig *rig, const pneu_params *params, bench *b, lab_errors *errors, lab_error *error)
+{
+  static lab_unknowns u;
+  lab_rig own = *rig;
+  own.params = *params;
+  own.n_fit = 0;
+  if (lab_unknowns_open(&own, b->experiment, b->n, &u, error))
+    return error->status;
+  if (u.n > 0 && lab_unknowns_fit(&u, NULL, error))
+    return error->status;
+  return lab_loop_errors(&u, errors, error);
+}
+
+static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
+{
+  static bench b;
+  int status = add_log(rig, holdout, &b, error);
+  if (status == LAB_OK)
+    status = judge(rig, &story->declared->params, &b, &story->holdout_before, error);
+  if (status == LAB_OK)
+    status = judge(rig, &story->completed->params, &b, &story->holdout_after, error);
+  story->has_holdout = status == LAB_OK;
+  close_bench(&b);
+  return status;
+}
+
+static int write_story(const lab_story *story, lab_error *error)
+{
+  char folder[LAB_PATH_TEXT];
+  snprintf(folder, sizeof folder, "results/%s", story->rig->name);
+  if (out)
+    snprintf(folder, sizeof folder, "%s", out);
+  if (lab_make_folder(folder, error) || lab_story_residual(story, folder, error) ||
+      lab_story_model(story, folder, error) || lab_story_header(story, folder, error))
+    return error->status;
+  return lab_story_json(story, folder, error);
+}
+
+static double seconds(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
+{
+  static lab_unknowns declared, completed;
+  static lab_loop_result result;
+  lab_loop_options how;
+  lab_story story = {rig, &declared, &completed, &result, 0, {{0}, {0}, 0, 0}, {{0}, {0}, 0, 0}, 0, 0, 0};
+  const double start = seconds();
+  char sentence[512];
+  lab_loop_options_default(&how);
+  how.alpha = alpha;
+  how.min_gain = min_gain;
+  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, NULL, error))
+    return error->status;
+  story.fit_s = seconds() - start;
+  completed = declared;
+  if (lab_loop_run(&completed, &how, &result, error))
+    return error->status;
+  story.trace_s = seconds() - start - story.fit_s;
+  if (holdout && hold_out(rig, &story, error))
+    return error->status;
+  story.total_s = seconds() - start;
+  lab_story_sentence(&story, sentence, sizeof sentence);
+  puts(sentence);
+  return write_story(&story, error);
+}
+
+static int run(const lab_cli *cli, lab_error *error)
+{
+  static lab_rig rig;
+  static bench b;
+  int i, status = lab_rig_read(cli->operand[0], &rig, error);
+  for (i = 1; i < cli->n_operands && status == LAB_OK; i++)
+    status = add_log(&rig, cli->operand[i], &b, error);
+  if (status == LAB_OK)
+    status = close_loop(&rig, &b, error);
+  close_bench(&b);
+  return status;
+}
+
+int main(int argc, char **argv)
+{
+  lab_error error;
+  lab_cli cli;
+  int status = lab_cli_read(&program, argc, argv, &cli, &error);
+  if (status == LAB_OK && !cli.done)
+    status = run(&cli, &error);
+  return status == LAB_OK ? 0 : lab_cli_report(&program, &error);
+}

@@ -1,0 +1,290 @@
+#include "loopfiles.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cjson/cJSON.h>
+
+#include "outfile.h"
+
+static int open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
+{
+  char path[LAB_PATH_TEXT + 32];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  return lab_out_open(out, path, error);
+}
+
+/* ---- report.json ---- */
+
+static void add_number(cJSON *to, const char *name, double value)
+{
+  if (isfinite(value))
+    cJSON_AddNumberToObject(to, name, value);
+  else
+    cJSON_AddNullToObject(to, name);
+}
+
+static cJSON *add_interval(cJSON *to, const char *name, double value, const char *unit, double low, double high)
+{
+  cJSON *o = cJSON_AddObjectToObject(to, name), *ci;
+  add_number(o, "value", value);
+  cJSON_AddStringToObject(o, "unit", unit);
+  ci = cJSON_AddArrayToObject(o, "ci95");
+  cJSON_AddItemToArray(ci, isfinite(low) ? cJSON_CreateNumber(low) : cJSON_CreateNull());
+  cJSON_AddItemToArray(ci, isfinite(high) ? cJSON_CreateNumber(high) : cJSON_CreateNull());
+  return o;
+}
+
+static int unknown_of(const lab_unknowns *u, int param)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].index == param)
+      return j;
+  return -1;
+}
+
+static void add_effect_param(cJSON *to, const lab_story *story, int param)
+{
+  const int j = param < 0 ? -1 : unknown_of(story->completed, param);
+  pneu_param_info info;
+  if (j < 0)
+    return;
+  pneu_param_describe(param, &info);
+  add_interval(to, info.name, story->completed->unknown[j].value, info.unit, story->result->fit.low[j],
+               story->result->fit.high[j]);
+}
+
+static void add_found(cJSON *to, const lab_story *story, const lab_found *found)
+{
+  const pneu_effect *effect = pneu_effect_at(found->effect);
+  cJSON *o = cJSON_CreateObject(), *list;
+  int i;
+  cJSON_AddItemToArray(to, o);
+  cJSON_AddStringToObject(o, "effect", effect->name);
+  cJSON_AddStringToObject(o, "equation", effect->equation);
+  list = cJSON_AddObjectToObject(o, "parameters");
+  add_effect_param(list, story, found->param);
+  add_effect_param(list, story, found->shape);
+  add_number(o, "statistic", found->statistic);
+  add_number(o, "p_value", found->p_value);
+  add_number(o, "explained", found->explained);
+  list = cJSON_AddArrayToObject(o, "indistinguishable_from");
+  for (i = 0; i < found->n_alike; i++)
+    cJSON_AddItemToArray(list, cJSON_CreateString(pneu_effect_at(found->alike[i])->name));
+}
+
+static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
+{
+  cJSON *o = cJSON_AddObjectToObject(to, name);
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    cJSON *channel;
+    if (isnan(errors->rmse[c]))
+      continue;
+    channel = cJSON_AddObjectToObject(o, lab_channels[c].quantity);
+    add_number(channel, "rmse", errors->rmse[c]);
+    cJSON_AddStringToObject(channel, "unit", lab_channels[c].unit);
+    add_number(channel, "in_noise", errors->in_noise[c]);
+  }
+}
+
+static void add_parameters(cJSON *to, const lab_story *story)
+{
+  const lab_unknowns *u = story->completed;
+  const lab_fit_result *fit = &story->result->fit;
+  cJSON *o = cJSON_AddObjectToObject(to, "parameters");
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM)
+      add_interval(o, u->unknown[j].name, u->unknown[j].value, u->unknown[j].unit, fit->low[j], fit->high[j]);
+  if (fit->remark[0])
+    cJSON_AddStringToObject(to, "undetermined", fit->remark);
+}
+
+static void add_candidates(cJSON *to, const lab_trace_result *trace)
+{
+  cJSON *list = cJSON_AddArrayToObject(to, "candidates");
+  int i;
+  for (i = 0; i < trace->n; i++) {
+    const lab_candidate *c = &trace->candidate[i];
+    cJSON *o = cJSON_CreateObject();
+    pneu_param_info info;
+    pneu_param_describe(c->param, &info);
+    cJSON_AddItemToArray(list, o);
+    cJSON_AddStringToObject(o, "effect", pneu_effect_at(c->effect)->name);
+    cJSON_AddStringToObject(o, "parameter", info.name);
+    add_number(o, "statistic", c->statistic);
+    add_number(o, "p_value", c->p_value);
+    add_number(o, "explained", c->explained);
+    add_number(o, "visible", c->visible);
+  }
+}
+
+static cJSON *json_of(const lab_story *story)
+{
+  const lab_loop_result *result = story->result;
+  cJSON *root = cJSON_CreateObject(), *o;
+  char sentence[512];
+  int i;
+  lab_story_sentence(story, sentence, sizeof sentence);
+  cJSON_AddStringToObject(root, "verdict", lab_verdict_text(result->verdict));
+  cJSON_AddStringToObject(root, "sentence", sentence);
+  o = cJSON_AddArrayToObject(root, "found");
+  for (i = 0; i < result->n_found; i++)
+    add_found(o, story, &result->found[i]);
+  cJSON_AddArrayToObject(root, "unlisted");
+  add_parameters(root, story);
+  o = cJSON_AddObjectToObject(root, "error");
+  add_errors(o, "before", &result->before);
+  add_errors(o, "after", &result->after);
+  if (story->has_holdout) {
+    o = cJSON_AddObjectToObject(o, "holdout");
+    add_errors(o, "before", &story->holdout_before);
+    add_errors(o, "after", &story->holdout_after);
+  }
+  add_candidates(root, &result->trace);
+  o = cJSON_AddArrayToObject(root, "significant_but_small");
+  for (i = 0; i < result->n_listed; i++)
+    cJSON_AddItemToArray(o, cJSON_CreateString(pneu_effect_at(result->listed[i])->name));
+  o = cJSON_AddObjectToObject(root, "timing");
+  add_number(o, "fit_s", story->fit_s);
+  add_number(o, "trace_s", story->trace_s);
+  add_number(o, "total_s", story->total_s);
+  return root;
+}
+
+int lab_story_json(const lab_story *story, const char *folder, lab_error *error)
+{
+  lab_outfile out;
+  cJSON *root;
+  char *text;
+  if (open_in(folder, "report.json", &out, error))
+    return error->status;
+  root = json_of(story);
+  text = cJSON_Print(root);
+  cJSON_Delete(root);
+  if (!text) {
+    lab_out_abandon(&out);
+    return lab_fail_memory(error, "report.json");
+  }
+  fprintf(out.file, "%s\n", text);
+  cJSON_free(text);
+  return lab_out_close(&out, error);
+}
+
+/* ---- model.cfg, model.h ---- */
+
+int lab_story_model(const lab_story *story, const char *folder, lab_error *error)
+{
+  lab_rig rig = *story->rig;
+  lab_outfile out;
+  if (open_in(folder, "model.cfg", &out, error))
+    return error->status;
+  rig.params = story->completed->params;
+  rig.friction = LAB_FRICTION_COULOMB; /* its effects are written with their sizes */
+  lab_rig_write(out.file, &rig, "The completed model, by closeloop.");
+  return lab_out_close(&out, error);
+}
+
+int lab_story_header(const lab_story *story, const char *folder, lab_error *error)
+{
+  pneu_params params = story->completed->params;
+  lab_outfile out;
+  int i;
+  if (open_in(folder, "model.h", &out, error))
+    return error->status;
+  fprintf(out.file,
+          "/* The completed model of %s, by closeloop; for libpneu " PNEU_VERSION " with its whole catalogue.\n"
+          " * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */\n#define MODEL_PARAMS \\\n  { \\\n",
+          story->rig->name);
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    if (i == PNEU_PARAM_BASE_COUNT)
+      fputs("    { \\\n", out.file);
+    fprintf(out.file, "    %s(pneu_real)%.17g, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
+            (double)*pneu_param_at(&params, i), info.name, info.unit);
+  }
+  fprintf(out.file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n",
+          story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input,
+          story->rig->laws.position_input, pneu_gas_key(story->rig->laws.gas),
+          pneu_flow_key(story->rig->laws.flow));
+  return lab_out_close(&out, error);
+}
+
+/* ---- residual.csv ---- */
+
+static void residual_rows(FILE *file, const lab_unknowns *u, const double *before, const double *after)
+{
+  int e, c;
+  for (e = 0; e < u->n_experiments; e++) {
+    const lab_experiment *x = &u->experiment[e];
+    size_t i;
+    for (i = 0; i < x->n; i++) {
+      fprintf(file, "%d,%.9g", e + 1, x->log->value[LAB_CHANNEL_TIME][x->first + i]);
+      for (c = 0; c < x->n_channels; c++) {
+        const size_t at = (size_t)c * x->n + i;
+        const double y = lab_experiment_measured(x, c, i);
+        if (isnan(y))
+          fputs(",,,,,", file);
+        else
+          fprintf(file, ",%.9g,%.9g,%.9g,%.5g,%.5g", y, y - before[at] * x->sigma[c], y - after[at] * x->sigma[c],
+                  before[at], after[at]);
+      }
+      fputc('\n', file);
+    }
+    before += x->n * (size_t)x->n_channels;
+    after += x->n * (size_t)x->n_channels;
+  }
+}
+
+int lab_story_residual(const lab_story *story, const char *folder, lab_error *error)
+{
+  const lab_unknowns *u = story->completed;
+  double *before = malloc((u->n_data + LAB_FIT_MAX) * sizeof *before);
+  double *after = malloc((u->n_data + LAB_FIT_MAX) * sizeof *after);
+  lab_outfile out;
+  int c, status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK)
+    status = lab_unknowns_residuals((void *)story->declared, NULL, before, error);
+  if (status == LAB_OK)
+    status = lab_unknowns_residuals((void *)u, NULL, after, error);
+  if (status == LAB_OK)
+    status = open_in(folder, "residual.csv", &out, error);
+  if (status == LAB_OK) {
+    fputs("run [1],t [s]", out.file);
+    for (c = 0; c < u->experiment[0].n_channels; c++) {
+      const lab_channel_info *info = &lab_channels[u->experiment[0].channel[c]];
+      fprintf(out.file, ",%s [%s],%s_before [%s],%s_after [%s],%s_residual_before [1],%s_residual_after [1]", info->key,
+              info->unit, info->key, info->unit, info->key, info->unit, info->key, info->key);
+    }
+    fputc('\n', out.file);
+    residual_rows(out.file, u, before, after);
+    status = lab_out_close(&out, error);
+  }
+  free(before);
+  free(after);
+  return status;
+}
+
+/* ---- The sentence ---- */
+
+void lab_story_sentence(const lab_story *story, char *text, size_t size)
+{
+  const lab_loop_result *r = story->result;
+  const double before = sqrt(r->before.chi2 / (double)r->before.n), after = sqrt(r->after.chi2 / (double)r->after.n);
+  size_t used = 0;
+  int i;
+  if (r->n_found == 0) {
+    snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise.", before);
+    return;
+  }
+  used += (size_t)snprintf(text, size, "The model lacks ");
+  for (i = 0; i < r->n_found && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "", pneu_effect_at(r->found[i].effect)->name);
+  if (used < size)
+    snprintf(text + used, size - used, ": with it the error falls from %.2f to %.2f times the noise.", before, after);
+}

@@ -1,0 +1,28 @@
+/* What closeloop writes: report.json, model.cfg, model.h, residual.csv.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_LOOPFILES_H
+#define LAB_LOOPFILES_H
+
+#include "loop.h"
+
+/* Everything that there is to say about a run. */
+typedef struct lab_story {
+  const lab_rig *rig;            /* as declared */
+  const lab_unknowns *declared;  /* fitted, without added effects */
+  const lab_unknowns *completed; /* fitted, with them */
+  const lab_loop_result *result;
+  int has_holdout;
+  lab_errors holdout_before, holdout_after;
+  double fit_s, trace_s, total_s; /* [s] on the clock */
+} lab_story;
+
+/* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */
+int lab_story_json(const lab_story *story, const char *folder, lab_error *error);
+int lab_story_model(const lab_story *story, const char *folder, lab_error *error);
+int lab_story_header(const lab_story *story, const char *folder, lab_error *error);
+int lab_story_residual(const lab_story *story, const char *folder, lab_error *error);
+
+/* One sentence: what was found, and what it did to the error. */
+void lab_story_sentence(const lab_story *story, char *text, size_t size);
+
+#endif
