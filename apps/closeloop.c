@@ -17,17 +17,21 @@ static const char *holdout, *out;
 static double alpha = 0.01, min_gain = 0.02;
 
 static const lab_option options[] = {
-    {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv", "judge the completed model on this log, which it has not seen", 0, 0},
+    {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv", "judge the completed model on this log, which it has not seen", 0,
+     0},
     {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>", 0, 0},
     {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
     {"min-gain", LAB_OPTION_REAL, &min_gain, "SHARE", "error that an effect must save to be added (0.02)", 0, 1},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
-    "closeloop", "RIG.cfg LOG.csv [LOG2.csv ...]",
+    "closeloop",
+    "RIG.cfg LOG.csv [LOG2.csv ...]",
     "Fit the declared model to logs of a test bench, trace the residual to a physical effect that the model lacks, add "
     "it, and report the error before and after.",
-    options, 2, 1 + LOG_MAX};
+    options,
+    2,
+    1 + LOG_MAX};
 
 /* The logs of a run of the program, and an experiment for each of their runs. */
 typedef struct bench {
@@ -119,7 +123,7 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
   lab_loop_options_default(&how);
   how.alpha = alpha;
   how.min_gain = min_gain;
-  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, NULL, error))
+  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, &result.fit, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;

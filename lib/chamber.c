@@ -3,7 +3,8 @@
 
 pneu_real pneu_volume(const pneu_model *model, pneu_real x)
 {
-  return model->p.dead_volume + model->p.area * model->p.swept_ratio * x;
+  /* the integral of area (1 - area_slope x) */
+  return model->p.dead_volume + model->p.area * model->p.swept_ratio * x * (1 - model->area_slope * x / 2);
 }
 
 pneu_real pneu_mass(const pneu_model *model, const pneu_state *state)

@@ -143,35 +143,56 @@ static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu
   flow->choked = nozzle_flow.choked;
 }
 
-enum { RESISTANCE_ITERATIONS = 6 };
+/* An orifice in series with a linear resistance, between p_up and p_down: which pressure lies between them. */
+typedef struct series {
+  const pneu_terms *t;
+  pneu_real area, T_up, p_up, p_down, resistance;
+  int before; /* the resistance lies before the orifice, else behind it */
+} series;
 
-/* Inflow through a line that loses resistance * q before the orifice: Newton on
- * q = flow(p_up - resistance q, p_down), a fixed number of times. */
-static void flow_behind_resistance(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up,
-                                   pneu_real resistance, pneu_flow *flow)
+enum { SERIES_ITERATIONS = 16 };
+
+/* Flow of the orifice less that of the resistance, at a pressure between, and its slope. */
+static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_real *slope)
 {
-  pneu_real q = 0;
-  int i;
-  for (i = 0; i < RESISTANCE_ITERATIONS; i++) {
-    const pneu_real p = p_up - resistance * q;
-    mixed_flow(t, area, p > t->p ? p : t->p, T_up, t->p, flow);
-    q += (flow->q - q) / (1 + resistance * flow->dq_dup);
+  const pneu_real conductance = 1 / s->resistance;
+  if (s->before) {
+    mixed_flow(s->t, s->area, p, s->T_up, s->p_down, flow);
+    *slope = flow->dq_dup + conductance;
+    return flow->q - (s->p_up - p) * conductance;
   }
-  flow->q = q;
+  mixed_flow(s->t, s->area, s->p_up, s->T_up, p, flow);
+  *slope = flow->dq_ddown - conductance;
+  return flow->q - (p - s->p_down) * conductance;
 }
 
-/* Outflow into a line that builds up resistance * q behind the orifice. */
-static void flow_before_resistance(const pneu_terms *t, pneu_real area, pneu_real p_down, pneu_real resistance,
-                                   pneu_flow *flow)
+/* Newton, kept inside the bracket by bisection; a fixed number of times, so that the work is bounded. */
+static void series_flow(const series *s, pneu_flow *flow)
 {
-  pneu_real q = 0;
+  pneu_real low = s->p_down, high = s->p_up, p = s->before ? high : low, slope;
   int i;
-  for (i = 0; i < RESISTANCE_ITERATIONS; i++) {
-    const pneu_real p = p_down + resistance * q;
-    mixed_flow(t, area, t->p, t->T, p < t->p ? p : t->p, flow);
-    q += (flow->q - q) / (1 - resistance * flow->dq_ddown);
+  for (i = 0; i < SERIES_ITERATIONS; i++) {
+    const pneu_real gap = series_gap(s, p, flow, &slope);
+    if ((gap > 0) == (s->before != 0))
+      high = p;
+    else
+      low = p;
+    p -= gap / slope;
+    if (!(p >= low && p <= high))
+      p = (low + high) / 2;
   }
-  flow->q = q;
+  series_gap(s, p, flow, &slope);
+}
+
+/* Flow from up to down, through a resistance before or behind the orifice if there is one. */
+static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                         pneu_real resistance, int before, pneu_flow *flow)
+{
+  const series s = {t, area, T_up, p_up, p_down, resistance, before};
+  if (resistance > 0 && p_up > p_down)
+    series_flow(&s, flow);
+  else
+    mixed_flow(t, area, p_up, T_up, p_down, flow);
 }
 
 void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
@@ -180,18 +201,12 @@ void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T
   if (area <= 0)
     return;
   if (p_other < t->p) {
-    if (resistance > 0)
-      flow_before_resistance(t, area, p_other, resistance, &flow);
-    else
-      mixed_flow(t, area, t->p, t->T, p_other, &flow);
+    flow_between(t, area, t->p, t->T, p_other, resistance, 0, &flow);
     t->mass_out += flow.q;
     t->dout_dp += flow.dq_dup;
     t->dout_dT += flow.dq_dT;
   } else {
-    if (resistance > 0)
-      flow_behind_resistance(t, area, p_other, T_other, resistance, &flow);
-    else
-      mixed_flow(t, area, p_other, T_other, t->p, &flow);
+    flow_between(t, area, p_other, T_other, t->p, resistance, 1, &flow);
     t->mass_in += flow.q;
     t->mass_in_T += flow.q * T_other;
     t->din_dp += flow.dq_ddown;

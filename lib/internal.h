@@ -13,12 +13,20 @@
 #define PNEU_M(function) function##f
 #define PNEU_EPS         PNEU_C(1.1920929e-7)
 #define PNEU_EVENT_TIME  PNEU_C(1e-6)
+#define PNEU_FORCE_NOISE PNEU_C(7.6e-6)
+#define PNEU_FORCE_RESOLVED PNEU_C(1e-4)
 #else
 #define PNEU_C(literal)  literal
 #define PNEU_M(function) function
 #define PNEU_EPS         2.220446049250313e-16
 #define PNEU_EVENT_TIME  1e-9
+#define PNEU_FORCE_NOISE 1.5e-14
+#define PNEU_FORCE_RESOLVED 1e-8
 #endif
+
+/* PNEU_EVENT_TIME [s]: exactness of an event. Shares of the largest force: PNEU_FORCE_NOISE, rounding, which break-away
+ * asks for beyond friction; PNEU_FORCE_RESOLVED, below which a stem that has just come to rest stays there, lest it
+ * chatter where it stops in equilibrium. */
 
 /* Relative distance from equal pressures below which flow is nearly linear in the difference. */
 #define PNEU_BLEND PNEU_C(5e-4)
@@ -35,7 +43,8 @@ enum pneu_stage {
   PNEU_STAGE_FORCE,    /* forces and friction level */
   PNEU_STAGE_BRISTLE,  /* friction with a state of its own, from the level */
   PNEU_STAGE_LAG,      /* sensors: what they follow */
-  PNEU_STAGE_SENSOR    /* sensors: what they show of it */
+  PNEU_STAGE_GAIN,     /* sensors: in what proportion they show it */
+  PNEU_STAGE_SENSOR    /* sensors: what they add to it */
 };
 
 /* The running sums of one evaluation. */
@@ -50,7 +59,8 @@ struct pneu_terms {
   pneu_real exhaust_resistance;        /* [Pa s/kg] pressure built up on the way out */
   pneu_real fill_area, vent_area;      /* [m2] */
   pneu_real choked_share;              /* [1] of the flow that follows the nozzle law */
-  pneu_real mass_in, mass_out;         /* [kg/s] */
+  pneu_real mass_in, mass_out;         /* [kg/s] of the chamber */
+  pneu_real drawn;                     /* [kg/s] from the supply */
   pneu_real mass_in_T;                 /* [kg K/s] inflow times its temperature */
   pneu_real heat;                      /* [W] from the wall into the gas */
   pneu_real film;                      /* [W/K] its conductance */

@@ -1,7 +1,9 @@
 /* Jacobian of the packed right-hand side. */
 #include "internal.h"
 
-/* Difference quotients, with steps by the size of each entry or a thousandth of its full scale. */
+/* Difference quotients, with steps by the size of each entry or a share of its full scale: a thousandth, and a tenth
+ * for states of effects. These start at 0, their rates are nearly linear in them, and so short a step would leave
+ * single precision one digit. */
 static void differences(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                         const pneu_real *f0, int n, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
@@ -12,7 +14,8 @@ static void differences(const pneu_model *model, const pneu_state *state, const 
   for (i = 0; i < n; i++)
     z[i] = y[i];
   for (j = 0; j < n; j++) {
-    const pneu_real size = PNEU_M(fabs)(y[j]), floor = PNEU_C(1e-3) * scale[j];
+    const int of_effect = j > model->thermal && j < model->n_gas;
+    const pneu_real size = PNEU_M(fabs)(y[j]), floor = (of_effect ? PNEU_C(0.1) : PNEU_C(1e-3)) * scale[j];
     z[j] = y[j] + small * (size > floor ? size : floor);
     if (pneu_rhs(model, state, input, z, f) != PNEU_OK)
       z[j] = y[j], pneu_rhs(model, state, input, z, f);

@@ -1,7 +1,7 @@
 /* Where inside a step an event happens. */
 #include "internal.h"
 
-enum { BISECTIONS = 40 };
+enum { BISECTIONS = 40, ARMINGS = 30 };
 
 /* g of event `which` at theta of the present step. */
 static pneu_real event_at(const pneu_model *model, const pneu_state *state, const pneu_input *input,
@@ -18,8 +18,16 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
 {
   pneu_real lo = 0, hi = end, g_lo = event_at(model, state, input, work, which, 0), g_hi = g_end;
   int i;
-  if (g_lo >= 0) /* just fired, leaves zero, comes back: the root is past the dip */
-    g_lo = -PNEU_EPS * g_end;
+  for (i = 0; g_lo >= 0 && i < ARMINGS; i++) { /* just fired: the root lies after it has left zero */
+    const pneu_real theta = end * PNEU_M(pow)(PNEU_C(0.5), (pneu_real)(i + 1)),
+                    g = event_at(model, state, input, work, which, theta);
+    if (g < 0) {
+      lo = theta;
+      g_lo = g;
+    }
+  }
+  if (g_lo >= 0) /* it never does */
+    return 8 * PNEU_EPS;
   for (i = 0; i < BISECTIONS && hi - lo > 8 * PNEU_EPS; i++) {
     pneu_real theta = lo + (hi - lo) * g_lo / (g_lo - g_hi), g;
     if (!(theta > lo && theta < hi))
@@ -38,6 +46,14 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
   return hi;
 }
 
+/* At rest an event that has not left zero since the stem stopped counts once its push can be resolved. */
+static int is_masked(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                     const pneu_workspace *work, int which, pneu_real g)
+{
+  return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved &&
+         event_at(model, state, input, work, which, 0) > 0;
+}
+
 /* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:
  * which, -1 if none. */
 static pneu_real first_event(const pneu_model *model, const pneu_state *state, const pneu_input *input,
@@ -54,7 +70,7 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
     count = pneu_events(model, state, input, y, g);
     for (i = 0; i < count; i++) {
       pneu_real at;
-      if (!(g[i] > 0))
+      if (!(g[i] > 0) || is_masked(model, state, input, work, i, g[i]))
         continue;
       at = dense_root(model, state, input, work, i, theta, g[i]);
       if (at < first) {

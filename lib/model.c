@@ -90,10 +90,11 @@ static void derive_gas(pneu_model *model)
 static void derive_scales(pneu_model *model)
 {
   const pneu_params *p = &model->p;
-  model->force_noise =
-      64 * PNEU_EPS *
-      ((p->supply_pressure + p->ambient_pressure) * p->area +
-       p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) + PNEU_M(fabs)(p->external_force));
+  const pneu_real on_stop = model->stop_compliance > 0 ? p->stroke / model->stop_compliance : 0;
+  model->force_noise = PNEU_FORCE_NOISE * ((p->supply_pressure + p->ambient_pressure) * p->area + on_stop +
+                                           p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) +
+                                           PNEU_M(fabs)(p->external_force));
+  model->force_resolved = model->force_noise / PNEU_FORCE_NOISE * PNEU_FORCE_RESOLVED;
   model->scale[0] = model->p.supply_pressure + model->p.ambient_pressure;
   model->scale[1] = model->p.ambient_temperature;
   model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;
@@ -119,7 +120,7 @@ int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *la
   if (bad_law(law))
     return PNEU_E_LAW;
   model->viscous = p->viscous_friction + p->damping;
-  model->upper_stop = p->stroke;
+  model->upper_stop = model->travel = p->stroke;
   activate(model);
   derive_flow(model);
   derive_gas(model);
@@ -135,7 +136,11 @@ void pneu_input_default(const pneu_model *model, pneu_input *input)
 
 void pneu_options_default(pneu_options *options)
 {
-  options->tol = PNEU_C(1e-6);
+#ifdef PNEU_SINGLE
+  options->tol = PNEU_C(1e-4);
+#else
+  options->tol = 1e-6;
+#endif
   options->h_max = 0;
   options->max_steps = 100000;
 }

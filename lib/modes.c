@@ -77,6 +77,21 @@ void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *s
   state->mode = rest_mode(model, state->x, force, level);
 }
 
+/* Sliding has ended between the stops: go the other way, or the same way if there is a resolvable push, or stay. */
+static void come_to_rest(const pneu_model *model, const pneu_input *input, pneu_state *state)
+{
+  const int before = state->mode;
+  pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
+  pneu_settle(model, input, state);
+  if (state->mode != before)
+    return;
+  state->mode = PNEU_MODE_STUCK;
+  pneu_pack(model, state, y);
+  pneu_events(model, state, input, y, g);
+  if (g[before == PNEU_MODE_UP ? 0 : 1] > model->force_resolved)
+    state->mode = before;
+}
+
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
 {
   const int mode = state->mode;
@@ -90,5 +105,8 @@ void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pn
     state->x = upper ? model->upper_stop : model->lower_stop;
   }
   state->v = 0;
-  pneu_settle(model, input, state);
+  if (mode == PNEU_MODE_FREE || which == 1)
+    pneu_settle(model, input, state);
+  else
+    come_to_rest(model, input, state);
 }

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "internal.h"
+#include "transducer.h"
 
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out)
 {
@@ -21,7 +22,7 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   out->mass_in = t.mass_in;
   out->mass_out = t.mass_out;
   out->heat = t.heat;
-  out->supply = t.supply - t.supply_resistance * t.mass_in - model->p.ambient_pressure;
+  out->supply = t.supply - t.supply_resistance * t.drawn - model->p.ambient_pressure;
   out->friction = t.friction;
   out->choked = t.choked;
   out->shown_pressure = t.p_shown;
@@ -38,7 +39,7 @@ static void start_effects(const pneu_model *model, const pneu_input *input, pneu
   pneu_pack(model, state, y);
   if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
     return;
-  t.opening = input->u;
+  t.opening = pneu_command_opening(&t);
   for (i = 0; i < model->n_active; i++) {
     const int e = model->active[i];
     const pneu_effect *effect = pneu_effect_at(e);
@@ -47,18 +48,40 @@ static void start_effects(const pneu_model *model, const pneu_input *input, pneu
   }
 }
 
+/* A stem that touches a stop which yields sinks in until the forces balance, friction apart: Newton with the slopes
+ * of main spring and stop; the other forces hardly change over so short a way. */
+static void sink_in(const pneu_model *model, const pneu_input *input, pneu_state *state)
+{
+  enum { ROUNDS = 4 };
+  const int lower = state->x <= 0, upper = state->x >= model->travel;
+  const pneu_real rate = model->p.spring_rate + 1 / model->stop_compliance;
+  pneu_terms t;
+  pneu_real y[PNEU_STATE_MAX];
+  int i;
+  for (i = 0; i < ROUNDS && (lower || upper); i++) {
+    pneu_pack(model, state, y);
+    if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+      return;
+    if (i == 0 && (lower ? t.force >= 0 : t.force <= 0))
+      return;
+    state->x = PNEU_M(fmin)(PNEU_M(fmax)(state->x + t.force / rate, model->lower_stop), model->upper_stop);
+  }
+}
+
 int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real temperature, pneu_real position,
                     const pneu_input *input, pneu_state *state)
 {
   const pneu_real p_abs = pressure + model->p.ambient_pressure;
   const pneu_real T = model->thermal ? temperature : model->p.ambient_temperature;
-  if (!(p_abs > 0) || !(T > 0) || !(position >= 0 && position <= model->upper_stop) || p_abs * T > PNEU_C(1e30))
+  if (!(p_abs > 0) || !(T > 0) || !(position >= 0 && position <= model->p.stroke) || p_abs * T > PNEU_C(1e30))
     return PNEU_E_NONFINITE;
   memset(state, 0, sizeof *state);
   state->p = pressure;
   state->T = T;
-  state->x = position;
+  state->x = position < model->travel ? position : model->travel;
   state->mode = PNEU_MODE_STUCK;
+  if (model->stop_compliance > 0 && !model->law.position_input)
+    sink_in(model, input, state);
   start_effects(model, input, state);
   pneu_settle(model, input, state);
   return PNEU_OK;

@@ -49,8 +49,8 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->T = model->thermal ? y[1] : p->ambient_temperature;
   t->x = n > i_x ? y[i_x] : state->x;
   t->v = n > i_x + 1 ? y[i_x + 1] : state->mode == PNEU_MODE_DRIVEN ? input->position_rate : 0;
-  t->area = p->area;
-  t->swept_area = p->area * p->swept_ratio;
+  t->area = p->area * (1 - model->area_slope * t->x);
+  t->swept_area = t->area * p->swept_ratio;
   t->volume = pneu_volume(model, t->x);
   t->supply = input->supply_pressure + p->ambient_pressure;
   t->exhaust = p->ambient_pressure;
@@ -58,7 +58,8 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->vent_area = p->vent_area;
 }
 
-/* Let the active effects of all stages up to `stage` add their terms, from *next on. */
+/* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
+ * the model's constants by `prepare`. */
 static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
 {
   const pneu_model *model = t->model;
@@ -71,7 +72,8 @@ static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next,
     const pneu_effect *effect = pneu_effect_at(e);
     if (effect->stage > stage)
       return;
-    effect->add(&model->p.effect[model->param_of[e]], extra + model->state_of[e], t, rate + model->state_of[e]);
+    if (effect->add)
+      effect->add(&model->p.effect[model->param_of[e]], extra + model->state_of[e], t, rate + model->state_of[e]);
   }
 }
 

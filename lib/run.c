@@ -3,6 +3,9 @@
 
 enum { EVENTS_AT_ONE_TIME = 16 };
 
+#define PNEU_SHORTEST PNEU_C(1e-14) /* [s] step */
+#define PNEU_STEP_TOL PNEU_C(1e-4)  /* local error at which a fixed step is split */
+
 /* One run in progress. */
 typedef struct run {
   const pneu_model *model;
@@ -12,9 +15,11 @@ typedef struct run {
   pneu_state *state;
   pneu_workspace *work;
   pneu_real t, end;
+  pneu_real carry;                  /* what rounding has taken from t (Kahan 1965) */
+  pneu_real event_t;                /* of the last event */
   pneu_real h;                      /* to try next; 0: choose */
   pneu_real h_before, error_before; /* of the last accepted step; 0: none */
-  int steps, events_in_a_row;
+  int steps, events_here;           /* events without progress in time */
 } run;
 
 /* First step in a mode: with mu the rate at which the slope changes along the solution,
@@ -54,6 +59,19 @@ static int notify_step(run *r, pneu_real h)
   return r->observer->step(r->observer->context, &view) ? PNEU_E_STOPPED : PNEU_OK;
 }
 
+/* Time to go, and time that passes: single precision would lose short steps late in a long run. */
+static pneu_real left_of(const run *r)
+{
+  return (r->end - r->t) + r->carry;
+}
+
+static void pass_time(run *r, pneu_real h)
+{
+  const pneu_real step = h - r->carry, t = r->t + step;
+  r->carry = (t - r->t) - step;
+  r->t = t;
+}
+
 /* Take over the end of the step; switch the mode where an event ended it. */
 static int accept(run *r, pneu_real h, int which)
 {
@@ -62,12 +80,13 @@ static int accept(run *r, pneu_real h, int which)
   if (status != PNEU_OK)
     return status;
   pneu_unpack(r->model, r->work->y1, r->state);
-  r->t = which < 0 && h >= r->end - r->t ? r->end : r->t + h;
+  pass_time(r, which < 0 && h >= left_of(r) ? left_of(r) : h);
   r->work->stats.steps++;
-  r->events_in_a_row = which < 0 ? 0 : r->events_in_a_row + 1;
   if (which < 0)
     return PNEU_OK;
-  if (r->events_in_a_row > EVENTS_AT_ONE_TIME)
+  r->events_here = r->t - r->event_t > PNEU_EVENT_TIME ? 0 : r->events_here + 1;
+  r->event_t = r->t;
+  if (r->events_here > EVENTS_AT_ONE_TIME)
     return PNEU_E_EVENTS;
   pneu_switch(r->model, r->input, which, r->state);
   r->work->stats.events++;
@@ -85,23 +104,22 @@ static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
 /* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so steep that the
  * error estimate can miss it: flow through the open orifice brings pressure up to that point and not beyond. Judged at
  * quarters of the step's curve, with the width of the blend as margin. */
-static int leaps(const run *r)
+static int leaps(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *w)
 {
-  pneu_workspace *w = r->work;
-  const pneu_real ambient = r->model->p.ambient_pressure;
+  const pneu_real ambient = model->p.ambient_pressure;
   pneu_terms t;
   pneu_real equal, before;
   int quarter;
-  if (pneu_dimension(r->model, r->state->mode) != r->model->n_gas || r->model->law.pressure_input)
+  if (pneu_dimension(model, state->mode) != model->n_gas || model->law.pressure_input)
     return 0;
-  if (pneu_evaluate(r->model, r->state, r->input, w->y1, &t, NULL) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, w->y1, &t, NULL) != PNEU_OK)
     return 1;
   equal = t.opening > 0 ? t.supply : t.exhaust;
   before = w->y0[0] + ambient - equal;
   pneu_dense_prepare(1, w);
   for (quarter = 1; quarter <= 4 && t.opening != 0; quarter++) {
     pneu_real p;
-    pneu_dense_packed(w, 1, quarter * PNEU_C(0.25), &p);
+    pneu_dense_packed(w, 1, (pneu_real)quarter * PNEU_C(0.25), &p);
     p += ambient - equal;
     if (p * before < 0 && PNEU_M(fabs)(p) > PNEU_BLEND * equal && PNEU_M(fabs)(before) > PNEU_BLEND * equal)
       return 1;
@@ -136,10 +154,26 @@ static int all_finite(const pneu_model *model, const pneu_state *state, const pn
   return zero == 0;
 }
 
+/* Whether they lie in their documented ranges; position with a thousandth of the stroke for sensors and rounding. */
+static int usable(const pneu_model *model, const pneu_state *state, const pneu_input *input)
+{
+  const pneu_params *p = &model->p;
+  const pneu_real margin = PNEU_C(1e-3) * p->stroke;
+  if (!all_finite(model, state, input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
+    return 0;
+  if (state->p <= -p->ambient_pressure || input->supply_pressure <= -p->ambient_pressure ||
+      (model->thermal && state->T <= 0))
+    return 0;
+  if (p->proportional_band <= 0 && PNEU_M(fabs)(input->u) > PNEU_C(1.00001))
+    return 0;
+  return model->law.position_input ||
+         (state->x >= model->lower_stop - margin && state->x <= model->upper_stop + margin);
+}
+
 /* Try steps from the present state until one is accepted. */
 static int advance(run *r)
 {
-  const pneu_real tol = r->options->tol, left = r->end - r->t;
+  const pneu_real tol = r->options->tol, left = left_of(r);
   pneu_workspace *w = r->work;
   int status, fresh = r->h <= 0, refused = 0;
   pneu_pack(r->model, r->state, w->y0);
@@ -155,12 +189,12 @@ static int advance(run *r)
       h = PNEU_M(fmin)(h, r->options->h_max);
     if (h > left * PNEU_C(0.999))
       h = left;
-    if (!(h > 8 * PNEU_EPS * r->t + PNEU_C(1e-15)))
+    if (!(h > PNEU_SHORTEST))
       return PNEU_E_STEP_SIZE;
     status = pneu_step_try(r->model, r->state, r->input, h, w, &error);
     if (status < 0)
       return status;
-    if (status != PNEU_OK || !(error <= tol) || leaps(r)) {
+    if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, r->input, w)) {
       factor = status == PNEU_OK && error > tol && error < PNEU_C(1e30)
                    ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2)), PNEU_C(0.1), PNEU_C(0.8))
                    : PNEU_C(0.2);
@@ -186,7 +220,7 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
 {
   run r;
   int status = PNEU_OK;
-  if (!all_finite(model, state, input) || !(duration * 0 == 0) || !(options->tol > 0 && options->tol < 1))
+  if (!usable(model, state, input) || !(duration * 0 == 0) || !(options->tol > 0 && options->tol < 1))
     return PNEU_E_NONFINITE;
   r.model = model;
   r.input = input;
@@ -200,9 +234,11 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   r.h_before = 0;
   r.error_before = 0;
   r.steps = 0;
-  r.events_in_a_row = 0;
+  r.events_here = 0;
+  r.event_t = -1;
+  r.carry = 0;
   pneu_settle(model, input, state);
-  while (r.end - r.t > 8 * PNEU_EPS * r.end && status == PNEU_OK) {
+  while (left_of(&r) > 8 * PNEU_EPS * r.end && status == PNEU_OK) {
     if (r.steps++ >= options->max_steps)
       return PNEU_E_STEP_COUNT;
     status = advance(&r);
@@ -211,15 +247,20 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   return status;
 }
 
-/* One step of length *h from `now`, shortened to end on an event. */
+/* One step of length *h from `now`, shortened to end on an event.
+ * In:      tol  local error beyond which it is refused
+ * Returns: PNEU_OK; PNEU_RETRY_STATE where a shorter step may do; < 0 */
 static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_input *input, pneu_workspace *work,
-                        pneu_real *h, int *which)
+                        pneu_real tol, pneu_real *h, int *which)
 {
+  pneu_real error = 0;
   int status;
   pneu_pack(model, now, work->y0);
   status = pneu_step_prepare(model, now, input, work);
   if (status == PNEU_OK)
-    status = pneu_step_try(model, now, input, *h, work, NULL);
+    status = pneu_step_try(model, now, input, *h, work, &error);
+  if (status == PNEU_OK && (!(error <= tol) || (tol < 1 && leaps(model, now, input, work))))
+    status = PNEU_RETRY_STATE;
   if (status == PNEU_OK)
     status = pneu_locate(model, now, input, work, h, which);
   if (status != PNEU_OK)
@@ -234,21 +275,23 @@ int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *inpu
   pneu_state now = *state;
   pneu_real left = dt, h = dt;
   int i;
-  if (!all_finite(model, state, input) || !(dt > 0 && dt * 0 == 0))
+  if (!usable(model, state, input) || !(dt > 0 && dt * 0 == 0))
     return PNEU_E_NONFINITE;
   pneu_settle(model, input, &now);
   for (i = 0; i < PNEU_PARTS_MAX; i++) {
+    /* the last parts take what they get: the work is bounded, not the error */
+    const pneu_real tol = i < PNEU_PARTS_MAX - PNEU_PARTS_FREE ? PNEU_STEP_TOL : PNEU_C(1e30);
     int which = -1;
-    const int status = part_of_step(model, &now, input, work, &h, &which);
+    const int status = part_of_step(model, &now, input, work, tol, &h, &which);
     if (status < 0)
       return status;
-    if (status != PNEU_OK) { /* a trial point beyond a stop, where there is no volume */
+    if (status != PNEU_OK) {
       h *= PNEU_C(0.25);
       work->stats.rejected++;
       continue;
     }
     left -= h;
-    h = left;
+    h = i < PNEU_PARTS_MAX - PNEU_PARTS_FREE && 4 * h < left ? 4 * h : left;
     if (which >= 0) {
       pneu_switch(model, input, which, &now);
       work->stats.events++;

@@ -19,8 +19,11 @@ pneu_real pneu_command_opening(const pneu_terms *t)
 void pneu_transducer_flow(pneu_terms *t)
 {
   const pneu_params *p = &t->model->p;
-  if (t->opening > 0)
+  const pneu_real before = t->mass_in;
+  t->drawn = 0;
+  if (t->opening > 0) {
     pneu_exchange(t, t->opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
-  else if (t->opening < 0)
+    t->drawn = t->mass_in - before;
+  } else if (t->opening < 0)
     pneu_exchange(t, -t->opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
 }

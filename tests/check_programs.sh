@@ -104,7 +104,7 @@ done
 for file in "$folder/whole"/*; do
   cmp -s "$file" "$folder/killed/$(basename "$file")" || { echo "differs: $file"; wrong=$((wrong + 1)); }
 done
-ls "$folder/killed"/*.part >/dev/null 2>&1 && { echo "a .part file stays"; ls "$folder/killed"/*.part; }
+ls "$folder/killed"/*.part >/dev/null 2>&1 && { echo "a .part file stays"; wrong=$((wrong + 1)); }
 
 # the same bytes whatever the threads
 ./sweep hypotheses.cfg --quiet --no-figures --threads 1 --results "$folder/one" || wrong=$((wrong + 1))

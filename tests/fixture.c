@@ -103,6 +103,9 @@ fixture_sample fixture_look(const pneu_model *model, const pneu_state *state, co
   s.heat = (double)out.heat;
   s.supply = (double)out.supply;
   s.friction = (double)out.friction;
+  s.shown_p = (double)out.shown_pressure;
+  s.shown_T = (double)out.shown_temperature;
+  s.shown_x = (double)out.shown_position;
   s.mode = state->mode;
   s.choked = out.choked;
   return s;

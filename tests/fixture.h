@@ -17,6 +17,7 @@ enum { FIXTURE_R1_400, FIXTURE_37_13, FIXTURE_ACTUATORS };
 /* What pneu_observe says, in double. */
 typedef struct fixture_sample {
   double t, p, T, x, v, m, opening, in, out, heat, supply, friction;
+  double shown_p, shown_T, shown_x; /* by the sensors */
   int mode, choked;
 } fixture_sample;
 

@@ -1,4 +1,5 @@
-/* Every effect: its record, its neutral value, the channel it acts on, and the direction. */
+/* Every effect: its record, its neutral value, the channel it acts on. What each does, tests/test_effects_gas.c,
+ * _stem.c and _sensor.c measure; test_effects_second.c compares it with an independent implementation. */
 #include "fixture.h"
 #include "../lib/internal.h"
 
@@ -30,8 +31,8 @@ static void test_pneu_effect_at__each__has_a_complete_record(void **state)
     for (i = known = 0; i < COUNT(equations); i++)
       known += strcmp(effect->equation, equations[i]) == 0;
     assert_int_equal(known, 1);
-    assert_in_range(effect->stage, PNEU_STAGE_GEOMETRY, PNEU_STAGE_BRISTLE);
-    assert_non_null(effect->add);
+    assert_in_range(effect->stage, PNEU_STAGE_GEOMETRY, PNEU_STAGE_SENSOR);
+    assert_true(effect->add || effect->prepare);
     assert_non_null(effect->param);
   }
 }
@@ -99,14 +100,49 @@ static void test_pneu_run__each_effect_neutral__is_the_base_model_bit_for_bit(vo
     }
 }
 
+/* A base on which effect e can act, and which is its limit: a wall needs a film, air in a tube is at ambient
+ * temperature. */
+static pneu_params ground(int e, int *gas)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  *gas = PNEU_GAS_ISOTHERMAL;
+  if (strcmp(names[e], "heat_transfer") != 0 && strcmp(names[e], "connecting_tube") != 0 &&
+      fixture_effect("heat_transfer") >= 0) {
+    *gas = PNEU_GAS_ENERGY;
+    fixture_set(&p, "film_conductance", 5);
+  }
+  return p;
+}
+
 #ifndef PNEU_SINGLE /* a millionth of an effect is below the rounding of float */
+/* By the sensors. */
 static double largest_difference(const fixture_sample *a, const fixture_sample *b, int n)
 {
   double most = 0;
   int i;
-  for (i = 0; i < n; i++)
-    most = fmax(most, fmax(fabs(a[i].x - b[i].x) / 0.02, fabs(a[i].p - b[i].p) / 4e5));
+  for (i = 0; i < n; i++) {
+    most = fmax(most, fabs(a[i].shown_x - b[i].shown_x) / 0.02);
+    most = fmax(most, fabs(a[i].shown_p - b[i].shown_p) / 4e5);
+    most = fmax(most, fabs(a[i].shown_T - b[i].shown_T) / 298.15);
+  }
   return most;
+}
+
+/* Effect e at a share of its usual size; a short tube has little volume as well. */
+static void set_share(pneu_params *p, int e, double share)
+{
+  const pneu_param_info *info = &pneu_effect_at(e)->param[0];
+  fixture_set(p, info->name, (double)info->neutral + share * (double)(info->value - info->neutral));
+  if (strcmp(names[e], "connecting_tube") == 0)
+    fixture_set(p, "tube_volume", share < 1 ? 1e-9 : 2e-5);
+}
+
+/* Whether it acts within a run: a delay belongs to the owner of the clock, a wall needs a film. */
+static int acts_in_run(int e, int gas)
+{
+  const int delay = strcmp(names[e], "dead_time") == 0 || strcmp(names[e], "channel_skew") == 0;
+  const int thermal = strcmp(names[e], "temperature_lag") == 0 || strcmp(names[e], "wall_temperature") == 0;
+  return !delay && (gas == PNEU_GAS_ENERGY || !thermal);
 }
 
 /* The base model is the limit of the effect, not a case apart. */
@@ -116,18 +152,18 @@ static void test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model(
   int e;
   (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
-    pneu_params p = fixture_params(FIXTURE_R1_400);
-    const pneu_param_info *info = &pneu_effect_at(e)->param[0];
+    int gas;
+    pneu_params p = ground(e, &gas);
     double far, near;
-    const int n = standard(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1e-7, base);
-    fixture_set(&p, info->name, info->value);
-    standard(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1e-7, small);
+    const int n = standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, base);
+    set_share(&p, e, 1);
+    standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small);
     far = largest_difference(base, small, n);
-    fixture_set(&p, info->name, info->neutral + 1e-3 * (info->value - info->neutral));
-    standard(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1e-7, small);
+    set_share(&p, e, 1e-3);
+    standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small);
     near = largest_difference(base, small, n);
     check_note("%s: %g at full size, %g at a thousandth", names[e], far, near);
-    assert_between(far, 1e-6, 2);
+    assert_between(far, acts_in_run(e, gas) ? 1e-5 : 0, acts_in_run(e, gas) ? 2 : 1e-6);
     assert_between(near, 0, 0.02 * far + 1e-5);
   }
 }
@@ -159,7 +195,7 @@ static pneu_state run_with_given(const pneu_params *p, int gas, int pressure, in
   return s;
 }
 
-static void test_pneu_run__effect_of_mass_energy_or_command__leaves_the_force_balance(void **state)
+static void test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance(void **state)
 {
   int e, gas;
   (void)state;
@@ -183,298 +219,12 @@ static void test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas(void 
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       const pneu_params base = fixture_params(FIXTURE_R1_400), p = switched_on(e);
       const pneu_state a = run_with_given(&base, gas, 0, 1), b = run_with_given(&p, gas, 0, 1);
-      if (!acts_on(e, "force"))
+      if (!acts_on(e, "force") || strcmp(names[e], "area_variation") == 0) /* its volume follows its area */
         continue;
       check_note("%s, %s", names[e], pneu_gas_key(gas));
       assert_close(b.p, a.p, TOL(0.01, 10), 0);
       assert_close(b.T, a.T, TOL(1e-5, 0.01), 0);
     }
-}
-
-/* ---- footprints: closed forms where there are some ---- */
-
-static pneu_state run_vessel(const pneu_params *p, int gas, int flow, double from, double u, double time)
-{
-  const pneu_model m = fixture_model(p, gas, flow);
-  const pneu_input shut = fixture_input(&m, 0), input = fixture_input(&m, u);
-  pneu_state s = fixture_rest(&m, from, 0, &shut);
-  fixture_run(&m, &s, &input, time, FIXTURE_TOL, NULL);
-  return s;
-}
-
-/* Choked leak from a shut isothermal vessel: exponential at the rate of its area. */
-static void footprint_chamber_leak(void)
-{
-  pneu_params p = fixture_vessel(1e-4);
-  const double g = 1.4, R = (double)p.gas_constant, T = 298.15, pa = (double)p.ambient_pressure;
-  const double c = sqrt(g / R) * pow(2 / (g + 1), (g + 1) / (2 * (g - 1)));
-  pneu_state s;
-  fixture_set(&p, "leak_area", 2e-8);
-  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 5e5, 0, 10);
-  assert_close((double)s.p + pa, (5e5 + pa) * exp(-2e-8 * c * R * sqrt(T) / 1e-4 * 10), 0, TOL(1e-8, 1e-4));
-  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, -3e4, 0, 1);
-  assert_between(s.p, -3e4 + 1, 0);
-  {
-    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 1, 0);
-    const pneu_input input = fixture_input(&m, 0);
-    s = fixture_rest(&m, 2e5, 0, &input);
-    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
-  }
-}
-
-static double inflow(const pneu_params *p, int flow, double pressure)
-{
-  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
-  const pneu_input input = fixture_input(&m, 1);
-  const pneu_state s = fixture_rest(&m, pressure, 0, &input);
-  return fixture_look(&m, &s, &input).in;
-}
-
-static void footprint_choked_flow(void)
-{
-  static const double pressure[] = {0, 1.5e5, 3e5};
-  const pneu_params base = fixture_vessel(1e-4);
-  pneu_params p = base;
-  int i;
-  for (i = 0; i < COUNT(pressure); i++) {
-    const double paper = inflow(&base, PNEU_FLOW_PAPER, pressure[i]);
-    const double nozzle = inflow(&base, PNEU_FLOW_CHOKED, pressure[i]);
-    fixture_set(&p, "choked_share", 1);
-    assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), nozzle, 0, TOL(1e-14, 1e-6));
-    fixture_set(&p, "choked_share", 0.25);
-    assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), 0.75 * paper + 0.25 * nozzle, 0, TOL(1e-14, 1e-6));
-    assert_true(nozzle < paper);
-  }
-  {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input input = fixture_input(&m, 1);
-    pneu_state s = fixture_rest(&m, 0, 0, &input);
-    assert_true(fixture_look(&m, &s, &input).choked);
-    s = fixture_rest(&m, 3e5, 0, &input);
-    assert_false(fixture_look(&m, &s, &input).choked);
-  }
-}
-
-static void footprint_supply_droop(void)
-{
-  const pneu_params base = fixture_vessel(1e-4);
-  pneu_params p = base;
-  const double resistance = 5e7, pa = (double)base.ambient_pressure;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  fixture_sample look;
-  pneu_flow flow;
-  fixture_set(&p, "supply_resistance", resistance);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = fixture_input(&m, 1);
-  s = fixture_rest(&m, 2e5, 0, &input);
-  look = fixture_look(&m, &s, &input);
-  pneu_orifice(&m, PNEU_FLOW_CHOKED, (pneu_real)1e-6, (pneu_real)(4e5 + pa - resistance * look.in),
-               p.supply_temperature, (pneu_real)(2e5 + pa), &flow);
-  assert_close(look.in, flow.q, 0, TOL(1e-9, 1e-4));
-  assert_close(look.supply, 4e5 - resistance * look.in, TOL(1e-6, 1), 0);
-  assert_true(look.in < 0.99 * inflow(&base, PNEU_FLOW_CHOKED, 2e5));
-  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p,
-               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p, TOL(1e-3, 10), 0);
-}
-
-/* In a vessel time enters by the integral of the opening alone: t becomes t - tau (1 - exp(-t/tau)). */
-static void footprint_transducer_lag(void)
-{
-  static const double at[] = {0.005, 0.02, 0.08};
-  const pneu_params base = fixture_vessel(1e-3);
-  pneu_params p = base;
-  const double tau = 0.02;
-  int i, vent;
-  fixture_set(&p, "transducer_time", tau);
-  for (i = 0; i < COUNT(at); i++)
-    for (vent = 0; vent < 2; vent++) {
-      const double t = at[i], start = vent ? 4e5 : 0, u = vent ? -1 : 1;
-      const pneu_state late = run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, start, u, t);
-      const pneu_state prompt =
-          run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, start, u, t - tau * (1 - exp(-t / tau)));
-      check_note("t = %g s, vent %d", t, vent);
-      assert_close(late.p, prompt.p, TOL(0.01, 50), 0);
-      assert_close(late.extra[0], u * (1 - exp(-t / tau)), TOL(1e-8, 1e-4), 0);
-    }
-  {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input half = fixture_input(&m, 0.5);
-    const pneu_state rest = fixture_rest(&m, 0, 0, &half);
-    assert_close(fixture_look(&m, &rest, &half).opening, 0.5, 0, 0);
-  }
-}
-
-/* Venting takes 1/(1 - r) of the time, filling what it took. */
-static void footprint_vent_restriction(void)
-{
-  const pneu_params base = fixture_vessel(1e-3);
-  pneu_params p = base;
-  fixture_set(&p, "vent_restriction", 0.2);
-  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 0.5).p,
-               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 0.4).p, TOL(0.01, 20), 0);
-  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p,
-               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p, TOL(0.01, 20), 0);
-}
-
-static double break_away(const pneu_params *p)
-{
-  const pneu_model m = fixture_model_roles(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
-  pneu_input input = fixture_input(&m, 0);
-  pneu_state s;
-  fixture_events e;
-  input.pressure_rate = (pneu_real)1e4;
-  s = fixture_rest(&m, 1e5, 0, &input);
-  fixture_run(&m, &s, &input, 2.5, TOL(1e-7, 1e-5), &e);
-  assert_true(e.n > 0);
-  return e.p[0];
-}
-
-static void footprint_stribeck_friction(void)
-{
-  static const double v[] = {1e-4, -1e-3, 3e-3, 0.1};
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  int i;
-  fixture_set(&p, "stribeck_excess", 0.25);
-  fixture_set(&p, "stribeck_velocity", 2e-3);
-  assert_close(break_away(&p), (4e5 * 0.01 + 480 * 1.25) / 0.04, TOL(1e-4, 20), 0);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.01, &input);
-  for (i = 0; i < COUNT(v); i++) {
-    s.v = (pneu_real)v[i];
-    s.mode = v[i] > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
-    assert_close(fixture_look(&m, &s, &input).friction, 480 * (1 + 0.25 * exp(-v[i] * v[i] / 4e-6)), 0,
-                 TOL(1e-13, 1e-6));
-  }
-}
-
-/* A shut vessel off wall temperature: m c_v T' = G (T_w - T) + c (rho/rho_a)^(2/3) |T_w - T|^(4/3). */
-static double warmed(const pneu_params *p, int gas, double T0, double t)
-{
-  const pneu_model m = fixture_model(p, gas, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 0);
-  pneu_state s;
-  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, (pneu_real)T0, 0, &input, &s), PNEU_OK);
-  fixture_run(&m, &s, &input, t, FIXTURE_TOL, NULL);
-  return (double)s.T;
-}
-
-static void footprint_heat_transfer(void)
-{
-  const pneu_params base = fixture_vessel(1e-3);
-  pneu_params p = base;
-  const double R = (double)base.gas_constant, T0 = 250, dT = 298.15 - T0;
-  const double density = (2e5 / (double)base.ambient_pressure + 1) * 298.15 / T0, c = 0.5 * pow(density, 2 / 3.);
-  const double mcv = (2e5 + (double)base.ambient_pressure) * 1e-3 / (R * T0) * R / 0.4;
-  const pneu_state fast = run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 1);
-  pneu_state s;
-  pneu_model m;
-  pneu_input shut;
-  p.polytropic_index = (pneu_real)1.2; /* must not matter */
-  fixture_set(&p, "film_conductance", 2);
-  assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
-  fixture_set(&p, "film_conductance", 0);
-  fixture_set(&p, "film_resistance", 0.5);
-  assert_close(warmed(&p, PNEU_GAS_ISOTHERMAL, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
-  fixture_set(&p, "film_resistance", 0);
-  fixture_set(&p, "free_convection", 0.5);
-  assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - pow(pow(dT, -1 / 3.) + c / (3 * mcv), -3), 0,
-               TOL(1e-9, 1e-5));
-  /* vent fast, shut: the cold gas warms and its pressure rises to p T_w/T */
-  fixture_set(&p, "film_conductance", 2);
-  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  shut = fixture_input(&m, 0);
-  s = fast;
-  fixture_run(&m, &s, &shut, 30, FIXTURE_TOL, NULL);
-  assert_true(fast.T < 280);
-  assert_close((double)s.p + 101325, ((double)fast.p + 101325) * 298.15 / (double)fast.T, 0, TOL(1e-7, 1e-4));
-}
-
-/* A film of the energy law does nothing under the other laws, a resistance nothing under any but the isothermal. */
-static void test_heat_transfer__parameter_of_another_law__does_not_act(void **state)
-{
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  (void)state;
-  if (fixture_effect("heat_transfer") < 0)
-    skip();
-  fixture_set(&p, "film_conductance", 2);
-  fixture_set(&p, "free_convection", 2);
-  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 0);
-  fixture_set(&p, "film_resistance", 0.5);
-  assert_int_equal(fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER).n_active, 0);
-  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 1);
-  p = fixture_params(FIXTURE_R1_400);
-  fixture_set(&p, "film_resistance", 0.5);
-  assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
-}
-
-/* Canudas de Wit 1995: z' = v - |v| z F/F(v) over d, friction F z + s1 d z', here with Stribeck's F(v). */
-static void check_bristle(double v, double z)
-{
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  const double F = 480, d = 2e-5, s1 = 800, excess = fixture_effect("stribeck_friction") < 0 ? 0 : 0.4;
-  const double level = F * (1 + excess * exp(-v * v / 1e-4)), slip = v - fabs(v) * z * F / level;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
-  fixture_set(&p, "presliding_length", d);
-  fixture_set(&p, "bristle_damping", s1);
-  if (excess > 0) {
-    fixture_set(&p, "stribeck_excess", excess);
-    fixture_set(&p, "stribeck_velocity", 1e-2);
-  }
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.012, &input);
-  s.v = (pneu_real)v;
-  s.extra[0] = (pneu_real)z;
-  s.mode = PNEU_MODE_FREE;
-  assert_int_equal(pneu_pack(&m, &s, y), 4);
-  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
-  check_note("v = %g, z = %g", v, z);
-  assert_close(f[1], slip / d, 1e-9, TOL(1e-12, 1e-5));
-  assert_close(f[3], (2e5 * 0.04 - 4e5 * 0.022 - 1500 * v - F * z - s1 * slip) / 2, TOL(1e-9, 1e-2), TOL(1e-12, 1e-5));
-}
-
-static void test_presliding__moving__friction_is_that_of_lugre(void **state)
-{
-  (void)state;
-  if (fixture_effect("presliding") < 0)
-    skip();
-  check_bristle(3e-3, 0.3);
-  check_bristle(-3e-3, 0.3);
-  check_bristle(0.05, -0.8);
-  check_bristle(0, 0.5);
-}
-
-/* Bristles bent on the way down help the stem up from the lower stop: it leaves at k x_0 - F. */
-static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
-{
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  fixture_events e;
-  (void)state;
-  if (fixture_effect("presliding") < 0)
-    skip();
-  fixture_set(&p, "presliding_length", 2e-5);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 1.5e5, 0.004, &input);
-  input.pressure_rate = (pneu_real)-1e5;
-  fixture_run(&m, &s, &input, 1, TOL(1e-7, 1e-4), NULL);
-  assert_int_equal(s.mode, PNEU_MODE_LOWER);
-  input.pressure_rate = (pneu_real)1e5;
-  fixture_run(&m, &s, &input, 0.6, TOL(1e-7, 1e-4), &e);
-  assert_true(e.n > 0 && e.before[0] == PNEU_MODE_LOWER);
-  assert_close(e.p[0], (4e5 * 0.01 - 480) / 0.04, 100, 0);
 }
 
 static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **state)
@@ -498,106 +248,44 @@ static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **st
   assert_close(s.extra[m.state_of[fixture_effect("presliding")]], 1, 0.02, 0);
 }
 
-/* Quasi-static from z = 0: dz/dx = (1 - z)/d, so that x = -d ln(1 - force/F) before break-away. */
-static void footprint_presliding(void)
+/* Slope of the rate of an effect's first state, at z, while the stem slides up. */
+static pneu_real own_slope(const pneu_model *m, int e, pneu_real z, pneu_real step)
 {
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  const double d = 2e-5;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  p.spring_rate = 0;
-  fixture_set(&p, "presliding_length", d);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
-  input = fixture_input(&m, 0);
-  input.pressure_rate = 600;
-  s = fixture_rest(&m, 0, 0.01, &input);
-  fixture_run(&m, &s, &input, 10, TOL(1e-9, 1e-5), NULL);
-  assert_int_equal(s.mode, PNEU_MODE_FREE);
-  assert_close((double)s.x - 0.01, -d * log(1 - 6000 * 0.04 / 480), 0, TOL(0.01, 0.05));
-  fixture_run(&m, &s, &input, 15, TOL(1e-9, 1e-5), NULL);
-  assert_true((double)s.x > 0.0105);
+  const pneu_input input = fixture_input(m, 0.5);
+  pneu_state s = fixture_rest(m, 1e5, 0.01, &input);
+  pneu_real y[PNEU_STATE_MAX], f0[PNEU_STATE_MAX], f1[PNEU_STATE_MAX], jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
+  const int at = 1 + m->thermal + m->state_of[e];
+  s.v = (pneu_real)0.003;
+  s.mode = m->bristle ? PNEU_MODE_FREE : PNEU_MODE_UP;
+  s.extra[m->state_of[e]] = z;
+  pneu_pack(m, &s, y);
+  assert_int_equal(pneu_rhs(m, &s, &input, y, f0), PNEU_OK);
+  if (step == 0) {
+    assert_int_equal(pneu_jacobian(m, &s, &input, y, f0, jac), PNEU_OK);
+    return jac[at][at];
+  }
+  y[at] += step;
+  assert_int_equal(pneu_rhs(m, &s, &input, y, f1), PNEU_OK);
+  return (f1[at] - f0[at]) / step;
 }
 
-static const struct {
-  const char *name;
-  void (*check)(void);
-} footprints[] = {
-    {"chamber_leak", footprint_chamber_leak},           {"choked_flow", footprint_choked_flow},
-    {"heat_transfer", footprint_heat_transfer},         {"presliding", footprint_presliding},
-    {"stribeck_friction", footprint_stribeck_friction}, {"supply_droop", footprint_supply_droop},
-    {"transducer_lag", footprint_transducer_lag},       {"vent_restriction", footprint_vent_restriction},
-};
-
-static void footprint(const char *name)
+/* Rates are linear in the effects' own states, but for the tube's, which is never near zero. */
+static void test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere(void **state)
 {
-  int i;
-  if (fixture_effect(name) < 0)
-    skip();
-  check_note("%s", name);
-  for (i = 0; i < COUNT(footprints); i++)
-    if (strcmp(footprints[i].name, name) == 0)
-      footprints[i].check();
-}
-
-static void test_effects_def__each_effect__has_a_footprint_test(void **state)
-{
-  int e, i, found;
+  int e, gas, k;
   (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
-    for (i = found = 0; i < COUNT(footprints); i++)
-      found += strcmp(footprints[i].name, names[e]) == 0;
-    if (!found)
-      fail_msg("no footprint test for %s", names[e]);
+    static const double z[] = {0, 1e-7, 0.3};
+    pneu_params p = ground(e, &gas);
+    pneu_model m;
+    fixture_set(&p, pneu_effect_at(e)->param[0].name, (double)pneu_effect_at(e)->param[0].value);
+    m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+    for (k = 0; k < COUNT(z) && m.n_extra > 0 && strcmp(names[e], "connecting_tube") != 0; k++) {
+      check_note("%s at %g", names[e], z[k]);
+      assert_close(own_slope(&m, e, (pneu_real)z[k], 0), own_slope(&m, e, (pneu_real)z[k], (pneu_real)0.125), 0,
+                   TOL(1e-6, 5e-3));
+    }
   }
-}
-
-static void test_chamber_leak__shut_vessel__loses_pressure_as_a_choked_blowdown(void **state)
-{
-  (void)state;
-  footprint("chamber_leak");
-}
-
-static void test_choked_flow__share__mixes_the_laws(void **state)
-{
-  (void)state;
-  footprint("choked_flow");
-}
-
-static void test_heat_transfer__shut_vessel__levels_temperature_and_pressure_recovers(void **state)
-{
-  (void)state;
-  footprint("heat_transfer");
-}
-
-static void test_presliding__before_break_away__stem_moves_by_micrometres(void **state)
-{
-  (void)state;
-  footprint("presliding");
-}
-
-static void test_stribeck_friction__at_rest_and_sliding__raises_the_level_as_declared(void **state)
-{
-  (void)state;
-  footprint("stribeck_friction");
-}
-
-static void test_supply_droop__filling__is_slowed_and_venting_is_not(void **state)
-{
-  (void)state;
-  footprint("supply_droop");
-}
-
-static void test_transducer_lag__vessel__runs_late_by_the_integral_of_the_lag(void **state)
-{
-  (void)state;
-  footprint("transducer_lag");
-}
-
-static void test_vent_restriction__venting__takes_longer_and_filling_does_not(void **state)
-{
-  (void)state;
-  footprint("vent_restriction");
 }
 
 /* ---- all at once ---- */
@@ -616,10 +304,10 @@ static void test_pneu_run__all_effects_together__stays_physical(void **state)
     assert_true(n >= 305);
     for (i = 0; i < n; i++) {
       assert_between(s[i].p, -1e3, 4.01e5);
-      assert_between(s[i].x, -1e-6, 0.02 + 1e-6);
+      assert_between(s[i].x, -5e-5, 0.02 + 2e-4); /* stops yield */
       assert_between(s[i].T, 150, 600);
     }
-    assert_between(s[150].x, 0.015, 0.02 + 1e-6);
+    assert_between(s[150].x, 0.015, 0.02 + 2e-4);
   }
 }
 
@@ -632,21 +320,10 @@ int main(void)
 #ifndef PNEU_SINGLE
       cmocka_unit_test(test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model),
 #endif
-      cmocka_unit_test(test_pneu_run__effect_of_mass_energy_or_command__leaves_the_force_balance),
+      cmocka_unit_test(test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance),
       cmocka_unit_test(test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas),
-      cmocka_unit_test(test_effects_def__each_effect__has_a_footprint_test),
-      cmocka_unit_test(test_chamber_leak__shut_vessel__loses_pressure_as_a_choked_blowdown),
-      cmocka_unit_test(test_choked_flow__share__mixes_the_laws),
-      cmocka_unit_test(test_heat_transfer__shut_vessel__levels_temperature_and_pressure_recovers),
-      cmocka_unit_test(test_presliding__before_break_away__stem_moves_by_micrometres),
-      cmocka_unit_test(test_stribeck_friction__at_rest_and_sliding__raises_the_level_as_declared),
-      cmocka_unit_test(test_supply_droop__filling__is_slowed_and_venting_is_not),
-      cmocka_unit_test(test_transducer_lag__vessel__runs_late_by_the_integral_of_the_lag),
-      cmocka_unit_test(test_vent_restriction__venting__takes_longer_and_filling_does_not),
-      cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
-      cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
-      cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
       cmocka_unit_test(test_pneu_run__two_effects_with_states__each_keeps_its_own),
+      cmocka_unit_test(test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere),
       cmocka_unit_test(test_pneu_run__all_effects_together__stays_physical),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,13 +10,13 @@
 typedef struct lab_experiment {
   const lab_rig *rig;
   const lab_log *log;
-  size_t run, first, n;             /* run of the log, its first row, its rows */
-  int n_channels;                   /* measured channels that the model predicts */
-  int channel[LAB_CHANNEL_COUNT];   /* enum lab_channel of each */
-  double sigma[LAB_CHANNEL_COUNT];  /* their noise, SI */
-  lab_drive drive;                  /* schedule of inputs, as the log shows them */
-  size_t n_switches;                /* changes of the command whose instant the log brackets; 0 if other inputs change */
-  double *bracket;                  /* [s] n_switches: time from the row before each change to the row that shows it */
+  size_t run, first, n;            /* run of the log, its first row, its rows */
+  int n_channels;                  /* measured channels that the model predicts */
+  int channel[LAB_CHANNEL_COUNT];  /* enum lab_channel of each */
+  double sigma[LAB_CHANNEL_COUNT]; /* their noise, SI */
+  lab_drive drive;                 /* schedule of inputs, as the log shows them */
+  size_t n_switches;               /* changes of the command whose instant the log brackets; 0 if other inputs change */
+  double *bracket;                 /* [s] n_switches: time from the row before each change to the row that shows it */
 } lab_experiment;
 
 /* Prepare a run. Noise that the rig does not declare is estimated (noise.h).

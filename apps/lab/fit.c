@@ -15,6 +15,7 @@ void lab_fit_options_default(lab_fit_options *options)
   options->threads = 1;
   options->search_count = 8;
   options->polish_count = 200;
+  options->chi2_exact = 1e-10;
   options->precision = 1e-10;
 }
 

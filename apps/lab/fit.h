@@ -54,12 +54,13 @@ enum lab_fit_search {
 };
 
 typedef struct lab_fit_options {
-  int search;       /* enum lab_fit_search */
-  int starts;       /* 1: param.start alone; more: also points spread evenly over the box (Halton) */
-  int threads;      /* 1 .. ; over starts */
-  int search_count; /* evaluations of the search per start and parameter */
-  int polish_count; /* evaluations of Levenberg-Marquardt per start and parameter */
-  double precision; /* relative precision of the residuals; the step of the differences is its cube root */
+  int search;        /* enum lab_fit_search */
+  int starts;        /* 1: param.start alone; more: also points spread evenly over the box (Halton) */
+  int threads;       /* 1 .. ; over starts */
+  int search_count;  /* evaluations of the search per start and parameter */
+  int polish_count;  /* evaluations of Levenberg-Marquardt per start and parameter */
+  double chi2_exact; /* relative change of the sum of squares at which the polish ends */
+  double precision;  /* relative precision of the residuals; the step of the differences is its cube root */
 } lab_fit_options;
 
 enum lab_fit_state {

@@ -79,7 +79,8 @@ static int finish_of(int info)
 /* One run of lmder from s->z. */
 static int levenberg_marquardt(polish *s, double *memory)
 {
-  static const double ftol = 1e-10, xtol = 1e-9, gtol = 0, factor = 100;
+  static const double xtol = 1e-9, gtol = 0, factor = 100;
+  const double ftol = s->run->options->chi2_exact;
   enum { SCALE_BY_COLUMNS = 1, NO_PRINT = 0 };
   const int m = (int)s->run->problem->m, k = s->k;
   double z[LAB_FIT_MAX], diag[LAB_FIT_MAX], qtf[LAB_FIT_MAX], work[3][LAB_FIT_MAX];

@@ -133,8 +133,7 @@ static void note_alike(const lab_trace_result *trace, const refit *leader, int n
   int i;
   for (i = 1; i < n; i++) {
     const lab_candidate *c = &trace->candidate[leader[i].candidate];
-    const double likeness =
-        lab_trace_likeness(trace, leader[0].u.n_data, leader[0].candidate, leader[i].candidate);
+    const double likeness = lab_trace_likeness(trace, leader[0].u.n_data, leader[0].candidate, leader[i].candidate);
     if (c->effect != found->effect && likeness > alike_cosine && bic(&leader[i]) - bic(&leader[0]) < alike_chi2)
       found->alike[found->n_alike++] = c->effect;
   }
@@ -194,9 +193,11 @@ static int add_one(lab_unknowns *u, const lab_loop_options *options, lab_loop_re
 
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error)
 {
+  const lab_fit_result fit = result->fit;
   int added = 1;
   memset(result, 0, sizeof *result);
-  if (lab_unknowns_fit(u, &result->fit, error) || lab_loop_errors(u, &result->before, error))
+  result->fit = fit;
+  if (lab_loop_errors(u, &result->before, error))
     return error->status;
   while (added && result->n_found < options->max_effects)
     if (add_one(u, options, result, &added, error))

@@ -17,10 +17,10 @@ typedef struct lab_loop_options {
 
 /* An effect that was added. */
 typedef struct lab_found {
-  int effect, param, shape;  /* shape: -1 if none */
+  int effect, param, shape; /* shape: -1 if none */
   double statistic, p_value, explained;
   double chi2_before, chi2_after; /* of the data */
-  int n_alike;               /* effects that the log cannot tell from it */
+  int n_alike;                    /* effects that the log cannot tell from it */
   int alike[LAB_TRACE_MAX];
 } lab_found;
 
@@ -33,23 +33,24 @@ typedef struct lab_errors {
 } lab_errors;
 
 typedef struct lab_loop_result {
-  int verdict;                       /* enum lab_verdict */
+  int verdict; /* enum lab_verdict */
   int n_found;
   lab_found found[LAB_LOOP_EFFECTS];
   lab_errors before, after;
-  lab_fit_result fit;                /* of the final model */
-  lab_trace_result trace;            /* of the declared model: what was tried; to be closed */
-  int n_listed;                      /* effects that are significant but gain less than min_gain */
+  lab_fit_result fit;     /* of the final model */
+  lab_trace_result trace; /* of the declared model: what was tried; to be closed */
+  int n_listed;           /* effects that are significant but gain less than min_gain */
   int listed[LAB_TRACE_MAX];
-  double level;                      /* p-value that a single candidate has to pass */
+  double level; /* p-value that a single candidate has to pass */
 } lab_loop_result;
 
 /* alpha 0.01, min_gain 0.02, three effects. */
 void lab_loop_options_default(lab_loop_options *options);
 
 /* Run the loop.
- * In/out:  u       declared model; then the completed one
- * Out:     result  to be closed with lab_loop_close, also after an error
+ * In/out:  u       declared model, fitted; then the completed one
+ *          result  fit: of the declared model
+ * Out:     result  the rest; to be closed with lab_loop_close, also after an error
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error);
 void lab_loop_close(lab_loop_result *result);

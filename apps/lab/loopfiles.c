@@ -196,10 +196,11 @@ int lab_story_header(const lab_story *story, const char *folder, lab_error *erro
   int i;
   if (open_in(folder, "model.h", &out, error))
     return error->status;
-  fprintf(out.file,
-          "/* The completed model of %s, by closeloop; for libpneu " PNEU_VERSION " with its whole catalogue.\n"
-          " * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */\n#define MODEL_PARAMS \\\n  { \\\n",
-          story->rig->name);
+  fprintf(
+      out.file,
+      "/* The completed model of %s, by closeloop; for libpneu " PNEU_VERSION " with its whole catalogue.\n"
+      " * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */\n#define MODEL_PARAMS \\\n  { \\\n",
+      story->rig->name);
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
@@ -209,9 +210,8 @@ int lab_story_header(const lab_story *story, const char *folder, lab_error *erro
             (double)*pneu_param_at(&params, i), info.name, info.unit);
   }
   fprintf(out.file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n",
-          story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input,
-          story->rig->laws.position_input, pneu_gas_key(story->rig->laws.gas),
-          pneu_flow_key(story->rig->laws.flow));
+          story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input, story->rig->laws.position_input,
+          pneu_gas_key(story->rig->laws.gas), pneu_flow_key(story->rig->laws.flow));
   return lab_out_close(&out, error);
 }
 
@@ -279,12 +279,14 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
   size_t used = 0;
   int i;
   if (r->n_found == 0) {
-    snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise.", before);
+    snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise.",
+             before);
     return;
   }
   used += (size_t)snprintf(text, size, "The model lacks ");
   for (i = 0; i < r->n_found && used < size; i++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "", pneu_effect_at(r->found[i].effect)->name);
+    used +=
+        (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "", pneu_effect_at(r->found[i].effect)->name);
   if (used < size)
     snprintf(text + used, size - used, ": with it the error falls from %.2f to %.2f times the noise.", before, after);
 }

@@ -133,35 +133,139 @@ static int run_schedule(engine *e, const pneu_model *model, const pneu_state *st
   return status;
 }
 
+/* ---- Delays ---- */
+
+static int same(const pneu_input *a, const pneu_input *b)
+{
+  return a->u == b->u && a->supply_pressure == b->supply_pressure && a->force == b->force &&
+         a->pressure_rate == b->pressure_rate && a->position_rate == b->position_rate;
+}
+
+/* The schedule with commands that act late, the other inputs in time.  Out: late, of 2 n rows at most */
+static void delay_commands(const lab_schedule *s, double delay, double *t, pneu_input *input, lab_schedule *late)
+{
+  size_t prompt = 0, acting = 0, n = 0; /* the row whose inputs, and the one whose command hold */
+  for (;;) {
+    const double next = prompt + 1 < s->n ? s->t[prompt + 1] : (double)INFINITY;
+    const double next_command = acting + 1 < s->n ? s->t[acting + 1] + delay : (double)INFINITY;
+    input[n] = s->input[prompt];
+    input[n].u = s->input[acting].u;
+    if (n == 0 || !same(&input[n], &input[n - 1])) {
+      t[n] = n == 0 ? s->t[0] : fmax(s->t[prompt], acting > 0 ? s->t[acting] + delay : s->t[0]);
+      n++;
+    }
+    if (next == (double)INFINITY && next_command == (double)INFINITY)
+      break;
+    prompt += next <= next_command;
+    acting += next_command <= next;
+  }
+  late->n = n;
+  late->t = t;
+  late->input = input;
+}
+
+/* Commands as given, over the samples. */
+static void show_commands(const lab_schedule *s, lab_trace *trace)
+{
+  size_t i, row = 0;
+  for (i = 0; i < trace->n; i++) {
+    while (row + 1 < s->n && s->t[row + 1] <= trace->t[i])
+      row++;
+    trace->u[i] = (double)s->input[row].u;
+  }
+}
+
+static void record_position(void *context, size_t i, const pneu_state *state, const pneu_input *input)
+{
+  recorder *r = context;
+  pneu_output out;
+  memset(&out, 0, sizeof out);
+  pneu_observe(r->model, state, input, &out);
+  r->trace->x[i] = (double)out.shown_position;
+}
+
+/* One pass through the schedule: samples at t - skew, handed to `take`. */
+static int pass(engine *e, const pneu_model *model, const pneu_state *start, const lab_schedule *schedule, double t_end,
+                double skew, void (*take)(void *, size_t, const pneu_state *, const pneu_input *), lab_trace *trace,
+                lab_error *error)
+{
+  recorder r = {trace, model};
+  lab_sampler sampler = {0};
+  double *t = NULL;
+  size_t i;
+  int status;
+  sampler.model = model;
+  sampler.take = take;
+  sampler.context = &r;
+  if (trace) {
+    if (!(t = malloc((trace->n ? trace->n : 1) * sizeof *t)))
+      return lab_fail_memory(error, "a response");
+    for (i = 0; i < trace->n; i++)
+      t[i] = trace->t[i] - skew;
+    sampler.t = t;
+    sampler.n = trace->n;
+  }
+  status = run_schedule(e, model, start, schedule, t_end, &sampler, error);
+  free(t);
+  return status;
+}
+
+/* Pressure and the rest in one pass; position, where it is skewed, in another. */
+static int passes(engine *e, const pneu_model *model, const pneu_state *start, const lab_schedule *schedule,
+                  double t_end, lab_trace *trace, lab_error *error)
+{
+  const double skew = (double)model->position_skew;
+  int status = pass(e, model, start, schedule, t_end, 0, record, trace, error);
+  if (status == LAB_OK && trace && skew != 0)
+    status = pass(e, model, start, schedule, skew < 0 ? t_end - skew : t_end, skew, record_position, trace, error);
+  return status;
+}
+
+/* The passes with commands that act late. */
+static int delayed_passes(engine *e, const pneu_model *model, const pneu_state *start, const lab_schedule *schedule,
+                          double t_end, lab_trace *trace, lab_error *error)
+{
+  lab_schedule late;
+  double *t = malloc(2 * schedule->n * sizeof *t);
+  pneu_input *input = malloc(2 * schedule->n * sizeof *input);
+  int status = LAB_OK;
+  if (!t || !input) {
+    status = lab_fail_memory(error, "a schedule");
+  } else {
+    delay_commands(schedule, (double)model->command_delay, t, input, &late);
+    status = passes(e, model, start, &late, t_end, trace, error);
+  }
+  if (status == LAB_OK && trace)
+    show_commands(schedule, trace);
+  free(t);
+  free(input);
+  return status;
+}
+
 int lab_respond(const pneu_model *model, const pneu_state *start, const lab_schedule *schedule, const double *t,
                 size_t n, const lab_response_options *options, lab_trace *trace, pneu_stats *stats, lab_error *error)
 {
   engine e;
-  recorder r;
-  lab_sampler sampler = {0};
-  int status = options->count_only ? LAB_OK : trace_allocate(trace, n, error);
-  if (status != LAB_OK)
-    return status;
+  int status;
+  if (options->count_only)
+    trace = NULL;
+  if (trace && trace_allocate(trace, n, error))
+    return error->status;
   memset(&e.work, 0, sizeof e.work);
   e.tol = options->tol;
   e.cvode = options->integrator == LAB_CVODE ? lab_cvode_new() : NULL;
   if (options->integrator == LAB_CVODE && !e.cvode)
-    return lab_fail_memory(error, "CVODE");
-  r.trace = trace;
-  r.model = model;
-  sampler.model = model;
-  sampler.take = record;
-  sampler.context = &r;
-  if (!options->count_only) {
-    memcpy(trace->t, t, n * sizeof *t);
-    sampler.t = t;
-    sampler.n = n;
+    status = lab_fail_memory(error, "CVODE");
+  else {
+    if (trace)
+      memcpy(trace->t, t, n * sizeof *t);
+    status = (model->command_delay > 0 && schedule->n > 1 ? delayed_passes : passes)(&e, model, start, schedule,
+                                                                                     options->t_end, trace, error);
   }
-  status = run_schedule(&e, model, start, schedule, options->t_end, &sampler, error);
   lab_cvode_free(e.cvode);
   if (stats)
     *stats = e.work.stats;
-  if (status != LAB_OK && !options->count_only)
+  if (status != LAB_OK && trace)
     lab_trace_free(trace);
   return status;
 }

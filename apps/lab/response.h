@@ -19,7 +19,7 @@ typedef struct lab_schedule {
 typedef struct lab_trace {
   size_t n;
   double *t;        /* [s] */
-  double *u;        /* [1] command */
+  double *u;        /* [1] command as given, before any delay */
   double *p;        /* [Pa] gauge, as its sensor shows it; x and T likewise */
   double *x;        /* [m] */
   double *v;        /* [m/s] */
@@ -42,7 +42,9 @@ typedef struct lab_response_options {
   int count_only; /* not 0: no samples, statistics only (trace may be NULL) */
 } lab_response_options;
 
-/* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run).
+/* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run). Commands act
+ * model->command_delay after they are given, but for the first, which has been acting; positions are those of
+ * model->position_skew before.
  * Out:     trace  allocated; free with lab_trace_free
  *          stats  may be NULL
  * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */

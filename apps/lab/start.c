@@ -80,9 +80,9 @@ static double net_force(const pneu_model *model, const pneu_input *input, double
 /* Position that the balance of forces asks for. */
 static double balanced_position(const pneu_model *model, const pneu_input *input, double p)
 {
-  const double stroke = (double)model->p.stroke, force = net_force(model, input, p, 0);
-  double x = (double)model->p.spring_rate > 0 ? force / (double)model->p.spring_rate : force > 0 ? stroke : 0;
-  return fmin(fmax(x, 0), stroke);
+  const double travel = (double)model->travel, force = net_force(model, input, p, 0);
+  double x = (double)model->p.spring_rate > 0 ? force / (double)model->p.spring_rate : force > 0 ? travel : 0;
+  return fmin(fmax(x, 0), travel);
 }
 
 /* Pressure that holds the stem where it is seen: none on the lower stop, the supply on the upper one while the
@@ -92,7 +92,7 @@ static double balanced_pressure(const pneu_model *model, const pneu_input *input
   const double near = 0.02 * (double)model->p.stroke;
   if (!(x > near))
     return 0;
-  if (x > (double)model->p.stroke - near && input->u > 0)
+  if (x > (double)model->travel - near && input->u > 0)
     return (double)input->supply_pressure;
   return -net_force(model, input, 0, x) / (double)model->p.area;
 }
@@ -100,12 +100,12 @@ static double balanced_pressure(const pneu_model *model, const pneu_input *input
 /* A stem seen within 2 % of stroke of a stop, and pushed that way, stands on it. */
 static double on_stop(const pneu_model *model, const pneu_input *input, double p, double x)
 {
-  const double stroke = (double)model->p.stroke, near = 0.02 * stroke;
+  const double travel = (double)model->travel, near = 0.02 * (double)model->p.stroke;
   if (x < near && net_force(model, input, p, 0) < 0)
     return 0;
-  if (x > stroke - near && net_force(model, input, p, stroke) > 0)
-    return stroke;
-  return fmin(fmax(x, 0), stroke);
+  if (x > travel - near && net_force(model, input, p, travel) > 0)
+    return travel;
+  return fmin(fmax(x, 0), travel);
 }
 
 static int rest(const pneu_model *model, const pneu_input *input, const struct seen *seen, pneu_state *state)

@@ -15,8 +15,8 @@ static const double invisible = 1e-6; /* share of a slope below which it counts 
 typedef struct scan {
   lab_unknowns *u;
   size_t m;
-  double *r;       /* residual */
-  double *basis;   /* n_basis orthonormal columns that span J */
+  double *r;     /* residual */
+  double *basis; /* n_basis orthonormal columns that span J */
   int n_basis;
   double excess;
 } scan;

@@ -15,9 +15,9 @@ enum { LAB_TRACE_MAX = 64 };
 
 /* One way in which something may be missing. */
 typedef struct lab_candidate {
-  int effect;        /* index of the effect */
-  int param;         /* its parameter that is not neutral, as in pneu_param_describe */
-  int shape;         /* its shape parameter, -1 if none */
+  int effect; /* index of the effect */
+  int param;  /* its parameter that is not neutral, as in pneu_param_describe */
+  int shape;  /* its shape parameter, -1 if none */
   double shape_value;
   double size;       /* by which the parameter would have to leave neutral, by the slope */
   double statistic;  /* T; 0 where the sign is impossible or the log does not see it */
@@ -28,10 +28,10 @@ typedef struct lab_candidate {
 } lab_candidate;
 
 typedef struct lab_trace_result {
-  int n;                 /* candidates, largest statistic first */
+  int n; /* candidates, largest statistic first */
   lab_candidate candidate[LAB_TRACE_MAX];
-  int tests;             /* slopes tried in all */
-  double chi2, excess;   /* of the data; what is beyond its expectation */
+  int tests;           /* slopes tried in all */
+  double chi2, excess; /* of the data; what is beyond its expectation */
 } lab_trace_result;
 
 /* Try every effect that the model does not have.

@@ -251,6 +251,7 @@ int lab_unknowns_fit(lab_unknowns *u, lab_fit_result *result, lab_error *error)
   }
   lab_fit_options_default(&options);
   options.search = LAB_FIT_POLISH_ONLY;
+  options.chi2_exact = 1e-6; /* 0.01 of chi-square for ten thousand values: far below what decides anything */
   if (lab_fit_run(&problem, &options, result, error))
     return error->status;
   for (j = 0; j < u->n; j++)

@@ -218,6 +218,8 @@ static int makes_it_alone(const lab_rig *rig, const removal *cause, double base,
 
 static const char *verdict(const study *s, const lab_rig *rig, const removal *cause, double base, double without)
 {
+  if (fabs(without - base) < 1e-6 * base)
+    return "not confirmed: nothing to take away";
   if (!(without < s->confirmed_below * base))
     return "not confirmed";
   return makes_it_alone(rig, cause, base, s->confirmed_below) ? "confirmed"

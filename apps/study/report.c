@@ -109,27 +109,45 @@ static int verdicts(const study *s, FILE *file, lab_error *error)
   return error->status;
 }
 
-static int attribution(const study *s, FILE *file, lab_error *error)
+static int attribution_rows(const study *s, FILE *file, int actuator, lab_error *error)
 {
+  const char *name = s->actuator[actuator].name;
+  char path[LAB_NAME_TEXT + 32] = "attribution.csv";
   table t;
   size_t row;
-  if (table_load(s, "attribution.csv", &t, error) == LAB_OK) {
-    fputs(
-        "## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
-        "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
-        "A negative share makes the strokes more alike.\nCauses that bend the strokes in opposite ways hide each "
-        "other: \"alone\" has the cause as the only one present, \"without\" as the only one "
-        "removed.\n\n![Shares of the causes](attribution.svg)\n\n"
-        "| chamber law | cause | share | Shapley value | alone | without |\n|---|---|---|---|---|---|\n",
-        file);
+  if (actuator != s->subject)
+    snprintf(path, sizeof path, "attribution_%s.csv", name);
+  if (table_load(s, path, &t, error) == LAB_OK)
     for (row = 0; row < table_rows(&t); row++)
-      fprintf(file, "| %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", table_text(&t, row, "gas"),
+      fprintf(file, "| %s | %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, table_text(&t, row, "gas"),
               table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
               table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
-    fputc('\n', file);
-  }
   table_close(&t);
   return error->status;
+}
+
+static int attribution(const study *s, FILE *file, lab_error *error)
+{
+  int a;
+  fputs(
+      "## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
+      "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
+      "A negative share makes the strokes more alike.\nCauses that bend the strokes in opposite ways hide each other: "
+      "\"alone\" has the cause as the only one present, \"without\" as the only one removed.\n\n"
+      "![Shares of the causes](attribution.svg)\n\n| actuator | chamber law | cause | share | Shapley value | alone | "
+      "without |\n|---|---|---|---|---|---|---|\n",
+      file);
+  for (a = 0; a < s->n_actuators; a++)
+    if (attribution_rows(s, file, a, error))
+      return error->status;
+  fputc('\n', file);
+  return LAB_OK;
+}
+
+/* "holds when ..." is too long for a column; the condition is in the table. */
+static const char *short_verdict(const char *verdict)
+{
+  return !strncmp(verdict, "holds when", 10) ? "holds when ..." : verdict;
 }
 
 static int conclusions(const study *s, FILE *file, lab_error *error)
@@ -138,7 +156,8 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
   size_t row;
   table t;
   if (table_load(s, "conclusions.csv", &t, error) == LAB_OK) {
-    fputs("## Eighteen conclusions\n\nEvidence for each in [conclusions.csv](conclusions.csv).\n\n| conclusion |",
+    fputs("## Eighteen conclusions\n\nThe conditions of \"holds when\" and the evidence for each are in "
+          "[conclusions.csv](conclusions.csv).\n\n| conclusion |",
           file);
     law_heads(s, file);
     rule(file, 1 + s->n_gas * s->n_flow);
@@ -149,7 +168,7 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
           for (row = 0; row < table_rows(&t); row++)
             if (atoi(table_text(&t, row, "conclusion")) == i &&
                 row_is(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
-              fprintf(file, " %s |", table_text(&t, row, "verdict"));
+              fprintf(file, " %s |", short_verdict(table_text(&t, row, "verdict")));
       fputc('\n', file);
     }
     fputc('\n', file);
@@ -163,8 +182,8 @@ static void disagreement_line(FILE *file, const table *t, size_t row)
   const char *unit = table_text(t, row, "unit");
   if (!strcmp(unit, "1"))
     unit = "";
-  fprintf(file, "| %s | %s | %.4g %s | %.4g %s | %s |\n", table_text(t, row, "item"), table_text(t, row, "quantity"),
-          table_number(t, row, "printed"), unit, table_number(t, row, "computed"), unit, table_text(t, row, "note"));
+  fprintf(file, "| %s | %.4g %s | %.4g %s | %s |\n", table_text(t, row, "item"), table_number(t, row, "printed"), unit,
+          table_number(t, row, "computed"), unit, table_text(t, row, "note"));
 }
 
 /* Numbers that the paper prints and that differ from ours. */
@@ -181,7 +200,7 @@ static int disagreements(const study *s, FILE *file, lab_error *error)
         file,
         "## Where the paper and its equations disagree\n\n%lu of %lu statements that can be recomputed do not agree "
         "([paper_numbers.csv](paper_numbers.csv)). Those with a number in print:\n\n"
-        "| item | quantity | printed | computed | note |\n|---|---|---|---|---|\n",
+        "| item | printed | computed | why |\n|---|---|---|---|\n",
         (unsigned long)wrong, (unsigned long)printed);
     for (row = 0; row < table_rows(&t); row++)
       if (!strcmp(table_text(&t, row, "agrees"), "no") && *table_text(&t, row, "printed"))

@@ -26,10 +26,8 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   const pneu_params *p = &t->model->p;
   const pneu_real dT = p->ambient_temperature - t->T;
   const pneu_real density = t->p * p->ambient_temperature / (p->ambient_pressure * t->T); /* over ambient */
-  pneu_real conductance = param[CONDUCTANCE];
+  pneu_real conductance = t->model->law.gas == PNEU_GAS_ISOTHERMAL ? 1 / param[RESISTANCE] : param[CONDUCTANCE];
   (void)state, (void)rate;
-  if (param[RESISTANCE] > 0)
-    conductance += 1 / param[RESISTANCE];
   if (param[FREE] > 0)
     conductance += param[FREE] * PNEU_M(cbrt)(density * density * PNEU_M(fabs)(dT));
   t->film += conductance;

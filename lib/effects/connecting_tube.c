@@ -1,0 +1,68 @@
+/* A tube between transducer and chamber, as a volume V_t next to the transducer and then a restriction:
+ * p_t' = R T_a/V_t (q_transducer - q), q = (p_t - p)/R_t into the chamber. Air in the tube has ambient temperature.
+ * Air passes the end of the tube both ways while the pressures differ by less than a millionth of the supply's: a stiff
+ * flow whose temperature changed at a point would hold the steps short at every rest.
+ * The state is p_t over the absolute supply pressure. R_t counts as 1e4 Pa s/kg at least (10 Pa at 1 g/s): with less
+ * the two pressures are one to rounding, and the equations stiff for nothing. Size: 12.6 mL/m and 128 mu L/(pi rho d^4)
+ * = 8e5 Pa s/kg per metre of 4 mm bore at 3 bar; bends and fittings add to it.
+ */
+#include "../internal.h"
+
+#define LEAST  PNEU_C(1e4)  /* [Pa s/kg] */
+#define MIXING PNEU_C(1e-6) /* share of full pressure */
+
+enum { RESISTANCE, VOLUME };
+
+static const pneu_param_info params[] = {
+    {"tube_resistance", "Pa.s/kg", 0, PNEU_C(1e12), PNEU_C(1e7), 0, 0, "pressure lost along the tube per mass flow"},
+    {"tube_volume", "m3", PNEU_C(1e-9), PNEU_C(1.0), PNEU_C(2e-5), PNEU_C(2e-5), 1, "volume of the tube"}};
+
+/* What the transducer adds when it faces pressure p and air at temperature T: the sums, and nothing else, are its own.
+ */
+static void transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
+{
+  const pneu_real p_chamber = t->p, T_chamber = t->T;
+  t->mass_in = t->mass_out = t->mass_in_T = 0;
+  t->choked = 0;
+  t->p = p;
+  t->T = T;
+  pneu_transducer_flow(t);
+  t->p = p_chamber;
+  t->T = T_chamber;
+}
+
+static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+{
+  const pneu_params *p = &t->model->p;
+  const pneu_real scale = t->model->scale[0], p_tube = state[0] * scale;
+  const pneu_real conductance = 1 / PNEU_M(fmax)(param[RESISTANCE], LEAST);
+  const pneu_real q = (p_tube - t->p) * conductance, mixing = MIXING * scale * conductance;
+  rate[0] = 0;
+  if (t->model->law.pressure_input)
+    return;
+  transducer_at(t, p_tube, p->ambient_temperature);
+  rate[0] = p->gas_constant * p->ambient_temperature / (param[VOLUME] * scale) * (t->mass_in - t->mass_out - q);
+  t->mass_in = (q + PNEU_M(sqrt)(q * q + mixing * mixing)) / 2;
+  t->mass_out = t->mass_in - q;
+  t->mass_in_T = t->mass_in * p->ambient_temperature;
+}
+
+static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
+{
+  (void)param;
+  state[0] = t->p / t->model->scale[0];
+}
+
+const pneu_effect pneu_effect_record_connecting_tube = {
+    "connecting_tube",
+    "A tube between transducer and chamber stores air and resists its flow.",
+    "Iberall 1950, J. Res. NBS 45:85 (RP2115), lumped into one volume and one resistance",
+    "mass",
+    "pressure starts late and rounded after every change of command, and flow near equal pressures is too slow both "
+    "ways",
+    PNEU_STAGE_LINE,
+    params,
+    add,
+    start,
+    NULL,
+    NULL};

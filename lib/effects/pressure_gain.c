@@ -1,0 +1,26 @@
+/* The pressure sensor is off in proportion: (1 + g) times what it follows. */
+#include "../internal.h"
+
+enum { GAIN };
+
+static const pneu_param_info params[] = {{"pressure_gain", "1", PNEU_C(-0.9), PNEU_C(10.0), PNEU_C(0.02), 0, 0,
+                                          "what the sensor shows too much, over the true value"}};
+
+static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+{
+  (void)state, (void)rate;
+  t->p_shown *= 1 + param[GAIN];
+}
+
+const pneu_effect pneu_effect_record_pressure_gain = {
+    "pressure_gain",
+    "The pressure sensor shows too much in proportion.",
+    "gain fault of a sensor: DAMADICS f13 (Bartys et al. 2006, Control Eng. Practice 14:577)",
+    "sensor",
+    "shown pressure is off in proportion to itself; position is right",
+    PNEU_STAGE_GAIN,
+    params,
+    add,
+    NULL,
+    NULL,
+    NULL};

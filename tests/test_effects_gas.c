@@ -1,0 +1,395 @@
+/* Effects on mass, energy and command: what each does to a vessel or a stroke. */
+#include "footprint.h"
+
+/* ---- mass ---- */
+
+static pneu_state run_vessel(const pneu_params *p, int gas, int flow, double from, double u, double time)
+{
+  const pneu_model m = fixture_model(p, gas, flow);
+  const pneu_input shut = fixture_input(&m, 0), input = fixture_input(&m, u);
+  pneu_state s = fixture_rest(&m, from, 0, &shut);
+  fixture_run(&m, &s, &input, time, FIXTURE_TOL, NULL);
+  return s;
+}
+
+/* Choked leak from a shut isothermal vessel: exponential at the rate of its area. */
+static void footprint_chamber_leak(void)
+{
+  pneu_params p = fixture_vessel(1e-4);
+  const double g = 1.4, R = (double)p.gas_constant, T = 298.15, pa = (double)p.ambient_pressure;
+  const double c = sqrt(g / R) * pow(2 / (g + 1), (g + 1) / (2 * (g - 1)));
+  pneu_state s;
+  fixture_set(&p, "leak_area", 2e-8);
+  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 5e5, 0, 10);
+  assert_close((double)s.p + pa, (5e5 + pa) * exp(-2e-8 * c * R * sqrt(T) / 1e-4 * 10), 0, TOL(1e-8, 1e-4));
+  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, -3e4, 0, 1);
+  assert_between(s.p, -3e4 + 1, 0);
+  {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 1, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    s = fixture_rest(&m, 2e5, 0, &input);
+    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
+  }
+}
+
+/* q = c (p^2 - p_a^2) in a shut vessel: (p - p_a)/(p + p_a) decays at 2 p_a c R T/V, from above and below; under the
+ * energy law, filled from vacuum, at gamma times that. */
+static double seeped(const pneu_params *p, double from, double rate, double time)
+{
+  const double pa = (double)p->ambient_pressure, ratio = from / (from + 2 * pa) * exp(-2 * pa * rate * time);
+  return 2 * pa * ratio / (1 - ratio);
+}
+
+static void footprint_laminar_leak(void)
+{
+  static const double from[] = {4e5, 2e4, -5e4};
+  pneu_params p = fixture_vessel(1e-3);
+  const double c = 1e-15, rate = c * (double)p.gas_constant * (double)p.ambient_temperature / 1e-3;
+  int i;
+  fixture_set(&p, "laminar_leak", c);
+  for (i = 0; i < COUNT(from); i++)
+    assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, from[i], 0, 20).p, seeped(&p, from[i], rate, 20),
+                 TOL(1e-4, 20), TOL(1e-9, 1e-4));
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, -5e4, 0, 20).p, seeped(&p, -5e4, 1.4 * rate, 20),
+               TOL(1e-4, 20), TOL(1e-9, 1e-4));
+  {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
+    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
+  }
+}
+
+static double inflow(const pneu_params *p, int flow, double pressure)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
+  const pneu_input input = fixture_input(&m, 1);
+  const pneu_state s = fixture_rest(&m, pressure, 0, &input);
+  return fixture_look(&m, &s, &input).in;
+}
+
+static void footprint_choked_flow(void)
+{
+  static const double pressure[] = {0, 1.5e5, 3e5};
+  const pneu_params base = fixture_vessel(1e-4);
+  pneu_params p = base;
+  int i;
+  for (i = 0; i < COUNT(pressure); i++) {
+    const double paper = inflow(&base, PNEU_FLOW_PAPER, pressure[i]);
+    const double nozzle = inflow(&base, PNEU_FLOW_CHOKED, pressure[i]);
+    fixture_set(&p, "choked_share", 1);
+    assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), nozzle, 0, TOL(1e-14, 1e-6));
+    fixture_set(&p, "choked_share", 0.25);
+    assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), 0.75 * paper + 0.25 * nozzle, 0, TOL(1e-14, 1e-6));
+    assert_true(nozzle < paper);
+  }
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 1);
+    pneu_state s = fixture_rest(&m, 0, 0, &input);
+    assert_true(fixture_look(&m, &s, &input).choked);
+    s = fixture_rest(&m, 3e5, 0, &input);
+    assert_false(fixture_look(&m, &s, &input).choked);
+  }
+}
+
+/* The flow through an orifice of 1 mm2 that a pressure lost before or built up behind it leaves. */
+static double flow_between(const pneu_model *m, double up, double down)
+{
+  pneu_flow flow;
+  pneu_orifice(m, m->law.flow, (pneu_real)1e-6, (pneu_real)up, m->p.supply_temperature, (pneu_real)down, &flow);
+  return flow.q;
+}
+
+static void footprint_supply_droop(void)
+{
+  static const double at[] = {0, 2e5, 3.5e5, 3.98e5};
+  const pneu_params base = fixture_vessel(1e-4);
+  pneu_params p = base;
+  const double resistance = 5e7, pa = (double)base.ambient_pressure;
+  pneu_model m;
+  pneu_input input;
+  int i, flow;
+  fixture_set(&p, "supply_resistance", resistance);
+  for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
+    for (i = 0; i < COUNT(at); i++) {
+      fixture_sample look;
+      pneu_state s;
+      m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+      input = fixture_input(&m, 1);
+      s = fixture_rest(&m, at[i], 0, &input);
+      look = fixture_look(&m, &s, &input);
+      check_note("%s from %g Pa", pneu_flow_key(flow), at[i]);
+      assert_close(look.in, flow_between(&m, 4e5 + pa - resistance * look.in, at[i] + pa), 0, TOL(1e-8, 1e-2));
+      assert_close(look.supply, 4e5 - resistance * look.in, TOL(1e-6, 1), 0);
+      assert_true(look.in < 0.99 * inflow(&base, flow, at[i]));
+    }
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p, TOL(1e-3, 10), 0);
+}
+
+static void footprint_exhaust_back_pressure(void)
+{
+  static const double at[] = {4e5, 1e5, 1e4, 2e3};
+  const pneu_params base = fixture_vessel(1e-4);
+  pneu_params p = base;
+  const double resistance = 5e7, pa = (double)base.ambient_pressure;
+  int i, flow;
+  fixture_set(&p, "exhaust_resistance", resistance);
+  for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
+    for (i = 0; i < COUNT(at); i++) {
+      const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+      const pneu_input input = fixture_input(&m, -1);
+      const pneu_state s = fixture_rest(&m, at[i], 0, &input);
+      const fixture_sample look = fixture_look(&m, &s, &input);
+      check_note("%s from %g Pa", pneu_flow_key(flow), at[i]);
+      assert_close(look.out, flow_between(&m, at[i] + pa, pa + resistance * look.out), 0, TOL(1e-8, 1e-2));
+      assert_true(look.out > 0 && (look.out < 0.99 * flow_between(&m, at[i] + pa, pa) || at[i] > 3e5));
+    }
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.05).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.05).p, TOL(1e-3, 10), 0);
+}
+
+/* Venting takes 1/(1 - r) of the time, filling what it took. */
+static void footprint_vent_restriction(void)
+{
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  fixture_set(&p, "vent_restriction", 0.2);
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 0.5).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 0.4).p, TOL(0.01, 20), 0);
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p, TOL(0.01, 20), 0);
+}
+
+/* Constant choked inflow q into V_t, then R, then V: with k = R_g T/V the difference p_t - p settles to
+ * k_t q R/(k_t + k) with time constant R/(k_t + k). */
+static void footprint_connecting_tube(void)
+{
+  static const double at[] = {0.002, 0.01, 0.05};
+  pneu_params p = fixture_vessel(1e-3);
+  const double R = 3e7, RT = (double)p.gas_constant * (double)p.ambient_temperature, pa = (double)p.ambient_pressure;
+  const double k_tube = RT / 2e-5, k = RT / 1e-3, tau = R / (k_tube + k);
+  const double q = inflow(&p, PNEU_FLOW_CHOKED, 0), most = k_tube * q * tau;
+  int i;
+  fixture_set(&p, "tube_resistance", R);
+  fixture_set(&p, "tube_volume", 2e-5);
+  for (i = 0; i < COUNT(at); i++) {
+    const double settled = 1 - exp(-at[i] / tau), chamber = k / R * most * (at[i] - tau * settled);
+    const pneu_state s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1, at[i]);
+    check_note("t = %g s", at[i]);
+    assert_close(s.p, chamber, TOL(1e-3, 5), TOL(1e-8, 1e-4));
+    assert_close((double)s.extra[0] * (4e5 + pa), pa + chamber + most * settled, 0, TOL(1e-8, 1e-4));
+  }
+  assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 2e5, 0, 1).p, 2e5, TOL(1e-6, 1), 0);
+}
+
+/* What leaves the chamber leaves at its temperature, what comes in has that of the tube; the pressure is shared. */
+static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
+  const double R = 3e7, q = 3e4 / R;
+  (void)state;
+  if (fixture_effect("connecting_tube") < 0)
+    skip();
+  fixture_set(&p, "tube_resistance", R);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, 0);
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, 250, 0, &input, &s), PNEU_OK);
+  s.extra[0] += (pneu_real)3e4 / m.scale[0];
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  assert_close(f[0], 1.4 * (double)p.gas_constant * 298.15 * q / 1e-3, 0, TOL(1e-9, 1e-4));
+  s.extra[0] -= (pneu_real)6e4 / m.scale[0];
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  assert_close(f[0], -1.4 * (double)p.gas_constant * 250 * q / 1e-3, 0, TOL(1e-9, 1e-4));
+}
+
+/* ---- energy ---- */
+
+/* A shut vessel off wall temperature: m c_v T' = G (T_w - T) + c (rho/rho_a)^(2/3) |T_w - T|^(4/3). */
+static double warmed(const pneu_params *p, int gas, double T0, double t)
+{
+  const pneu_model m = fixture_model(p, gas, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s;
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, (pneu_real)T0, 0, &input, &s), PNEU_OK);
+  fixture_run(&m, &s, &input, t, FIXTURE_TOL, NULL);
+  return (double)s.T;
+}
+
+static void footprint_heat_transfer(void)
+{
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  const double R = (double)base.gas_constant, T0 = 250, dT = 298.15 - T0;
+  const double density = (2e5 / (double)base.ambient_pressure + 1) * 298.15 / T0, c = 0.5 * pow(density, 2 / 3.);
+  const double mcv = (2e5 + (double)base.ambient_pressure) * 1e-3 / (R * T0) * R / 0.4;
+  const pneu_state fast = run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 1);
+  pneu_state s;
+  pneu_model m;
+  pneu_input shut;
+  p.polytropic_index = (pneu_real)1.2; /* must not matter */
+  fixture_set(&p, "film_conductance", 2);
+  assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
+  fixture_set(&p, "film_conductance", 0);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_close(warmed(&p, PNEU_GAS_ISOTHERMAL, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
+  fixture_set(&p, "film_resistance", 0);
+  fixture_set(&p, "free_convection", 0.5);
+  assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - pow(pow(dT, -1 / 3.) + c / (3 * mcv), -3), 0,
+               TOL(1e-9, 1e-5));
+  /* vent fast, shut: the cold gas warms and its pressure rises to p T_w/T */
+  fixture_set(&p, "film_conductance", 2);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  shut = fixture_input(&m, 0);
+  s = fast;
+  fixture_run(&m, &s, &shut, 30, FIXTURE_TOL, NULL);
+  assert_true(fast.T < 280);
+  assert_close((double)s.p + 101325, ((double)fast.p + 101325) * 298.15 / (double)fast.T, 0, TOL(1e-7, 1e-4));
+}
+
+/* A film of the energy law does nothing under the other laws, a resistance nothing under any but the isothermal. */
+static void test_heat_transfer__parameter_of_another_law__does_not_act(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  (void)state;
+  if (fixture_effect("heat_transfer") < 0)
+    skip();
+  fixture_set(&p, "film_conductance", 2);
+  fixture_set(&p, "free_convection", 2);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 0);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER).n_active, 0);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 1);
+  p = fixture_params(FIXTURE_R1_400);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
+}
+
+/* A sealed vessel in an insulated wall: both meet at their mean by heat capacity, the difference decays at
+ * G (1/(m c_v) + 1/C); with a loss both end at ambient temperature. */
+static void footprint_wall_temperature(void)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  const double T0 = 250, dT = T0 - 298.15, C = 4, G = 2;
+  const double mcv = (2e5 + (double)p.ambient_pressure) * 1e-3 / (0.4 * T0), rate = G * (1 / mcv + 1 / C);
+  pneu_model m;
+  pneu_input shut;
+  pneu_state s;
+  fixture_set(&p, "wall_compliance", 1 / C);
+  fixture_set(&p, "wall_loss", 0);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0); /* no film, no heat */
+  if (fixture_effect("heat_transfer") < 0)
+    skip();
+  fixture_set(&p, "film_conductance", G);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  shut = fixture_input(&m, 0);
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, (pneu_real)T0, 0, &shut, &s), PNEU_OK);
+  fixture_run(&m, &s, &shut, 0.7, FIXTURE_TOL, NULL);
+  assert_close(s.T, 298.15 + dT * (mcv + C * exp(-rate * 0.7)) / (mcv + C), 0, TOL(1e-9, 1e-5));
+  assert_close(s.extra[0], dT * mcv / (mcv + C) * (1 - exp(-rate * 0.7)) / 298.15, TOL(1e-9, 1e-5), 0);
+  fixture_set(&p, "wall_loss", 1);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  fixture_run(&m, &s, &shut, 200, FIXTURE_TOL, NULL);
+  assert_close(s.T, 298.15, 0, TOL(1e-9, 1e-5));
+}
+
+/* ---- command ---- */
+
+/* In a vessel time enters by the integral of the opening alone: t becomes t - tau (1 - exp(-t/tau)). */
+static void footprint_transducer_lag(void)
+{
+  static const double at[] = {0.005, 0.02, 0.08};
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  const double tau = 0.02;
+  int i, vent;
+  fixture_set(&p, "transducer_time", tau);
+  for (i = 0; i < COUNT(at); i++)
+    for (vent = 0; vent < 2; vent++) {
+      const double t = at[i], start = vent ? 4e5 : 0, u = vent ? -1 : 1;
+      const pneu_state late = run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, start, u, t);
+      const pneu_state prompt =
+          run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, start, u, t - tau * (1 - exp(-t / tau)));
+      check_note("t = %g s, vent %d", t, vent);
+      assert_close(late.p, prompt.p, TOL(0.01, 50), 0);
+      assert_close(late.extra[0], u * (1 - exp(-t / tau)), TOL(1e-8, 1e-4), 0);
+    }
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input half = fixture_input(&m, 0.5);
+    const pneu_state rest = fixture_rest(&m, 0, 0, &half);
+    assert_close(fixture_look(&m, &rest, &half).opening, 0.5, 0, 0);
+  }
+}
+
+/* With a proportional band the command is a pressure; at rest the opening is the regulator's. */
+static void test_transducer_lag__regulator_at_rest__starts_from_its_opening(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (fixture_effect("transducer_lag") < 0)
+    skip();
+  fixture_set(&p, "transducer_time", 0.02);
+  p.proportional_band = (pneu_real)1e4;
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 1.05e5);
+  s = fixture_rest(&m, 1e5, 0, &input);
+  assert_close(s.extra[0], 0.5, TOL(1e-12, 1e-5), 0);
+}
+
+/* The delay is the model's constant; the library's own run knows no time before its start. tests/test_response.c has
+ * the programs. */
+static void footprint_dead_time(void)
+{
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  fixture_set(&p, "dead_time", 0.03);
+  assert_close(fixture_model(&base, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).command_delay, 0, 0, 0);
+  assert_close(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).command_delay, 0.03, 0, TOL(1e-15, 1e-7));
+  assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1, 0.1).p,
+               run_vessel(&base, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1, 0.1).p, TOL(1e-3, 10), 0);
+}
+
+static footprint footprints[] = {
+    {"chamber_leak", "shut_vessel__loses_pressure_as_a_choked_blowdown", footprint_chamber_leak},
+    {"choked_flow", "share__mixes_the_laws", footprint_choked_flow},
+    {"connecting_tube", "constant_inflow__chamber_trails_the_tube", footprint_connecting_tube},
+    {"dead_time", "model__holds_the_delay", footprint_dead_time},
+    {"exhaust_back_pressure", "venting__is_slowed_and_filling_is_not", footprint_exhaust_back_pressure},
+    {"heat_transfer", "shut_vessel__levels_temperature_and_pressure_recovers", footprint_heat_transfer},
+    {"laminar_leak", "shut_vessel__follows_the_closed_form", footprint_laminar_leak},
+    {"supply_droop", "filling__is_slowed_and_venting_is_not", footprint_supply_droop},
+    {"transducer_lag", "vessel__runs_late_by_the_integral_of_the_lag", footprint_transducer_lag},
+    {"vent_restriction", "venting__takes_longer_and_filling_does_not", footprint_vent_restriction},
+    {"wall_temperature", "sealed_vessel__shares_its_heat_with_the_wall", footprint_wall_temperature},
+};
+
+static void test_effects_def__each_effect_on_the_gas__has_a_footprint_test(void **state)
+{
+  (void)state;
+  footprint_complete(footprints, COUNT(footprints), "mass energy command");
+}
+
+int main(void)
+{
+  enum { OTHERS = 4 };
+  static char names[COUNT(footprints)][100];
+  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
+      cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
+      cmocka_unit_test(test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it),
+      cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
+      cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
+  };
+  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,401 @@
+/* Every effect against the independent implementation of tests/second: the same parameters, the same random commands,
+ * the same measured channels. */
+#include "fixture.h"
+
+#include "../apps/lab/response.h"
+#include "second/rig.h"
+
+enum { SAMPLES = 401, CHANGES = 16 };
+static const double dt = 0.01, t_end = 4;
+
+/* Largest differences of p, x and T over supply, stroke and ambient temperature. */
+typedef struct apart {
+  double p, x, T;
+} apart;
+
+/* ---- the effects, as both sides call them; `size` scales what is declared here ---- */
+
+#define BOTH(name, field, value)                                                                                       \
+  do {                                                                                                                 \
+    g->field = (value)*size;                                                                                           \
+    fixture_set(p, name, g->field);                                                                                    \
+  } while (0)
+
+static void set_area_variation(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("area_loss", area_slope, 0.08);
+}
+
+static void set_chamber_leak(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("leak_area", leak_area, 3e-8);
+}
+
+static void set_channel_skew(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("channel_skew", position_skew, size < 1 ? -0.013 : 0.037);
+}
+
+static void set_choked_flow(pneu_params *p, second_rig *g, double size)
+{
+  (void)size;
+  g->flow = SECOND_CHOKED;
+  fixture_set(p, "choked_share", 1);
+}
+
+static void set_connecting_tube(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("tube_resistance", tube_resistance, 2e7);
+  BOTH("tube_volume", tube_volume, 4e-5);
+}
+
+static void set_dead_time(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("dead_time", dead_time, 0.033);
+}
+
+static void set_exhaust_back_pressure(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("exhaust_resistance", back_pressure, 5e7);
+}
+
+static void set_friction_position(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("friction_slope", friction_position, 0.7);
+}
+
+static void set_friction_pressure(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("friction_per_pressure", friction_pressure, 1e-3);
+}
+
+static void set_heat_transfer(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("film_conductance", heat, 3);
+}
+
+static void set_laminar_leak(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("laminar_leak", laminar_leak, 2e-16);
+}
+
+static void set_position_bias(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("position_bias", position_bias, -4e-4);
+}
+
+static void set_position_gain(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("position_gain", position_gain, 0.05);
+}
+
+static void set_position_lag(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("position_time", position_lag, 0.05);
+}
+
+static void set_presliding(pneu_params *p, second_rig *g, double size)
+{
+  const double length = 3e-5 * size;
+  g->bristle_rate = g->dry_friction / length;
+  g->bristle_damping = 1e3;
+  fixture_set(p, "presliding_length", length);
+  fixture_set(p, "bristle_damping", g->bristle_damping);
+}
+
+static void set_pressure_bias(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("pressure_bias", pressure_bias, 6e3);
+}
+
+static void set_pressure_gain(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("pressure_gain", pressure_gain, -0.04);
+}
+
+static void set_pressure_lag(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("pressure_time", pressure_lag, 0.04);
+}
+
+static void set_spring_hardening(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("spring_cubic", spring_cubic, 8e7);
+}
+
+static void set_spring_hysteresis(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("hysteresis_force", hysteresis, 250);
+  BOTH("hysteresis_length", hysteresis_length, 2e-3);
+}
+
+static void set_stop_compliance(pneu_params *p, second_rig *g, double size)
+{
+  const double compliance = 2e-8 * size;
+  g->lower_rate = g->upper_rate = 1 / compliance;
+  fixture_set(p, "stop_compliance", compliance);
+  BOTH("stop_damping", stop_damping, 5e3);
+}
+
+static void set_stribeck_friction(pneu_params *p, second_rig *g, double size)
+{
+  g->step = 10e-6; /* stick-slip: an error in one slip shifts the next */
+  BOTH("stribeck_excess", stribeck, 0.4);
+  BOTH("stribeck_velocity", stribeck_velocity, 2e-3);
+}
+
+static void set_supply_droop(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("supply_resistance", supply_droop, 5e7);
+}
+
+static void set_temperature_lag(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("temperature_time", temperature_lag, 0.3);
+}
+
+static void set_transducer_lag(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("transducer_time", transducer_lag, 0.05);
+}
+
+static void set_travel_limit(pneu_params *p, second_rig *g, double size)
+{
+  const double loss = 2e-3 * size;
+  g->travel_limit = g->stroke - loss;
+  fixture_set(p, "travel_loss", loss);
+}
+
+static void set_vent_restriction(pneu_params *p, second_rig *g, double size)
+{
+  const double share = 0.3 * size;
+  g->vent_area *= 1 - share;
+  fixture_set(p, "vent_restriction", share);
+}
+
+static void set_wall_temperature(pneu_params *p, second_rig *g, double size)
+{
+  const double capacity = 20 / size;
+  set_heat_transfer(p, g, size);
+  g->wall_capacity = capacity;
+  fixture_set(p, "wall_compliance", 1 / capacity);
+  BOTH("wall_loss", wall_loss, 0.5);
+}
+
+typedef struct effect_case {
+  const char *name;
+  void (*set)(pneu_params *p, second_rig *g, double size);
+} effect_case;
+
+#define CASE(name)                                                                                                     \
+  {                                                                                                                    \
+#name, set_##name                                                                                                  \
+  }
+static const effect_case cases[] = {
+    CASE(area_variation),        CASE(chamber_leak),      CASE(channel_skew),
+    CASE(choked_flow),           CASE(connecting_tube),   CASE(dead_time),
+    CASE(exhaust_back_pressure), CASE(friction_position), CASE(friction_pressure),
+    CASE(heat_transfer),         CASE(laminar_leak),      CASE(position_bias),
+    CASE(position_gain),         CASE(position_lag),      CASE(presliding),
+    CASE(pressure_bias),         CASE(pressure_gain),     CASE(pressure_lag),
+    CASE(spring_hardening),      CASE(spring_hysteresis), CASE(stop_compliance),
+    CASE(stribeck_friction),     CASE(supply_droop),      CASE(temperature_lag),
+    CASE(transducer_lag),        CASE(travel_limit),      CASE(vent_restriction),
+    CASE(wall_temperature),
+};
+
+/* ---- one experiment on both sides ---- */
+
+typedef struct experiment {
+  pneu_params p;
+  second_rig g;
+  int gas, flow;
+  size_t n;
+  double t[CHANGES], u[CHANGES];
+} experiment;
+
+static double channel[3][SAMPLES];
+
+/* Time until the base model's pressure passes a level on its way. */
+static double time_to(const pneu_model *m, pneu_state *s, double u, double level)
+{
+  const pneu_input input = fixture_input(m, u);
+  double t = 0;
+  while (u * (level - (double)s->p) > 0) {
+    fixture_run(m, s, &input, dt / 10, 1e-5, NULL);
+    t += dt / 10;
+  }
+  return t;
+}
+
+/* Fill and vent by turns, fully or in part, between random levels of pressure that keep away from the supply's and
+ * from ambient, where the two sides blend their flow laws in different ways. */
+static void random_commands(experiment *e, uint64_t seed)
+{
+  const pneu_model m = fixture_model(&e->p, e->gas, e->flow);
+  const pneu_input shut = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 0, 0, &shut);
+  double t = 0.2;
+  for (e->n = 1; e->n < CHANGES && t < t_end; e->n++) {
+    const int fill = e->n % 2 == 1;
+    const double level = fill ? fixture_random(&seed, 2.2e5, 3.5e5) : fixture_random(&seed, 0.5e5, 1.8e5);
+    e->t[e->n] = t;
+    e->u[e->n] = (fill ? 1 : -1) * fmin(fixture_random(&seed, 0.2, 1.6), 1);
+    t += time_to(&m, &s, e->u[e->n], level);
+  }
+}
+
+/* The R1-400 with faster orifices, and with a dead volume that leaves room for stops that yield. */
+static experiment random_experiment(uint64_t seed, int gas, int flow)
+{
+  experiment e;
+  memset(&e, 0, sizeof e);
+  e.p = fixture_params(FIXTURE_R1_400);
+  e.g = second_rig_default_r1_400();
+  e.p.dead_volume = (pneu_real)(e.g.dead_volume = 2e-5);
+  e.p.fill_area = e.p.vent_area = (pneu_real)(e.g.fill_area = e.g.vent_area = 4e-6);
+  e.g.step = 80e-6;
+  e.gas = gas;
+  e.flow = flow;
+  e.g.gas = gas == PNEU_GAS_ISOTHERMAL ? SECOND_ISOTHERMAL : SECOND_ENERGY;
+  e.g.flow = flow == PNEU_FLOW_PAPER ? SECOND_PAPER : SECOND_CHOKED;
+  random_commands(&e, seed);
+  return e;
+}
+
+static lab_trace respond(const experiment *e)
+{
+  const pneu_model m = fixture_model(&e->p, e->gas, e->flow);
+  const lab_response_options options = {LAB_STEPPER, 1e-9, t_end, 0};
+  lab_schedule schedule;
+  pneu_input input[CHANGES];
+  double t[SAMPLES];
+  lab_trace trace;
+  lab_error error;
+  pneu_state start;
+  size_t i;
+  for (i = 0; i < e->n; i++)
+    input[i] = fixture_input(&m, e->u[i]);
+  for (i = 0; i < SAMPLES; i++)
+    t[i] = (double)i * dt;
+  schedule.n = e->n;
+  schedule.t = e->t;
+  schedule.input = input;
+  start = fixture_rest(&m, 0, 0, &input[0]);
+  if (lab_respond(&m, &start, &schedule, t, SAMPLES, &options, &trace, NULL, &error))
+    fail_msg("%s", error.text);
+  return trace;
+}
+
+static apart compare(const experiment *e)
+{
+  const second_log log = {NULL, NULL, channel[0], channel[1], channel[2], NULL, NULL};
+  lab_trace trace = respond(e);
+  apart d = {0, 0, 0};
+  int i;
+  assert_int_equal(second_run(&e->g, e->t, e->u, e->n, t_end, dt, &log, NULL), 0);
+  for (i = 0; i < SAMPLES; i++) {
+    d.p = fmax(d.p, fabs(trace.p[i] - channel[0][i]) / 4e5);
+    d.x = fmax(d.x, fabs(trace.x[i] - channel[1][i]) / 0.02);
+    d.T = fmax(d.T, fabs(trace.T[i] - channel[2][i]) / 298.15);
+  }
+  lab_trace_free(&trace);
+  return d;
+}
+
+/* PNEU_SHOW in the environment prints the differences. */
+static void assert_agrees(const experiment *e, double tol, const char *what)
+{
+  const apart d = compare(e);
+  check_note("p %.1e, x %.1e, T %.1e apart: %s", d.p, d.x, d.T, what);
+  if (getenv("PNEU_SHOW"))
+    printf("%s\n", check_case);
+  assert_between(d.p, 0, tol);
+  assert_between(d.x, 0, tol);
+  assert_between(d.T, 0, tol);
+}
+
+/* ---- tests ---- */
+
+static const int laws[][2] = {{PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER}, {PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED}};
+
+/* Whether this build has the effect. Heat is a parameter of one chamber law: the other side's isothermal chamber has a
+ * perfect film. */
+static int comparable(const effect_case *c, int gas)
+{
+  const int heat = strcmp(c->name, "heat_transfer") == 0 || strcmp(c->name, "wall_temperature") == 0;
+  if (heat && (gas != PNEU_GAS_ENERGY || fixture_effect("heat_transfer") < 0))
+    return 0;
+  return fixture_effect(c->name) >= 0;
+}
+
+static void test_lab_respond__base_model__is_that_of_the_second_implementation(void **state)
+{
+  int law;
+  (void)state;
+  for (law = 0; law < COUNT(laws); law++) {
+    const experiment e = random_experiment(1, laws[law][0], laws[law][1]);
+    assert_agrees(&e, 1e-5, "base");
+  }
+}
+
+static void test_lab_respond__each_effect__is_that_of_the_second_implementation(void **state)
+{
+  int law, i;
+  (void)state;
+  for (i = 0; i < COUNT(cases); i++)
+    for (law = 0; law < COUNT(laws); law++) {
+      experiment e = random_experiment((uint64_t)(7 + i), laws[law][0], laws[law][1]);
+      char what[80];
+      if (!comparable(&cases[i], laws[law][0]))
+        continue;
+      cases[i].set(&e.p, &e.g, law ? 0.8 : 1);
+      snprintf(what, sizeof what, "%s, %s", cases[i].name, pneu_gas_key(laws[law][0]));
+      assert_agrees(&e, 1e-5, what);
+    }
+}
+
+/* Some of the effects at once, at random sizes: order and interplay. */
+static void test_lab_respond__random_sets_of_effects__agree_with_the_second_implementation(void **state)
+{
+  uint64_t seed = 5;
+  int draw, i;
+  (void)state;
+  for (draw = 0; draw < 8; draw++) {
+    const int *law = laws[draw % 2];
+    experiment e = random_experiment((uint64_t)(100 + draw), law[0], law[1]);
+    char what[600];
+    int at = snprintf(what, sizeof what, "set %d", draw);
+    for (i = 0; i < COUNT(cases); i++) {
+      const double size = fixture_random(&seed, 0.3, 1.5), chance = fixture_random(&seed, 0, 1);
+      if (chance > 0.35 || !comparable(&cases[i], law[0]))
+        continue;
+      cases[i].set(&e.p, &e.g, size);
+      at += snprintf(what + at, sizeof what - (size_t)at, " %s", cases[i].name);
+    }
+    assert_agrees(&e, 1e-4, what);
+  }
+}
+
+static void test_effects_def__each_effect__is_compared(void **state)
+{
+  int e, i, found;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    for (i = found = 0; i < COUNT(cases); i++)
+      found += strcmp(cases[i].name, pneu_effect_at(e)->name) == 0;
+    if (!found)
+      fail_msg("%s is not compared with the second implementation", pneu_effect_at(e)->name);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_effects_def__each_effect__is_compared),
+      cmocka_unit_test(test_lab_respond__base_model__is_that_of_the_second_implementation),
+      cmocka_unit_test(test_lab_respond__each_effect__is_that_of_the_second_implementation),
+      cmocka_unit_test(test_lab_respond__random_sets_of_effects__agree_with_the_second_implementation),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

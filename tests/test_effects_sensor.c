@@ -1,0 +1,173 @@
+/* Effects on the sensors: what each shows of a state that it leaves alone. */
+#include "footprint.h"
+
+typedef struct shown {
+  double p, x, T;
+} shown;
+
+static shown look(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  pneu_output out;
+  shown seen;
+  assert_int_equal(pneu_observe(m, s, input, &out), PNEU_OK);
+  seen.p = (double)out.shown_pressure;
+  seen.x = (double)out.shown_position;
+  seen.T = (double)out.shown_temperature;
+  return seen;
+}
+
+/* At rest at 1.5 bar and 8 mm, gas at 330 K. */
+static shown look_at_rest(const pneu_params *p)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s;
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)1.5e5, 330, (pneu_real)0.008, &input, &s), PNEU_OK);
+  return look(&m, &s, &input);
+}
+
+static void check_at_rest(const pneu_params *p, double pressure, double x, double T)
+{
+  const shown seen = look_at_rest(p);
+  assert_close(seen.p, pressure, 0, TOL(1e-14, 1e-6));
+  assert_close(seen.x, x, 0, TOL(1e-14, 1e-6));
+  assert_close(seen.T, T, 0, TOL(1e-14, 1e-6));
+}
+
+static pneu_params with(const char *name, double value)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  fixture_set(&p, name, value);
+  return p;
+}
+
+static void footprint_pressure_bias(void)
+{
+  const pneu_params p = with("pressure_bias", -3e3);
+  check_at_rest(&p, 1.5e5 - 3e3, 0.008, 330);
+}
+
+static void footprint_pressure_gain(void)
+{
+  const pneu_params p = with("pressure_gain", 0.04);
+  check_at_rest(&p, 1.5e5 * 1.04, 0.008, 330);
+}
+
+static void footprint_position_bias(void)
+{
+  const pneu_params p = with("position_bias", 5e-4);
+  check_at_rest(&p, 1.5e5, 0.0085, 330);
+}
+
+static void footprint_position_gain(void)
+{
+  const pneu_params p = with("position_gain", -0.03);
+  check_at_rest(&p, 1.5e5, 0.008 * 0.97, 330);
+}
+
+/* Bias is what a sensor shows of nothing: it is not multiplied by the gain. */
+static void test_gain_and_bias__together__are_affine(void **state)
+{
+  static const char *const needed[] = {"pressure_bias", "pressure_gain", "position_bias", "position_gain"};
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(needed); i++) {
+    if (fixture_effect(needed[i]) < 0)
+      skip();
+    fixture_set(&p, needed[i], i == 0 ? 1e3 : i == 2 ? 1e-3 : 0.1);
+  }
+  check_at_rest(&p, 1.1 * 1.5e5 + 1e3, 1.1 * 0.008 + 1e-3, 330);
+}
+
+/* Behind a ramp from rest of slope r: r (t - tau (1 - exp(-t/tau))). */
+static double trailing(double slope, double t, double tau)
+{
+  return slope * (t - tau * (1 - exp(-t / tau)));
+}
+
+static void footprint_pressure_lag(void)
+{
+  static const double at[] = {0.01, 0.05, 0.4};
+  const pneu_params p = with("pressure_time", 0.05);
+  const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
+  pneu_input input = fixture_input(&m, 0);
+  int i;
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+  input.pressure_rate = (pneu_real)1e5;
+  for (i = 0; i < COUNT(at); i++) {
+    pneu_state s = fixture_rest(&m, 5e4, 0.01, &input);
+    fixture_run(&m, &s, &input, at[i], FIXTURE_TOL, NULL);
+    assert_close(look(&m, &s, &input).p, 5e4 + trailing(1e5, at[i], 0.05), TOL(1e-3, 5), 0);
+    assert_close(s.p, 5e4 + 1e5 * at[i], TOL(1e-6, 0.1), 0);
+  }
+}
+
+static void footprint_position_lag(void)
+{
+  static const double at[] = {0.01, 0.05, 0.4};
+  const pneu_params p = with("position_time", 0.05);
+  const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
+  pneu_input input = fixture_input(&m, 0);
+  int i;
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+  input.position_rate = (pneu_real)0.01;
+  for (i = 0; i < COUNT(at); i++) {
+    pneu_state s = fixture_rest(&m, 5e4, 0.002, &input);
+    fixture_run(&m, &s, &input, at[i], FIXTURE_TOL, NULL);
+    assert_close(look(&m, &s, &input).x, 0.002 + trailing(0.01, at[i], 0.05), TOL(1e-11, 1e-6), 0);
+    assert_close(s.x, 0.002 + 0.01 * at[i], TOL(1e-14, 1e-7), 0);
+  }
+}
+
+/* From a sensor still at ambient temperature in gas that keeps its own. */
+static void footprint_temperature_lag(void)
+{
+  const pneu_params p = with("temperature_time", 0.4);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s;
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)5e4, 330, 0, &input, &s), PNEU_OK);
+  s.extra[0] = 1;
+  fixture_run(&m, &s, &input, 0.3, FIXTURE_TOL, NULL);
+  assert_close(look(&m, &s, &input).T, 330 - (330 - 298.15) * exp(-0.3 / 0.4), 0, TOL(1e-9, 1e-5));
+  assert_close(s.T, 330, 0, TOL(1e-9, 1e-5));
+}
+
+/* The skew is the model's constant; a state shows what it holds. tests/test_response.c has the programs. */
+static void footprint_channel_skew(void)
+{
+  const pneu_params p = with("channel_skew", -0.03);
+  assert_close(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).position_skew, -0.03, 0, TOL(1e-15, 1e-7));
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+}
+
+static footprint footprints[] = {
+    {"channel_skew", "model__holds_the_skew", footprint_channel_skew},
+    {"position_bias", "at_rest__is_added", footprint_position_bias},
+    {"position_gain", "at_rest__multiplies", footprint_position_gain},
+    {"position_lag", "ramp__trails_by_the_closed_form", footprint_position_lag},
+    {"pressure_bias", "at_rest__is_added", footprint_pressure_bias},
+    {"pressure_gain", "at_rest__multiplies", footprint_pressure_gain},
+    {"pressure_lag", "ramp__trails_by_the_closed_form", footprint_pressure_lag},
+    {"temperature_lag", "steady_gas__is_approached_as_first_order", footprint_temperature_lag},
+};
+
+static void test_effects_def__each_effect_on_a_sensor__has_a_footprint_test(void **state)
+{
+  (void)state;
+  footprint_complete(footprints, COUNT(footprints), "sensor");
+}
+
+int main(void)
+{
+  enum { OTHERS = 2 };
+  static char names[COUNT(footprints)][100];
+  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
+      cmocka_unit_test(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test),
+      cmocka_unit_test(test_gain_and_bias__together__are_affine),
+  };
+  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,199 @@
+/* Responses to schedules: delays of command and of position, which the library leaves to the owner of the clock. */
+#include "fixture.h"
+
+#include "../apps/lab/response.h"
+
+enum { SAMPLES = 301 };
+static const double dt = 0.01, t_end = 3;
+
+/* A schedule on the stroke of the R1-400, with a supply that changes on its own, and while the command does not. */
+enum { ROWS = 6 };
+static const double row_t[ROWS] = {0, 0.2, 0.7, 1.1, 1.13, 2.0};
+static const double row_u[ROWS] = {0, 1, 1, -1, 0.5, 0};
+static const double row_supply[ROWS] = {4e5, 4e5, 3.5e5, 3.5e5, 4.5e5, 4.5e5};
+
+static pneu_model model_with(const char *name, double value)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  p.fill_area = p.vent_area = (pneu_real)4e-6;
+  if (name)
+    fixture_set(&p, name, value);
+  return fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+}
+
+static int absent(const char *effect)
+{
+  return fixture_effect(effect) < 0;
+}
+
+/* Inputs of n rows: command of row i, supply of row j. */
+static pneu_input input_of(const pneu_model *m, int i, int j)
+{
+  pneu_input input = fixture_input(m, row_u[i]);
+  input.supply_pressure = (pneu_real)row_supply[j];
+  return input;
+}
+
+static lab_trace respond(const pneu_model *m, size_t n, const double *t_row, const pneu_input *input, double shift,
+                         int integrator)
+{
+  const lab_response_options options = {integrator, 1e-9, t_end, 0};
+  lab_schedule schedule;
+  double t[SAMPLES];
+  lab_trace trace;
+  lab_error error;
+  const pneu_state start = fixture_rest(m, 0, 0, &input[0]);
+  int i;
+  for (i = 0; i < SAMPLES; i++)
+    t[i] = fmin(fmax(i * dt - shift, 0), t_end);
+  schedule.n = n;
+  schedule.t = t_row;
+  schedule.input = input;
+  if (lab_respond(m, &start, &schedule, t, SAMPLES, &options, &trace, NULL, &error))
+    fail_msg("%s", error.text);
+  return trace;
+}
+
+static lab_trace respond_to_rows(const pneu_model *m, double shift, int integrator)
+{
+  pneu_input input[ROWS];
+  int i;
+  for (i = 0; i < ROWS; i++)
+    input[i] = input_of(m, i, i);
+  return respond(m, ROWS, row_t, input, shift, integrator);
+}
+
+static void assert_same(const double *a, const double *b, double tol, const char *what)
+{
+  int i;
+  for (i = 0; i < SAMPLES; i++) {
+    check_note("%s at %g s", what, i * dt);
+    assert_close(a[i], b[i], tol, 0);
+  }
+}
+
+/* Commands that overlap with changes of supply, and a delay longer than the shortest command: against the schedule
+ * written out by hand. */
+static void check_delay(double delay, size_t n, const double *t, const int (*row)[2])
+{
+  const pneu_model late = model_with("dead_time", delay), prompt = model_with(NULL, 0);
+  pneu_input input[2 * ROWS];
+  lab_trace a, b;
+  size_t i;
+  for (i = 0; i < n; i++)
+    input[i] = input_of(&prompt, row[i][0], row[i][1]);
+  a = respond_to_rows(&late, 0, LAB_STEPPER);
+  b = respond(&prompt, n, t, input, 0, LAB_STEPPER);
+  assert_same(a.p, b.p, 1e-2, "p");
+  assert_same(a.x, b.x, 1e-9, "x");
+  for (i = 0; i < SAMPLES; i++) /* as given */
+    assert_close(a.u[i], a.t[i] < 0.2 ? 0 : a.t[i] < 1.1 ? 1 : a.t[i] < 1.13 ? -1 : a.t[i] < 2 ? 0.5 : 0, 0, 0);
+  lab_trace_free(&a);
+  lab_trace_free(&b);
+}
+
+static void test_lab_respond__dead_time__delays_the_command_and_nothing_else(void **state)
+{
+  static const double t[] = {0, 0.221, 0.7, 1.1, 1.121, 1.13, 1.151, 2.021};
+  static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {1, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 5}};
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  check_delay(0.021, 8, t, row);
+}
+
+static void test_lab_respond__dead_time_beyond_the_shortest_command__keeps_their_order(void **state)
+{
+  static const double t[] = {0, 0.7, 0.75, 1.13, 1.65, 1.68, 2.55};
+  static const int row[][2] = {{0, 0}, {0, 2}, {1, 2}, {1, 4}, {3, 4}, {4, 4}, {5, 5}};
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  check_delay(0.55, 7, t, row);
+}
+
+/* Position as it was `skew` ago; before the start, as at the start; a younger one from beyond the end of the log. */
+static void check_skew(double skew, int integrator)
+{
+  const pneu_model skewed = model_with("channel_skew", skew), plain = model_with(NULL, 0);
+  lab_trace a = respond_to_rows(&skewed, 0, integrator), now = respond_to_rows(&plain, 0, integrator);
+  lab_trace b = respond_to_rows(&plain, skew, integrator);
+  int i;
+  assert_same(a.p, now.p, 1e-2, "p");
+  for (i = 0; i < SAMPLES && i * dt - skew <= t_end; i++) {
+    check_note("skew %g s, x at %g s", skew, i * dt);
+    assert_close(a.x[i], b.x[i], 1e-8, 0);
+  }
+  lab_trace_free(&a);
+  lab_trace_free(&b);
+  lab_trace_free(&now);
+}
+
+static void test_lab_respond__channel_skew__shifts_position_alone(void **state)
+{
+  static const double skew[] = {0.037, -0.016, 0.6, 50};
+  int i;
+  (void)state;
+  if (absent("channel_skew"))
+    skip();
+  for (i = 0; i < COUNT(skew); i++)
+    check_skew(skew[i], LAB_STEPPER);
+  check_skew(0.037, LAB_CVODE);
+}
+
+/* A younger position: the stem goes on beyond the last sample under the last command. */
+static void test_lab_respond__negative_skew__looks_beyond_the_end(void **state)
+{
+  const double ahead = 0.05;
+  pneu_model skewed, plain;
+  const double t0 = 0;
+  pneu_input input;
+  lab_trace a, b;
+  (void)state;
+  if (absent("channel_skew"))
+    skip();
+  skewed = model_with("channel_skew", -ahead);
+  plain = model_with(NULL, 0);
+  skewed.p.fill_area = plain.p.fill_area = (pneu_real)4e-7; /* still rising at the end */
+  input = fixture_input(&plain, 1);
+  a = respond(&skewed, 1, &t0, &input, 0, LAB_STEPPER);
+  b = respond(&plain, 1, &t0, &input, 0, LAB_STEPPER);
+  assert_close(a.x[SAMPLES - 6], b.x[SAMPLES - 1], 1e-9, 0);
+  assert_true(a.x[SAMPLES - 1] > b.x[SAMPLES - 1] + 1e-6);
+  lab_trace_free(&a);
+  lab_trace_free(&b);
+}
+
+static void test_lab_respond__statistics_only__needs_no_trace(void **state)
+{
+  const lab_response_options options = {LAB_STEPPER, 1e-6, t_end, 1};
+  pneu_model m;
+  pneu_input input[2];
+  const double t[] = {0, 0.2};
+  const lab_schedule schedule = {2, t, input};
+  pneu_state start;
+  pneu_stats stats;
+  lab_error error;
+  (void)state;
+  if (absent("dead_time") || absent("channel_skew"))
+    skip();
+  m = model_with("dead_time", 0.1);
+  m.position_skew = (pneu_real)0.1;
+  input[0] = fixture_input(&m, 0);
+  input[1] = fixture_input(&m, 1);
+  start = fixture_rest(&m, 0, 0, &input[0]);
+  assert_int_equal(lab_respond(&m, &start, &schedule, NULL, 0, &options, NULL, &stats, &error), LAB_OK);
+  assert_true(stats.steps > 10);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_respond__dead_time__delays_the_command_and_nothing_else),
+      cmocka_unit_test(test_lab_respond__dead_time_beyond_the_shortest_command__keeps_their_order),
+      cmocka_unit_test(test_lab_respond__channel_skew__shifts_position_alone),
+      cmocka_unit_test(test_lab_respond__negative_skew__looks_beyond_the_end),
+      cmocka_unit_test(test_lab_respond__statistics_only__needs_no_trace),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
