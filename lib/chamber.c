@@ -35,5 +35,5 @@ void pneu_chamber_rates(const pneu_terms *t, pneu_real *y_dot)
 
 int pneu_chamber_ok(const pneu_terms *t)
 {
-  return t->volume > 0 && t->T > 0 && t->p > 0;
+  return (t->volume > 0 || t->model->law.pressure_input) && t->T > 0 && t->p > 0;
 }

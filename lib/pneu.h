@@ -496,6 +496,13 @@ pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area);
 pneu_real pneu_volume(const pneu_model *model, pneu_real x);
 pneu_real pneu_mass(const pneu_model *model, const pneu_state *state);
 
+/* How far the stem is out of the actuator. Air extends the stem of a normal-acting actuator and retracts that of a
+ * reverse-acting one; the model's x follows the air in both.
+ * In:      x        position [m], 0..stroke
+ *          reverse  not 0 for a reverse-acting actuator
+ * Returns: [m], 0..stroke; exact to rounding. */
+pneu_real pneu_stem_extension(const pneu_model *model, pneu_real x, int reverse);
+
 /* Opening of an electro-pneumatic transducer that regulates pressure in proportion.
  * In:      set, p  set point and chamber pressure [Pa], same reference
  *          band    [Pa] > 0: error that opens it fully

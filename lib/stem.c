@@ -27,3 +27,8 @@ int pneu_dimension(const pneu_model *model, int mode)
   static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};
   return model->n_gas + stem_entries[mode];
 }
+
+pneu_real pneu_stem_extension(const pneu_model *model, pneu_real x, int reverse)
+{
+  return reverse ? model->p.stroke - x : x;
+}

@@ -65,6 +65,14 @@ sed 's/confirmed_below/confirmed_bellow/' study/hypotheses.cfg >"study/bad-$$.cf
 expect 1 "confirmed_below" ./sweep "study/bad-$$.cfg" --no-figures --results "$folder/none"
 rm -f "study/bad-$$.cfg"
 
+printf 'effects = { heat_transfer = { film_conductance = "5 W/K"; }; };\n' | cat "$model" - >"$folder/bad.cfg"
+expect 1 "film_conductance" ./simulate "$folder/bad.cfg" --step
+for inputs in '"u", "x"' '"x", "p"'; do
+  printf 'inputs = [%s];\n' "$inputs" | cat "$model" - >"$folder/driven.cfg"
+  printf 't [s],u [1],p [kPa],x [mm]\n0,0,150,-0.06\n0.1,0,150,-0.04\n0.2,0,150,0.02\n' >"$folder/driven.csv"
+  expect 0 "" ./simulate "$folder/driven.cfg" "$folder/driven.csv"
+done
+
 # logs
 expect 1 "missing.csv" ./simulate "$model" "$folder/missing.csv"
 : >"$folder/empty.csv"

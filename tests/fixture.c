@@ -196,6 +196,24 @@ void fixture_standard(const pneu_model *model, fixture_stretch *stretch)
   }
 }
 
+long fixture_steps(const pneu_model *model)
+{
+  fixture_stretch stretch[3];
+  pneu_options options;
+  pneu_workspace work;
+  pneu_state state;
+  int i;
+  memset(&work, 0, sizeof work);
+  pneu_options_default(&options);
+  options.tol = (pneu_real)TOL(1e-6, 1e-4);
+  fixture_standard(model, stretch);
+  state = fixture_rest(model, 0, 0, &stretch[0].input);
+  for (i = 0; i < 3; i++)
+    assert_int_equal(pneu_run(model, &state, &stretch[i].input, (pneu_real)stretch[i].duration, &options, NULL, &work),
+                     PNEU_OK);
+  return work.stats.steps;
+}
+
 double fixture_random(uint64_t *seed, double lo, double hi)
 {
   *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);

@@ -62,6 +62,9 @@ fixture_sample fixture_look(const pneu_model *model, const pneu_state *state, co
 void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *input, double duration, double tol,
                  fixture_events *events);
 
+/* Steps that the standard experiment takes, at tol 1e-6 (single: 1e-4); fails the test unless the run succeeds. */
+long fixture_steps(const pneu_model *model);
+
 /* Run through the stretches, with a sample every dt from time 0, by dense output.
  * Returns: the number of samples, <= capacity. */
 int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stretch *stretch, int n, double dt,

@@ -210,6 +210,24 @@ static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void
   assert_close(f[0], -1.4 * (double)p.gas_constant * 250 * q / 1e-3, 0, TOL(1e-9, 1e-4));
 }
 
+/* Hardly any tube: chamber and tube are one, and gas that is not at ambient temperature may rest. */
+static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(void **state)
+{
+  static const double resistance[] = {1, 1e3, 1e5, 1e7};
+  pneu_params p = fixture_params(FIXTURE_37_13);
+  int i;
+  (void)state;
+  if (fixture_effect("connecting_tube") < 0)
+    skip();
+  for (i = 0; i < COUNT(resistance); i++) {
+    pneu_model m;
+    fixture_set(&p, "tube_resistance", resistance[i]);
+    m = fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER);
+    check_note("%g Pa s/kg", resistance[i]);
+    assert_between(fixture_steps(&m), 1, TOL(3000, 30000));
+  }
+}
+
 /* ---- energy ---- */
 
 /* A shut vessel off wall temperature: m c_v T' = G (T_w - T) + c (rho/rho_a)^(2/3) |T_w - T|^(4/3). */
@@ -382,11 +400,12 @@ static void test_effects_def__each_effect_on_the_gas__has_a_footprint_test(void 
 
 int main(void)
 {
-  enum { OTHERS = 4 };
+  enum { OTHERS = 5 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
       cmocka_unit_test(test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it),
+      cmocka_unit_test(test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest),
       cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
       cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
   };

@@ -96,7 +96,14 @@ static void footprint_friction_position(void)
   }
   assert_close(break_away(&p), (4e5 * 0.01 + 480) / 0.04, TOL(1e-4, 20), 0);
   assert_close(break_away_from(&p, 0.02, 2.9e5, -1e4), (4e5 * 0.03 - 480 * 1.8) / 0.04, TOL(1e-4, 20), 0);
-  fixture_set(&p, "friction_slope", -1);
+  fixture_set(&p, "friction_slope", -1); /* none at the upper stop, nor beyond it */
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 0);
+    pneu_state s = fixture_rest(&m, 3e5, 0.02, &input);
+    s.x = (pneu_real)0.0201;
+    assert_close(fixture_look(&m, &s, &input).friction, 0, 0, 0);
+  }
   assert_close(break_away_from(&p, 0.02, 3.1e5, -1e4), 4e5 * 0.03 / 0.04, TOL(1e-4, 20), 0);
 }
 
@@ -347,6 +354,24 @@ static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(vo
   assert_int_equal(s.mode, PNEU_MODE_LOWER);
 }
 
+/* On a stop as stiff as a block of steel the rounding of the position alone makes a force: the stem must not mind. */
+static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
+{
+  static const double compliance[] = {1e-8, 1e-10, 1e-12};
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  int i;
+  (void)state;
+  if (fixture_effect("stop_compliance") < 0)
+    skip();
+  for (i = 0; i < COUNT(compliance); i++) {
+    pneu_model m;
+    fixture_set(&p, "stop_compliance", compliance[i]);
+    m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    check_note("%g m/N", compliance[i]);
+    assert_between(fixture_steps(&m), 1, 3000);
+  }
+}
+
 static footprint footprints[] = {
     {"area_variation", "balance_and_sealed_air__follow_the_area", footprint_area_variation},
     {"friction_position", "level_and_break_away__depend_on_position", footprint_friction_position},
@@ -367,13 +392,14 @@ static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void
 
 int main(void)
 {
-  enum { OTHERS = 4 };
+  enum { OTHERS = 5 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_stem__has_a_footprint_test),
       cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
       cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
       cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
+      cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);

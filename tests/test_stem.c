@@ -261,6 +261,15 @@ static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_t
   assert_between(4e5 * ((double)s.x + 0.01), 2e5 * 0.04 - 481, 2e5 * 0.04 + 481);
 }
 
+static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  (void)state;
+  assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 0), 0.005, 0, 1e-6);
+  assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 1), 0.015, 0, 1e-6);
+}
+
 /* Where a stem stops in equilibrium it must not chatter: set points that end in every place of the stroke. */
 static void test_pneu_run__regulator_at_many_set_points__always_ends(void **state)
 {
@@ -496,6 +505,7 @@ int main(void)
       cmocka_unit_test(test_pneu_run__no_stroke__is_a_vessel),
       cmocka_unit_test(test_pneu_run__regulator__brings_a_vessel_to_its_set_point),
       cmocka_unit_test(test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction),
+      cmocka_unit_test(test_pneu_stem_extension__normal_and_reverse__mirror_each_other),
       cmocka_unit_test(test_pneu_run__regulator_at_many_set_points__always_ends),
       cmocka_unit_test(test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays),
       cmocka_unit_test(test_pneu_regulator_opening__error_over_band__is_held_within_one),

@@ -51,8 +51,8 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   recorder *r = context;
   lab_trace *trace = r->trace;
   pneu_output out;
-  memset(&out, 0, sizeof out);
-  pneu_observe(r->model, state, input, &out);
+  if (pneu_observe(r->model, state, input, &out) != PNEU_OK)
+    memset(&out, 0xff, sizeof out); /* every number NaN */
   trace->u[i] = input->u;
   trace->p[i] = out.shown_pressure;
   trace->x[i] = out.shown_position;

@@ -324,6 +324,35 @@ static int check_supply(const config_t *config, const lab_rig *rig, lab_error *e
                          (double)rig->params.supply_pressure);
 }
 
+static int is_active(const pneu_model *model, int effect)
+{
+  int i;
+  for (i = 0; i < model->n_active; i++)
+    if (model->active[i] == effect)
+      return 1;
+  return 0;
+}
+
+/* A parameter that is set but cannot act under the declared laws is a mistake, not a remark. */
+static int check_effects_act(const lab_rig *rig, lab_error *error)
+{
+  pneu_model model;
+  int e, i, count;
+  if (lab_rig_model(rig, &model, error))
+    return error->status;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const int first = pneu_effect_params(e, &count);
+    for (i = 0; i < count && !is_active(&model, e); i++) {
+      pneu_param_info info;
+      pneu_param_describe(first + i, &info);
+      if (!info.shape && *pneu_param_at((pneu_params *)&rig->params, first + i) != info.neutral)
+        return lab_fail(error, LAB_DATA, "%s: effects.%s.%s does nothing under the gas law \"%s\": %s", rig->file,
+                        pneu_effect_at(e)->name, info.name, pneu_gas_key(rig->laws.gas), info.meaning);
+    }
+  }
+  return LAB_OK;
+}
+
 static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
 {
   const config_setting_t *root = config_root_setting(config);
@@ -348,7 +377,7 @@ int lab_rig_read(const char *path, lab_rig *rig, lab_error *error)
   if (status == LAB_OK)
     status = read_sections(&config, rig, error);
   config_destroy(&config);
-  return status;
+  return status == LAB_OK ? check_effects_act(rig, error) : status;
 }
 
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)

@@ -33,7 +33,7 @@ enum lab_friction { LAB_FRICTION_COULOMB, LAB_FRICTION_STRIBECK, LAB_FRICTION_LU
 typedef struct lab_rig {
   char file[LAB_PATH_TEXT]; /* where it was read */
   char name[LAB_NAME_TEXT]; /* of the actuator; by default that of the file without its ending */
-  int action;               /* enum lab_action */
+  int action;               /* enum lab_action; for readers: x follows the air in both, see pneu_stem_extension */
   int friction;             /* enum lab_friction */
   pneu_params params;
   pneu_laws laws;

@@ -26,6 +26,12 @@ static double held(const lab_rig *rig, const lab_log *log, int channel, size_t i
   return log->value[channel][i];
 }
 
+/* A position that drives the model and lies beyond a stop, as noise at rest does, counts as on the stop. */
+static double driving(const lab_rig *rig, int channel, double value)
+{
+  return channel == LAB_CHANNEL_X ? fmin(fmax(value, 0), (double)rig->params.stroke) : value;
+}
+
 /* Slope of a channel from row i to its next value; what was before in a gap, 0 after the last value. */
 static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t i, size_t end, double before)
 {
@@ -37,7 +43,9 @@ static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t 
     return before;
   while (next < end && isnan(value[next]))
     next++;
-  return next < end ? (value[next] - value[i]) / (t[next] - t[i]) : 0;
+  if (next == end)
+    return 0;
+  return (driving(rig, channel, value[next]) - driving(rig, channel, value[i])) / (t[next] - t[i]);
 }
 
 static int same(const pneu_input *a, const pneu_input *b)

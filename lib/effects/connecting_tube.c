@@ -8,8 +8,8 @@
  */
 #include "../internal.h"
 
-#define LEAST  PNEU_C(1e4)  /* [Pa s/kg] */
-#define MIXING PNEU_C(1e-6) /* share of full pressure */
+#define LEAST  PNEU_C(1e4)                     /* [Pa s/kg] */
+#define MIXING (PNEU_C(1e-6) + 100 * PNEU_EPS) /* share of full pressure, above its rounding */
 
 enum { RESISTANCE, VOLUME };
 
