@@ -20,7 +20,6 @@ void pneu_transducer_flow(pneu_terms *t)
 {
   const pneu_params *p = &t->model->p;
   const pneu_real before = t->mass_in;
-  t->drawn = 0;
   if (t->opening > 0) {
     pneu_exchange(t, t->opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
     t->drawn = t->mass_in - before;

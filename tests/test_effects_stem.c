@@ -370,6 +370,13 @@ static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
     check_note("%g m/N", compliance[i]);
     assert_between(fixture_steps(&m), 1, 3000);
   }
+  p.dry_friction = 0;
+  p.dead_volume = (pneu_real)8.68e-5;
+  fixture_set(&p, "stop_compliance", 5.73e-11);
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+    assert_between(fixture_steps(&m), 1, 3000);
+  }
 }
 
 static footprint footprints[] = {

@@ -115,7 +115,7 @@ static int rest(const pneu_model *model, const pneu_input *input, const struct s
   double x = isnan(seen->x) ? balanced_position(model, input, p) : on_stop(model, input, p, seen->x);
   int status = pneu_state_rest(model, (pneu_real)p, (pneu_real)T, (pneu_real)x, input, state);
   if (status == PNEU_OK && model->law.position_input && !isnan(seen->x))
-    state->x = (pneu_real)seen->x; /* as measured, noise and all: its slopes start from there */
+    state->x = (pneu_real)fmin(fmax(seen->x, 0), (double)model->travel); /* as measured: its slopes start from there */
   return status;
 }
 
