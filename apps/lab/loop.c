@@ -82,20 +82,43 @@ typedef struct refit {
   int candidate, tried;
 } refit;
 
-static int refit_candidate(const lab_unknowns *u, const lab_candidate *c, refit *r, lab_error *error)
+/* Take up a candidate at a size and fit, from where the unknowns are. */
+static int fit_with(const lab_unknowns *u, const lab_candidate *c, double size, refit *r, lab_error *error)
 {
   pneu_param_info info;
-  double start;
   r->u = *u;
   pneu_param_describe(c->param, &info);
-  start = (double)info.neutral + c->size;
-  if (start == (double)info.neutral)
-    start += 0.02 * (double)(info.value - info.neutral);
-  if (lab_unknowns_add(&r->u, c->param, start, error))
+  if (lab_unknowns_add(&r->u, c->param, (double)info.neutral + size, error))
     return error->status;
   if (c->shape >= 0 && lab_unknowns_add(&r->u, c->shape, c->shape_value, error))
     return error->status;
   return lab_unknowns_fit(&r->u, &r->fit, error);
+}
+
+/* Two starts, the better one counts: from the present fit, which may have bent its parameters to stand in for the
+ * effect, and from before any fit with the effect at its usual size. */
+static int refit_candidate(const lab_unknowns *u, const lab_candidate *c, refit *r, lab_error *error)
+{
+  refit *fresh = malloc(sizeof *fresh);
+  pneu_param_info info;
+  double usual;
+  int j, first, second;
+  if (!fresh)
+    return lab_fail_memory(error, "a refit");
+  pneu_param_describe(c->param, &info);
+  usual = (double)(info.value - info.neutral);
+  first = fit_with(u, c, c->size != 0 ? c->size : 0.02 * usual, r, error);
+  fresh->u = *u;
+  for (j = 0; j < u->n; j++)
+    fresh->u.unknown[j].value = u->unknown[j].first;
+  second = fit_with(&fresh->u, c, c->size * usual < 0 ? -usual : usual, fresh, error);
+  if (second == LAB_OK && (first != LAB_OK || fresh->fit.chi2 < r->fit.chi2)) {
+    r->u = fresh->u;
+    r->fit = fresh->fit;
+    first = LAB_OK;
+  }
+  free(fresh);
+  return first;
 }
 
 /* Schwarz 1978: what a fit costs, its parameters counted. */
@@ -104,27 +127,48 @@ static double bic(const refit *r)
   return r->fit.chi2 + (double)r->u.n * log((double)r->u.n_data);
 }
 
-/* Refit the leaders that pass; the best of them first.  Returns: their number. */
+/* The candidates worth a refit: those that pass, one for each effect, down to a tenth of the best statistic. A slope
+ * ranks large effects poorly, so that more than the first few get their chance. */
+static int choose_leaders(const lab_trace_result *trace, double level, refit *leader)
+{
+  int i, k, n = 0;
+  for (i = 0; i < trace->n && n < LAB_LOOP_LEADERS; i++) {
+    const lab_candidate *c = &trace->candidate[i];
+    int seen = 0;
+    if (!(c->p_value < level) || c->statistic < 0.1 * trace->candidate[0].statistic)
+      break;
+    for (k = 0; k < n; k++)
+      seen |= trace->candidate[leader[k].candidate].effect == c->effect;
+    if (!seen)
+      leader[n++].candidate = i;
+  }
+  return n;
+}
+
+/* Refit the leaders, in parallel; the best of them first.  Returns: their number. */
 static int refit_leaders(const lab_unknowns *u, const lab_trace_result *trace, double level, refit *leader)
 {
-  int i, n = 0, best = 0;
-  for (i = 0; i < trace->n && n < LAB_LOOP_LEADERS; i++) {
+  int i, k = 0, best = 0;
+  const int n = choose_leaders(trace, level, leader);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++) {
     lab_error ignored;
-    if (!(trace->candidate[i].p_value < level))
-      break;
-    leader[n].candidate = i;
-    if (refit_candidate(u, &trace->candidate[i], &leader[n], &ignored) != LAB_OK)
-      continue;
-    if (bic(&leader[n]) < bic(&leader[best]))
-      best = n;
-    n++;
+    leader[i].tried = refit_candidate(u, &trace->candidate[leader[i].candidate], &leader[i], &ignored) == LAB_OK;
   }
+  for (i = 0; i < n; i++)
+    if (leader[i].tried) {
+      if (i != k)
+        leader[k] = leader[i];
+      if (bic(&leader[k]) < bic(&leader[best]))
+        best = k;
+      k++;
+    }
   if (best != 0) {
     const refit keep = leader[0];
     leader[0] = leader[best];
     leader[best] = keep;
   }
-  return n;
+  return k;
 }
 
 /* Candidates whose direction and refit are as good as the winner's. */
@@ -191,6 +235,50 @@ static int add_one(lab_unknowns *u, const lab_loop_options *options, lab_loop_re
   return status;
 }
 
+/* Without one of the found effects, refitted: does its absence cost more than it saves in parameters? */
+static int is_needed(const lab_unknowns *u, const lab_loop_result *result, int which, lab_unknowns *without,
+                     lab_fit_result *fit)
+{
+  const lab_found *found = &result->found[which];
+  const int fewer = found->shape >= 0 ? 2 : 1;
+  lab_error ignored;
+  *without = *u;
+  if (found->shape >= 0)
+    lab_unknowns_drop(without, found->shape);
+  lab_unknowns_drop(without, found->param);
+  if (lab_unknowns_fit(without, fit, &ignored))
+    return 1;
+  return fit->chi2 - result->fit.chi2 > fewer * log((double)u->n_data);
+}
+
+/* Try the model without each effect that was added before the last. */
+static void remove_needless(lab_unknowns *u, lab_loop_result *result)
+{
+  lab_unknowns *without = malloc(sizeof *without);
+  lab_fit_result *fit = malloc(sizeof *fit);
+  int i, k;
+  for (i = 0; without && fit && result->n_found > 1 && i < result->n_found - 1; i++) {
+    if (is_needed(u, result, i, without, fit))
+      continue;
+    *u = *without;
+    result->fit = *fit;
+    for (k = i; k + 1 < result->n_found; k++)
+      result->found[k] = result->found[k + 1];
+    result->n_found--;
+    i--;
+  }
+  free(without);
+  free(fit);
+}
+
+/* What is left is noise: chi-square within six standard deviations of its expectation, or the error within a twentieth
+ * of the noise, as far as a declared noise can be trusted. */
+static int is_noise(const lab_errors *errors)
+{
+  const double n = (double)errors->n;
+  return errors->chi2 < n + 6 * sqrt(2 * n) || errors->chi2 < 1.1025 * n;
+}
+
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error)
 {
   const lab_fit_result fit = result->fit;
@@ -199,11 +287,17 @@ int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_resu
   result->fit = fit;
   if (lab_loop_errors(u, &result->before, error))
     return error->status;
-  while (added && result->n_found < options->max_effects)
+  while (added && result->n_found < options->max_effects) {
     if (add_one(u, options, result, &added, error))
       return error->status;
-  result->verdict = result->n_found > 0 ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE;
-  return lab_loop_errors(u, &result->after, error);
+    remove_needless(u, result);
+  }
+  if (lab_loop_errors(u, &result->after, error))
+    return error->status;
+  result->verdict = !is_noise(&result->after) ? LAB_VERDICT_UNDECIDED
+                    : result->n_found > 0     ? LAB_VERDICT_EFFECT
+                                              : LAB_VERDICT_NONE;
+  return LAB_OK;
 }
 
 void lab_loop_close(lab_loop_result *result)

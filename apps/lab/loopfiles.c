@@ -278,6 +278,12 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
   const double before = sqrt(r->before.chi2 / (double)r->before.n), after = sqrt(r->after.chi2 / (double)r->after.n);
   size_t used = 0;
   int i;
+  if (r->verdict == LAB_VERDICT_UNDECIDED) {
+    snprintf(text, size,
+             "Undecided: what is left, %.2f times the noise, is not noise, and the catalogue does not explain it%s.",
+             after, r->n_found ? " (report.json has what came nearest)" : "");
+    return;
+  }
   if (r->n_found == 0) {
     snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise.",
              before);

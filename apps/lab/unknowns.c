@@ -41,7 +41,7 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
   if (!x)
     return lab_fail(error, LAB_DATA, "more than %d things to fit at once", (int)LAB_FIT_MAX);
   describe_param(x, param);
-  x->value = fmin(fmax(value, x->lower), x->upper);
+  x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);
   if (param != LAB_FIT_ORIFICE_AREA)
@@ -77,7 +77,7 @@ static void add_switches(lab_unknowns *u)
       x->index = index;
       snprintf(x->name, sizeof x->name, "switch_%d", index + 1);
       snprintf(x->unit, sizeof x->unit, "s");
-      x->value = x->prior = bracket / 2;
+      x->value = x->first = x->prior = bracket / 2;
       x->upper = bracket;
       x->scale = bracket;
       x->spread = uniform_spread * bracket;

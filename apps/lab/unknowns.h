@@ -8,8 +8,8 @@
 #include "fit.h"
 
 enum lab_unknown_kind {
-  LAB_UNKNOWN_PARAM,  /* index: as in pneu_param_describe, or LAB_FIT_ORIFICE_AREA (a factor) */
-  LAB_UNKNOWN_SWITCH  /* index: which change of command, counted over all experiments */
+  LAB_UNKNOWN_PARAM, /* index: as in pneu_param_describe, or LAB_FIT_ORIFICE_AREA (a factor) */
+  LAB_UNKNOWN_SWITCH /* index: which change of command, counted over all experiments */
 };
 
 typedef struct lab_unknown {
@@ -17,6 +17,7 @@ typedef struct lab_unknown {
   char name[LAB_FIT_TEXT];
   char unit[16];
   double value, lower, upper, scale;
+  double first;  /* value before any fit */
   double spread; /* of what is known of it beforehand, about `value`; 0: nothing is */
   double prior;  /* value about which the spread is */
 } lab_unknown;
@@ -24,12 +25,12 @@ typedef struct lab_unknown {
 typedef struct lab_unknowns {
   const lab_experiment *experiment;
   int n_experiments;
-  pneu_params params;                 /* of the model, with the latest values of the unknowns in it */
-  pneu_params declared;               /* as declared; orifice_area scales its areas */
+  pneu_params params;   /* of the model, with the latest values of the unknowns in it */
+  pneu_params declared; /* as declared; orifice_area scales its areas */
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
-  double tol;                         /* of the stepper */
-  size_t n_data, m;                   /* measured values; residuals: those, and one for each prior */
+  double tol;       /* of the stepper */
+  size_t n_data, m; /* measured values; residuals: those, and one for each prior */
 } lab_unknowns;
 
 /* Collect the unknowns of a rig's fit list and the switches of the experiments.

@@ -1,0 +1,160 @@
+/* From a log of the independent rig to the effect that the declared model lacks. */
+#include <math.h>
+
+#include "check.h"
+#include "scratch.h"
+#include "second/rig.h"
+
+#include "../apps/lab/loop.h"
+#include "../apps/lab/noise.h"
+
+enum { ROWS = 1001 };
+static const double spacing = 0.01; /* [s] */
+
+/* The R1-400 with 40 cm3 of dead volume; the declaration is off by a few per cent in what is fitted. */
+static second_rig true_rig(void)
+{
+  second_rig g = second_rig_default_r1_400();
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = 7;
+  return g;
+}
+
+static void write_log(const second_rig *g, const char *path)
+{
+  static const double t_cmd[] = {0.402, 2.503, 4.001, 5.507, 7.204}, u_cmd[] = {1, 0, -1, 0.5, -0.5};
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  second_log log = {0};
+  FILE *file = fopen(path, "w");
+  int i;
+  log.t = t;
+  log.u = u;
+  log.p = p;
+  log.x = x;
+  assert_int_equal(second_samples(10, spacing), ROWS);
+  assert_int_equal(second_run(g, t_cmd, u_cmd, 5, 10, spacing, &log, NULL), 0);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+}
+
+static void declare(lab_rig *rig)
+{
+  static const char *const fitted[] = {"dry_friction", "spring_rate", "spring_preload"};
+  pneu_param_info info;
+  int i, k;
+  lab_rig_default(rig);
+  rig->laws.flow = PNEU_FLOW_CHOKED;
+  rig->params.dead_volume = (pneu_real)4e-5;
+  rig->params.spring_rate = (pneu_real)3.9e5;
+  rig->params.dry_friction = 500;
+  rig->noise[LAB_CHANNEL_P] = 320;
+  rig->noise[LAB_CHANNEL_X] = 2e-5;
+  rig->fit[rig->n_fit++] = LAB_FIT_ORIFICE_AREA;
+  for (i = 0; i < 3; i++)
+    for (k = 0; k < PNEU_PARAM_BASE_COUNT; k++) {
+      pneu_param_describe(k, &info);
+      if (!strcmp(info.name, fitted[i]))
+        rig->fit[rig->n_fit++] = k;
+    }
+}
+
+/* Run the loop on a log of the true rig.  Out: u, result to be closed */
+static void close_loop(const second_rig *g, lab_unknowns *u, lab_loop_result *result)
+{
+  static lab_rig rig;
+  static lab_log log;
+  static lab_experiment experiment;
+  const char *path = scratch_path("log.csv");
+  lab_loop_options options;
+  lab_error error = {0, ""};
+  write_log(g, path);
+  declare(&rig);
+  lab_loop_options_default(&options);
+  options.max_effects = 1;
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
+  assert_int_equal(lab_experiment_open(&rig, &log, 0, &experiment, &error), LAB_OK);
+  assert_int_equal(experiment.n_switches, 5);
+  assert_int_equal(lab_unknowns_open(&rig, &experiment, 1, u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(u, &result->fit, &error), LAB_OK);
+  assert_int_equal(lab_loop_run(u, &options, result, &error), LAB_OK);
+  lab_experiment_close(&experiment);
+  lab_log_free(&log);
+}
+
+static void test_lab_loop_run__nothing_missing__says_none_and_finds_the_parameters(void **state)
+{
+  static lab_unknowns u;
+  static lab_loop_result result;
+  const second_rig g = true_rig();
+  (void)state;
+  close_loop(&g, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(result.n_found, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+  assert_close(u.params.spring_rate, 4e5, 0, 2e-3);
+  assert_close(u.params.dry_friction, 480, 0, 2e-2);
+  lab_loop_close(&result);
+}
+
+static void test_lab_loop_run__leak__is_named_and_sized(void **state)
+{
+  static lab_unknowns u;
+  static lab_loop_result result;
+  second_rig g = true_rig();
+  (void)state;
+  g.leak_area = 1.5e-8;
+  close_loop(&g, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_leak");
+  assert_close(*pneu_param_at(&u.params, result.found[0].param), 1.5e-8, 0, 0.05);
+  assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+  lab_loop_close(&result);
+}
+
+/* ---- noise ---- */
+
+static void test_lab_noise_estimate__noise_on_a_ramp__is_its_deviation(void **state)
+{
+  enum { N = 4000 };
+  static double y[N];
+  unsigned seed = 5;
+  int i, k;
+  (void)state;
+  for (i = 0; i < N; i++) {
+    double sum = -6;
+    for (k = 0; k < 12; k++) { /* twelve uniform numbers: variance 1 */
+      seed = seed * 1664525u + 1013904223u;
+      sum += (seed >> 8) / 16777216.0;
+    }
+    y[i] = 0.01 * i + 0.5 * sum + (i > N / 2 ? 100 : 0);
+  }
+  assert_close(lab_noise_estimate(y, N), 0.5, 0, 0.05);
+}
+
+static void test_lab_noise_estimate__few_values__says_nothing(void **state)
+{
+  const double y[] = {1, 2, 4, 8, 16, 32};
+  (void)state;
+  assert_true(isnan(lab_noise_estimate(y, 6)));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_loop_run__nothing_missing__says_none_and_finds_the_parameters),
+      cmocka_unit_test(test_lab_loop_run__leak__is_named_and_sized),
+      cmocka_unit_test(test_lab_noise_estimate__noise_on_a_ramp__is_its_deviation),
+      cmocka_unit_test(test_lab_noise_estimate__few_values__says_nothing),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
