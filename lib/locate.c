@@ -46,12 +46,11 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
   return hi;
 }
 
-/* At rest an event that has not left zero since the stem stopped counts once its push can be resolved. */
-static int is_masked(const pneu_model *model, const pneu_state *state, const pneu_input *input,
-                     const pneu_workspace *work, int which, pneu_real g)
+/* At rest between the stops an event counts once its push can be resolved; it is then dated back to its zero. A stem
+ * that creeps to rest ends its slide within rounding of the balance, on either side of it. */
+static int is_masked(const pneu_model *model, const pneu_state *state, pneu_real g)
 {
-  return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved &&
-         event_at(model, state, input, work, which, 0) > 0;
+  return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved;
 }
 
 /* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:
@@ -70,7 +69,7 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
     count = pneu_events(model, state, input, y, g);
     for (i = 0; i < count; i++) {
       pneu_real at;
-      if (!(g[i] > 0) || is_masked(model, state, input, work, i, g[i]))
+      if (!(g[i] > 0) || is_masked(model, state, g[i]))
         continue;
       at = dense_root(model, state, input, work, i, theta, g[i]);
       if (at < first) {

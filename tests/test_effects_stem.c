@@ -379,6 +379,32 @@ static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
   }
 }
 
+/* A stem that creeps into a soft stop as the supply is reached comes to rest there for good. */
+static void test_stop_compliance__creeping_in__does_not_chatter(void **state)
+{
+  static const struct creep {
+    double compliance, supply, dead_volume;
+    int gas, flow;
+  } creep[] = {{60 * 1e-9, 51e4, 16 * 1e-5, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED},
+               {84 * 1e-9, 41e4, 16 * 1e-5, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER},
+               {9 * 1e-9, 33e4, 18 * 1e-5, PNEU_GAS_POLYTROPIC, PNEU_FLOW_ISO6358},
+               {79 * 1e-9, 43e4, 12 * 1e-5, PNEU_GAS_POLYTROPIC, PNEU_FLOW_CHOKED}};
+  int i;
+  (void)state;
+  if (fixture_effect("stop_compliance") < 0)
+    skip();
+  for (i = 0; i < COUNT(creep); i++) {
+    pneu_params p = fixture_params(FIXTURE_R1_400);
+    pneu_model m;
+    p.supply_pressure = (pneu_real)creep[i].supply;
+    p.dead_volume = (pneu_real)creep[i].dead_volume;
+    fixture_set(&p, "stop_compliance", creep[i].compliance);
+    m = fixture_model(&p, creep[i].gas, creep[i].flow);
+    check_note("%g m/N", creep[i].compliance);
+    assert_between(fixture_steps(&m), 1, TOL(1000, 5000));
+  }
+}
+
 static footprint footprints[] = {
     {"area_variation", "balance_and_sealed_air__follow_the_area", footprint_area_variation},
     {"friction_position", "level_and_break_away__depend_on_position", footprint_friction_position},
@@ -399,7 +425,7 @@ static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void
 
 int main(void)
 {
-  enum { OTHERS = 5 };
+  enum { OTHERS = 6 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_stem__has_a_footprint_test),
@@ -407,6 +433,7 @@ int main(void)
       cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
       cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
       cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),
+      cmocka_unit_test(test_stop_compliance__creeping_in__does_not_chatter),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);
