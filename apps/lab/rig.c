@@ -346,8 +346,9 @@ static int check_effects_act(const lab_rig *rig, lab_error *error)
       pneu_param_info info;
       pneu_param_describe(first + i, &info);
       if (!info.shape && *pneu_param_at((pneu_params *)&rig->params, first + i) != info.neutral)
-        return lab_fail(error, LAB_DATA, "%s: effects.%s.%s does nothing under the gas law \"%s\": %s", rig->file,
-                        pneu_effect_at(e)->name, info.name, pneu_gas_key(rig->laws.gas), info.meaning);
+        return lab_fail(error, LAB_DATA,
+                        "%s: effects.%s.%s does nothing with the other laws and effects declared (gas law \"%s\"): %s",
+                        rig->file, pneu_effect_at(e)->name, info.name, pneu_gas_key(rig->laws.gas), info.meaning);
     }
   }
   return LAB_OK;
