@@ -91,10 +91,11 @@ static void derive_scales(pneu_model *model)
 {
   const pneu_params *p = &model->p;
   const pneu_real on_stop = model->stop_compliance > 0 ? p->stroke / model->stop_compliance : 0;
-  model->force_noise = PNEU_FORCE_NOISE * ((p->supply_pressure + p->ambient_pressure) * p->area + on_stop +
-                                           p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) +
-                                           PNEU_M(fabs)(p->external_force));
-  model->force_resolved = model->force_noise / PNEU_FORCE_NOISE * PNEU_FORCE_RESOLVED;
+  const pneu_real largest = (p->supply_pressure + p->ambient_pressure) * p->area + on_stop +
+                            p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) +
+                            PNEU_M(fabs)(p->external_force); /* [N] */
+  model->force_noise = PNEU_FORCE_NOISE * largest;
+  model->force_resolved = PNEU_FORCE_RESOLVED * largest;
   model->scale[0] = model->p.supply_pressure + model->p.ambient_pressure;
   model->scale[1] = model->p.ambient_temperature;
   model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;

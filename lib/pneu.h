@@ -479,7 +479,7 @@ typedef struct pneu_flow {
  * Domain:  ideal gas; steady. Within PNEU_BLEND (5e-4) of equal pressures the root is replaced
  *          by an odd polynomial that is linear at zero, with value, slope and curvature
  *          continuous at the edge.
- * Error:   exact to rounding outside the blend (tests: 1e-14); inside it at most 18 % of the flow at its edge lies
+ * Error:   exact to 1e-12 of itself outside the blend (tests); inside it at most 18 % of the flow at its edge lies
  *          between polynomial and root. Slopes: to 1e-6 of difference quotients.
  * Omits:   vena contracta shift with ratio, upstream kinetic energy, heat, inertia of the gas.
  * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;

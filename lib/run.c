@@ -22,6 +22,19 @@ typedef struct run {
   int steps, events_here;           /* events without progress in time */
 } run;
 
+/* Time to go, and time that passes: single precision would lose short steps late in a long run. */
+static pneu_real left_of(const run *r)
+{
+  return (r->end - r->t) + r->carry;
+}
+
+static void pass_time(run *r, pneu_real h)
+{
+  const pneu_real step = h - r->carry, t = r->t + step;
+  r->carry = (t - r->t) - step;
+  r->t = t;
+}
+
 /* First step in a mode: with mu the rate at which the slope changes along the solution,
  * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale. */
 static pneu_real first_step(const run *r)
@@ -39,7 +52,7 @@ static pneu_real first_step(const run *r)
     jf = PNEU_M(fmax)(jf, PNEU_M(fabs)(sum) / scale[i]);
   }
   if (!(f > 0))
-    return r->end - r->t;
+    return left_of(r);
   mu = jf / f + PNEU_EPS;
   h = PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_C(0.2));
   return h;
@@ -57,19 +70,6 @@ static int notify_step(run *r, pneu_real h)
   view.t = r->t;
   view.h = h;
   return r->observer->step(r->observer->context, &view) ? PNEU_E_STOPPED : PNEU_OK;
-}
-
-/* Time to go, and time that passes: single precision would lose short steps late in a long run. */
-static pneu_real left_of(const run *r)
-{
-  return (r->end - r->t) + r->carry;
-}
-
-static void pass_time(run *r, pneu_real h)
-{
-  const pneu_real step = h - r->carry, t = r->t + step;
-  r->carry = (t - r->t) - step;
-  r->t = t;
 }
 
 /* Take over the end of the step; switch the mode where an event ended it. */

@@ -7,6 +7,7 @@
 
 #include "../lab/outfile.h"
 #include "../lab/rigkeys.h"
+#include "../lab/text.h"
 
 enum { PATH_BYTES = 1024 };
 
@@ -54,4 +55,26 @@ int measured_save(const char *results_dir, const char *name, const table *t, lab
     return error->status;
   }
   return lab_out_close(&out, error);
+}
+
+int measured_lines(const char *path, int (*take)(void *context, const char *text, lab_error *error), void *context,
+                   lab_error *error)
+{
+  const char *begin, *end;
+  lab_lines lines;
+  lab_text text;
+  int status = lab_text_read(path, &text, error);
+  if (status != LAB_OK)
+    return status;
+  lab_lines_start(&lines, &text);
+  lab_lines_next(&lines, &begin, &end); /* the header */
+  while (status == LAB_OK && lab_lines_next(&lines, &begin, &end)) {
+    char line[80];
+    snprintf(line, sizeof line, "%.*s", (int)(end - begin), begin);
+    status = take(context, line, error);
+    if (status != LAB_OK)
+      lab_fail_in(error, "%s:%d", path, lines.number);
+  }
+  lab_text_free(&text);
+  return status;
 }

@@ -21,6 +21,12 @@ const char *measured_folder(void);
  * Returns: LAB_OK, MEASURED_ABSENT, LAB_DATA for a path that is too long. */
 int measured_path(const char *folder, const char *name, char *path, size_t size, lab_error *error);
 
+/* Hand each line of a table to `take`, its header left out. What `take` finds wrong gets file and line in front.
+ * In:      take  text without the line's end, 79 bytes at most  Returns: LAB_OK, or what ends the reading
+ * Returns: LAB_OK, LAB_DATA, LAB_WORLD. */
+int measured_lines(const char *path, int (*take)(void *context, const char *text, lab_error *error), void *context,
+                   lab_error *error);
+
 /* Place of a parameter of an effect, for pneu_param_at.
  * Returns: its index, or -1 if this build of the library has none of that name. */
 int measured_effect_param(const char *effect, const char *param);

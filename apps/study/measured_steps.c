@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "../lab/rig.h"
-#include "../lab/text.h"
 #include "asymmetry.h"
 #include "measured.h"
 #include "measured_damadics.h"
@@ -25,8 +24,9 @@ typedef struct record {
 
 /* ---- Reading ---- */
 
-static int add_point(record *r, const char *text, lab_error *error)
+static int add_point(void *context, const char *text, lab_error *error)
 {
+  record *r = context;
   double t_ms, x;
   if (sscanf(text, "%lf,%lf", &t_ms, &x) != 2)
     return lab_fail(error, LAB_DATA, "expected time and position, found \"%s\"", text);
@@ -39,24 +39,8 @@ static int add_point(record *r, const char *text, lab_error *error)
 
 static int read_record(const char *path, record *r, lab_error *error)
 {
-  const char *begin, *end;
-  lab_lines lines;
-  lab_text text;
-  int status = lab_text_read(path, &text, error);
-  if (status != LAB_OK)
-    return status;
   r->n = 0;
-  lab_lines_start(&lines, &text);
-  lab_lines_next(&lines, &begin, &end); /* the header */
-  while (status == LAB_OK && lab_lines_next(&lines, &begin, &end)) {
-    char line[80];
-    snprintf(line, sizeof line, "%.*s", (int)(end - begin), begin);
-    status = add_point(r, line, error);
-    if (status != LAB_OK)
-      lab_fail_in(error, "%s:%d", path, lines.number);
-  }
-  lab_text_free(&text);
-  return status;
+  return measured_lines(path, add_point, r, error);
 }
 
 /* Where the falling record meets 0: it goes on to -0.25, by an offset of the sensor or the smoothing of the chart. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../lab/text.h"
+#include "measured.h"
 
 const servo_law servo_laws[] = {
     {"coulomb", 0, {0}},
@@ -70,8 +70,9 @@ static void describe(const servo_law *law, lab_fit_param *param)
 /* What the drawing resolves [m]: 0.14 % of 38.1 mm. */
 static const double resolution = 0.0014 * 38.1e-3;
 
-static int add_point(servomotor *s, const char *text, lab_error *error)
+static int add_point(void *context, const char *text, lab_error *error)
 {
+  servomotor *s = context;
   char branch[16];
   double p_kPa, x_percent;
   const size_t i = s->n;
@@ -88,32 +89,11 @@ static int add_point(servomotor *s, const char *text, lab_error *error)
   return LAB_OK;
 }
 
-static int read_loop(const char *path, servomotor *s, lab_error *error)
-{
-  const char *begin, *end;
-  lab_lines lines;
-  lab_text text;
-  int status = lab_text_read(path, &text, error);
-  if (status != LAB_OK)
-    return status;
-  lab_lines_start(&lines, &text);
-  lab_lines_next(&lines, &begin, &end); /* the header */
-  while (status == LAB_OK && lab_lines_next(&lines, &begin, &end)) {
-    char line[80];
-    snprintf(line, sizeof line, "%.*s", (int)(end - begin), begin);
-    status = add_point(s, line, error);
-    if (status != LAB_OK)
-      lab_fail_in(error, "%s:%d", path, lines.number);
-  }
-  lab_text_free(&text);
-  return status;
-}
-
 int servo_read(const char *rig_path, const char *loop_path, servomotor *s, lab_error *error)
 {
   memset(s, 0, sizeof *s);
   s->nominal = 38.1e-3; /* the data's unit of travel, from their source */
-  if (lab_rig_read(rig_path, &s->rig, error) || read_loop(loop_path, s, error))
+  if (lab_rig_read(rig_path, &s->rig, error) || measured_lines(loop_path, add_point, s, error))
     return error->status;
   return LAB_OK;
 }
