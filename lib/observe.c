@@ -31,6 +31,29 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   return PNEU_OK;
 }
 
+/* Whether an effect stands between the state and what is shown. */
+static int has_sensors(const pneu_model *model)
+{
+  return model->n_active > 0 && pneu_effect_at(model->active[model->n_active - 1])->stage >= PNEU_STAGE_LAG;
+}
+
+int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)
+{
+  pneu_output out;
+  int status;
+  if (has_sensors(model)) {
+    status = pneu_observe(model, state, input, &out);
+    shown->pressure = out.shown_pressure;
+    shown->temperature = out.shown_temperature;
+    shown->position = out.shown_position;
+    return status;
+  }
+  shown->pressure = state->p;
+  shown->temperature = model->thermal ? state->T : model->p.ambient_temperature;
+  shown->position = state->x;
+  return PNEU_OK;
+}
+
 static void start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state)
 {
   pneu_terms t;

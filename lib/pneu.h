@@ -279,6 +279,13 @@ typedef struct pneu_output {
   pneu_real shown_position;    /* [m] by its sensor */
 } pneu_output;
 
+/* What the sensors show, by pneu_show. */
+typedef struct pneu_shown {
+  pneu_real pressure;    /* [Pa] gauge */
+  pneu_real temperature; /* [K] */
+  pneu_real position;    /* [m] */
+} pneu_shown;
+
 typedef struct pneu_options {
   pneu_real tol;   /* local error in units of stroke, full pressure and so on; 1e-10..1e-2 */
   pneu_real h_max; /* [s] longest step; 0: none */
@@ -371,6 +378,10 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
 /* Everything that can be read off a state.
  * Returns: PNEU_OK, or PNEU_RETRY_STATE if the state is not physical (mass, temperature or volume <= 0). */
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out);
+
+/* What the sensors show of a state: the same as the last three of pneu_observe, without an evaluation where no effect
+ * of a sensor is active.  Returns: as pneu_observe. */
+int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown);
 
 /* Packed vector for an external integrator: p, [T], states of effects, x, v. At rest x and v are
  * frozen and left out.

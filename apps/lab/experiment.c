@@ -127,7 +127,7 @@ int lab_experiment_predict(const lab_experiment *e, const pneu_params *params, c
                            double *y, lab_error *error)
 {
   const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
-  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0};
+  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0, 1};
   lab_rig rig = *e->rig;
   lab_schedule schedule;
   lab_trace trace;
