@@ -31,10 +31,11 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   return PNEU_OK;
 }
 
-/* Whether an effect stands between the state and what is shown. */
+/* Whether an effect or a free term stands between the state and what is shown. */
 static int has_sensors(const pneu_model *model)
 {
-  return model->n_active > 0 && pneu_effect_at(model->active[model->n_active - 1])->stage >= PNEU_STAGE_LAG;
+  return model->n_terms > 0 ||
+         (model->n_active > 0 && pneu_effect_at(model->active[model->n_active - 1])->stage >= PNEU_STAGE_LAG);
 }
 
 int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)

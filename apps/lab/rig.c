@@ -206,7 +206,7 @@ static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab
   return LAB_OK;
 }
 
-static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
+static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
 {
   char text[LAB_FIT_COUNT][LAB_FIT_TEXT];
   const char *names[LAB_FIT_COUNT];
@@ -218,8 +218,20 @@ static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error
     status = lab_config_choice(setting, names, LAB_FIT_COUNT, sizeof names[0], &index, error);
     if (status == LAB_OK)
       status = add_fit(setting, index, rig, error);
+    if (status == LAB_OK)
+      rig->fit_per_log[rig->n_fit - 1] = (unsigned char)per_log;
   }
   return status;
+}
+
+static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return read_fit_list(list, 0, rig, error);
+}
+
+static int read_fit_per_log(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return read_fit_list(list, 1, rig, error);
 }
 
 /* Channel of a key in the noise group, "pressure" or "p"; time and command have no noise. */
@@ -281,9 +293,9 @@ static const struct section {
   const char *name;
   int (*read)(const config_setting_t *, lab_rig *, lab_error *);
 } sections[] = {
-    {"actuator", read_keys}, {"transducer", read_keys}, {"supply", read_keys}, {"ambient", read_keys},
-    {"gas", read_keys},      {"laws", read_keys},       {"fit", read_fit},     {"noise", read_noise},
-    {"inputs", read_inputs}, {"effects", read_effects}, {"log", read_log},
+    {"actuator", read_keys}, {"transducer", read_keys}, {"supply", read_keys},     {"ambient", read_keys},
+    {"gas", read_keys},      {"laws", read_keys},       {"fit", read_fit},         {"fit_per_log", read_fit_per_log},
+    {"noise", read_noise},   {"inputs", read_inputs},   {"effects", read_effects}, {"log", read_log},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 
@@ -385,6 +397,8 @@ int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)
 {
   char name[LAB_FIT_TEXT];
   int bad, status = pneu_model_init(model, &rig->params, &rig->laws, &bad);
+  if (status == PNEU_OK)
+    status = pneu_model_terms(model, rig->term, rig->n_terms);
   if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_DATA, "%s: %s%s%s", rig->file, bad >= 0 ? lab_fit_name(bad, name) : "",

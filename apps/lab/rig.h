@@ -22,6 +22,7 @@ enum {
   LAB_FIT_ORIFICE_AREA = PNEU_PARAM_COUNT, /* in lab_rig.fit: scales fill_area and vent_area together */
   LAB_FIT_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
   LAB_NAME_TEXT = 64,
+  LAB_TERM_MAX = 4,  /* free terms of a rig */
   LAB_FIT_TEXT = 96, /* bytes of a name from lab_fit_name */
   LAB_PATH_TEXT = 1024
 };
@@ -37,10 +38,13 @@ typedef struct lab_rig {
   int friction;             /* enum lab_friction */
   pneu_params params;
   pneu_laws laws;
+  pneu_term term[LAB_TERM_MAX]; /* free terms: what acts without a name */
+  int n_terms;
   int n_fit;
-  int fit[LAB_FIT_COUNT];                 /* parameters (as in pneu_param_describe) or LAB_FIT_ORIFICE_AREA */
-  double noise[LAB_CHANNEL_COUNT];        /* standard deviation, SI; NaN: estimate it from the log */
-  unsigned char input[LAB_CHANNEL_COUNT]; /* 1: drives the model; u always does */
+  int fit[LAB_FIT_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_FIT_ORIFICE_AREA */
+  unsigned char fit_per_log[LAB_FIT_COUNT]; /* 1: every log has its own value */
+  double noise[LAB_CHANNEL_COUNT];          /* standard deviation, SI; NaN: estimate it from the log */
+  unsigned char input[LAB_CHANNEL_COUNT];   /* 1: drives the model; u always does */
   lab_log_format log;
 } lab_rig;
 
@@ -56,7 +60,8 @@ int lab_rig_read(const char *path, lab_rig *rig, lab_error *error);
  * In:      remark  lines for the head of the file, or NULL */
 void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark);
 
-/* The library's model of a rig.  Out: model  Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
+/* The library's model of a rig, whose free terms it uses where they lie: keep the rig as long as the model.
+ * Out: model  Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
 
 /* Name of something fitted: "dry_friction", "orifice_area", "chamber_leak.leak_area".
