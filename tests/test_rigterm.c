@@ -239,7 +239,7 @@ static void test_lab_rig_write__declared_terms__come_back_bit_for_bit(void **sta
 #define SHOW                                                                                                           \
   "for (i = 0; i < n; i++) {\n"                                                                                        \
   "  printf(\"%d %d %d %.17g %.17g\", term[i].equation, term[i].argument, term[i].n, term[i].from, term[i].to);\n"     \
-  "  for (k = 0; k < 33; k++) printf(\" %.17g\", term[i].value[k]);\n"                                                 \
+  "  for (k = 0; k < PNEU_TERM_KNOTS; k++) printf(\" %.17g\", term[i].value[k]);\n"                                                 \
   "}\n"
 
 static void show(const pneu_term *term, int n, char *text, size_t size)

@@ -288,6 +288,30 @@ static void test_pneu_add_terms__friction_less_than_none__is_none(void **state)
   assert_close(d[FRICTION], -480, 0, 0);
 }
 
+/* Bristles bend until they carry the level with the term: no rate is left there. */
+static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_term term = line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 120);
+  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (fixture_effect("presliding") < 0)
+    skip();
+  fixture_set(&p, "presliding_length", 2e-5);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  add(&m, &term, 1);
+  s = fixture_rest(&m, 2e5, 0.011, &input);
+  s.v = (pneu_real)0.01;
+  s.extra[0] = (pneu_real)(720.0 / 480);
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  assert_close(f[1], 0, 1e-4 * 0.01 / 2e-5, 0);
+}
+
 /* No temperature of its own, no balance of energy, or no balance at all: nothing to heat, nothing to fill. */
 static void test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing(void **state)
 {
@@ -663,6 +687,7 @@ int main(void)
       cmocka_unit_test(test_pneu_add_terms__each_equation_and_argument__changes_its_sum_only),
       cmocka_unit_test(test_pneu_add_terms__several_on_one_equation__add_up),
       cmocka_unit_test(test_pneu_add_terms__friction_less_than_none__is_none),
+      cmocka_unit_test(test_pneu_add_terms__friction_with_bristles__is_in_their_level),
       cmocka_unit_test(test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing),
       cmocka_unit_test(test_pneu_run__no_terms__is_the_base_model_bit_for_bit),
       cmocka_unit_test(test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_bit),
