@@ -106,7 +106,8 @@ extern "C" {
   X(heat_ratio,          "1",        1.01,   1.67,   1.4,       "gamma of the gas") \
   X(polytropic_index,    "1",        1.0,    1.67,   1.4,       "n of the polytropic law")
 
-/* What a free term is added to. Friction acts in both directions and at break-away; with the term it is not below 0.
+/* What a free term is added to. Friction is added to the level that the effects have made, in both directions and at
+ * break-away, and is not below 0 with it; LuGre friction, whose force is a share of dry_friction, needs that above 0.
  * Flow comes in at ambient temperature and leaves at that of the gas. Heat counts where the chamber law is an energy
  * balance; flow and heat, where pressure is no input; sensors show the term as it is, behind their lags and gains.
  *    name            key in files      unit */

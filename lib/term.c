@@ -3,7 +3,7 @@
 
 static int bad_numbers(const pneu_term *term)
 {
-  pneu_real zero = 0 * (term->to - term->from) + 0 * term->value[0];
+  pneu_real zero = 0 * (term->to - term->from);
   int i;
   for (i = 1; i < term->n; i++)
     zero += 0 * (term->value[i] - term->value[i - 1]);

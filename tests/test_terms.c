@@ -288,6 +288,30 @@ static void test_pneu_add_terms__friction_less_than_none__is_none(void **state)
   assert_close(d[FRICTION], -480, 0, 0);
 }
 
+/* Bristles bend until they carry the level with the term: no rate is left there. */
+static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_term term = line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 120);
+  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (fixture_effect("presliding") < 0)
+    skip();
+  fixture_set(&p, "presliding_length", 2e-5);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  add(&m, &term, 1);
+  s = fixture_rest(&m, 2e5, 0.011, &input);
+  s.v = (pneu_real)0.01;
+  s.extra[0] = (pneu_real)(720.0 / 480);
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  assert_close(f[1], 0, 1e-4 * 0.01 / 2e-5, 0);
+}
+
 /* No temperature of its own, no balance of energy, or no balance at all: nothing to heat, nothing to fill. */
 static void test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing(void **state)
 {
@@ -507,6 +531,149 @@ static void test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any
   }
 }
 
+/* ---- runs ---- */
+
+static double bump(double x)
+{
+  const double s = (x - 0.012) / 2e-3;
+  return 300 * exp(-s * s);
+}
+
+/* A relief that opens above 2 bar. */
+static double relief(double p)
+{
+  return p > 2e5 ? -1e-4 * (p - 2e5) / 2e5 : 0;
+}
+
+/* Knots make steps: each changes a slope, and what is fast in the model answers. */
+static void test_pneu_run__rough_tables__take_a_bounded_number_of_steps(void **state)
+{
+  const pneu_term term[] = {
+      sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, bump),
+      sampled(PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, hardening),
+      sampled(PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, PNEU_TERM_KNOTS, 0, 4e5, relief),
+      sampled(PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_PRESSURE, PNEU_TERM_KNOTS, 0, 4e5, zigzag),
+  };
+  const double most[] = {4, 4, 1.5, 1.5}; /* measured 2.5, 2.8, 1.0, 1.0 */
+  int i, gas;
+  (void)state;
+  for (i = 0; i < COUNT(term); i++)
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
+      const pneu_params p = fixture_params(FIXTURE_R1_400);
+      pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+      const long base = fixture_steps(&m);
+      add(&m, &term[i], 1);
+      check_note("term %d, %s", i, pneu_gas_key(gas));
+      assert_between(fixture_steps(&m), 0.5 * (double)base, most[i] * (double)base);
+    }
+}
+
+/* Firmware's steps of 1 ms end where the run with error control does. */
+static void test_pneu_step__terms__follow_the_run(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_term term[2] = {sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 17, 0, 0.02, bump),
+                             sampled(PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 17, 0, 4e5, relief)};
+  pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_input input = fixture_input(&m, 1);
+  static pneu_workspace work;
+  pneu_state a, b;
+  int i;
+  (void)state;
+  add(&m, term, 2);
+  a = b = fixture_rest(&m, 0, 0, &input);
+  fixture_run(&m, &a, &input, 2, FIXTURE_TOL, NULL);
+  for (i = 0; i < 2000; i++)
+    assert_int_equal(pneu_step(&m, &b, &input, (pneu_real)1e-3, &work), PNEU_OK);
+  assert_between(a.x, 0.004, 0.018);
+  assert_close(b.x, a.x, TOL(1e-6, 1e-4) * 0.02, 0);
+  assert_close(b.p, a.p, TOL(1e-6, 1e-4) * 4e5, 0);
+}
+
+/* p A = k (x + x0) + F + dF(x), quasi-static: the stem breaks away where the table says, both ways. */
+static void check_break_away(double x, double rate)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_term term = sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, bump);
+  pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  const double balance = 4e5 * (x + 0.01) / 0.04, way = rate > 0 ? 1 : -1;
+  pneu_input input = fixture_input(&m, 0);
+  fixture_events events;
+  pneu_state s;
+  add(&m, &term, 1);
+  s = fixture_rest(&m, balance, x, &input);
+  input.pressure_rate = (pneu_real)rate;
+  fixture_run(&m, &s, &input, 4, FIXTURE_TOL, &events);
+  check_note("x = %g, %g Pa/s", x, rate);
+  assert_true(events.n > 0);
+  assert_int_equal(events.after[0], way > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN);
+  assert_close(events.p[0], balance + way * (480 + bump(x)) / 0.04, TOL(1, 100), 0);
+}
+
+static void test_pneu_run__friction_of_a_place__holds_there_against_both_directions(void **state)
+{
+  (void)state;
+  check_break_away(0.005, 1e4);
+  check_break_away(0.005, -1e4);
+  check_break_away(0.0125, 1e4); /* a knot */
+  check_break_away(0.0125, -1e4);
+}
+
+/* The table is the line from 1e-5 to 3e-5 kg/s over the stroke, which is passed in 2 s. */
+static void test_pneu_run__given_position__flow_of_a_place_fills_the_chamber(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  const pneu_term term = line(PNEU_TERM_FLOW, PNEU_TERM_OVER_POSITION, 1e-5);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  p.stroke = (pneu_real)0.022;
+  p.area = (pneu_real)1e-6; /* sweeps nothing to speak of */
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1);
+  input = fixture_input(&m, 0);
+  add(&m, &term, 1);
+  s = fixture_rest(&m, 0, 0, &input);
+  input.position_rate = (pneu_real)0.011;
+  fixture_run(&m, &s, &input, 2, FIXTURE_TOL, NULL);
+  assert_close(s.x, 0.022, 0, TOL(1e-9, 1e-5));
+  assert_close((double)pneu_mass(&m, &s), 101325 * 1e-3 / (8.31446 / 0.02896 * 298.15) + 2 * 2e-5, 0, TOL(1e-9, 1e-4));
+}
+
+/* A flow that changes its sign with pressure settles where it is nothing, under every chamber law. */
+static void test_pneu_run__flow_through_zero__settles_there(void **state)
+{
+  const pneu_params p = fixture_vessel(1e-3);
+  const pneu_term term = {PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 2, 0, 200000, {(pneu_real)1e-4, (pneu_real)-1e-4}};
+  static const double start[] = {0, 1.7e5};
+  int gas, i;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+    for (i = 0; i < COUNT(start); i++) {
+      pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+      const pneu_input input = fixture_input(&m, 0);
+      pneu_state s = fixture_rest(&m, start[i], 0, &input);
+      add(&m, &term, 1);
+      fixture_run(&m, &s, &input, 600, TOL(1e-8, 1e-4), NULL);
+      check_note("%s from %g Pa", pneu_gas_key(gas), start[i]);
+      assert_close(s.p, 1e5, 0, TOL(1e-5, 1e-2));
+    }
+}
+
+/* W of heat into a shut vessel of the energy law: p' = (gamma - 1) W/V. */
+static void test_pneu_run__constant_heat__raises_the_pressure(void **state)
+{
+  const pneu_params p = fixture_vessel(1e-3);
+  const pneu_term term = {PNEU_TERM_HEAT, PNEU_TERM_OVER_OPENING, 2, 0, 1, {10, 500}};
+  pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  (void)state;
+  add(&m, &term, 1);
+  fixture_run(&m, &s, &input, 3, FIXTURE_TOL, NULL);
+  assert_close(s.p, 0.4 * 10 * 3 / 1e-3, 0, TOL(1e-8, 1e-3));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -520,6 +687,7 @@ int main(void)
       cmocka_unit_test(test_pneu_add_terms__each_equation_and_argument__changes_its_sum_only),
       cmocka_unit_test(test_pneu_add_terms__several_on_one_equation__add_up),
       cmocka_unit_test(test_pneu_add_terms__friction_less_than_none__is_none),
+      cmocka_unit_test(test_pneu_add_terms__friction_with_bristles__is_in_their_level),
       cmocka_unit_test(test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing),
       cmocka_unit_test(test_pneu_run__no_terms__is_the_base_model_bit_for_bit),
       cmocka_unit_test(test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_bit),
@@ -527,6 +695,12 @@ int main(void)
       cmocka_unit_test(test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in_second_order),
       cmocka_unit_test(test_pneu_run__leak_by_more_and_more_knots__converges_in_second_order),
       cmocka_unit_test(test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any_number_of_knots),
+      cmocka_unit_test(test_pneu_run__rough_tables__take_a_bounded_number_of_steps),
+      cmocka_unit_test(test_pneu_step__terms__follow_the_run),
+      cmocka_unit_test(test_pneu_run__friction_of_a_place__holds_there_against_both_directions),
+      cmocka_unit_test(test_pneu_run__given_position__flow_of_a_place_fills_the_chamber),
+      cmocka_unit_test(test_pneu_run__flow_through_zero__settles_there),
+      cmocka_unit_test(test_pneu_run__constant_heat__raises_the_pressure),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include <cjson/cJSON.h>
 
 #include "outfile.h"
+#include "rigterm.h"
 
 static int open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
 {
@@ -217,6 +218,7 @@ int lab_story_header(const lab_story *story, const char *folder, lab_error *erro
   fprintf(out.file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n",
           story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input, story->rig->laws.position_input,
           pneu_gas_key(story->rig->laws.gas), pneu_flow_key(story->rig->laws.flow));
+  lab_terms_print_c(out.file, story->completed->rig.term, story->completed->rig.n_terms);
   return lab_out_close(&out, error);
 }
 

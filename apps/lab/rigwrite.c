@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "rigkeys.h"
+#include "rigterm.h"
 
 /* Text in quotes as libconfig reads it back. */
 static void write_text(FILE *file, const char *text)
@@ -159,5 +160,6 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
   write_noise(file, rig);
   write_inputs(file, rig);
   write_effects(file, rig);
+  lab_terms_write(file, rig->term, rig->n_terms);
   lab_log_format_write(file, &rig->log);
 }

@@ -15,7 +15,10 @@ static int model_of(const lab_rig *rig, int gas, int flow, double stroke, pneu_m
   own.laws = study_laws(rig, gas, flow);
   if (stroke > 0)
     own.params.stroke = stroke;
-  return lab_rig_model(&own, model, error);
+  if (lab_rig_model(&own, model, error))
+    return error->status;
+  model->term = rig->term; /* those of `own` end here */
+  return LAB_OK;
 }
 
 static int save_trace(const study *s, const char *name, const lab_trace *trace, lab_error *error)
