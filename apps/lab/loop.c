@@ -347,6 +347,17 @@ static int extend(search *s, const attempt *base, lab_error *error)
   return status;
 }
 
+/* The pool, best first, without what could not be fitted. */
+static void rank(search *s)
+{
+  int i;
+  qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, by_bic);
+  while (s->n_pool > 0 && !s->pool[s->n_pool - 1].fitted)
+    s->n_pool--;
+  for (i = 0; i < s->n_pool; i++)
+    note_step(s->result, &s->pool[i], i < BEAM);
+}
+
 /* Significant, but not worth adding. */
 static void list_small(search *s)
 {
@@ -359,6 +370,12 @@ static void list_small(search *s)
   }
 }
 
+/* Whether some model at hand leaves only noise, so that poorer ones need not be extended. */
+static int settled(const search *s)
+{
+  return any_is_noise(s->beam, 1) || any_is_noise(s->pool, s->n_pool);
+}
+
 /* One round: extend the models of the beam and take the best extensions for the next.
  * Out:     better  0 when none is worth it */
 static int advance(search *s, int *better, lab_error *error)
@@ -367,15 +384,10 @@ static int advance(search *s, int *better, lab_error *error)
   int i;
   *better = 0;
   s->n_pool = 0;
-  for (i = 0; i < s->n_beam; i++)
-    if (i == 0 || !any_is_noise(s->pool, s->n_pool))
-      if (extend(s, &s->beam[i], error))
-        return error->status;
-  qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, by_bic);
-  while (s->n_pool > 0 && !s->pool[s->n_pool - 1].fitted)
-    s->n_pool--;
-  for (i = 0; i < s->n_pool; i++)
-    note_step(s->result, &s->pool[i], i < BEAM);
+  for (i = 0; i < s->n_beam && (i == 0 || !settled(s)); i++)
+    if (extend(s, &s->beam[i], error))
+      return error->status;
+  rank(s);
   if (s->n_pool == 0 || !(s->pool[0].bic < s->beam[0].bic))
     return LAB_OK;
   if (lab_loop_errors(&s->beam[0].u, &before, error) || lab_loop_errors(&s->pool[0].u, &after, error))
@@ -397,23 +409,19 @@ static int advance(search *s, int *better, lab_error *error)
   return LAB_OK;
 }
 
-/* Without one of the found effects, refitted: does its absence cost more than it saves in parameters? */
-static int is_needed(const attempt *a, int which, attempt *without)
+/* Without one of the found effects, fitted again.  Returns: 0, or -1 where that fails. */
+static int leave_out(const attempt *a, int which, attempt *without)
 {
   lab_error ignored;
   int k;
   *without = *a;
-  if (a->found[which].term >= 0)
-    return 1;
   if (a->found[which].shape >= 0)
     lab_unknowns_drop(&without->u, a->found[which].shape);
   lab_unknowns_drop(&without->u, a->found[which].param);
-  if (finish(without, &ignored))
-    return 1;
   for (k = which; k + 1 < without->n_found; k++)
     without->found[k] = without->found[k + 1];
   without->n_found--;
-  return without->bic > a->bic;
+  return finish(without, &ignored) == LAB_OK ? 0 : -1;
 }
 
 /* Take out again what is not needed now that other effects have come. */
@@ -422,11 +430,32 @@ static void remove_needless(attempt *a)
   attempt *without = malloc(sizeof *without);
   int i;
   for (i = 0; without && a->n_found > 1 && i < a->n_found - 1; i++)
-    if (!is_needed(a, i, without)) {
+    if (a->found[i].term < 0 && leave_out(a, i, without) == 0 && without->bic <= a->bic) {
       *a = *without;
       i = -1;
     }
   free(without);
+}
+
+/* An effect that was the best one alone need not be the best one beside those that came after it: put each earlier one
+ * to the test again. */
+static int exchange(search *s, lab_error *error)
+{
+  attempt *without = malloc(sizeof *without);
+  int i, status = without ? LAB_OK : lab_fail_memory(error, "the search");
+  for (i = 0; status == LAB_OK && i < s->beam[0].n_found - 1; i++) {
+    if (s->beam[0].found[i].term >= 0 || leave_out(&s->beam[0], i, without))
+      continue;
+    s->n_pool = 0;
+    status = extend(s, without, error);
+    rank(s);
+    if (s->n_pool > 0 && s->pool[0].bic < s->beam[0].bic) {
+      note_alike(s->pool, s->n_pool);
+      s->beam[0] = s->pool[0];
+    }
+  }
+  free(without);
+  return status;
 }
 
 static int verdict_of(const attempt *a, const lab_errors *after)
@@ -448,8 +477,11 @@ static int search_all(search *s, lab_error *error)
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
     if (advance(s, &better, error))
       return error->status;
-    if (better && best->n_found > 1)
+    if (better && best->n_found > 1) {
       remove_needless(best);
+      if (exchange(s, error))
+        return error->status;
+    }
     if (best->u.rig.n_terms > 0 && is_noise(best->chi2, best->u.n_data))
       break;
   }
