@@ -79,7 +79,7 @@ static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *
     }
   if (lab_unknowns_open(&own, b->experiment, b->n, &u, error))
     return error->status;
-  if (u.n > 0 && lab_unknowns_fit(&u, NULL, error))
+  if (u.n > 0 && lab_unknowns_fit(&u, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   return lab_loop_errors(&u, errors, error);
 }
@@ -127,7 +127,7 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
   lab_loop_options_default(&how);
   how.alpha = alpha;
   how.min_gain = min_gain;
-  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, NULL, error))
+  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;

@@ -82,7 +82,7 @@ static void close_loop(const second_rig *g, lab_unknowns *u, lab_loop_result *re
   assert_int_equal(lab_experiment_open(&rig, &log, 0, &experiment, &error), LAB_OK);
   assert_int_equal(experiment.n_switches, 5);
   assert_int_equal(lab_unknowns_open(&rig, &experiment, 1, u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(u, NULL, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(u, LAB_FIT_WHOLE, NULL, &error), LAB_OK);
   assert_int_equal(lab_loop_run(u, &options, result, &error), LAB_OK);
   lab_experiment_close(&experiment);
   lab_log_free(&log);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = LAB_DESCENT_MAX, STEPS = 60, TRIES = 12 };
+enum { N = LAB_DESCENT_MAX, TRIES = 12 };
 
 static const double enough = 0.02;       /* of chi-square: no decision hangs on it */
 static const double enough_share = 1e-6; /* of chi-square */
@@ -219,7 +219,7 @@ static int run(descent *d, lab_error *error)
     return status;
   d->chi2 = dot(d->r, d->r, p->m);
   d->lambda = 1e-6;
-  for (i = 0; i < STEPS; i++) {
+  for (i = 0; i < p->steps; i++) {
     if (renew(d, all, error) || step_down(d, &quality, &done, error))
       return error->status;
     if (done && all)

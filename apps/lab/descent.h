@@ -10,8 +10,9 @@
 #include "message.h"
 
 typedef struct lab_descent {
-  int n;    /* unknowns, up to LAB_DESCENT_MAX */
-  size_t m; /* residuals */
+  int n;     /* unknowns, up to LAB_DESCENT_MAX */
+  size_t m;  /* residuals */
+  int steps; /* downhill, at most */
   const double *lower, *upper;
   const unsigned char *lasting; /* not 0: its slope is kept while it predicts well */
   void *context;

@@ -6,9 +6,12 @@
 #include <string.h>
 #include <time.h>
 
-static const double alike_bic = 9.2; /* refits that differ by less are alike: odds of a hundred to one */
-static const double worth = 0.05;    /* of the best statistic: leaders have at least so much */
-enum { BEAM = 2, POOL = 2 * LAB_LOOP_LEADERS + 4, TERMS = 3 };
+static const double alike_bic = 9.2;     /* refits that differ by less are alike: odds of a hundred to one */
+static const double worth = 0.05;        /* of the best statistic: leaders have at least so much */
+static const double alone = 3;           /* a slot is tried at once if it explains so much more than any effect, */
+static const double mostly = 0.5;        /* and so much of all there is */
+static const double active_share = 0.15; /* of a free term's largest height: knots below it are not where it acts */
+enum { BEAM = 2, SLOTS = 2, POOL = LAB_LOOP_LEADERS + SLOTS, BRIEF = 8, FINALISTS = 3, REFINED = 21, MARGIN = 2 };
 
 void lab_loop_options_default(lab_loop_options *options)
 {
@@ -136,9 +139,9 @@ static void note_step(lab_loop_result *result, const attempt *a, int kept)
   step->kept = kept;
 }
 
-static int finish(attempt *a, lab_error *error)
+static int fit_attempt(attempt *a, int steps, lab_error *error)
 {
-  const int status = lab_unknowns_fit(&a->u, &a->chi2, error);
+  const int status = lab_unknowns_fit(&a->u, steps, &a->chi2, error);
   a->fitted = status == LAB_OK;
   a->bic = bic(&a->u, a->chi2);
   return status;
@@ -175,7 +178,7 @@ static void refit_from(const attempt *base, const lab_candidate *c, int start, a
   for (j = 0; start == FROM_DECLARED && j < a->u.n; j++)
     a->u.unknown[j].value = a->u.unknown[j].first;
   if (lab_unknowns_add(&a->u, c->param, (double)info.neutral + size, &ignored) ||
-      (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)) || finish(a, &ignored))
+      (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)) || fit_attempt(a, BRIEF, &ignored))
     return;
   found = append_found(a);
   found->effect = c->effect;
@@ -217,6 +220,27 @@ static int any_is_noise(const attempt *a, int n)
   return any;
 }
 
+static int by_bic(const void *x, const void *y)
+{
+  const attempt *a = x, *b = y;
+  if (a->fitted != b->fitted)
+    return b->fitted - a->fitted;
+  return a->bic < b->bic ? -1 : a->bic > b->bic;
+}
+
+/* Fit those to the end that are in the running after a brief fit: the best few, and whatever is nearly as good. */
+static void fit_finalists(attempt *a, int n)
+{
+  int i;
+  qsort(a, (size_t)n, sizeof *a, by_bic);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++) {
+    lab_error ignored;
+    if (a[i].fitted && (i < FINALISTS || a[i].bic < 1.2 * a[0].bic))
+      fit_attempt(&a[i], LAB_FIT_WHOLE, &ignored);
+  }
+}
+
 /* Refit the leaders, in parallel: all from the first start, and from the others for as long as none leaves only noise.
  */
 static void refit_leaders(const attempt *base, const lab_candidate *const *leader, int n, attempt *a)
@@ -235,7 +259,10 @@ static void refit_leaders(const attempt *base, const lab_candidate *const *leade
       free(mine);
     }
   }
+  fit_finalists(a, n);
 }
+
+/* ---- What has no name ---- */
 
 static void refit_slot(const attempt *base, const lab_slot *slot, attempt *a)
 {
@@ -243,35 +270,105 @@ static void refit_slot(const attempt *base, const lab_slot *slot, attempt *a)
   lab_found *found;
   *a = *base;
   a->fitted = 0;
-  if (lab_unknowns_add_term(&a->u, &slot->term, slot->scale, &ignored) || finish(a, &ignored))
+  if (lab_unknowns_add_term(&a->u, &slot->term, slot->scale, 0, &ignored) || fit_attempt(a, BRIEF, &ignored))
     return;
   found = append_found(a);
   found->term = a->u.rig.n_terms - 1;
   found->statistic = slot->statistic;
   found->degrees = slot->degrees;
+  found->scale = slot->scale;
+}
+
+static int ascending(const void *x, const void *y)
+{
+  const double a = *(const double *)x, b = *(const double *)y;
+  return (a > b) - (a < b);
+}
+
+/* The level of a free term where it does not act: the median of its knots. */
+static double base_level(const pneu_term *term)
+{
+  double value[PNEU_TERM_ROOM];
+  int i;
+  for (i = 0; i < term->n; i++)
+    value[i] = (double)term->value[i];
+  qsort(value, (size_t)term->n, sizeof *value, ascending);
+  return value[term->n / 2];
+}
+
+int lab_term_where(const pneu_term *term, double *from, double *to)
+{
+  const double level = base_level(term), knot = (double)(term->to - term->from) / (term->n - 1);
+  double most = 0;
+  int i, first = -1, last = -1;
+  for (i = 0; i < term->n; i++)
+    most = fmax(most, fabs((double)term->value[i] - level));
+  for (i = 0; i < term->n; i++)
+    if (fabs((double)term->value[i] - level) > active_share * most) {
+      first = first < 0 ? i : first;
+      last = i;
+    }
+  *from = (double)term->from + knot * (first > MARGIN ? first - MARGIN : 0);
+  *to = (double)term->from + knot * (last + MARGIN < term->n ? last + MARGIN : term->n - 1);
+  return last - first < term->n / 2;
+}
+
+/* Values of one term, less a level, at the knots of another; 0 at its ends. */
+static void resample(const pneu_term *from, double level, pneu_term *to)
+{
+  int i;
+  for (i = 0; i < to->n; i++) {
+    const double at = (double)(to->from + (to->to - to->from) * (pneu_real)i / (pneu_real)(to->n - 1));
+    const double place = (at - (double)from->from) / (double)(from->to - from->from) * (from->n - 1);
+    const int k = place < from->n - 2 ? (int)fmax(place, 0) : from->n - 2;
+    const double share = fmin(fmax(place - k, 0), 1);
+    to->value[i] = (pneu_real)((1 - share) * (double)from->value[k] + share * (double)from->value[k + 1] - level);
+  }
+  to->value[0] = to->value[to->n - 1] = 0;
+}
+
+/* A free term that acts on a short stretch only: knots there, close together, and none elsewhere. */
+static void refine(attempt *a)
+{
+  const lab_found *found = &a->found[a->n_found - 1];
+  const pneu_term coarse = a->u.rig.term[found->term];
+  const double level = base_level(&coarse);
+  attempt *fine = malloc(sizeof *fine);
+  double from, to;
+  pneu_term term = coarse;
+  lab_error ignored;
+  if (fine && lab_term_where(&coarse, &from, &to)) {
+    *fine = *a;
+    lab_unknowns_drop_term(&fine->u);
+    term.n = REFINED;
+    term.from = (pneu_real)from;
+    term.to = (pneu_real)to;
+    resample(&coarse, level, &term);
+    if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &ignored) == LAB_OK &&
+        fit_attempt(fine, LAB_FIT_WHOLE, &ignored) == LAB_OK && fine->bic < a->bic)
+      *a = *fine;
+  }
+  free(fine);
 }
 
 /* The best slots, refitted. */
-static int refit_slots(const attempt *base, const lab_scan *scan, attempt *a)
+static int refit_slots(const attempt *base, const lab_slot *slot, int n, attempt *a)
 {
-  lab_slot slot[LAB_SLOT_MAX];
-  int i, n = lab_trace_slots(scan, slot);
-  n = n < TERMS ? n : TERMS;
+  int i;
+  n = n < SLOTS ? n : SLOTS;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)
     refit_slot(base, &slot[i], &a[i]);
+  qsort(a, (size_t)n, sizeof *a, by_bic);
+  if (n > 0 && a[0].fitted) {
+    lab_error ignored;
+    fit_attempt(&a[0], LAB_FIT_WHOLE, &ignored);
+    refine(&a[0]);
+  }
   return n;
 }
 
 /* ---- Search ---- */
-
-static int by_bic(const void *x, const void *y)
-{
-  const attempt *a = x, *b = y;
-  if (a->fitted != b->fitted)
-    return b->fitted - a->fitted;
-  return a->bic < b->bic ? -1 : a->bic > b->bic;
-}
 
 /* Effects whose refits are as good as the winner's. */
 static void note_alike(attempt *pool, int n)
@@ -314,6 +411,20 @@ static void tell(const search *s, const char *what)
     s->options->tell(s->options->context, what);
 }
 
+/* Free terms beside the effects.
+ * In:      eager  0: only where a slot explains most of what there is, and far more than any effect does */
+static void try_slots(search *s, const attempt *base, const lab_scan *scan, double best_effect, int eager)
+{
+  lab_slot slot[LAB_SLOT_MAX];
+  int n;
+  if (base->u.rig.n_terms > 0 || is_noise(base->chi2, base->u.n_data))
+    return;
+  tell(s, "looking for what has no name");
+  n = lab_trace_slots(scan, slot);
+  if (n > 0 && (eager || (slot[0].statistic > mostly * scan->excess && slot[0].statistic > alone * best_effect)))
+    s->n_pool += refit_slots(base, slot, n, s->pool + s->n_pool);
+}
+
 /* Try every extension of one model by one effect or free term. */
 static int extend(search *s, const attempt *base, lab_error *error)
 {
@@ -331,12 +442,12 @@ static int extend(search *s, const attempt *base, lab_error *error)
     if (trace.tests > 0)
       s->result->level = s->options->alpha / trace.tests;
     n = choose_leaders(&trace, s->result->level, leader);
+    if (n > 0)
+      try_slots(s, base, &scan, trace.candidate[0].statistic, 0);
     tell(s, "fitting the leaders");
-    refit_leaders(base, leader, n, s->pool + s->n_pool);
-    s->n_pool += n;
-    if (!any_is_noise(s->pool, s->n_pool) && !is_noise(base->chi2, base->u.n_data) && base->u.rig.n_terms == 0) {
-      tell(s, "looking for what has no name");
-      s->n_pool += refit_slots(base, &scan, s->pool + s->n_pool);
+    if (!any_is_noise(s->pool, s->n_pool)) {
+      refit_leaders(base, leader, n, s->pool + s->n_pool);
+      s->n_pool += n;
     }
     if (s->result->trace.n == 0)
       s->result->trace = trace;
@@ -421,7 +532,7 @@ static int leave_out(const attempt *a, int which, attempt *without)
   for (k = which; k + 1 < without->n_found; k++)
     without->found[k] = without->found[k + 1];
   without->n_found--;
-  return finish(without, &ignored) == LAB_OK ? 0 : -1;
+  return fit_attempt(without, LAB_FIT_WHOLE, &ignored) == LAB_OK ? 0 : -1;
 }
 
 /* Take out again what is not needed now that other effects have come. */
@@ -470,6 +581,24 @@ static int verdict_of(const attempt *a, const lab_errors *after)
   return a->n_found > 0 ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE;
 }
 
+/* Nothing that has a name would do: a free term beside what was found, which may then be needless. */
+static int last_resort(search *s, lab_error *error)
+{
+  lab_scan scan;
+  int status;
+  s->n_pool = 0;
+  status = lab_scan_open(&s->beam[0].u, &scan, error);
+  if (status == LAB_OK)
+    try_slots(s, &s->beam[0], &scan, 0, 1);
+  lab_scan_close(&scan);
+  rank(s);
+  if (s->n_pool > 0 && s->pool[0].bic < s->beam[0].bic && s->beam[0].n_found < LAB_LOOP_EFFECTS) {
+    s->beam[0] = s->pool[0];
+    remove_needless(&s->beam[0]);
+  }
+  return status;
+}
+
 static int search_all(search *s, lab_error *error)
 {
   attempt *best = &s->beam[0];
@@ -477,15 +606,17 @@ static int search_all(search *s, lab_error *error)
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
     if (advance(s, &better, error))
       return error->status;
-    if (better && best->n_found > 1) {
+    if (better && best->n_found > 1 && best->u.rig.n_terms == 0) {
       remove_needless(best);
       if (exchange(s, error))
         return error->status;
     }
-    if (best->u.rig.n_terms > 0 && is_noise(best->chi2, best->u.n_data))
+    if (best->u.rig.n_terms > 0)
       break;
   }
-  return LAB_OK;
+  if (best->u.rig.n_terms > 0 || is_noise(best->chi2, best->u.n_data) || best->n_found == LAB_LOOP_EFFECTS)
+    return LAB_OK;
+  return last_resort(s, error);
 }
 
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error)

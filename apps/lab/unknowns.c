@@ -61,13 +61,13 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
   return LAB_OK;
 }
 
-int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, lab_error *error)
+int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, int held, lab_error *error)
 {
   int i;
   if (u->rig.n_terms == LAB_TERM_MAX || u->n + term->n > LAB_FIT_MAX)
     return no_room(error);
   u->rig.term[u->rig.n_terms] = *term;
-  for (i = 0; i < term->n; i++) {
+  for (i = held; i < term->n - held; i++) {
     lab_unknown *x = append(u);
     x->kind = LAB_UNKNOWN_KNOT;
     x->term = u->rig.n_terms;
@@ -92,6 +92,16 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
   u->n = k;
   pneu_param_describe(param, &info);
   *pneu_param_at(&u->rig.params, param) = info.shape ? info.value : info.neutral;
+}
+
+void lab_unknowns_drop_term(lab_unknowns *u)
+{
+  int j, k;
+  u->rig.n_terms--;
+  for (j = k = 0; j < u->n; j++)
+    if (u->unknown[j].kind != LAB_UNKNOWN_KNOT || u->unknown[j].term != u->rig.n_terms)
+      u->unknown[k++] = u->unknown[j];
+  u->n = k;
 }
 
 int lab_unknowns_find(const lab_unknowns *u, int param)
@@ -332,17 +342,17 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
 
 /* ---- Fits ---- */
 
-int lab_unknowns_fit(lab_unknowns *u, double *chi2, lab_error *error)
+int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
   double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], own;
   unsigned char lasting[LAB_FIT_MAX];
-  lab_descent problem = {u->n, 0, lower, upper, lasting, u, lab_unknowns_residuals, lab_unknowns_slope};
+  lab_descent problem = {u->n, 0, steps, lower, upper, lasting, u, lab_unknowns_residuals, lab_unknowns_slope};
   int j;
   u->m = problem.m = u->n_data + (size_t)u->n;
   for (j = 0; j < u->n; j++) {
     lower[j] = u->unknown[j].lower;
     upper[j] = u->unknown[j].upper;
-    lasting[j] = u->unknown[j].kind == LAB_UNKNOWN_SWITCH;
+    lasting[j] = u->unknown[j].kind != LAB_UNKNOWN_PARAM;
   }
   present(u, theta);
   if (lab_descend(&problem, theta, chi2 ? chi2 : &own, error))

@@ -46,10 +46,14 @@ int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int 
  * room. */
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error);
 
-/* Take up a free term with all its knots, whose values in `term` are the start.
+/* Take up a free term, whose values in `term` are the start.
  * In:      scale  a value of it that matters, in its unit
+ *          held   knots at either end that keep their values
  * Returns: LAB_OK; LAB_DATA if there is no room. */
-int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, lab_error *error);
+int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, int held, lab_error *error);
+
+/* Drop the last free term. */
+void lab_unknowns_drop_term(lab_unknowns *u);
 
 /* Drop a parameter and set it to its neutral value. */
 void lab_unknowns_drop(lab_unknowns *u, int param);
@@ -78,9 +82,11 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);
 int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
 
 /* Fit from the present values and take up what is found.
- * Out:     chi2  may be NULL
+ * In:      steps  downhill, at most; LAB_FIT_WHOLE: as many as it takes
+ * Out:     chi2   may be NULL
  * Returns: as lab_descend. */
-int lab_unknowns_fit(lab_unknowns *u, double *chi2, lab_error *error);
+enum { LAB_FIT_WHOLE = 40 };
+int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error);
 
 /* What the data say of each unknown, at a fit: intervals, correlations, remarks.  Returns: as lab_fit_run. */
 int lab_unknowns_spread(lab_unknowns *u, lab_fit_result *result, lab_error *error);
