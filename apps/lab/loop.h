@@ -58,7 +58,8 @@ typedef struct lab_loop_result {
   int listed[LAB_TRACE_MAX];
   int n_steps;
   lab_step step[LAB_LOOP_STEPS];
-  double level; /* p-value that a single candidate has to pass */
+  size_t window; /* rows of a window if the log is rough and was seen coarsely (coarse.h); else 0 */
+  double level;  /* p-value that a single candidate has to pass */
 } lab_loop_result;
 
 /* alpha 0.01, min_gain 0.02, three effects. */

@@ -251,8 +251,8 @@ static void residual_rows(FILE *file, const lab_unknowns *u, const double *befor
 int lab_story_residual(const lab_story *story, const char *folder, lab_error *error)
 {
   const lab_unknowns *u = story->completed;
-  double *before = malloc((u->n_data + LAB_FIT_MAX) * sizeof *before);
-  double *after = malloc((u->n_data + LAB_FIT_MAX) * sizeof *after);
+  double *before = malloc((u->n_rows + 1) * sizeof *before);
+  double *after = malloc((u->n_rows + 1) * sizeof *after);
   lab_outfile out;
   int c, status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
