@@ -6,6 +6,8 @@
 #include <time.h>
 
 #include "lab/cli.h"
+#include "lab/figures.h"
+#include "lab/interrupt.h"
 #include "lab/log.h"
 #include "lab/loop.h"
 #include "lab/loopfiles.h"
@@ -15,6 +17,7 @@ enum { LOG_MAX = 32, RUN_MAX = 256 };
 
 static const char *holdout, *out;
 static double alpha = 0.01, min_gain = 0.02;
+static int no_figures;
 
 static const lab_option options[] = {
     {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv", "judge the completed model on this log, which it has not seen", 0,
@@ -22,6 +25,7 @@ static const lab_option options[] = {
     {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>", 0, 0},
     {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
     {"min-gain", LAB_OPTION_REAL, &min_gain, "SHARE", "error that an effect must save to be added (0.02)", 0, 1},
+    {"no-figures", LAB_OPTION_FLAG, &no_figures, NULL, "report without figures, without gnuplot", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
@@ -93,16 +97,42 @@ static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
   return status;
 }
 
+/* Figures, if wanted, and the page around them. */
+static int write_page(const lab_story *story, const char *folder, lab_error *error)
+{
+  lab_evidence evidence;
+  lab_figures figures = {0};
+  int status = lab_evidence_collect(story, &evidence, error);
+  if (status == LAB_OK && !no_figures)
+    status = lab_figures_draw(story, &evidence, &figures, error);
+  if (status == LAB_OK)
+    status = lab_figures_write(&figures, folder, error);
+  lab_figures_free(&figures);
+  lab_evidence_free(&evidence);
+  return status;
+}
+
+static int write_files(const lab_story *story, const char *folder, lab_error *error)
+{
+  if (lab_make_folder(folder, error) || lab_story_residual(story, folder, error) ||
+      lab_story_model(story, folder, error) || lab_story_header(story, folder, error) ||
+      lab_story_json(story, folder, error))
+    return error->status;
+  return write_page(story, folder, error);
+}
+
+/* All files at once, as far as Ctrl-C is concerned. */
 static int write_story(const lab_story *story, lab_error *error)
 {
   char folder[LAB_PATH_TEXT];
+  int status;
   snprintf(folder, sizeof folder, "results/%s", story->rig->name);
   if (out)
     snprintf(folder, sizeof folder, "%s", out);
-  if (lab_make_folder(folder, error) || lab_story_residual(story, folder, error) ||
-      lab_story_model(story, folder, error) || lab_story_header(story, folder, error))
-    return error->status;
-  return lab_story_json(story, folder, error);
+  lab_interrupt_hold();
+  status = write_files(story, folder, error);
+  lab_interrupt_release();
+  return status;
 }
 
 static double seconds(void)

@@ -77,3 +77,9 @@ double lab_chi2_tail(double x, int degrees)
     tail += exp(a * log(z) - z - lgamma(a + 1));
   return fmin(tail, 1);
 }
+
+double lab_chi2_threshold(double p)
+{
+  const double z = lab_student_quantile(0.5 * p, HUGE_VAL);
+  return z * z;
+}

@@ -16,4 +16,7 @@ double lab_student_quantile(double p, double degrees);
  * Error:   below 2e-13 relative; 0 below 1e-308. */
 double lab_chi2_tail(double x, int degrees);
 
+/* The statistic at which chi-square with one degree of freedom has this tail, 0 < p < 1. */
+double lab_chi2_threshold(double p);
+
 #endif
