@@ -6,12 +6,12 @@
 #include <time.h>
 
 #include "lab/cli.h"
-#include "lab/figures.h"
 #include "lab/interrupt.h"
 #include "lab/log.h"
 #include "lab/loop.h"
 #include "lab/loopfiles.h"
 #include "lab/outfile.h"
+#include "lab/report_html.h"
 
 enum { LOG_MAX = 32, RUN_MAX = 256 };
 
@@ -107,6 +107,8 @@ static int write_page(const lab_story *story, const char *folder, lab_error *err
     status = lab_figures_draw(story, &evidence, &figures, error);
   if (status == LAB_OK)
     status = lab_figures_write(&figures, folder, error);
+  if (status == LAB_OK)
+    status = lab_report_html(story, &evidence, &figures, folder, error);
   lab_figures_free(&figures);
   lab_evidence_free(&evidence);
   return status;
