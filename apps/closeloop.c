@@ -11,6 +11,7 @@
 #include "lab/loop.h"
 #include "lab/loopfiles.h"
 #include "lab/outfile.h"
+#include "lab/progress.h"
 #include "lab/report_html.h"
 
 enum { LOG_MAX = 32, RUN_MAX = 256 };
@@ -18,6 +19,7 @@ enum { LOG_MAX = 32, RUN_MAX = 256 };
 static const char *holdout, *out;
 static double alpha = 0.01, min_gain = 0.02;
 static int no_figures;
+static lab_progress progress;
 
 static const lab_option options[] = {
     {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv", "judge the completed model on this log, which it has not seen", 0,
@@ -152,34 +154,46 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
   lab_story story = {rig, &declared, &completed, &result, 0, {{0}, {0}, 0, 0}, {{0}, {0}, 0, 0}, 0, 0, 0};
   const double start = seconds();
   char sentence[512];
+  int status;
   lab_loop_options_default(&how);
   how.alpha = alpha;
   how.min_gain = min_gain;
+  lab_progress_say(&progress, "fitting the declared model");
   if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, &result.fit, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;
+  lab_progress_say(&progress, "tracing the residual");
   if (lab_loop_run(&completed, &how, &result, error))
     return error->status;
   story.trace_s = seconds() - start - story.fit_s;
+  if (holdout)
+    lab_progress_say(&progress, "judging on the held-out log");
   if (holdout && hold_out(rig, &story, error))
     return error->status;
   story.total_s = seconds() - start;
+  lab_progress_say(&progress, "writing the report");
+  status = write_story(&story, error);
+  lab_progress_end(&progress);
   lab_story_sentence(&story, sentence, sizeof sentence);
   puts(sentence);
-  return write_story(&story, error);
+  return status;
 }
 
 static int run(const lab_cli *cli, lab_error *error)
 {
   static lab_rig rig;
   static bench b;
-  int i, status = lab_rig_read(cli->operand[0], &rig, error);
+  int i, status;
+  lab_progress_begin(&progress, program.name, cli->quiet);
+  lab_progress_say(&progress, "reading");
+  status = lab_rig_read(cli->operand[0], &rig, error);
   for (i = 1; i < cli->n_operands && status == LAB_OK; i++)
     status = add_log(&rig, cli->operand[i], &b, error);
   if (status == LAB_OK)
     status = close_loop(&rig, &b, error);
   close_bench(&b);
+  lab_progress_end(&progress);
   return status;
 }
 
@@ -187,7 +201,9 @@ int main(int argc, char **argv)
 {
   lab_error error;
   lab_cli cli;
-  int status = lab_cli_read(&program, argc, argv, &cli, &error);
+  int status;
+  lab_interrupt_catch();
+  status = lab_cli_read(&program, argc, argv, &cli, &error);
   if (status == LAB_OK && !cli.done)
     status = run(&cli, &error);
   return status == LAB_OK ? 0 : lab_cli_report(&program, &error);

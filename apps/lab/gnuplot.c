@@ -1,5 +1,6 @@
 #include "gnuplot.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,16 @@
 
 static const int no_program = 127; /* as the shell says it */
 
+/* A Ctrl-C on a terminal reaches all that run there: let a figure that was begun be finished. */
+static void put_off_signals(void)
+{
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGHUP);
+  sigprocmask(SIG_BLOCK, &set, NULL);
+}
+
 /* Run gnuplot; `in` and `out` take the place of standard input and output, unless -1.
  * Returns: its exit status, or -1. */
 static int run(const char *const arguments[], int in, int out)
@@ -19,6 +30,7 @@ static int run(const char *const arguments[], int in, int out)
   int status = 0;
   const pid_t child = fork();
   if (child == 0) {
+    put_off_signals();
     if ((in < 0 || dup2(in, STDIN_FILENO) >= 0) && (out < 0 || dup2(out, STDOUT_FILENO) >= 0))
       execvp("gnuplot", (char *const *)arguments);
     _exit(no_program);

@@ -183,14 +183,25 @@ static int unknown_of(const lab_unknowns *u, int param)
   return -1;
 }
 
-/* "0.0136 .. 0.0138", or why there is none */
-static void put_interval(const telling *t, int j, double scale, cJSON *to)
+/* Digits at which both ends of the interval of an unknown can be told apart. */
+static int digits_of(const telling *t, int j)
 {
   const lab_fit_result *fit = &t->story->result->fit;
+  const double value = fabs(t->story->completed->unknown[j].value), width = fit->high[j] - fit->low[j];
+  if (fit->state[j] != LAB_FIT_FREE || !(width > 0) || !(value > width))
+    return 4;
+  return (int)fmin(fmax(4, 2 + ceil(log10(value / width))), 9);
+}
+
+/* "0.0136 .. 0.0138", or why there is none */
+static void put_interval(const telling *t, int j, cJSON *to)
+{
+  const lab_fit_result *fit = &t->story->result->fit;
+  const double scale = lab_shown_as(t->story->completed->unknown[j].unit).scale;
   char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT];
   if (fit->state[j] == LAB_FIT_FREE)
-    put(to, "interval", "%s .. %s", lab_shown_number(scale * fit->low[j], 4, low),
-        lab_shown_number(scale * fit->high[j], 4, high));
+    put(to, "interval", "%s .. %s", lab_shown_number(scale * fit->low[j], digits_of(t, j), low),
+        lab_shown_number(scale * fit->high[j], digits_of(t, j), high));
   else
     put(to, "interval", "%s", lab_fit_state_text(fit->state[j]));
 }
@@ -209,8 +220,8 @@ static void put_sizes(const telling *t, int effect, cJSON *list)
     pneu_param_describe(i, &info);
     item = append(list);
     put(item, "meaning", "%s", info.meaning);
-    put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, 4);
-    put_interval(t, j, lab_shown_as(u->unknown[j].unit).scale, item);
+    put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, digits_of(t, j));
+    put_interval(t, j, item);
   }
 }
 
@@ -288,6 +299,25 @@ static void put_rough(const telling *t, cJSON *list)
   }
 }
 
+/* Effects none of whose candidates leaves a trace. */
+static void put_invisible(const lab_trace_result *trace, cJSON *list)
+{
+  unsigned char tried[PNEU_EFFECT_COUNT + 1] = {0}, visible[PNEU_EFFECT_COUNT + 1] = {0};
+  char names[512] = "";
+  int i;
+  for (i = 0; i < trace->n; i++) {
+    tried[trace->candidate[i].effect] = 1;
+    visible[trace->candidate[i].effect] |= trace->candidate[i].visible > 0;
+  }
+  for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
+    const size_t used = strlen(names);
+    if (tried[i] && !visible[i])
+      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", effect_name(i));
+  }
+  if (*names)
+    say(list, "With the declared laws this log could not show: %s.", names);
+}
+
 static void put_limits(const telling *t, cJSON *list)
 {
   const lab_loop_result *r = t->story->result;
@@ -298,13 +328,7 @@ static void put_limits(const telling *t, cJSON *list)
           effect_name(r->found[i].alike[k]));
   put_rough(t, list);
   put_remarks(r->fit.remark, list);
-  for (i = k = 0; i < r->trace.n; i++)
-    k += r->trace.candidate[i].visible == 0;
-  if (k > 0)
-    say(list,
-        "%d of %d ways in which the model could be incomplete leave no trace in this log at all; see the list "
-        "at the end.",
-        k, r->trace.n);
+  put_invisible(&r->trace, list);
   if (cJSON_GetArraySize(list) == 0)
     say(list, "Nothing to report: every parameter is determined, and no two effects are confused.");
 }
@@ -339,8 +363,8 @@ static void put_parameter(const telling *t, int j, cJSON *list)
   cJSON *item = append(list);
   put(item, "name", "%s", x->name);
   put(item, "unit", "%s", *shown.unit ? shown.unit : "1");
-  put_number(item, "value", shown.scale * x->value, 4);
-  put_interval(t, j, shown.scale, item);
+  put_number(item, "value", shown.scale * x->value, digits_of(t, j));
+  put_interval(t, j, item);
   if (x->kind != LAB_UNKNOWN_PARAM)
     return;
   if (x->index == LAB_FIT_ORIFICE_AREA) {

@@ -94,10 +94,12 @@ static int fill_section(FILE *file, const tag *open, const tag *close, const sco
   const cJSON *value = look_up(open, inner), *item;
   if (is_there(value) == (open->kind == '^'))
     return LAB_OK;
-  if (!cJSON_IsArray(value)) {
-    const scope here = {cJSON_IsObject(value) ? value : inner->value, inner};
+  if (cJSON_IsObject(value)) {
+    const scope here = {value, inner};
     return fill(file, open->end, close->begin, &here, error);
   }
+  if (open->kind == '^' || !cJSON_IsArray(value))
+    return fill(file, open->end, close->begin, inner, error);
   cJSON_ArrayForEach(item, value)
   {
     const scope here = {item, inner};
