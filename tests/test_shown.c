@@ -35,7 +35,8 @@ static void test_lab_shown_quantity__units__as_engineers_write_them(void **state
   assert_string_equal(lab_shown_quantity(298.15, "K", 4, text), "298.1 K");
 }
 
-/* What is shown must be what UDUNITS makes of it; the two are written differently where a unit has a dot or a square. */
+/* What is shown must be what UDUNITS makes of it; the two are written differently where a unit has a dot or a square.
+ */
 static void assert_scale(const char *unit)
 {
   const lab_shown shown = lab_shown_as(unit);

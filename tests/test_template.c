@@ -73,8 +73,9 @@ static void test_lab_svg_inline__drawing__own_ids_and_words(void **state)
 {
   char *got = lab_svg_inline(drawing, "fig", "a < b");
   (void)state;
-  assert_string_equal(got, "<svg viewBox=\"0 0 8 4\" role=\"img\" aria-label=\"a &lt; b\">\n<g id=\"fig_canvas\"><circle "
-                           "id='fig_dot'/><use href='#fig_dot'/>text id=x</g>\n</svg>\n");
+  assert_string_equal(got,
+                      "<svg viewBox=\"0 0 8 4\" role=\"img\" aria-label=\"a &lt; b\">\n<g id=\"fig_canvas\"><circle "
+                      "id='fig_dot'/><use href='#fig_dot'/>text id=x</g>\n</svg>\n");
   free(got);
   assert_null(lab_svg_inline("no drawing", "fig", ""));
 }

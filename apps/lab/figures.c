@@ -496,7 +496,7 @@ static const struct {
      draw_residual},
     {"arguments",
      "Points outside the band say at which pressure, position, velocity or command the model errs. p, x and v are "
-     "those of the completed model.",
+     "the model's own.",
      draw_arguments},
     {"autocorrelation",
      "Bars beyond the band mean that the residual follows a pattern, so that the model, or the noise "
