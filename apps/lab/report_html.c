@@ -262,7 +262,7 @@ static void put_reasons(const telling *t, cJSON *list)
         effect_name(r->trace.candidate[0].effect), lab_shown_number(r->trace.candidate[0].statistic, 3, statistic),
         lab_shown_number(lab_chi2_threshold(r->level), 3, threshold));
   for (i = 0; i < r->n_listed; i++)
-    say(list, "%s is more than chance, but would save so little of the error that it was not added.",
+    say(list, "%s is more than chance, but would lower the error by less than --min-gain asks for, and was not added.",
         effect_name(r->listed[i]));
   if (r->verdict == LAB_VERDICT_UNDECIDED)
     say(list, "What is left is not noise, and no effect of the catalogue explains it. The figures below show when and "
