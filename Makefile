@@ -90,6 +90,15 @@ $(BUILD)/apps/study/products.o: apps/study/products.c $(SOURCES)
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DSTUDY_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
 
+# Scripts and templates that a program carries inside, a line a string.
+CARRIED := $(wildcard apps/lab/report/*) study/figures/style.gp
+$(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
+	@mkdir -p $(@D)
+	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
+
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
+
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
 

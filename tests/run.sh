@@ -98,6 +98,7 @@ pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a"
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
+pass "closeloop: its folder, interrupted runs" sh tests/check_closeloop.sh
 $MAKE --no-print-directory "$BUILD/tests/compare" >/dev/null && pass "study: same numbers as results/" study_agrees
 
 say "$passed passed, $failed failed, $skipped skipped"
