@@ -1,0 +1,114 @@
+#include "foresee.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "trial.h"
+
+const int lab_foreseen[LAB_FORESEEN] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_PS};
+
+static const double tolerance = 1e-6; /* of the stepper: with the step below, slopes to a few thousandths */
+static const double small = 5e-3;     /* step of the differences, of the scale */
+
+int lab_outlook_open(const lab_rig *rig, const lab_schedule *schedule, double settle, double duration, double spacing,
+                     lab_outlook *outlook, lab_error *error)
+{
+  enum { ROWS = 1500 };
+  const double step = fmax(spacing, duration / ROWS);
+  int i;
+  *outlook = (lab_outlook){rig, schedule, settle, NULL, (int)(duration / step * (1 + 1e-12)) + 1};
+  outlook->t = malloc((size_t)outlook->n * sizeof *outlook->t);
+  if (!outlook->t)
+    return lab_fail_memory(error, "a schedule");
+  for (i = 0; i < outlook->n; i++)
+    outlook->t[i] = schedule->t[0] + fmin(i * step, duration);
+  return LAB_OK;
+}
+
+void lab_outlook_close(lab_outlook *outlook)
+{
+  free(outlook->t);
+  memset(outlook, 0, sizeof *outlook);
+}
+
+int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, lab_error *error)
+{
+  const size_t n = (size_t)outlook->n;
+  const lab_response_options options = {LAB_STEPPER, tolerance, outlook->t[n - 1], 0};
+  lab_rig rig = *outlook->rig;
+  lab_trace trace;
+  pneu_model model;
+  pneu_state start;
+  rig.params = *params;
+  if (lab_rig_model(&rig, &model, error))
+    return error->status = LAB_NUMERIC;
+  if (lab_trial_start(&model, &outlook->schedule->input[0], outlook->settle, &start, error) ||
+      lab_respond(&model, &start, outlook->schedule, outlook->t, n, &options, &trace, NULL, error))
+    return error->status;
+  memcpy(y, trace.p, n * sizeof *y);
+  memcpy(y + n, trace.x, n * sizeof *y);
+  memcpy(y + 2 * n, trace.T, n * sizeof *y);
+  memcpy(y + 3 * n, trace.ps, n * sizeof *y);
+  lab_trace_free(&trace);
+  return LAB_OK;
+}
+
+double lab_foresee_scale(const pneu_params *params, int param)
+{
+  pneu_params copy = *params;
+  pneu_param_info info;
+  double value;
+  if (param == LAB_FIT_ORIFICE_AREA)
+    return 1;
+  pneu_param_describe(param, &info);
+  value = (double)*pneu_param_at(&copy, param);
+  if (param >= PNEU_PARAM_BASE_COUNT && !info.shape)
+    return fabs((double)(info.value - info.neutral));
+  if (value != 0)
+    return fabs(value);
+  return info.value != 0 ? fabs((double)info.value) : 1;
+}
+
+/* A value within bounds.  Returns: the change. */
+static double move_within(pneu_real *value, double change, double lower, double upper)
+{
+  const double before = (double)*value;
+  *value = (pneu_real)fmin(fmax(before + change, lower), upper);
+  return (double)*value - before;
+}
+
+double lab_foresee_shift(pneu_params *params, int param, double share)
+{
+  const double scale = lab_foresee_scale(params, param), narrowest = 0.1;
+  pneu_param_info info;
+  if (param == LAB_FIT_ORIFICE_AREA) {
+    const double factor = fmax(1 + share, narrowest);
+    params->fill_area *= (pneu_real)factor;
+    params->vent_area *= (pneu_real)factor;
+    return factor - 1;
+  }
+  pneu_param_describe(param, &info);
+  return move_within(pneu_param_at(params, param), share * scale, (double)info.lower, (double)info.upper) / scale;
+}
+
+int lab_foresee_slopes(const lab_outlook *outlook, const pneu_params *params, int count, const int *param,
+                       const double *y, double *slope, lab_error *error)
+{
+  const int m = LAB_FORESEEN * outlook->n;
+  int k, i;
+  for (k = 0; k < count; k++) {
+    double *column = slope + (size_t)k * (size_t)m;
+    pneu_params at = *params;
+    double share = lab_foresee_shift(&at, param[k], small);
+    if (share < small / 2) {
+      at = *params;
+      share = lab_foresee_shift(&at, param[k], -small);
+    }
+    if (lab_foresee(outlook, &at, column, error))
+      return error->status;
+    for (i = 0; i < m; i++)
+      column[i] = (column[i] - y[i]) / share;
+  }
+  return LAB_OK;
+}

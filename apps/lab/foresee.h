@@ -1,0 +1,48 @@
+/* What a model predicts for a record that nobody has made yet, and how it depends on parameters.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_FORESEE_H
+#define LAB_FORESEE_H
+
+#include "normal.h"
+#include "response.h"
+#include "rig.h"
+
+enum { LAB_FORESEEN = 4 };
+extern const int lab_foreseen[LAB_FORESEEN]; /* enum lab_channel: p, x, T and the supply at the transducer, ps */
+
+/* A record to come. It begins at rest under its first command, see trial.h. */
+typedef struct lab_outlook {
+  const lab_rig *rig; /* its laws count, not its parameters */
+  const lab_schedule *schedule;
+  double settle; /* [s] */
+  double *t;     /* [s] n sampling times */
+  int n;
+} lab_outlook;
+
+/* Lay sampling times over a schedule.
+ * In:      duration  [s]
+ *          spacing   [s] wanted; wider where there would be more than 1500
+ * Out:     outlook   to be closed; keeps rig and schedule
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_outlook_open(const lab_rig *rig, const lab_schedule *schedule, double settle, double duration, double spacing,
+                     lab_outlook *outlook, lab_error *error);
+void lab_outlook_close(lab_outlook *outlook);
+
+/* Out:     y  LAB_FORESEEN * n values, SI, channel by channel
+ * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
+int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, lab_error *error);
+
+/* Slopes of y in parameters (as in lab_rig.fit), each in units of its scale.
+ * In:      y      at params
+ * Out:     slope  count columns of LAB_FORESEEN * n
+ * Returns: as lab_foresee. */
+int lab_foresee_slopes(const lab_outlook *outlook, const pneu_params *params, int count, const int *param,
+                       const double *y, double *slope, lab_error *error);
+
+/* A change of a parameter that matters: its value, or the usual size of an effect. */
+double lab_foresee_scale(const pneu_params *params, int param);
+
+/* Change a parameter by a share of its scale, as far as its bounds allow.  Returns: the share that it took. */
+double lab_foresee_shift(pneu_params *params, int param, double share);
+
+#endif
