@@ -16,8 +16,14 @@ int lab_outlook_open(const lab_rig *rig, const lab_schedule *schedule, double se
 {
   enum { ROWS = 1500 };
   const double step = fmax(spacing, duration / ROWS);
+  pneu_model model;
   int i;
-  *outlook = (lab_outlook){rig, schedule, settle, NULL, (int)(duration / step * (1 + 1e-12)) + 1};
+  memset(outlook, 0, sizeof *outlook);
+  if (lab_rig_model(rig, &model, error) || lab_trial_start(&model, &schedule->input[0], settle, &outlook->start, error))
+    return error->status;
+  outlook->rig = rig;
+  outlook->schedule = schedule;
+  outlook->n = (int)(duration / step * (1 + 1e-12)) + 1;
   outlook->t = malloc((size_t)outlook->n * sizeof *outlook->t);
   if (!outlook->t)
     return lab_fail_memory(error, "a schedule");
@@ -43,8 +49,10 @@ int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y
   rig.params = *params;
   if (lab_rig_model(&rig, &model, error))
     return error->status = LAB_NUMERIC;
-  if (lab_trial_start(&model, &outlook->schedule->input[0], outlook->settle, &start, error) ||
-      lab_respond(&model, &start, outlook->schedule, outlook->t, n, &options, &trace, NULL, error))
+  if (pneu_state_rest(&model, outlook->start.p, model.p.ambient_temperature, outlook->start.x,
+                      &outlook->schedule->input[0], &start) != PNEU_OK)
+    return lab_fail(error, LAB_NUMERIC, "no state at rest to start from");
+  if (lab_respond(&model, &start, outlook->schedule, outlook->t, n, &options, &trace, NULL, error))
     return error->status;
   memcpy(y, trace.p, n * sizeof *y);
   memcpy(y + n, trace.x, n * sizeof *y);

@@ -10,20 +10,21 @@
 enum { LAB_FORESEEN = 4 };
 extern const int lab_foreseen[LAB_FORESEEN]; /* enum lab_channel: p, x, T and the supply at the transducer, ps */
 
-/* A record to come. It begins at rest under its first command, see trial.h. */
+/* A record to come. Pressure and position at its start are measured, so that every model begins with the same. */
 typedef struct lab_outlook {
-  const lab_rig *rig; /* its laws count, not its parameters */
+  const lab_rig *rig; /* its laws count in a prediction, not its parameters */
   const lab_schedule *schedule;
-  double settle; /* [s] */
-  double *t;     /* [s] n sampling times */
+  pneu_state start; /* of the rig; see lab_trial_start */
+  double *t;        /* [s] n sampling times */
   int n;
 } lab_outlook;
 
 /* Lay sampling times over a schedule.
- * In:      duration  [s]
+ * In:      settle    [s] see lab_trial_start
+ *          duration  [s]
  *          spacing   [s] wanted; wider where there would be more than 1500
  * Out:     outlook   to be closed; keeps rig and schedule
- * Returns: LAB_OK, LAB_WORLD. */
+ * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
 int lab_outlook_open(const lab_rig *rig, const lab_schedule *schedule, double settle, double duration, double spacing,
                      lab_outlook *outlook, lab_error *error);
 void lab_outlook_close(lab_outlook *outlook);

@@ -13,8 +13,6 @@ static const double decisive = 100; /* [sigma] clear, with room for noise that i
 static const double tie = 0.9;
 static const double normal_95 = 1.959963984540054;
 
-enum { REFIT_STEPS = 2 };
-
 /* ---- What is simulated ---- */
 
 /* The trials and what has been recorded, which comes last. */
@@ -203,25 +201,6 @@ static int make_side(const lab_inquiry *q, const pneu_params *mine, const pneu_p
   return LAB_OK;
 }
 
-static void subtract(const double *a, const double *b, int m, double *difference)
-{
-  int i;
-  for (i = 0; i < m; i++)
-    difference[i] = a[i] - b[i];
-}
-
-/* Move the parameters to where the model is nearest to what it is compared with. */
-static void refit(const side *s, const lab_normal *normal, pneu_params *params)
-{
-  double prior[LAB_NORMAL_MAX], step[LAB_NORMAL_MAX];
-  int j;
-  for (j = 0; j < s->n; j++)
-    prior[j] = 1; /* no parameter moves by more than its own size for nothing */
-  lab_normal_step(normal, prior, step);
-  for (j = 0; j < s->n; j++)
-    lab_foresee_shift(params, s->param[j], step[j]);
-}
-
 static void measure(const lab_inquiry *q, const lab_outlook *o, const bundle *b, gap *g)
 {
   lab_normal sum;
@@ -229,42 +208,131 @@ static void measure(const lab_inquiry *q, const lab_outlook *o, const bundle *b,
   weigh(q, o, b, -1, &sum);
   g->plain = lab_normal_rest(&sum);
   for (c = 0; c < LAB_FORESEEN; c++) {
-    weigh(q, o, b, c, &sum);
+    weigh(q, o, b, isnan(q->noise[lab_foreseen[c]]) ? c : -1, &sum);
     g->with[c] = lab_normal_rest(&sum);
   }
 }
 
+/* A model that is being fitted to a prediction. */
+typedef struct pursuit {
+  const lab_inquiry *inquiry;
+  const lab_outlook *outlook;
+  const side *side;
+  const double *goal; /* the prediction */
+  pneu_params params; /* so far */
+  double *own;        /* what they predict */
+  double *slope;      /* side->n columns */
+  double *difference; /* the column after them: goal - own */
+  double *trial;      /* scratch, one column */
+  bundle bundle;
+  lab_normal normal; /* bundle, weighted */
+  double apart;      /* [sigma] length of difference */
+  double rest;       /* [sigma] what fitting should leave of it */
+} pursuit;
+
+static void look(pursuit *p)
+{
+  const int k = p->side->n;
+  int i;
+  for (i = 0; i < LAB_FORESEEN * p->outlook->n; i++)
+    p->difference[i] = p->goal[i] - p->own[i];
+  gather(p->outlook, k, p->slope, &p->bundle);
+  weigh(p->inquiry, p->outlook, &p->bundle, -1, &p->normal);
+  p->apart = sqrt(p->normal.g[k][k]);
+  p->rest = lab_normal_rest(&p->normal);
+}
+
+/* Whether fitting is over: nearly all that is left is what it cannot absorb. */
+static int is_near(const pursuit *p)
+{
+  return p->apart <= 1.05 * p->rest + 0.3;
+}
+
+static double distance(const pursuit *p, const double *y)
+{
+  const int n = p->outlook->n;
+  double sum = 0;
+  int c, i;
+  for (c = 0; c < LAB_FORESEEN; c++) {
+    const double w = weight(p->inquiry, p->outlook, p->inquiry->noise[lab_foreseen[c]]);
+    for (i = c * n; w > 0 && i < (c + 1) * n; i++)
+      sum += w * (p->goal[i] - y[i]) * (p->goal[i] - y[i]);
+  }
+  return sqrt(sum);
+}
+
+/* Move the parameters towards where the model is nearest, less far where that makes it worse.
+ * Out:     moved  whether they did */
+static int approach(pursuit *p, int *moved, lab_error *error)
+{
+  double prior[LAB_NORMAL_MAX], step[LAB_NORMAL_MAX], factor;
+  int j;
+  *moved = 0;
+  for (j = 0; j < p->side->n; j++)
+    prior[j] = 1; /* no parameter moves by more than its own size for nothing */
+  lab_normal_step(&p->normal, prior, step);
+  for (factor = 1; factor > 0.05; factor /= 2) {
+    pneu_params params = p->params;
+    int status;
+    for (j = 0; j < p->side->n; j++)
+      lab_foresee_shift(&params, p->side->param[j], factor * step[j]);
+    status = lab_foresee(p->outlook, &params, p->trial, error);
+    if (status != LAB_OK && status != LAB_NUMERIC)
+      return status;
+    if (status != LAB_OK || !(distance(p, p->trial) < p->apart))
+      continue;
+    memcpy(p->own, p->trial, LAB_FORESEEN * (size_t)p->outlook->n * sizeof *p->own);
+    p->params = params;
+    *moved = 1;
+    break;
+  }
+  return LAB_OK;
+}
+
+/* Gauss-Newton, with slopes renewed only where a step has not arrived. */
+static int pursue(pursuit *p, lab_error *error)
+{
+  enum { ROUNDS = 6 };
+  int round, moved = 1;
+  for (round = 0; round < ROUNDS && moved; round++) {
+    if (lab_foresee_slopes(p->outlook, &p->params, p->side->n, p->side->param, p->own, p->slope, error))
+      return error->status;
+    look(p);
+    if (is_near(p))
+      break;
+    if (approach(p, &moved, error))
+      return error->status;
+    look(p);
+    if (is_near(p))
+      break;
+  }
+  return LAB_OK;
+}
+
 /* How far a model stays from a prediction, however its parameters are fitted again.
- * In:      y      the prediction
+ * In:      goal   the prediction
  *          own    that of the model
- *          space  s->n + 2 columns */
-static int stay_apart(const lab_inquiry *q, const lab_outlook *o, const double *y, const double *own, const side *s,
+ *          space  s->n + 3 columns */
+static int stay_apart(const lab_inquiry *q, const lab_outlook *o, const double *goal, const double *own, const side *s,
                       double *space, gap *g, lab_error *error)
 {
-  const int m = LAB_FORESEEN * o->n;
-  double *difference = space + (size_t)s->n * (size_t)m, *moved = difference + m;
-  pneu_params params = s->params;
-  double before = (double)INFINITY;
-  lab_normal sum;
-  bundle b;
-  int round;
-  if (lab_foresee_slopes(o, &s->params, s->n, s->param, own, space, error))
+  const size_t m = LAB_FORESEEN * (size_t)o->n;
+  pursuit p;
+  memset(&p, 0, sizeof p);
+  p.inquiry = q;
+  p.outlook = o;
+  p.side = s;
+  p.goal = goal;
+  p.params = s->params;
+  p.slope = space;
+  p.difference = space + (size_t)s->n * m;
+  p.trial = p.difference + m;
+  p.own = p.trial + m;
+  memcpy(p.own, own, m * sizeof *own);
+  if (pursue(&p, error))
     return error->status;
-  subtract(y, own, m, difference);
-  for (round = 0;; round++) {
-    gather(o, s->n, space, &b);
-    weigh(q, o, &b, -1, &sum);
-    if (sum.g[s->n][s->n] > before)
-      return LAB_OK; /* the step made it worse */
-    before = sum.g[s->n][s->n];
-    measure(q, o, &b, g);
-    if (round == REFIT_STEPS)
-      return LAB_OK;
-    refit(s, &sum, &params);
-    if (lab_foresee(o, &params, moved, error))
-      return error->status == LAB_NUMERIC ? LAB_OK : error->status;
-    subtract(y, moved, m, difference);
-  }
+  measure(q, o, &p.bundle, g);
+  return LAB_OK;
 }
 
 static void keep_smaller(gap *g, const gap *other)
@@ -280,7 +348,7 @@ static int separate_over(const lab_inquiry *q, const lab_outlook *o, const side 
                          lab_error *error)
 {
   const size_t m = LAB_FORESEEN * (size_t)o->n;
-  const size_t columns = (size_t)(a->n > b->n ? a->n : b->n) + 2;
+  const size_t columns = (size_t)(a->n > b->n ? a->n : b->n) + 3;
   double *memory = malloc((columns + 2) * m * sizeof *memory), *y_a = memory, *y_b = y_a + m, *space = y_b + m;
   gap back;
   int status;
@@ -371,8 +439,19 @@ static int choose_sensor(const scene *s, const gap *g, lab_advice *advice)
   return best;
 }
 
+/* "12 sigma"; beyond what is decisive the fit may end elsewhere, and the figure says no more than that. */
+static const char *sigmas(double value, char text[32])
+{
+  if (value > decisive)
+    snprintf(text, 32, "more than %g sigma", decisive);
+  else
+    snprintf(text, 32, value < 10 ? "%.1f sigma" : "%.0f sigma", value);
+  return text;
+}
+
 static void advise_sensor(const scene *s, const gap *g, lab_advice *advice)
 {
+  char most[32], least[32];
   const int i = choose_sensor(s, g, advice);
   if (i < 0) {
     say(advice->text,
@@ -387,16 +466,18 @@ static void advise_sensor(const scene *s, const gap *g, lab_advice *advice)
       "no schedule of the set separates them with these sensors; record %s (%s) as well, in this test: %s",
       lab_channels[advice->channel].key, lab_channels[advice->channel].meaning, advice->trial.text);
   say(advice->why,
-      "with a sensor of noise %.3g %s they would differ by %.3g sigma after fitting again, without it by %.2g at most",
-      noise_of_new(s->inquiry->rig, advice->channel), lab_channels[advice->channel].unit, advice->with_sensor,
-      advice->separation);
+      "with a sensor of noise %.3g %s they would differ by %s after fitting again, without it by %s at most",
+      noise_of_new(s->inquiry->rig, advice->channel), lab_channels[advice->channel].unit,
+      sigmas(advice->with_sensor, most), sigmas(advice->separation, least));
 }
 
 static void advise_trial(const scene *s, const gap *g, lab_advice *advice)
 {
-  const int i = choose(&s->trials, &g[0].plain, GAP_DOUBLES, decisive);
+  char most[32], least[32];
+  const double again = g[s->n - 1].plain, better = 2;
+  const int i = choose(&s->trials, &g[0].plain, GAP_DOUBLES, fmax(decisive, better * again));
   advise_none(advice, "every simulation of the set failed");
-  advice->usual = g[s->n - 1].plain;
+  advice->usual = again;
   if (i < 0)
     return;
   advice->separation = g[i].plain;
@@ -407,9 +488,141 @@ static void advise_trial(const scene *s, const gap *g, lab_advice *advice)
   advice->kind = LAB_ADVICE_TRIAL;
   advice->trial = s->trials.trial[i];
   say(advice->text, "%s", advice->trial.text);
-  say(advice->why, "in %.0f s they would differ by %.3g sigma after fitting again; %s gives %.2g",
-      advice->trial.duration, advice->separation, s->inquiry->recorded ? "what has been recorded" : "a fill and vent",
-      advice->usual);
+  say(advice->why, "in %.0f s they would differ by %s after fitting again; %s gives %s", advice->trial.duration,
+      sigmas(advice->separation, most), s->inquiry->recorded ? "what has been recorded" : "a fill and vent",
+      sigmas(advice->usual, least));
+}
+
+/* ---- Intervals ---- */
+
+/* What records say about parameters: half widths of 95 % intervals over their scales, by the number of the outlook; the
+ * last is what has been recorded, the others come on top of it. */
+typedef struct widths {
+  double of[LAB_TRIAL_MAX + 1][LAB_NORMAL_MAX];
+} widths;
+
+static const double hopeless = 1; /* an interval as wide as the value itself: not known */
+
+/* Normal equations of one record of one model. */
+static int inform(const lab_inquiry *q, const lab_outlook *o, const side *s, lab_normal *normal, lab_error *error)
+{
+  const size_t m = LAB_FORESEEN * (size_t)o->n;
+  double *slope = calloc(((size_t)s->n + 2) * m, sizeof *slope), *y = slope + ((size_t)s->n + 1) * m;
+  bundle b;
+  int status;
+  if (!slope)
+    return lab_fail_memory(error, "a response");
+  if ((status = lab_foresee(o, &s->params, y, error)) == LAB_OK &&
+      (status = lab_foresee_slopes(o, &s->params, s->n, s->param, y, slope, error)) == LAB_OK) {
+    gather(o, s->n, slope, &b);
+    weigh(q, o, &b, -1, normal);
+  }
+  free(slope);
+  return status;
+}
+
+static void find_widths(const lab_normal *normal, double *width)
+{
+  double prior[LAB_NORMAL_MAX];
+  int j;
+  for (j = 0; j < normal->k; j++)
+    prior[j] = 10; /* anything from nothing to many times the value */
+  lab_normal_deviations(normal, prior, width);
+  for (j = 0; j < normal->k; j++)
+    width[j] *= normal_95;
+}
+
+/* A trial that cannot be simulated adds nothing. */
+static int inform_all(const scene *s, const side *model, widths *w, lab_error *error)
+{
+  lab_normal normal[LAB_TRIAL_MAX + 1];
+  int i, status = LAB_OK;
+  memset(normal, 0, sizeof normal);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < s->n; i++) {
+    lab_error mine;
+    const int at = inform(s->inquiry, &s->outlook[i], model, &normal[i], &mine);
+    normal[i].k = model->n;
+    if (at != LAB_OK && (at != LAB_NUMERIC || i == s->n - 1)) {
+#pragma omp critical(separate_error)
+      *error = mine, status = at;
+    }
+  }
+  for (i = 0; i < s->n - 1; i++) {
+    add_scaled(&normal[i], 1, &normal[s->n - 1]);
+    find_widths(&normal[i], w->of[i]);
+  }
+  find_widths(&normal[s->n - 1], w->of[s->n - 1]);
+  return status;
+}
+
+/* The widest interval at present but for those that are already done. */
+static int widest(const double *width, int n, const int *done)
+{
+  int j, at = -1;
+  for (j = 0; j < n; j++)
+    if (!done[j] && (at < 0 || width[j] > width[at]))
+      at = j;
+  return at;
+}
+
+/* "+-3.2 %" */
+static const char *percent(double width, char text[32])
+{
+  if (width > hopeless)
+    snprintf(text, 32, "unknown");
+  else
+    snprintf(text, 32, "+-%.2g %%", 100 * width);
+  return text;
+}
+
+/* An effect at its neutral value has no size yet: what is known is how large it could be unseen. */
+static int is_neutral(const pneu_params *params, int param)
+{
+  pneu_params copy = *params;
+  pneu_param_info info;
+  if (param == LAB_FIT_ORIFICE_AREA || param < PNEU_PARAM_BASE_COUNT)
+    return 0;
+  pneu_param_describe(param, &info);
+  return !info.shape && *pneu_param_at(&copy, param) == info.neutral;
+}
+
+static void say_narrowed(const pneu_params *params, lab_advice *advice)
+{
+  char name[LAB_FIT_TEXT], before[32], after[32];
+  lab_fit_name(advice->param, name);
+  say(advice->text, "%s", advice->trial.text);
+  if (is_neutral(params, advice->param))
+    say(advice->why, "would lower the size of %s that can hide in the noise from %.2g %% to %.2g %% of its usual size",
+        name, 100 * advice->before, 100 * advice->after);
+  else
+    say(advice->why, "would narrow %s from %s to %s", name, percent(advice->before, before),
+        percent(advice->after, after));
+}
+
+/* Narrow the widest interval that can be narrowed. */
+static void advise_widths(const scene *s, const side *model, const widths *w, lab_advice *advice)
+{
+  const double *now = w->of[s->n - 1], worth_while = 0.9;
+  int done[LAB_NORMAL_MAX] = {0}, j;
+  advise_none(advice, "no schedule of the set narrows an interval by a tenth");
+  while ((j = widest(now, model->n, done)) >= 0) {
+    double gain[LAB_TRIAL_MAX];
+    int i;
+    for (i = 0; i < s->trials.n; i++)
+      gain[i] = now[j] / w->of[i][j];
+    i = choose(&s->trials, gain, 1, (double)INFINITY);
+    done[j] = 1;
+    if (i < 0 || !(gain[i] * worth_while > 1))
+      continue;
+    advice->kind = LAB_ADVICE_TRIAL;
+    advice->trial = s->trials.trial[i];
+    advice->param = model->param[j];
+    advice->before = now[j];
+    advice->after = w->of[i][j];
+    say_narrowed(&model->params, advice);
+    return;
+  }
 }
 
 /* ---- Entries ---- */
@@ -460,4 +673,25 @@ int lab_separate(const lab_inquiry *inquiry, const pneu_params *a, const pneu_pa
     advise_trial(s, g, advice);
   scene_close(s);
   return status;
+}
+
+int lab_advise_interval(const lab_inquiry *inquiry, const pneu_params *params, lab_advice *advice, lab_error *error)
+{
+  widths w;
+  side model;
+  scene *s;
+  int status;
+  if (make_side(inquiry, params, params, &model, error))
+    return error->status;
+  status = prepare(inquiry, &s, advice, error);
+  if (status != LAB_OK || !s)
+    return status;
+  status = inform_all(s, &model, &w, error);
+  if (status == LAB_OK)
+    advise_widths(s, &model, &w, advice);
+  scene_close(s);
+  if (status != LAB_NUMERIC)
+    return status;
+  advise_none(advice, error->text);
+  return error->status = LAB_OK;
 }

@@ -3,10 +3,10 @@
  *
  * Both models are simulated over a set of trials (trial.h). What counts is the part of their difference that fitting
  * again cannot absorb: with y_A and y_B over the noise and J the slopes of B in what would be fitted, the length of
- * y_A - y_B with the span of J taken out, after the parameters of B have moved to where they fit A best (two steps with
- * J kept). The smaller of both ways round counts. Fitted again are the list given and all parameters of the effects by
- * which the models differ. White noise; the instants of commands count as known.
- * SPDX-License-Identifier: MIT */
+ * y_A - y_B with the span of J taken out, after the parameters of B have moved to where they fit A best (Gauss-Newton,
+ * a few steps). The smaller of both ways round counts. Fitted again are the list given and all parameters of the
+ * effects by which the models differ. White noise; the instants of commands count as known. SPDX-License-Identifier:
+ * MIT */
 #ifndef LAB_SEPARATE_H
 #define LAB_SEPARATE_H
 

@@ -37,10 +37,12 @@ static const template templates[] = {
      {{0, -1, 0.5}, {1, 0.2, 0},  {0, -1, 2}, {1, 0.4, 0},  {0, -1, 2},   {1, 0.6, 0}, {0, -1, 2},
       {1, 0.8, 0},  {0, -1, 2},   {1, 1, 0},  {0, -1, 2},   {-1, 0.8, 0}, {0, -1, 2},  {-1, 0.6, 0},
       {0, -1, 2},   {-1, 0.4, 0}, {0, -1, 2}, {-1, 0.2, 0}, {0, -1, 2},   {-1, 0, 2}}},
-    {"slow stroke up and down with 5 % opening", {{0, -1, 0.5}, {0.05, 1, 1}, {-0.05, 0, 1}}},
-    {"slow stroke up and down with 10 % opening", {{0, -1, 0.5}, {0.1, 1, 1}, {-0.1, 0, 1}}},
-    {"four full strokes up and down, fully open, with 1 s on each stop",
-     {{0, -1, 0.5}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}}},
+    {"slow stroke from 40 to 60 % travel and back with 5 % opening",
+     {{0, -1, 0.5}, {1, 0.4, 0}, {0.05, 0.6, 0}, {-0.05, 0.4, 0}, {-1, 0, 2}}},
+    {"slow stroke from 40 to 60 % travel and back with 10 % opening",
+     {{0, -1, 0.5}, {1, 0.4, 0}, {0.1, 0.6, 0}, {-0.1, 0.4, 0}, {-1, 0, 2}}},
+    {"three full strokes up and down, fully open, with 1 s on each stop",
+     {{0, -1, 0.5}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}}},
     {"staged vent from full travel: shut for 3 s at 75, 50 and 25 % travel",
      {{0, -1, 0.5},
       {1, 1, 2},
@@ -180,11 +182,13 @@ static int make_move(walk *w, const move *m, lab_trial *trial)
 /* Follow a template.  Returns: whether the rig can. */
 static int follow(const pneu_model *model, const template *from, double stroke_time, double settle, lab_trial *trial)
 {
-  walk w = {model, stroke_time, {0}};
+  walk w;
   pneu_input input;
   lab_error ignored;
   int i;
   memset(trial, 0, sizeof *trial);
+  w.model = model;
+  w.stroke_time = stroke_time;
   snprintf(trial->text, sizeof trial->text, "%s", from->text);
   pneu_input_default(model, &input);
   input.u = (pneu_real)from->step[0].u;
@@ -227,7 +231,7 @@ static int stroke_time(const pneu_model *model, double *seconds, lab_error *erro
 int lab_trials_build(const lab_rig *rig, lab_trials *trials, lab_error *error)
 {
   pneu_model model;
-  double seconds;
+  double seconds = 0;
   int i;
   memset(trials, 0, sizeof *trials);
   if (check(rig, error) || lab_rig_model(rig, &model, error) || stroke_time(&model, &seconds, error))
