@@ -5,7 +5,13 @@
 
 typedef double matrix[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1];
 
-void lab_normal_add(lab_normal *normal, double weight, const double *const *column, int m)
+void lab_normal_clear(lab_normal *normal, int k)
+{
+  memset(normal, 0, sizeof *normal);
+  normal->k = k;
+}
+
+void lab_normal_add_rows(lab_normal *normal, const double *const *column, int m)
 {
   int i, j, row;
   for (i = 0; i <= normal->k; i++)
@@ -13,8 +19,25 @@ void lab_normal_add(lab_normal *normal, double weight, const double *const *colu
       double sum = 0;
       for (row = 0; row < m; row++)
         sum += column[i][row] * column[j][row];
-      normal->g[i][j] += weight * sum;
+      normal->g[i][j] += sum;
     }
+}
+
+void lab_normal_add(lab_normal *normal, double weight, const lab_normal *other)
+{
+  int i, j;
+  for (i = 0; i <= normal->k; i++)
+    for (j = i; j <= normal->k; j++)
+      normal->g[i][j] += weight * other->g[i][j];
+}
+
+void lab_normal_select(const lab_normal *normal, int n, const int *keep, lab_normal *part)
+{
+  int i, j;
+  lab_normal_clear(part, n);
+  for (i = 0; i <= n; i++)
+    for (j = i; j <= n; j++)
+      part->g[i][j] = normal->g[i < n ? keep[i] : normal->k][j < n ? keep[j] : normal->k];
 }
 
 /* Take column `pivot` out of what is left of the others. */

@@ -13,9 +13,19 @@ typedef struct lab_normal {
   double g[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1];
 } lab_normal;
 
-/* Add `weight` times the matrix of m rows; only the upper triangle is used anywhere.
+/* No rows yet.  Out: normal, of k unknowns */
+void lab_normal_clear(lab_normal *normal, int k);
+
+/* Add m rows; only the upper triangle is used anywhere.
  * In:      column  k + 1 columns of m entries each, d last */
-void lab_normal_add(lab_normal *normal, double weight, const double *const *column, int m);
+void lab_normal_add_rows(lab_normal *normal, const double *const *column, int m);
+
+/* Add `weight` times another matrix of as many unknowns. */
+void lab_normal_add(lab_normal *normal, double weight, const lab_normal *other);
+
+/* Leave out unknowns.
+ * In:      keep  n of them, in increasing order */
+void lab_normal_select(const lab_normal *normal, int n, const int *keep, lab_normal *part);
 
 /* Length of d with the span of J taken out. A column that the others span to 1e-4 of its length adds nothing to it. */
 double lab_normal_rest(const lab_normal *normal);
