@@ -38,7 +38,7 @@ void lab_outlook_close(lab_outlook *outlook)
   memset(outlook, 0, sizeof *outlook);
 }
 
-int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, lab_error *error)
+int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, long *steps, lab_error *error)
 {
   const size_t n = (size_t)outlook->n;
   const lab_response_options options = {LAB_STEPPER, tolerance, outlook->t[n - 1], 0};
@@ -46,14 +46,17 @@ int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y
   lab_trace trace;
   pneu_model model;
   pneu_state start;
+  pneu_stats stats;
   rig.params = *params;
   if (lab_rig_model(&rig, &model, error))
     return error->status = LAB_NUMERIC;
   if (pneu_state_rest(&model, outlook->start.p, model.p.ambient_temperature, outlook->start.x,
                       &outlook->schedule->input[0], &start) != PNEU_OK)
     return lab_fail(error, LAB_NUMERIC, "no state at rest to start from");
-  if (lab_respond(&model, &start, outlook->schedule, outlook->t, n, &options, &trace, NULL, error))
+  if (lab_respond(&model, &start, outlook->schedule, outlook->t, n, &options, &trace, &stats, error))
     return error->status;
+  if (steps)
+    *steps = stats.steps;
   memcpy(y, trace.p, n * sizeof *y);
   memcpy(y + n, trace.x, n * sizeof *y);
   memcpy(y + 2 * n, trace.T, n * sizeof *y);
@@ -113,7 +116,7 @@ int lab_foresee_slopes(const lab_outlook *outlook, const pneu_params *params, in
       at = *params;
       share = lab_foresee_shift(&at, param[k], -small);
     }
-    if (lab_foresee(outlook, &at, column, error))
+    if (lab_foresee(outlook, &at, column, NULL, error))
       return error->status;
     for (i = 0; i < m; i++)
       column[i] = (column[i] - y[i]) / share;

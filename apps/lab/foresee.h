@@ -29,9 +29,10 @@ int lab_outlook_open(const lab_rig *rig, const lab_schedule *schedule, double se
                      lab_outlook *outlook, lab_error *error);
 void lab_outlook_close(lab_outlook *outlook);
 
-/* Out:     y  LAB_FORESEEN * n values, SI, channel by channel
+/* Out:     y      LAB_FORESEEN * n values, SI, channel by channel
+ *          steps  that the simulation took; may be NULL
  * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
-int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, lab_error *error);
+int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, long *steps, lab_error *error);
 
 /* Slopes of y in parameters (as in lab_rig.fit), each in units of its scale.
  * In:      y      at params

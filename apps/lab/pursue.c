@@ -67,7 +67,7 @@ static int approach(pursuit *p, int *moved, lab_error *error)
     int status;
     for (j = 0; j < p->model->n; j++)
       lab_foresee_shift(&params, p->model->param[j], factor * step[j]);
-    status = lab_foresee(p->outlook, &params, p->trial, error);
+    status = lab_foresee(p->outlook, &params, p->trial, NULL, error);
     if (status != LAB_OK && status != LAB_NUMERIC)
       return status;
     if (status != LAB_OK || !(distance(p, p->trial) < p->apart))
@@ -119,8 +119,8 @@ int pursue(const lab_inquiry *q, const lab_outlook *o, const pneu_params *goal, 
   p.goal = p.difference + m;
   p.own = p.goal + m;
   p.trial = p.own + m;
-  if ((status = lab_foresee(o, goal, p.goal, error)) == LAB_OK &&
-      (status = lab_foresee(o, &p.params, p.own, error)) == LAB_OK)
+  if ((status = lab_foresee(o, goal, p.goal, NULL, error)) == LAB_OK &&
+      (status = lab_foresee(o, &p.params, p.own, NULL, error)) == LAB_OK)
     status = run(&p, error);
   *apart = p.rest;
   free(space);

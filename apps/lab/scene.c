@@ -168,7 +168,7 @@ static int difference(const lab_outlook *o, const pneu_params *a, const pneu_par
                       lab_error *error)
 {
   int i;
-  if (lab_foresee(o, a, column, error) || lab_foresee(o, b, y, error))
+  if (lab_foresee(o, a, column, NULL, error) || lab_foresee(o, b, y, NULL, error))
     return error->status;
   for (i = 0; i < LAB_FORESEEN * o->n; i++)
     column[i] -= y[i];
@@ -176,7 +176,7 @@ static int difference(const lab_outlook *o, const pneu_params *a, const pneu_par
 }
 
 static int survey_one(const lab_outlook *o, const side *model, const pneu_params *a, const pneu_params *b, bundle *into,
-                      lab_error *error)
+                      long *steps, lab_error *error)
 {
   const size_t m = LAB_FORESEEN * (size_t)o->n;
   double *space = calloc(((size_t)model->n + 2) * m, sizeof *space);
@@ -184,7 +184,7 @@ static int survey_one(const lab_outlook *o, const side *model, const pneu_params
   int status;
   if (!space)
     return lab_fail_memory(error, "a response");
-  if ((status = lab_foresee(o, &model->params, y, error)) == LAB_OK &&
+  if ((status = lab_foresee(o, &model->params, y, steps, error)) == LAB_OK &&
       (status = lab_foresee_slopes(o, &model->params, model->n, model->param, y, space, error)) == LAB_OK &&
       (!a || (status = difference(o, a, b, y, last, error)) == LAB_OK))
     bundle_fill(into, o, model->n, space);
@@ -194,13 +194,16 @@ static int survey_one(const lab_outlook *o, const side *model, const pneu_params
 
 int scene_survey(scene *s, const side *model, const pneu_params *a, const pneu_params *b, lab_error *error)
 {
+  const long many_steps = 3000; /* smooth ones take 50 to 500 */
   int i, status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < s->n; i++) {
     lab_error mine;
+    long steps = 0;
     int c;
-    const int at = survey_one(&s->outlook[i], model, a, b, &s->bundle[i], &mine);
+    const int at = survey_one(&s->outlook[i], model, a, b, &s->bundle[i], &steps, &mine);
     s->failed[i] = at != LAB_OK;
+    s->jerky[i] = steps > many_steps;
     for (c = 0; at != LAB_OK && c < LAB_FORESEEN; c++)
       lab_normal_clear(&s->bundle[i].channel[c], model->n);
     if (at == LAB_WORLD) {

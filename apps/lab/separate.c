@@ -82,22 +82,23 @@ static double estimate(const lab_normal *normal, const side *middle, const side 
   return lab_normal_rest(&part);
 }
 
-static void estimate_all(const scene *s, const lab_inquiry *q, const pair *p, double *separation)
+static double estimate_both(const scene *s, const lab_inquiry *q, const pair *p, int i)
 {
-  int i;
-  for (i = 0; i < s->n; i++) {
-    lab_normal normal;
-    bundle_weigh(&s->bundle[i], q, &s->outlook[i], &normal);
-    separation[i] =
-        s->failed[i] ? (double)NAN : fmin(estimate(&normal, &p->middle, &p->a), estimate(&normal, &p->middle, &p->b));
-  }
+  lab_normal normal;
+  if (s->failed[i])
+    return (double)NAN;
+  bundle_weigh(&s->bundle[i], q, &s->outlook[i], &normal);
+  return fmin(estimate(&normal, &p->middle, &p->a), estimate(&normal, &p->middle, &p->b));
 }
 
-/* Fit each model to the other. A fit that fails leaves NaN. */
+/* Fit each model to the other. Where motion is jerky the estimate has to do; a fit that fails leaves NaN. */
 static int settle(const scene *s, const lab_inquiry *q, const pair *p, int i, double *separation, lab_error *error)
 {
   double apart[2] = {(double)NAN, (double)NAN};
   int way, status = LAB_OK;
+  *separation = estimate_both(s, q, p, i);
+  if (s->failed[i] || s->jerky[i])
+    return LAB_OK;
 #pragma omp parallel for
   for (way = 0; way < 2; way++) {
     lab_error mine;
@@ -122,11 +123,12 @@ static int find_best(const scene *s, const lab_inquiry *q, const pair *p, double
                      lab_error *error)
 {
   enum { TRIES = 6 };
-  double value[LAB_TRIAL_MAX + 1], settled[LAB_TRIAL_MAX + 1];
+  double value[LAB_TRIAL_MAX], settled[LAB_TRIAL_MAX];
   int i, tries;
-  estimate_all(s, q, p, value);
-  for (i = 0; i < s->n; i++)
+  for (i = 0; i < s->trials.n; i++) {
+    value[i] = estimate_both(s, q, p, i);
     settled[i] = (double)NAN;
+  }
   for (tries = 0; tries < TRIES; tries++) {
     i = trial_choose(&s->trials, value, enough);
     if (i < 0 || !isnan(settled[i]) || !(value[i] > clear))

@@ -28,6 +28,7 @@ typedef struct scene {
   pneu_input input[LAB_TRIAL_MAX + 1][LAB_TRIAL_STEPS];
   bundle bundle[LAB_TRIAL_MAX + 1];
   int failed[LAB_TRIAL_MAX + 1]; /* not 0: could not be simulated; the bundle is empty */
+  int jerky[LAB_TRIAL_MAX + 1];  /* not 0: stick-slip throughout, too long to simulate many times */
 } scene;
 
 /* Check an inquiry and lay out its trials. Where no command moves the stem, advice says so and *made is NULL.
