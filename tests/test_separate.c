@@ -3,8 +3,7 @@
 
 #include "fixture.h"
 
-#include "../apps/lab/foresee.h"
-#include "../apps/lab/separate.h"
+#include "../apps/lab/separate_private.h"
 
 static const int fitted[] = {LAB_FIT_ORIFICE_AREA, PNEU_PARAM_dry_friction, PNEU_PARAM_spring_rate,
                              PNEU_PARAM_spring_preload, PNEU_PARAM_damping};
@@ -270,6 +269,30 @@ static void test_lab_separate__position_alone_too_little__names_the_sensor_to_ad
   assert_true(advice.trial.n > 2);
 }
 
+static void test_lab_separate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent(void **state)
+{
+  static lab_trials trials;
+  static stage s;
+  const lab_rig rig = make_rig();
+  lab_inquiry q = make_inquiry(&rig);
+  const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-9);
+  const pneu_params blocked = with(&rig, param_of("vent_restriction"), 2e-3);
+  const double usual = advise(&q, &leaks, &blocked).usual;
+  lab_advice advice;
+  lab_error error;
+  (void)state;
+  assert_int_equal(lab_trials_build(&rig, &trials, &error), LAB_OK);
+  stage_open(&rig, &trials.usual, trials.settle, &s);
+  q.recorded = &s.schedule;
+  q.recorded_duration = trials.usual.duration;
+  advice = advise(&q, &leaks, &blocked);
+  assert_close(advice.usual, usual, 0, 1e-9);
+  assert_non_null(strstr(advice.why, "what has been recorded"));
+  q.recorded_duration = trials.usual.t[2]; /* without the vent */
+  assert_true(advise(&q, &leaks, &blocked).usual < 0.5 * usual);
+  lab_outlook_close(&s.outlook);
+}
+
 /* ---- Where there is no advice ---- */
 
 static void expect_reason(const lab_rig *rig, const char *reason)
@@ -449,6 +472,23 @@ static void test_lab_trials_build__leak_as_large_as_a_slow_opening__leaves_slow_
   find_trial(&trials, "three full strokes");
 }
 
+static void test_trial_choose__ties__go_to_the_shortest(void **state)
+{
+  static lab_trials trials;
+  const double duration[] = {40, 10, 20, 5, 1};
+  const double value[] = {50, 47, 46, 44, (double)NAN};
+  int i;
+  (void)state;
+  trials.n = 5;
+  for (i = 0; i < trials.n; i++)
+    trials.trial[i].duration = duration[i];
+  assert_int_equal(trial_choose(&trials, value, 100), 1);
+  assert_int_equal(trial_choose(&trials, value, 48), 3);
+  trials.n = 1;
+  assert_int_equal(trial_choose(&trials, value, 100), 0);
+  assert_int_equal(trial_choose(&trials, value + 4, 100), -1);
+}
+
 /* ---- Normal equations ---- */
 
 enum { M = 40, K = 3 };
@@ -500,15 +540,18 @@ static void test_lab_normal_rest__is_what_gram_schmidt_leaves(void **state)
   assert_close(rest, rest_by_gram_schmidt(column), 0, 1e-8);
 }
 
-static void test_lab_normal_rest__column_twice__counts_once(void **state)
+/* What tells the last column from the first is d itself: were that counted, nothing of d would be left. */
+static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
 {
   static double column[K + 1][M];
   const double *pointer[K + 1];
   const int two[] = {0, 1};
   lab_normal normal, part;
+  int i;
   (void)state;
   make_columns(column, pointer);
-  memcpy(column[2], column[0], sizeof column[0]);
+  for (i = 0; i < M; i++)
+    column[2][i] = column[0][i] + 1e-8 * column[K][i];
   lab_normal_clear(&normal, K);
   lab_normal_add_rows(&normal, pointer, M);
   lab_normal_select(&normal, 2, two, &part);
@@ -559,6 +602,7 @@ int main(void)
       cmocka_unit_test(test_lab_separate__one_thing_under_two_names__nothing_separates_it),
       cmocka_unit_test(test_lab_separate__lag_or_skew_of_position__says_that_no_schedule_and_no_sensor_does),
       cmocka_unit_test(test_lab_separate__position_alone_too_little__names_the_sensor_to_add),
+      cmocka_unit_test(test_lab_separate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent),
       cmocka_unit_test(test_lab_separate__no_command_moves_a_stem__says_why),
       cmocka_unit_test(test_lab_separate__inquiry_that_is_none__says_what_was_expected),
       cmocka_unit_test(test_lab_advise_interval__stribeck_undetected__asks_for_slow_motion),
@@ -566,8 +610,9 @@ int main(void)
       cmocka_unit_test(test_lab_trials_build__hold_at_80_percent__stem_stands_there),
       cmocka_unit_test(test_lab_trials_build__both_actuators__every_template_in_order_of_time),
       cmocka_unit_test(test_lab_trials_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out),
+      cmocka_unit_test(test_trial_choose__ties__go_to_the_shortest),
       cmocka_unit_test(test_lab_normal_rest__is_what_gram_schmidt_leaves),
-      cmocka_unit_test(test_lab_normal_rest__column_twice__counts_once),
+      cmocka_unit_test(test_lab_normal_rest__column_nearly_twice__counts_once),
       cmocka_unit_test(test_lab_normal_step__combination_of_the_columns__is_found),
       cmocka_unit_test(test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse),
   };
