@@ -124,7 +124,7 @@ static int find_best(const scene *s, const lab_inquiry *q, const pair *p, double
 {
   enum { TRIES = 6 };
   double value[LAB_TRIAL_MAX], settled[LAB_TRIAL_MAX];
-  int i, tries;
+  int i = -1, tries;
   for (i = 0; i < s->trials.n; i++) {
     value[i] = estimate_both(s, q, p, i);
     settled[i] = (double)NAN;
@@ -137,8 +137,8 @@ static int find_best(const scene *s, const lab_inquiry *q, const pair *p, double
       return error->status;
     settled[i] = value[i];
   }
-  if (i < 0 || isnan(settled[i]))
-    i = tries > 0 ? trial_choose(&s->trials, settled, enough) : i;
+  if (tries == TRIES)
+    i = trial_choose(&s->trials, settled, enough);
   *best = i;
   *separation = i < 0 ? 0 : value[i];
   return LAB_OK;
@@ -175,7 +175,7 @@ static void say_sensor(double noise, lab_advice *advice)
              "no schedule of the set separates them with these sensors; record %s (%s) as well, in this test: %s",
              channel->key, channel->meaning, advice->trial.text);
   advice_say(advice->why,
-             "with a sensor of noise %.3g %s they would differ by %s after fitting again, without it by %s at most",
+             "with a sensor of noise %.3g %s they would differ by %s after fitting again, without it by about %s",
              noise, channel->unit, sigmas(advice->with_sensor, most), sigmas(advice->separation, least));
 }
 
@@ -232,7 +232,7 @@ static int advise(const scene *s, const pair *p, lab_advice *advice, lab_error *
     return LAB_OK;
   }
   advice_say(advice->text,
-             "no schedule of the set separates them with these sensors (%.1f sigma at most), nor with one more for p, "
+             "no schedule of the set separates them with these sensors (about %.1f sigma), nor with one more for p, "
              "x, T or ps",
              advice->separation);
   return advise_sensor(s, p, advice, error);
