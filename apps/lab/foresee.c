@@ -65,61 +65,68 @@ int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y
   return LAB_OK;
 }
 
-double lab_foresee_scale(const pneu_params *params, int param)
+static double value_of(const pneu_params *params, int param)
 {
   pneu_params copy = *params;
+  return (double)(param == LAB_FIT_ORIFICE_AREA ? copy.fill_area : *pneu_param_at(&copy, param));
+}
+
+double lab_foresee_scale(const pneu_params *params, int param)
+{
+  const double value = fabs(value_of(params, param));
   pneu_param_info info;
-  double value;
   if (param == LAB_FIT_ORIFICE_AREA)
-    return 1;
+    return value;
   pneu_param_describe(param, &info);
-  value = (double)*pneu_param_at(&copy, param);
   if (param >= PNEU_PARAM_BASE_COUNT && !info.shape)
     return fabs((double)(info.value - info.neutral));
-  if (value != 0)
-    return fabs(value);
-  return info.value != 0 ? fabs((double)info.value) : 1;
+  return value != 0 ? value : info.value != 0 ? fabs((double)info.value) : 1;
 }
 
-/* A value within bounds.  Returns: the change. */
-static double move_within(pneu_real *value, double change, double lower, double upper)
+double lab_foresee_change(const pneu_params *from, const pneu_params *to, int param, double scale)
 {
-  const double before = (double)*value;
-  *value = (pneu_real)fmin(fmax(before + change, lower), upper);
-  return (double)*value - before;
+  return (value_of(to, param) - value_of(from, param)) / scale;
 }
 
-double lab_foresee_shift(pneu_params *params, int param, double share)
+void lab_foresee_shift(pneu_params *params, int param, double change, double scale)
 {
-  const double scale = lab_foresee_scale(params, param), narrowest = 0.1;
+  const double value = value_of(params, param) + change * scale, narrowest = 0.1;
   pneu_param_info info;
   if (param == LAB_FIT_ORIFICE_AREA) {
-    const double factor = fmax(1 + share, narrowest);
+    const double factor = fmax(value / (double)params->fill_area, narrowest);
     params->fill_area *= (pneu_real)factor;
     params->vent_area *= (pneu_real)factor;
-    return factor - 1;
+    return;
   }
   pneu_param_describe(param, &info);
-  return move_within(pneu_param_at(params, param), share * scale, (double)info.lower, (double)info.upper) / scale;
+  *pneu_param_at(params, param) = (pneu_real)fmin(fmax(value, (double)info.lower), (double)info.upper);
+}
+
+/* A model one step away, on the side where there is room.  Returns: the step */
+static double step_aside(pneu_params *params, int param, double scale)
+{
+  const pneu_params before = *params;
+  lab_foresee_shift(params, param, small, scale);
+  if (lab_foresee_change(&before, params, param, scale) < small / 2) {
+    *params = before;
+    lab_foresee_shift(params, param, -small, scale);
+  }
+  return lab_foresee_change(&before, params, param, scale);
 }
 
 int lab_foresee_slopes(const lab_outlook *outlook, const pneu_params *params, int count, const int *param,
-                       const double *y, double *slope, lab_error *error)
+                       const double *scale, const double *y, double *slope, lab_error *error)
 {
   const int m = LAB_FORESEEN * outlook->n;
   int k, i;
   for (k = 0; k < count; k++) {
     double *column = slope + (size_t)k * (size_t)m;
     pneu_params at = *params;
-    double share = lab_foresee_shift(&at, param[k], small);
-    if (share < small / 2) {
-      at = *params;
-      share = lab_foresee_shift(&at, param[k], -small);
-    }
+    const double step = step_aside(&at, param[k], scale[k]);
     if (lab_foresee(outlook, &at, column, NULL, error))
       return error->status;
     for (i = 0; i < m; i++)
-      column[i] = (column[i] - y[i]) / share;
+      column[i] = (column[i] - y[i]) / step;
   }
   return LAB_OK;
 }

@@ -34,17 +34,20 @@ void lab_outlook_close(lab_outlook *outlook);
  * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
 int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, long *steps, lab_error *error);
 
-/* Slopes of y in parameters (as in lab_rig.fit), each in units of its scale.
- * In:      y      at params
+/* Slopes of y in parameters (as in lab_rig.fit).
+ * In:      scale  unit of each, a change that matters
+ *          y      at params
  * Out:     slope  count columns of LAB_FORESEEN * n
  * Returns: as lab_foresee. */
 int lab_foresee_slopes(const lab_outlook *outlook, const pneu_params *params, int count, const int *param,
-                       const double *y, double *slope, lab_error *error);
+                       const double *scale, const double *y, double *slope, lab_error *error);
 
-/* A change of a parameter that matters: its value, or the usual size of an effect. */
+/* A change of a parameter that matters: its value, the usual size of an effect, for LAB_FIT_ORIFICE_AREA the fill area
+ * (the vent area changes in proportion). */
 double lab_foresee_scale(const pneu_params *params, int param);
 
-/* Change a parameter by a share of its scale, as far as its bounds allow.  Returns: the share that it took. */
-double lab_foresee_shift(pneu_params *params, int param, double share);
+/* Change a parameter as far as its bounds allow, and how far it is from one model to another, both over scale. */
+void lab_foresee_shift(pneu_params *params, int param, double change, double scale);
+double lab_foresee_change(const pneu_params *from, const pneu_params *to, int param, double scale);
 
 #endif

@@ -111,7 +111,7 @@ static void advise(const scene *s, const side *model, const widths *w, lab_advic
 
 int lab_advise_interval(const lab_inquiry *inquiry, const pneu_params *params, lab_advice *advice, lab_error *error)
 {
-  side model = {*params, 0, {0}};
+  side model = {*params, 0, {0}, {0}};
   widths w;
   scene *s;
   int j, status;

@@ -36,8 +36,26 @@ void lab_normal_select(const lab_normal *normal, int n, const int *keep, lab_nor
   int i, j;
   lab_normal_clear(part, n);
   for (i = 0; i <= n; i++)
-    for (j = i; j <= n; j++)
-      part->g[i][j] = normal->g[i < n ? keep[i] : normal->k][j < n ? keep[j] : normal->k];
+    for (j = i; j <= n; j++) {
+      const int a = i < n ? keep[i] : normal->k, b = j < n ? keep[j] : normal->k;
+      part->g[i][j] = normal->g[a < b ? a : b][a < b ? b : a];
+    }
+}
+
+void lab_normal_shift(lab_normal *normal, const double *change)
+{
+  const int k = normal->k;
+  double moved[LAB_NORMAL_MAX]; /* J'J change */
+  int i, j;
+  for (i = 0; i < k; i++) {
+    moved[i] = 0;
+    for (j = 0; j < k; j++)
+      moved[i] += normal->g[i < j ? i : j][i < j ? j : i] * change[j];
+  }
+  for (i = 0; i < k; i++)
+    normal->g[k][k] += change[i] * (moved[i] - 2 * normal->g[i][k]);
+  for (i = 0; i < k; i++)
+    normal->g[i][k] -= moved[i];
 }
 
 /* Take column `pivot` out of what is left of the others. */

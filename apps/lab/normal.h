@@ -24,8 +24,11 @@ void lab_normal_add_rows(lab_normal *normal, const double *const *column, int m)
 void lab_normal_add(lab_normal *normal, double weight, const lab_normal *other);
 
 /* Leave out unknowns.
- * In:      keep  n of them, in increasing order */
+ * In:      keep  n that stay, in their new order */
 void lab_normal_select(const lab_normal *normal, int n, const int *keep, lab_normal *part);
+
+/* The same rows once the unknowns have changed: d less J change. */
+void lab_normal_shift(lab_normal *normal, const double *change);
 
 /* Length of d with the span of J taken out. A column that the others span to 1e-4 of its length adds nothing to it. */
 double lab_normal_rest(const lab_normal *normal);

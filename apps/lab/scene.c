@@ -128,6 +128,7 @@ int side_add(side *s, int param, lab_error *error)
       return LAB_OK;
   if (s->n == LAB_NORMAL_MAX)
     return lab_fail(error, LAB_DATA, "more than %d parameters to fit again", (int)LAB_NORMAL_MAX);
+  s->scale[s->n] = lab_foresee_scale(&s->params, param);
   s->param[s->n++] = param;
   return LAB_OK;
 }
@@ -185,7 +186,8 @@ static int survey_one(const lab_outlook *o, const side *model, const pneu_params
   if (!space)
     return lab_fail_memory(error, "a response");
   if ((status = lab_foresee(o, &model->params, y, steps, error)) == LAB_OK &&
-      (status = lab_foresee_slopes(o, &model->params, model->n, model->param, y, space, error)) == LAB_OK &&
+      (status = lab_foresee_slopes(o, &model->params, model->n, model->param, model->scale, y, space, error)) ==
+          LAB_OK &&
       (!a || (status = difference(o, a, b, y, last, error)) == LAB_OK))
     bundle_fill(into, o, model->n, space);
   free(space);

@@ -50,6 +50,15 @@ static int make_side(const lab_inquiry *q, const pneu_params *mine, const pneu_p
   return LAB_OK;
 }
 
+static void share_units(const side *from, side *to)
+{
+  int i, j;
+  for (i = 0; i < from->n; i++)
+    for (j = 0; j < to->n; j++)
+      if (from->param[i] == to->param[j])
+        to->scale[j] = from->scale[i];
+}
+
 static int make_pair(const lab_inquiry *q, const pneu_params *a, const pneu_params *b, pair *p, lab_error *error)
 {
   pneu_params other = *b;
@@ -61,52 +70,75 @@ static int make_pair(const lab_inquiry *q, const pneu_params *a, const pneu_para
     pneu_real *value = pneu_param_at(&p->middle.params, i);
     *value = (*value + *pneu_param_at(&other, i)) / 2;
   }
-  for (i = 0; i < p->b.n; i++)
-    if (side_add(&p->middle, p->b.param[i], error))
+  p->middle.n = 0;
+  for (i = 0; i < p->a.n + p->b.n; i++)
+    if (side_add(&p->middle, i < p->a.n ? p->a.param[i] : p->b.param[i - p->a.n], error))
       return error->status;
+  share_units(&p->middle, &p->a);
+  share_units(&p->middle, &p->b);
   return LAB_OK;
 }
 
 /* ---- Separation of a trial ---- */
 
-/* Estimate by the slopes of the model in the middle, fitting what one side would fit. */
-static double estimate(const lab_normal *normal, const side *middle, const side *s)
+/* Leave the columns that one side would fit, in its order.  In: sign  1 or -1, of the difference */
+static void take_side(const lab_normal *normal, const side *middle, const side *s, double sign, lab_normal *part)
 {
-  int keep[LAB_NORMAL_MAX], i, j, n = 0;
-  lab_normal part;
-  for (i = 0; i < middle->n; i++)
-    for (j = 0; j < s->n; j++)
+  int keep[LAB_NORMAL_MAX], i, j;
+  for (j = 0; j < s->n; j++)
+    for (i = 0; i < middle->n; i++)
       if (middle->param[i] == s->param[j])
-        keep[n++] = i;
-  lab_normal_select(normal, n, keep, &part);
-  return lab_normal_rest(&part);
+        keep[j] = i;
+  lab_normal_select(normal, s->n, keep, part);
+  for (j = 0; j < s->n; j++)
+    part->g[j][s->n] *= sign;
 }
 
-static double estimate_both(const scene *s, const lab_inquiry *q, const pair *p, int i)
+/* What has been recorded says about the difference a - b; nothing to a record that stands for itself. */
+static void known_before(const scene *s, int i, lab_normal *known)
 {
-  lab_normal normal;
+  const int last = s->n - 1;
+  if (i == last)
+    lab_normal_clear(known, s->bundle[last].channel[0].k);
+  else
+    bundle_weigh(&s->bundle[last], &s->inquiry, &s->outlook[last], known);
+}
+
+/* Estimate by the slopes of the model midway. */
+static double estimate(const scene *s, const lab_inquiry *q, const pair *p, int i)
+{
+  lab_normal normal, known, a, b;
   if (s->failed[i])
     return (double)NAN;
   bundle_weigh(&s->bundle[i], q, &s->outlook[i], &normal);
-  return fmin(estimate(&normal, &p->middle, &p->a), estimate(&normal, &p->middle, &p->b));
+  known_before(s, i, &known);
+  lab_normal_add(&normal, 1, &known);
+  take_side(&normal, &p->middle, &p->a, 1, &a);
+  take_side(&normal, &p->middle, &p->b, 1, &b);
+  return fmin(lab_normal_rest(&a), lab_normal_rest(&b));
 }
 
 /* Fit each model to the other. Where motion is jerky the estimate has to do; a fit that fails leaves NaN. */
 static int settle(const scene *s, const lab_inquiry *q, const pair *p, int i, double *separation, lab_error *error)
 {
   double apart[2] = {(double)NAN, (double)NAN};
+  lab_normal known;
   int way, status = LAB_OK;
-  *separation = estimate_both(s, q, p, i);
+  *separation = estimate(s, q, p, i);
   if (s->failed[i] || s->jerky[i])
     return LAB_OK;
+  known_before(s, i, &known);
 #pragma omp parallel for
   for (way = 0; way < 2; way++) {
-    lab_error mine;
-    const int at =
-        pursue(q, &s->outlook[i], way ? &p->b.params : &p->a.params, way ? &p->a : &p->b, &apart[way], &mine);
+    const side *model = way ? &p->a : &p->b, *goal = way ? &p->b : &p->a;
+    lab_normal mine;
+    lab_error own;
+    int at;
+    take_side(&known, &p->middle, model, way ? -1 : 1, &mine);
+    at = pursue(q, &s->outlook[i], &goal->params, model, &mine, &apart[way], &own);
     if (at == LAB_WORLD) {
 #pragma omp critical(separate_error)
-      *error = mine, status = at;
+      *error = own, status = at;
     } else if (at != LAB_OK) {
       apart[way] = (double)NAN;
     }
@@ -126,7 +158,7 @@ static int find_best(const scene *s, const lab_inquiry *q, const pair *p, double
   double value[LAB_TRIAL_MAX], settled[LAB_TRIAL_MAX];
   int i = -1, tries;
   for (i = 0; i < s->trials.n; i++) {
-    value[i] = estimate_both(s, q, p, i);
+    value[i] = estimate(s, q, p, i);
     settled[i] = (double)NAN;
   }
   for (tries = 0; tries < TRIES; tries++) {
@@ -161,9 +193,9 @@ static void say_trial(const scene *s, lab_advice *advice)
   char most[32], least[32];
   advice->kind = LAB_ADVICE_TRIAL;
   advice_say(advice->text, "%s", advice->trial.text);
-  advice_say(advice->why, "in %.0f s they would differ by %s after fitting again; %s gives %s", advice->trial.duration,
-             sigmas(advice->separation, most), s->inquiry.recorded ? "what has been recorded" : "a fill and vent",
-             sigmas(advice->usual, least));
+  advice_say(advice->why, "in %.0f s they would come to differ by %s, whatever is fitted again; %s alone gives %s",
+             advice->trial.duration, sigmas(advice->separation, most),
+             s->inquiry.recorded ? "what has been recorded" : "a fill and vent", sigmas(advice->usual, least));
 }
 
 static void say_sensor(double noise, lab_advice *advice)
@@ -175,7 +207,8 @@ static void say_sensor(double noise, lab_advice *advice)
              "no schedule of the set separates them with these sensors; record %s (%s) as well, in this test: %s",
              channel->key, channel->meaning, advice->trial.text);
   advice_say(advice->why,
-             "with a sensor of noise %.3g %s they would differ by %s after fitting again, without it by about %s",
+             "with a sensor of noise %.3g %s they would come to differ by %s, whatever is fitted again; without it by "
+             "about %s",
              noise, channel->unit, sigmas(advice->with_sensor, most), sigmas(advice->separation, least));
 }
 
@@ -229,6 +262,10 @@ static int advise(const scene *s, const pair *p, lab_advice *advice, lab_error *
   if (best >= 0 && advice->separation > clear) {
     advice->trial = s->trials.trial[best];
     say_trial(s, advice);
+    return LAB_OK;
+  }
+  if (best < 0) {
+    advice_none(advice, "no schedule of the set can be simulated with both models");
     return LAB_OK;
   }
   advice_say(advice->text,

@@ -2,11 +2,12 @@
  * narrows what is known least.
  *
  * Both models are simulated over a set of trials (trial.h). What counts is the part of their difference that fitting
- * again cannot absorb: with y_A and y_B over the noise and J the slopes of B in what would be fitted, the length of
- * y_A - y_B with the span of J taken out, after the parameters of B have moved to where they fit A best (Gauss-Newton,
- * a few steps). The smaller of both ways round counts. All trials are ranked by an estimate from slopes of the model
- * midway; the best are then settled. A trial of hundreds of slips is only estimated. Fitted again are the list given
- * and all parameters of the effects by which the models differ. White noise; the instants of commands count as known.
+ * again, to the trial and what has been recorded, cannot absorb: with y_A and y_B over the noise and J the slopes of B
+ * in what would be fitted, the length of y_A - y_B with the span of J taken out, after the parameters of B have moved
+ * to where they fit A best (Gauss-Newton, a few steps; what has been recorded counts by its slopes). The smaller of
+ * both ways round is taken. All trials are ranked by an estimate from slopes of the model midway; the best are then
+ * settled. A trial of hundreds of slips is only estimated. Fitted again are the list given and all parameters of the
+ * effects by which the models differ. White noise; the instants of commands count as known.
  *
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_SEPARATE_H
@@ -39,9 +40,9 @@ typedef struct lab_advice {
   char text[LAB_ADVICE_TEXT]; /* what to do: "hold at 80 % travel with both orifices shut for 10 s" */
   char why[LAB_ADVICE_TEXT];  /* a sentence with the figures; empty where there are none */
   lab_trial trial;
-  double separation;    /* [sigma] that the trial with the recorded channels is expected to give; the best one's */
-  double usual;         /* [sigma] that what has been recorded gives, once more */
-  int channel;          /* enum lab_channel; -1 none */
+  double separation; /* [sigma] expected of the trial and what has been recorded together, with the recorded channels */
+  double usual;      /* [sigma] of what has been recorded alone */
+  int channel;       /* enum lab_channel; -1 none */
   double with_sensor;   /* [sigma] */
   int param;            /* of the interval, as in lab_rig.fit; -1 none */
   double before, after; /* half width of its 95 % interval, over its value (of an effect: its usual size) */

@@ -16,6 +16,7 @@ typedef struct side {
   pneu_params params;
   int n;
   int param[LAB_NORMAL_MAX];
+  double scale[LAB_NORMAL_MAX]; /* their units */
 } side;
 
 /* The trials and what has been recorded, which comes last. */
@@ -36,7 +37,8 @@ typedef struct scene {
 int scene_open(const lab_inquiry *inquiry, scene **made, lab_advice *advice, lab_error *error);
 void scene_close(scene *s);
 
-/* Take up a parameter that is not there yet.  Returns: LAB_OK; LAB_DATA if there is no room. */
+/* Take up a parameter that is not there yet, in the unit that suits s->params.
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
 int side_add(side *s, int param, lab_error *error);
 
 /* What a value of a foreseen channel weighs [1/SI^2] where it is sampled; 0 where it is not recorded. */
@@ -53,9 +55,10 @@ void bundle_weigh(const bundle *b, const lab_inquiry *q, const lab_outlook *o, l
 int scene_survey(scene *s, const side *model, const pneu_params *a, const pneu_params *b, lab_error *error);
 
 /* How far [sigma] a model stays from another's prediction, however it is fitted again (Gauss-Newton, few steps).
+ * In:      known  what other records say of the same difference, weighted, in the columns of the model
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
-int pursue(const lab_inquiry *q, const lab_outlook *o, const pneu_params *goal, const side *model, double *apart,
-           lab_error *error);
+int pursue(const lab_inquiry *q, const lab_outlook *o, const pneu_params *goal, const side *model,
+           const lab_normal *known, double *apart, lab_error *error);
 
 /* The trial of the largest value (of those beyond `enough`, any), the shortest of those within a tenth of it.
  * In:      value  by trial; NaN: not to be had
