@@ -611,6 +611,29 @@ static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
   assert_close(lab_normal_rest(&normal), lab_normal_rest(&part), 0, 1e-9);
 }
 
+static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
+{
+  static double column[K + 1][M];
+  const double *pointer[K + 1], *turned[3];
+  const int keep[] = {2, 0};
+  lab_normal normal, part, again;
+  int i, j;
+  (void)state;
+  make_columns(column, pointer);
+  lab_normal_clear(&normal, K);
+  lab_normal_add_rows(&normal, pointer, M);
+  lab_normal_select(&normal, 2, keep, &part);
+  turned[0] = column[2];
+  turned[1] = column[0];
+  turned[2] = column[K];
+  lab_normal_clear(&again, 2);
+  lab_normal_add_rows(&again, turned, M);
+  assert_int_equal(part.k, 2);
+  for (i = 0; i < 3; i++)
+    for (j = i; j < 3; j++)
+      assert_close(part.g[i][j], again.g[i][j], 0, 1e-12);
+}
+
 static void test_lab_normal_step__combination_of_the_columns__is_found(void **state)
 {
   static double column[K + 1][M];
@@ -686,6 +709,7 @@ int main(void)
       cmocka_unit_test(test_trial_choose__ties__go_to_the_shortest),
       cmocka_unit_test(test_lab_normal_rest__is_what_gram_schmidt_leaves),
       cmocka_unit_test(test_lab_normal_rest__column_nearly_twice__counts_once),
+      cmocka_unit_test(test_lab_normal_select__any_order__takes_the_same_rows),
       cmocka_unit_test(test_lab_normal_step__combination_of_the_columns__is_found),
       cmocka_unit_test(test_lab_normal_shift__d_less_the_combination__is_that_of_new_rows),
       cmocka_unit_test(test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse),
