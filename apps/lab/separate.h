@@ -26,7 +26,7 @@ typedef struct lab_inquiry {
   int n_fit;
   const int *fit;               /* what is fitted, as in lab_rig.fit */
   const lab_schedule *recorded; /* what has been recorded; NULL: a fill and vent */
-  double recorded_duration;     /* [s] */
+  double recorded_duration;     /* [s] from its first row */
 } lab_inquiry;
 
 enum lab_advice_kind {
@@ -48,8 +48,9 @@ typedef struct lab_advice {
   double before, after; /* half width of its 95 % interval, over its value (of an effect: its usual size) */
 } lab_advice;
 
-/* Two models of a rig: which trial separates them? The largest separation wins; those above 100 sigma count as 100, and
- * of those within 10 % of the largest the shortest is taken. Below 5 sigma a trial does not separate.
+/* Two models of a rig: which trial separates them? The largest separation wins; those above 100 sigma (or twice that of
+ * what has been recorded, if it is more) count as equal, and of those within 10 % of the largest the shortest is taken.
+ * Below 5 sigma a trial does not separate.
  * Returns: LAB_OK, also without advice; LAB_DATA for an inquiry that is none; LAB_WORLD. */
 int lab_separate(const lab_inquiry *inquiry, const pneu_params *a, const pneu_params *b, lab_advice *advice,
                  lab_error *error);
