@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "lab/advise.h"
 #include "lab/cli.h"
 #include "lab/interrupt.h"
 #include "lab/log.h"
@@ -71,8 +72,8 @@ static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *er
   return LAB_OK;
 }
 
-/* Error of a model on the log that was held out. Nothing that the logs share is fitted; what each log has for itself is,
- * and so are the instants at which the command changed, within the row that shows each. */
+/* Error of a model on the log that was held out. Nothing that the logs share is fitted; what each log has for itself
+ * is, and so are the instants at which the command changed, within the row that shows each. */
 static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *error)
 {
   static lab_unknowns u;
@@ -150,16 +151,27 @@ static double seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void say(void *context, const char *what)
+{
+  (void)context;
+  lab_progress_say(&progress, what);
+}
+
 static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
 {
   static lab_unknowns declared, completed;
   static lab_loop_result result;
   lab_loop_options how;
-  lab_story story = {rig, &declared, &completed, &result, 0, {{0}, {0}, 0, 0}, {{0}, {0}, 0, 0}, 0, 0, 0};
+  static lab_story story;
   const double start = seconds();
   char sentence[512];
   int status;
+  story.rig = rig;
+  story.declared = &declared;
+  story.completed = &completed;
+  story.result = &result;
   lab_loop_options_default(&how);
+  how.tell = say;
   how.alpha = alpha;
   how.min_gain = min_gain;
   lab_progress_say(&progress, "fitting the declared model");
@@ -168,13 +180,15 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;
-  lab_progress_say(&progress, "tracing the residual");
   if (lab_loop_run(&completed, &how, &result, error))
     return error->status;
-  story.trace_s = seconds() - start - story.fit_s;
+  story.trace_s = result.trace_s;
   if (holdout)
     lab_progress_say(&progress, "judging on the held-out log");
   if (holdout && hold_out(rig, &story, error))
+    return error->status;
+  lab_progress_say(&progress, "looking for the test to record next");
+  if (lab_advise(&story, error))
     return error->status;
   story.total_s = seconds() - start;
   lab_progress_say(&progress, "writing the report");

@@ -1,4 +1,5 @@
 #include "loop.h"
+#include "unlisted.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,11 +7,11 @@
 #include <string.h>
 #include <time.h>
 
-static const double alike_bic = 9.2;     /* refits that differ by less are alike: odds of a hundred to one */
-static const double worth = 0.05;        /* of the best statistic: leaders have at least so much */
-static const double alone = 3;           /* a slot is tried at once if it explains so much more than any effect, */
-static const double mostly = 0.5;        /* and so much of all there is */
-static const double active_share = 0.15; /* of a free term's largest height: knots below it are not where it acts */
+static const double alike_bic = 9.2; /* refits that differ by less are alike: odds of a hundred to one */
+static const double name_bonus = 20; /* by which a free term must be better than an effect */
+static const double worth = 0.05;    /* of the best statistic: leaders have at least so much */
+static const double alone = 3;       /* a slot is tried at once if it explains so much more than any effect, */
+static const double mostly = 0.5;    /* and so much of all there is */
 enum {
   BEAM = 2,
   SLOTS = 2,
@@ -109,10 +110,10 @@ typedef struct attempt {
   lab_found found[LAB_LOOP_EFFECTS];
 } attempt;
 
-/* Schwarz 1978: what a fit costs, with what it fits counted. */
+/* Schwarz 1978: what a fit costs, with what it fits counted, and what has no name against what has. */
 static double bic(const lab_unknowns *u, double chi2)
 {
-  return chi2 + (double)u->n * log((double)u->n_data);
+  return chi2 + (double)u->n * log((double)u->n_data) + name_bonus * u->rig.n_terms;
 }
 
 static void name_of(const attempt *a, char *text, size_t size)
@@ -304,40 +305,6 @@ static void refit_slot(const attempt *base, const lab_slot *slot, attempt *a)
   found->scale = slot->scale;
 }
 
-static int ascending(const void *x, const void *y)
-{
-  const double a = *(const double *)x, b = *(const double *)y;
-  return (a > b) - (a < b);
-}
-
-/* The level of a free term where it does not act: the median of its knots. */
-static double base_level(const pneu_term *term)
-{
-  double value[PNEU_TERM_ROOM];
-  int i;
-  for (i = 0; i < term->n; i++)
-    value[i] = (double)term->value[i];
-  qsort(value, (size_t)term->n, sizeof *value, ascending);
-  return value[term->n / 2];
-}
-
-int lab_term_where(const pneu_term *term, double *from, double *to)
-{
-  const double level = base_level(term), knot = (double)(term->to - term->from) / (term->n - 1);
-  double most = 0;
-  int i, first = -1, last = -1;
-  for (i = 0; i < term->n; i++)
-    most = fmax(most, fabs((double)term->value[i] - level));
-  for (i = 0; i < term->n; i++)
-    if (fabs((double)term->value[i] - level) > active_share * most) {
-      first = first < 0 ? i : first;
-      last = i;
-    }
-  *from = (double)term->from + knot * (first > MARGIN ? first - MARGIN : 0);
-  *to = (double)term->from + knot * (last + MARGIN < term->n ? last + MARGIN : term->n - 1);
-  return last - first < term->n / 2;
-}
-
 /* Values of one term, less a level, at the knots of another; 0 at its ends. */
 static void resample(const pneu_term *from, double level, pneu_term *to)
 {
@@ -357,17 +324,17 @@ static void refine(attempt *a)
 {
   const lab_found *found = &a->found[a->n_found - 1];
   const pneu_term coarse = a->u.rig.term[found->term];
-  const double level = base_level(&coarse);
+  const double margin = MARGIN * (double)(coarse.to - coarse.from) / (coarse.n - 1);
   attempt *fine = malloc(sizeof *fine);
-  double from, to;
+  double from, to, level, peak;
   pneu_term term = coarse;
   lab_error ignored;
-  if (fine && lab_term_where(&coarse, &from, &to)) {
+  if (fine && lab_unlisted_stretch(&coarse, &from, &to, &level, &peak)) {
     *fine = *a;
     lab_unknowns_drop_term(&fine->u);
     term.n = REFINED;
-    term.from = (pneu_real)from;
-    term.to = (pneu_real)to;
+    term.from = (pneu_real)fmax(from - margin, (double)coarse.from);
+    term.to = (pneu_real)fmin(to + margin, (double)coarse.to);
     resample(&coarse, level, &term);
     if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &ignored) == LAB_OK &&
         fit_attempt(fine, LAB_FIT_WHOLE, &ignored) == LAB_OK && fine->bic < a->bic)
@@ -400,7 +367,7 @@ static void note_alike(attempt *pool, int n)
 {
   lab_found *found = &pool[0].found[pool[0].n_found - 1];
   int i, k;
-  for (i = 1; i < n && pool[i].bic - pool[0].bic < alike_bic; i++) {
+  for (i = 1; found->effect >= 0 && i < n && pool[i].bic - pool[0].bic < alike_bic; i++) {
     const int effect = pool[i].found[pool[i].n_found - 1].effect;
     int known = effect < 0 || effect == found->effect || pool[i].n_found != pool[0].n_found;
     for (k = 0; k < found->n_alike; k++)

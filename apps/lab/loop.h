@@ -75,10 +75,6 @@ void lab_loop_close(lab_loop_result *result);
 /* Error of the present model of `u` on its experiments. */
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
 
-/* Where a free term acts: the stretch of its argument outside which it stays near one level.
- * Returns: 1 if that is a short one, 0 if it acts nearly everywhere. */
-int lab_term_where(const pneu_term *term, double *from, double *to);
-
 /* "none", "effect", "unlisted", "undecided" */
 const char *lab_verdict_text(int verdict);
 

@@ -10,6 +10,7 @@
 #include "outfile.h"
 #include "quantile.h"
 #include "shown.h"
+#include "unlisted.h"
 #include "svginline.h"
 #include "template.h"
 
@@ -216,6 +217,24 @@ static void put_sizes(const telling *t, int effect, cJSON *list)
   }
 }
 
+/* What was found and has no name. */
+static void put_unlisted(const telling *t, const lab_found *found, cJSON *list)
+{
+  const pneu_term *term = &t->story->completed->rig.term[found->term];
+  char where[LAB_WHERE_TEXT];
+  cJSON *item = append(list);
+  put(item, "name", "Not in the catalogue");
+  put(item, "what", "Something acts like %s: %s.", lab_unlisted_what(term), lab_unlisted_where(term, where));
+  put(item, "footprint", "%s", lab_unlisted_where(term, where));
+  put(item, "source", "a free term, piecewise linear; its knots are in model.cfg");
+  put(item, "equation", "%s", lab_unlisted_equation(term));
+  cJSON_AddArrayToObject(item, "sizes");
+  put_share(item, "explained", found->explained);
+  put_number(item, "statistic", found->statistic, 3);
+  put_number(item, "threshold", lab_chi2_threshold(t->story->result->level), 3);
+  put_p(item, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+}
+
 static void put_found(const telling *t, const lab_found *found, cJSON *list)
 {
   static const struct {
@@ -330,10 +349,16 @@ static void put_next(const telling *t, cJSON *list)
   int i, k;
   for (i = 0; i < r->n_found; i++)
     for (k = 0; k < r->found[i].n_alike; k++)
-      say(list, "To tell %s from %s, a test in which one of them shows alone. %s: %s. %s: %s.",
-          effect_name(r->found[i].effect), effect_name(r->found[i].alike[k]), effect_name(r->found[i].effect),
-          pneu_effect_at(r->found[i].effect)->footprint, effect_name(r->found[i].alike[k]),
-          pneu_effect_at(r->found[i].alike[k])->footprint);
+      if (k == 0 && t->story->separate[i].kind != LAB_ADVICE_NONE)
+        say(list, "To tell %s from %s: %s. %s", effect_name(r->found[i].effect), effect_name(r->found[i].alike[k]),
+            t->story->separate[i].text, t->story->separate[i].why);
+      else
+        say(list, "To tell %s from %s, a test in which one of them shows alone. %s: %s. %s: %s.",
+            effect_name(r->found[i].effect), effect_name(r->found[i].alike[k]), effect_name(r->found[i].effect),
+            pneu_effect_at(r->found[i].effect)->footprint, effect_name(r->found[i].alike[k]),
+            pneu_effect_at(r->found[i].alike[k])->footprint);
+  if (t->story->next.kind == LAB_ADVICE_TRIAL)
+    say(list, "%s. %s", t->story->next.text, t->story->next.why);
   if (r->verdict == LAB_VERDICT_UNDECIDED || r->verdict == LAB_VERDICT_UNLISTED)
     say(list, "Tests that part the equations: hold with both orifices shut at several positions (mass), slow full "
               "strokes both ways (forces), rest on either stop (sensors).");
@@ -460,7 +485,7 @@ static cJSON *values_of(const telling *t)
   put_logs(t, page);
   put_errors(t, page);
   for (i = 0; i < t->story->result->n_found; i++)
-    put_found(t, &t->story->result->found[i], found);
+    (t->story->result->found[i].effect < 0 ? put_unlisted : put_found)(t, &t->story->result->found[i], found);
   put_reasons(t, cJSON_AddArrayToObject(page, "reasons"));
   put_limits(t, cJSON_AddArrayToObject(page, "limits"));
   put_next(t, cJSON_AddArrayToObject(page, "next"));

@@ -28,6 +28,7 @@ typedef struct lab_trace {
   double *mass_in;  /* [kg/s] */
   double *mass_out; /* [kg/s] */
   double *heat;     /* [W] */
+  double *ps;       /* [Pa] gauge, supply at the transducer */
   int *mode;        /* enum pneu_mode */
 } lab_trace;
 
