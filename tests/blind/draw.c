@@ -113,7 +113,7 @@ typedef struct piece {
 } piece;
 
 /* A full stroke and back, then pieces with holds between them, as in the logs of the virtual rig. */
-static const piece fit_pieces[] = {{1, 0.98},  {-1, 1.22}, {0, 0.1},  {1, 0.17}, {0, 0.34}, {1, 0.19}, {0, 0.40},
+static const piece fit_pieces[] = {{1, 1.1},   {-1, 1.22}, {0, 0.1},  {1, 0.17}, {0, 0.34}, {1, 0.19}, {0, 0.40},
                                    {-1, 0.14}, {0, 0.33},  {1, 0.33}, {0, 0.29}, {-1, 0.2}, {0, 0.33}, {-1, 0.75}};
 static const piece holdout_pieces[] = {{1, 0.25}, {0, 0.25}, {-1, 0.12}, {0, 0.18},  {1, 0.46}, {0, 0.38}, {-1, 0.29},
                                        {0, 0.24}, {1, 0.55}, {-1, 0.83}, {0.5, 0.2}, {0, 0.34}, {1, 0.33}, {-1, 0.85}};
@@ -147,7 +147,7 @@ static double filling_time(const second_rig *g)
 
 static void draw_commands(blind_chance *c, blind_trial *t)
 {
-  const double time = filling_time(&t->declared);
+  const double time = filling_time(&t->base); /* whoever makes the log sees the stem arrive */
   const int partial = blind_uniform(c, 0, 1) < 0.5;
   t->spacing = 4e-3 + 0.25e-3 * blind_below(c, 5);
   draw_schedule(c, fit_pieces, time, t->spacing, partial, &t->fit);
@@ -254,10 +254,10 @@ void blind_draw(uint64_t seed, int number, blind_trial *t)
   draw_actuator(&c, t);
   draw_laws(&c, setting_of(t), &t->declared);
   draw_sensors(&c, &t->declared);
-  draw_commands(&c, t);
   t->base = t->declared;
   for (i = 0; i < BLIND_FITTED; i++)
     blind_scale_fitted(&t->base, i, 1 + blind_uniform(&c, -1, 1) * blind_fitted_of[i].off);
+  draw_commands(&c, t);
   t->step = usual_step;
   for (i = 0; i < t->n_missing; i++) {
     draw_size(&c, &t->base, &t->missing[i]);

@@ -114,18 +114,18 @@ static int fitted_columns(work *w, const second_rig *reference, lab_error *error
 }
 
 /* An instant is known to within the row that shows it: a uniform distribution, whose standard deviation is the unit of
- * its column and of the value behind the log's. */
+ * its column and of the value behind the log's. The difference is over a part of that, lest it reach the next row. */
 static int instant_columns(work *w, const second_rig *reference, lab_error *error)
 {
-  const double spread = w->t->spacing / sqrt(12);
+  const double spread = w->t->spacing / sqrt(12), part = 0.1;
   size_t k;
   for (k = 0; k < w->t->fit.n; k++) {
     blind_schedule s = w->t->fit;
     double *c = next_column(w);
-    s.t[k] -= spread;
+    s.t[k] += part * spread;
     if (respond(w->t, reference, &s, c, error))
       return error->status;
-    subtract(w, c, 1);
+    subtract(w, c, part);
     c[w->n + k] = 1;
   }
   return LAB_OK;
