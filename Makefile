@@ -72,7 +72,10 @@ bench: $(BUILD)/tests/bench/fill_and_vent
 ## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trials $(N) --work $(BUILD)/blind
-.PHONY: blind
+## Repeat trial K of them and keep its files in build/blind/kept
+blind-trial: closeloop $(BUILD)/tests/blind/blind
+	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
+.PHONY: blind blind-trial
 
 ## Build the test programs
 tests: $(TESTS)

@@ -16,7 +16,7 @@ double blind_quantile(double *value, int n, double q);
 
 /* Smallest size from which on an effect is found at least nine times in ten: isotonic regression of found (0 or 1) on
  * size (Barlow et al. 1972, min-max formula); sorts by size.
- * Returns: NaN where nine in ten is not reached. */
+ * Returns: NaN where nine in ten is not reached by the last three trials. */
 typedef struct blind_sized {
   double size;
   int found;

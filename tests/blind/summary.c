@@ -299,7 +299,7 @@ int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t 
   fprintf(file,
           "# Blind trials of closeloop\n\n%d trials, seed %" PRIu64 ", written by `make blind`. Rigs, effects, sizes, "
           "noise and commands are drawn at random; the logs come from the independent simulator of tests/second; "
-          "closeloop sees the rig file and the logs. Every trial is a line of blind.csv; `make blind-trial TRIAL=n` "
+          "closeloop sees the rig file and the logs. Every trial is a line of blind.csv; `make blind-trial K=n` "
           "repeats one.\n\nInformation limit: the size at which the projected statistic reaches 25, computed from the "
           "simulator alone (tests/blind/limit.h).\n\n",
           n, seed);
