@@ -3,6 +3,7 @@
 
 #include "../apps/lab/log.h"
 #include "../apps/lab/rig.h"
+#include "../apps/lab/rigkeys.h"
 #include "blind/limit.h"
 
 static lab_error error;
@@ -141,6 +142,20 @@ static void test_blind_draw__any_rig__makes_its_whole_stroke(void **state)
   }
 }
 
+static void test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation(void **state)
+{
+  int i;
+  (void)state;
+  for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
+    const blind_effect *e = blind_effect_named(pneu_effect_at(i)->name);
+    if (!e)
+      fail_msg("no blind trial has %s", pneu_effect_at(i)->name);
+    assert_string_equal(e->equation, pneu_effect_at(i)->equation);
+  }
+  for (i = 0; i < blind_listed_count(); i++)
+    assert_true(lab_effect_index(blind_effects[i].name) >= 0);
+}
+
 /* ---- Files ---- */
 
 static void assert_same_file(const char *a, const char *b)
@@ -263,6 +278,7 @@ int main(void)
       cmocka_unit_test(test_blind_draw__commands__are_not_on_rows_and_differ_between_the_logs),
       cmocka_unit_test(test_blind_truth__nothing_missing__is_the_base_rig),
       cmocka_unit_test(test_blind_draw__any_rig__makes_its_whole_stroke),
+      cmocka_unit_test(test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation),
       cmocka_unit_test(test_blind_write_logs__twice__same_bytes),
       cmocka_unit_test(test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop),
       cmocka_unit_test(test_blind_projected__plane_in_space__leaves_the_third_axis),

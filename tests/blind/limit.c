@@ -56,10 +56,11 @@ static second_rig silent(second_rig g, double step)
 }
 
 /* Channels of a run, over their noise, one behind the other; behind them room for what is known of the instants. */
-static int respond(const blind_trial *t, const second_rig *rig, const blind_schedule *s, double *y, lab_error *error)
+static int respond(const blind_trial *t, const second_rig *rig, const blind_schedule *s, double step, double *y,
+                   lab_error *error)
 {
   const double sigma[3] = {t->base.pressure_noise, t->base.position_noise, t->base.temperature_noise};
-  const second_rig g = silent(*rig, 3 * t->step); /* differences of runs on one grid: a coarse one will do */
+  const second_rig g = silent(*rig, step);
   blind_rows rows;
   int c;
   size_t i;
@@ -79,43 +80,47 @@ static int respond(const blind_trial *t, const second_rig *rig, const blind_sche
 
 typedef struct work {
   const blind_trial *t;
-  size_t n, m; /* values of the log; with those of the instants */
+  second_rig reference; /* all but the effect in question */
+  size_t n, m;          /* values of the log; with those of the instants */
+  double step;          /* [s] of slopes, then of the effect */
   int columns;
   double *base, *s, *column;
 } work;
 
-static double *next_column(work *w)
-{
-  double *c = w->column + (size_t)w->columns++ * w->m;
-  memset(c, 0, w->m * sizeof *c);
-  return c;
-}
-
-static void subtract(const work *w, double *y, double over)
+/* Response of a rig less that of the reference, which has the same steps, over the change that was made. */
+static int differ(const work *w, const second_rig *rig, const blind_schedule *s, double over, double *y,
+                  lab_error *error)
 {
   size_t i;
+  memset(y, 0, w->m * sizeof *y);
+  if (respond(w->t, rig, s, w->step, y, error))
+    return error->status;
   for (i = 0; i < w->n; i++)
     y[i] = (y[i] - w->base[i]) / over;
+  return LAB_OK;
 }
 
-static int fitted_columns(work *w, const second_rig *reference, lab_error *error)
+static double *next_column(work *w)
+{
+  return w->column + (size_t)w->columns++ * w->m;
+}
+
+static int fitted_columns(work *w, lab_error *error)
 {
   const double share = 1e-3;
   int j;
   for (j = 0; j < BLIND_FITTED; j++) {
-    double *c = next_column(w);
-    second_rig g = *reference;
+    second_rig g = w->reference;
     blind_scale_fitted(&g, j, 1 + share);
-    if (respond(w->t, &g, &w->t->fit, c, error))
+    if (differ(w, &g, &w->t->fit, share, next_column(w), error))
       return error->status;
-    subtract(w, c, share);
   }
   return LAB_OK;
 }
 
 /* An instant is known to within the row that shows it: a uniform distribution, whose standard deviation is the unit of
  * its column and of the value behind the log's. The difference is over a part of that, lest it reach the next row. */
-static int instant_columns(work *w, const second_rig *reference, lab_error *error)
+static int instant_columns(work *w, lab_error *error)
 {
   const double spread = w->t->spacing / sqrt(12), part = 0.1;
   size_t k;
@@ -123,9 +128,8 @@ static int instant_columns(work *w, const second_rig *reference, lab_error *erro
     blind_schedule s = w->t->fit;
     double *c = next_column(w);
     s.t[k] += part * spread;
-    if (respond(w->t, reference, &s, c, error))
+    if (differ(w, &w->reference, &s, part, c, error))
       return error->status;
-    subtract(w, c, part);
     c[w->n + k] = 1;
   }
   return LAB_OK;
@@ -134,21 +138,34 @@ static int instant_columns(work *w, const second_rig *reference, lab_error *erro
 /* The other effects of the trial, by a fiftieth of their size; a law that is switched has no slope. */
 static int other_columns(work *w, int which, lab_error *error)
 {
+  const double share = 0.02;
   int i;
   for (i = 0; i < w->t->n_missing; i++) {
     blind_trial other = *w->t;
     second_rig g;
-    double *c;
     if (i == which || other.missing[i].effect->lo == other.missing[i].effect->hi)
       continue;
-    other.missing[i].size *= 1.02;
+    other.missing[i].size *= 1 + share;
     g = blind_truth(&other, (unsigned)BLIND_ALL & ~(1u << which));
-    c = next_column(w);
-    if (respond(w->t, &g, &w->t->fit, c, error))
+    if (differ(w, &g, &w->t->fit, share, next_column(w), error))
       return error->status;
-    subtract(w, c, 0.02);
   }
   return LAB_OK;
+}
+
+/* Slopes are smooth: a coarse grid will do, unless an effect that stays needs a fine one. */
+static int slopes(work *w, int which, lab_error *error)
+{
+  const double coarse = 2e-4;
+  int i;
+  w->step = coarse;
+  for (i = 0; i < w->t->n_missing; i++)
+    if (i != which && w->t->missing[i].effect->step > 0)
+      w->step = 3 * w->t->step;
+  if (respond(w->t, &w->reference, &w->t->fit, w->step, w->base, error) || fitted_columns(w, error) ||
+      instant_columns(w, error))
+    return error->status;
+  return other_columns(w, which, error);
 }
 
 /* ---- The limit ---- */
@@ -160,10 +177,8 @@ static int statistic_at(work *w, int which, double size, double *statistic, lab_
   second_rig g;
   sized.missing[which].size = size;
   g = blind_truth(&sized, BLIND_ALL);
-  memset(w->s, 0, w->m * sizeof *w->s);
-  if (respond(w->t, &g, &w->t->fit, w->s, error))
+  if (differ(w, &g, &w->t->fit, 1, w->s, error))
     return error->status;
-  subtract(w, w->s, 1);
   *statistic = blind_projected(w->column, w->columns, w->s, w->m);
   return LAB_OK;
 }
@@ -178,7 +193,9 @@ static int find_limit(work *w, int which, double *size, double *statistic, lab_e
   const int rounds = e->lo == e->hi ? 0 : 3;
   double at = fabs(m->size), here;
   int i;
-  if (statistic_at(w, which, m->size, statistic, error))
+  w->step = 3 * w->t->step;
+  if (respond(w->t, &w->reference, &w->t->fit, w->step, w->base, error) ||
+      statistic_at(w, which, m->size, statistic, error))
     return error->status;
   here = *statistic;
   *size = at * sqrt(BLIND_LIMIT_STATISTIC / here);
@@ -198,10 +215,10 @@ static int channel_count(int channels)
 
 int blind_limit(const blind_trial *t, int which, double *size, double *statistic, lab_error *error)
 {
-  const second_rig reference = blind_truth(t, (unsigned)BLIND_ALL & ~(1u << which));
   work w = {0};
   int status;
   w.t = t;
+  w.reference = blind_truth(t, (unsigned)BLIND_ALL & ~(1u << which));
   w.n = second_samples(t->fit.end, t->spacing) * (size_t)channel_count(t->channels);
   w.m = w.n + BLIND_COMMANDS;
   w.base = calloc((COLUMNS_MAX + 2) * w.m, sizeof *w.base);
@@ -209,13 +226,7 @@ int blind_limit(const blind_trial *t, int which, double *size, double *statistic
     return lab_fail_memory(error, "sensitivities");
   w.s = w.base + w.m;
   w.column = w.s + w.m;
-  status = respond(t, &reference, &t->fit, w.base, error);
-  if (status == LAB_OK)
-    status = fitted_columns(&w, &reference, error);
-  if (status == LAB_OK)
-    status = instant_columns(&w, &reference, error);
-  if (status == LAB_OK)
-    status = other_columns(&w, which, error);
+  status = slopes(&w, which, error);
   if (status == LAB_OK)
     status = find_limit(&w, which, size, statistic, error);
   free(w.base);
