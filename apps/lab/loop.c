@@ -9,6 +9,7 @@
 
 static const double alike_bic = 9.2; /* refits that differ by less are alike: odds of a hundred to one */
 static const double name_bonus = 20; /* by which a free term must be better than an effect */
+static const double rival = 3;       /* times the best chi-square: a poorer model is not extended */
 static const double worth = 0.05;    /* of the best statistic: leaders have at least so much */
 static const double alone = 3;       /* a slot is tried at once if it explains so much more than any effect, */
 static const double mostly = 0.5;    /* and so much of all there is */
@@ -271,10 +272,11 @@ static void fit_finalists(attempt *a, int n)
  */
 static void refit_leaders(const attempt *base, const lab_candidate *const *leader, int n, attempt *a)
 {
+  const int starts = base->n_found == 0 ? STARTS : STARTS - 1;
   int i, start;
   for (i = 0; i < n; i++)
     a[i].fitted = 0;
-  for (start = 0; start < STARTS && !any_is_noise(a, n); start++) {
+  for (start = 0; start < starts && !any_is_noise(a, n); start++) {
 #pragma omp parallel for schedule(dynamic)
     for (i = 0; i < n; i++) {
       attempt *mine = malloc(sizeof *mine);
@@ -343,6 +345,15 @@ static void refine(attempt *a)
   free(fine);
 }
 
+/* What the last addition did to chi-square. */
+static void explain(attempt *a, double chi2_before)
+{
+  lab_found *found = &a->found[a->n_found - 1];
+  found->chi2_before = chi2_before;
+  found->chi2_after = a->chi2;
+  found->explained = (chi2_before - a->chi2) / fmax(chi2_before - (double)a->u.n_data, 1);
+}
+
 /* The best slots, refitted. */
 static int refit_slots(const attempt *base, const lab_slot *slot, int n, attempt *a)
 {
@@ -356,6 +367,7 @@ static int refit_slots(const attempt *base, const lab_slot *slot, int n, attempt
     lab_error ignored;
     fit_attempt(&a[0], LAB_FIT_WHOLE, &ignored);
     refine(&a[0]);
+    explain(&a[0], base->chi2);
   }
   return n;
 }
@@ -395,6 +407,7 @@ typedef struct search {
   int n_beam;
   attempt *pool; /* POOL extensions of them */
   int n_pool;
+  attempt *nameless; /* the declared model with the best free term; not fitted: not tried yet, or none */
 } search;
 
 static void tell(const search *s, const char *what)
@@ -403,29 +416,35 @@ static void tell(const search *s, const char *what)
     s->options->tell(s->options->context, what);
 }
 
-/* Free terms beside the effects.
- * In:      eager  0: only where a slot explains most of what there is, and far more than any effect does */
-static void try_slots(search *s, const attempt *base, const lab_scan *scan, double best_effect, int eager)
+/* More than noise, if only a little. */
+static int leaves_something(const attempt *a)
 {
-  lab_slot slot[LAB_SLOT_MAX];
-  int n;
-  if (base->u.rig.n_terms > 0 || is_noise(base->chi2, base->u.n_data))
-    return;
-  tell(s, "looking for what has no name");
-  n = lab_trace_slots(scan, slot);
-  if (n > 0 && (eager || (slot[0].statistic > mostly * scan->excess && slot[0].statistic > alone * best_effect)))
-    s->n_pool += refit_slots(base, slot, n, s->pool + s->n_pool);
+  const double n = (double)a->u.n_data;
+  return a->chi2 > n + 2 * sqrt(2 * n);
 }
 
-/* Try every extension of one model by one effect or free term. */
+/* The best free term beside what a model has.  Out: best, fitted or not */
+static void best_slot(const search *s, const attempt *base, const lab_slot *slot, int n, attempt *best)
+{
+  attempt a[SLOTS];
+  tell(s, "looking for what has no name");
+  best->fitted = 0;
+  if (refit_slots(base, slot, n, a) > 0)
+    *best = a[0];
+}
+
+/* Try every extension of one model by one effect; and of the declared model by a free term, before the effects where
+ * that explains most of what there is and far more than any of them, after them where none leaves only noise. */
 static int extend(search *s, const attempt *base, lab_error *error)
 {
   const double start = seconds();
+  const int nameless = base->n_found == 0 && !is_noise(base->chi2, base->u.n_data);
   const lab_candidate *leader[LAB_LOOP_LEADERS];
+  lab_slot slot[LAB_SLOT_MAX];
   lab_trace_result trace;
   lab_scan scan;
   attempt copy = *base;
-  int n, status = lab_scan_open(&copy.u, &scan, error);
+  int n, n_slots = 0, status = lab_scan_open(&copy.u, &scan, error);
   if (status == LAB_OK) {
     tell(s, "tracing the residual");
     lab_trace_effects(&scan, &trace);
@@ -434,13 +453,18 @@ static int extend(search *s, const attempt *base, lab_error *error)
     if (trace.tests > 0)
       s->result->level = s->options->alpha / trace.tests;
     n = choose_leaders(&trace, s->result->level, leader);
-    if (n > 0)
-      try_slots(s, base, &scan, trace.candidate[0].statistic, 0);
+    if (nameless)
+      n_slots = lab_trace_slots(&scan, slot);
+    if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
+        slot[0].statistic > alone * trace.candidate[0].statistic)
+      best_slot(s, base, slot, n_slots, s->nameless);
     tell(s, "fitting the leaders");
-    if (!any_is_noise(s->pool, s->n_pool)) {
+    if (!any_is_noise(s->nameless, 1)) {
       refit_leaders(base, leader, n, s->pool + s->n_pool);
       s->n_pool += n;
     }
+    if (n_slots > 0 && !s->nameless->fitted && !any_is_noise(s->pool, s->n_pool))
+      best_slot(s, base, slot, n_slots, s->nameless);
     if (s->result->trace.n == 0)
       s->result->trace = trace;
     else
@@ -461,16 +485,16 @@ static void rank(search *s)
     note_step(s->result, &s->pool[i], i < BEAM);
 }
 
-/* Significant, but not worth adding. */
+/* Significant, but not worth adding: the best one, and what cannot be told from it. */
 static void list_small(search *s)
 {
   lab_loop_result *r = s->result;
+  const lab_found *found = &s->pool[0].found[s->pool[0].n_found - 1];
   int i;
-  for (i = 0; i < s->n_pool && r->n_listed < LAB_TRACE_MAX; i++) {
-    const lab_found *found = &s->pool[i].found[s->pool[i].n_found - 1];
-    if (s->pool[i].fitted && found->effect >= 0 && s->pool[i].bic < s->beam[0].bic)
-      r->listed[r->n_listed++] = found->effect;
-  }
+  note_alike(s->pool, s->n_pool);
+  r->listed[r->n_listed++] = found->effect;
+  for (i = 0; i < found->n_alike && r->n_listed < LAB_TRACE_MAX; i++)
+    r->listed[r->n_listed++] = found->alike[i];
 }
 
 /* Whether some model at hand leaves only noise, so that poorer ones need not be extended. */
@@ -483,11 +507,12 @@ static int settled(const search *s)
  * Out:     better  0 when none is worth it */
 static int advance(search *s, int *better, lab_error *error)
 {
+  const double declared = s->beam[0].chi2;
   lab_errors before, after;
   int i;
   *better = 0;
   s->n_pool = 0;
-  for (i = 0; i < s->n_beam && (i == 0 || !settled(s)); i++)
+  for (i = 0; i < s->n_beam && (i == 0 || (!settled(s) && s->beam[i].chi2 < rival * s->beam[0].chi2)); i++)
     if (extend(s, &s->beam[i], error))
       return error->status;
   rank(s);
@@ -501,10 +526,7 @@ static int advance(search *s, int *better, lab_error *error)
   }
   note_alike(s->pool, s->n_pool);
   for (i = 0; i < s->n_pool && i < BEAM; i++) {
-    lab_found *found = &s->pool[i].found[s->pool[i].n_found - 1];
-    found->chi2_before = before.chi2;
-    found->chi2_after = s->pool[i].chi2;
-    found->explained = (before.chi2 - s->pool[i].chi2) / fmax(before.chi2 - (double)before.n, 1);
+    explain(&s->pool[i], declared);
     s->beam[i] = s->pool[i];
   }
   s->n_beam = i;
@@ -576,19 +598,25 @@ static int verdict_of(const attempt *a)
 /* Nothing that has a name would do: a free term beside what was found, which may then be needless. */
 static int last_resort(search *s, lab_error *error)
 {
+  attempt *best = &s->beam[0], *longer = &s->pool[0];
+  lab_slot slot[LAB_SLOT_MAX];
+  lab_errors before, after;
   lab_scan scan;
-  int status;
-  s->n_pool = 0;
-  status = lab_scan_open(&s->beam[0].u, &scan, error);
-  if (status == LAB_OK)
-    try_slots(s, &s->beam[0], &scan, 0, 1);
+  int n, status = lab_scan_open(&best->u, &scan, error);
+  longer->fitted = 0;
+  if (status == LAB_OK && (n = lab_trace_slots(&scan, slot)) > 0)
+    best_slot(s, best, slot, n, longer);
   lab_scan_close(&scan);
-  rank(s);
-  if (s->n_pool > 0 && s->pool[0].bic < s->beam[0].bic && s->beam[0].n_found < LAB_LOOP_EFFECTS) {
-    s->beam[0] = s->pool[0];
-    remove_needless(&s->beam[0]);
-  }
-  return status;
+  if (status != LAB_OK || !longer->fitted || !(longer->bic < best->bic))
+    return status;
+  note_step(s->result, longer, 1);
+  if (lab_loop_errors(&best->u, &before, error) || lab_loop_errors(&longer->u, &after, error))
+    return error->status;
+  if (gain(best, longer, &before, &after) < s->options->min_gain)
+    return LAB_OK;
+  *best = *longer;
+  remove_needless(best);
+  return LAB_OK;
 }
 
 static int search_all(search *s, lab_error *error)
@@ -598,28 +626,35 @@ static int search_all(search *s, lab_error *error)
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
     if (advance(s, &better, error))
       return error->status;
-    if (better && best->n_found > 1 && best->u.rig.n_terms == 0) {
+    if (any_is_noise(s->nameless, 1) && !any_is_noise(best, 1))
+      break;
+    if (best->u.window && any_is_noise(best, 1))
+      return LAB_OK; /* a coarse view does not see fine differences */
+    if (better && best->n_found > 1) {
       remove_needless(best);
       if (exchange(s, error))
         return error->status;
     }
-    if (best->u.rig.n_terms > 0 || (best->u.window && is_noise(best->chi2, best->u.n_data)))
-      break; /* a coarse view does not see fine differences */
   }
-  if (best->u.rig.n_terms > 0 || is_noise(best->chi2, best->u.n_data) || best->n_found == LAB_LOOP_EFFECTS)
-    return LAB_OK;
-  return last_resort(s, error);
+  if (s->nameless->fitted && !any_is_noise(best, 1) && s->nameless->bic < best->bic) {
+    *best = *s->nameless;
+    note_step(s->result, best, 1);
+  }
+  if (best->u.rig.n_terms == 0 && leaves_something(best) && best->n_found < LAB_LOOP_EFFECTS)
+    return last_resort(s, error);
+  return LAB_OK;
 }
 
 /* The search from a declared model, fitted, in the view that the unknowns have.  Out: best, with what was added */
 static int search_from(const lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, attempt *best,
                        lab_error *error)
 {
-  search s = {options, result, NULL, 1, NULL, 0};
+  search s = {options, result, NULL, 1, NULL, 0, NULL};
   int status = LAB_OK;
+  s.nameless = calloc(1, sizeof *s.nameless);
   s.beam = calloc(BEAM, sizeof *s.beam);
   s.pool = malloc((size_t)BEAM * POOL * sizeof *s.pool);
-  if (!s.beam || !s.pool)
+  if (!s.beam || !s.pool || !s.nameless)
     status = lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     s.beam[0].u = *u;
@@ -630,6 +665,7 @@ static int search_from(const lab_unknowns *u, const lab_loop_options *options, l
     status = search_all(&s, error);
     *best = s.beam[0];
   }
+  free(s.nameless);
   free(s.beam);
   free(s.pool);
   return status;
