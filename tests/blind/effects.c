@@ -126,7 +126,7 @@ const blind_effect blind_effects[] = {
     {"connecting_tube", "mass", "line", "Pa.s/kg", 2e-3, 0.2, resistance, .field = AT(tube_resistance),
      .shape = {{"tube_volume", AT(tube_volume), 0.3, 1, dead_volume}}, .step = 2e-5},
     /* energy */
-    {"heat_transfer", "energy", "heat", "K/W", 3e-4, 2, film_resistance, .apply = insulate,
+    {"heat_transfer", "energy", "heat", "K/W", 5e-4, 2, film_resistance, .apply = insulate,
      .setting = BLIND_ISOTHERMAL},
     {"heat_transfer", "energy", "heat", "W/K", 1e-3, 2, film, .field = AT(heat), .setting = BLIND_ADIABATIC},
     {"wall_temperature", "energy", "heat", "K/J", 1e-3, 0.2, .apply = warm_wall,

@@ -8,8 +8,11 @@
 
 int blind_simulate(const second_rig *rig, const blind_schedule *s, double spacing, blind_rows *rows, lab_error *error)
 {
+  const int halvings = 6;
+  second_rig g = *rig;
   second_log log = {0};
   second_audit audit;
+  int i;
   rows->n = second_samples(s->end, spacing);
   rows->t = malloc(5 * rows->n * sizeof *rows->t);
   if (!rows->t)
@@ -19,10 +22,11 @@ int blind_simulate(const second_rig *rig, const blind_schedule *s, double spacin
   log.p = rows->p = log.u + rows->n;
   log.x = rows->x = log.p + rows->n;
   log.T = rows->T = log.x + rows->n;
-  if (!second_run(rig, s->t, s->u, s->n, s->end, spacing, &log, &audit) && audit.forced == 0)
-    return LAB_OK;
+  for (i = 0; i <= halvings; i++, g.step /= 2)
+    if (!second_run(&g, s->t, s->u, s->n, s->end, spacing, &log, &audit) && audit.forced == 0)
+      return LAB_OK;
   blind_rows_free(rows);
-  return lab_fail(error, LAB_NUMERIC, "the virtual rig cannot follow its own events: give it a shorter step");
+  return lab_fail(error, LAB_NUMERIC, "the virtual rig cannot follow its events, whatever the step");
 }
 
 void blind_rows_free(blind_rows *rows)

@@ -12,7 +12,7 @@ typedef struct blind_rows {
   double *t, *u, *p, *x, *T;
 } blind_rows;
 
-/* Run a rig under a schedule.
+/* Run a rig under a schedule, with a shorter step where its own is too long for it.
  * Returns: LAB_OK; LAB_NUMERIC if the virtual rig leaves the physical range or gives up following its events. */
 int blind_simulate(const second_rig *rig, const blind_schedule *schedule, double spacing, blind_rows *rows,
                    lab_error *error);
