@@ -222,19 +222,14 @@ static void keep_better(attempt *a, const attempt *other)
     *a = *other;
 }
 
-/* The candidates worth a refit: those that pass, one for each effect. */
+/* The candidates worth a refit: those that pass, best first. */
 static int choose_leaders(const lab_trace_result *trace, double level, const lab_candidate **leader)
 {
-  int i, k, n = 0;
-  for (i = 0; i < trace->n && n < LAB_LOOP_LEADERS; i++) {
-    const lab_candidate *c = &trace->candidate[i];
-    int seen = 0;
-    if (!(c->p_value < level) || c->statistic < worth * trace->candidate[0].statistic)
+  int n;
+  for (n = 0; n < trace->n && n < LAB_LOOP_LEADERS; n++) {
+    leader[n] = &trace->candidate[n];
+    if (!(leader[n]->p_value < level) || leader[n]->statistic < worth * trace->candidate[0].statistic)
       break;
-    for (k = 0; k < n; k++)
-      seen |= leader[k]->effect == c->effect;
-    if (!seen)
-      leader[n++] = c;
   }
   return n;
 }

@@ -362,7 +362,7 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
   return errors_at(u, &u->rig, now, 0, r, error);
 }
 
-/* Share of the windows in which the position of an experiment is rougher than the model's.
+/* Share of the windows in which pressure or position of an experiment is rougher than the model's.
  * In:      r  its errors over noise */
 static double roughness(const lab_experiment *x, const double *r, size_t window)
 {
@@ -370,11 +370,12 @@ static double roughness(const lab_experiment *x, const double *r, size_t window)
   int c;
   size_t i;
   for (c = 0; predicted && c < x->n_channels; c++) {
-    if (x->channel[c] != LAB_CHANNEL_X)
+    const double *measured = x->log->value[x->channel[c]] + x->first;
+    if (x->channel[c] == LAB_CHANNEL_T)
       continue;
     for (i = 0; i < x->n; i++)
-      predicted[i] = lab_experiment_measured(x, c, i) - r[(size_t)c * x->n + i] * x->sigma[c];
-    share = lab_coarse_roughness(x->log->value[LAB_CHANNEL_X] + x->first, predicted, x->n, window, x->sigma[c]);
+      predicted[i] = measured[i] - r[(size_t)c * x->n + i] * x->sigma[c];
+    share = fmax(share, lab_coarse_roughness(measured, predicted, x->n, window, x->sigma[c]));
   }
   free(predicted);
   return share;
