@@ -99,17 +99,19 @@ static int all(const blind_record *r)
 
 /* "Above" is: of a size of at least twice the information limit. */
 const blind_bar blind_bars[] = {
-    {"p and x, one or two missing, above: right names or stated class", one_or_two, stated, 1, 0.95},
+    {"p and x, one or two missing, above: right names, stated class, or listed below --min-gain", one_or_two, stated, 1,
+     0.95},
+    {"p and x, one or two missing, above: added under the right names", one_or_two, name, -1, 0},
     {"nothing missing: something named (false alarm)", nothing, detected, 0, 0.01},
     {"unlisted, above: called unlisted, in the right equation", unlisted, stated, 1, 0.90},
     {"p and x, one missing, above: detected", single, detected, -1, 0},
     {"p and x, one missing, above: right name", single, name, -1, 0},
-    {"p and x, one missing, above: right name or stated class", single, stated, -1, 0},
+    {"p and x, one missing, above: right name, stated or listed", single, stated, -1, 0},
     {"p and x, one missing, above: right name or family", single, family, -1, 0},
     {"p and x, one missing, above: undecided", single, undecided, -1, 0},
     {"p and x, one missing, any size: detected", single_any_size, detected, -1, 0},
-    {"p and x, one missing, any size: right name or stated class", single_any_size, stated, -1, 0},
-    {"p and x, two missing, above: right names or stated classes", pair, stated, -1, 0},
+    {"p and x, one missing, any size: right name, stated or listed", single_any_size, stated, -1, 0},
+    {"p and x, two missing, above: right names, stated or listed", pair, stated, -1, 0},
     {"x only, something missing, above: right answer or stated class", position_only, stated, -1, 0},
     {"p only, something missing, above: right answer or stated class", pressure_only, stated, -1, 0},
     {"no answer in the time allowed, or an error", all, no_answer, -1, 0},

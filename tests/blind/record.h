@@ -22,7 +22,8 @@ typedef struct blind_record {
   int own_rank;         /* of it among the effects, 1 is the best; 0: no candidate */
   int detected;         /* says that something is missing */
   int name;             /* the right answer: the names and no other; nothing; unlisted, in the right equation */
-  int stated;           /* the same, but a name may stand in the list of what the log cannot tell from the one given */
+  int stated;           /* the same, but a name may stand in the list of what the log cannot tell from the one given,
+                           or in that of what is significant but below --min-gain */
   int family;           /* the same, but a name may be another one of the family */
   char why[BLIND_TEXT]; /* where the name is not right */
 } blind_record;

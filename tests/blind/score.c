@@ -33,17 +33,32 @@ static int stands_for(const blind_found *f, const blind_effect *e, enum level le
   return level == FAMILY && other && same(other->family, e->family);
 }
 
-/* Every finding stands for one of the missing effects, and every missing effect has its own. */
+/* Whether an effect is listed as significant but too small to be added. */
+static int is_listed(const blind_answer *a, const char *name)
+{
+  int i;
+  for (i = 0; i < a->n_small; i++)
+    if (same(a->small[i], name))
+      return 1;
+  return 0;
+}
+
+/* Every finding stands for one of the missing effects, and every missing effect has its own, or is at least listed. */
 static int names_right(const blind_trial *t, const blind_answer *a, enum level level)
 {
-  int turn, i;
-  if (!same(a->verdict, "effect") || a->n_found != t->n_missing)
+  int turn, i, k;
+  if (!same(a->verdict, a->n_found ? "effect" : "none") || a->n_found > t->n_missing)
     return 0;
   for (turn = 0; turn < t->n_missing; turn++) {
-    int right = 1;
-    for (i = 0; i < t->n_missing; i++)
-      right &= stands_for(&a->found[(i + turn) % t->n_missing], t->missing[i].effect, level);
-    if (right)
+    int right = 1, n = 0;
+    for (i = 0; i < t->n_missing; i++) {
+      const blind_effect *missing = t->missing[(i + turn) % t->n_missing].effect;
+      for (k = 0; k < a->n_found && !stands_for(&a->found[k], missing, level); k++)
+        ;
+      n += k < a->n_found;
+      right &= k < a->n_found || (level >= STATED && is_listed(a, missing->name));
+    }
+    if (right && n >= a->n_found)
       return 1;
   }
   return 0;
@@ -157,15 +172,6 @@ static int has_found(const blind_answer *a, const char *name)
   return 0;
 }
 
-static int has_small(const blind_answer *a, const char *name)
-{
-  int i;
-  for (i = 0; i < a->n_small; i++)
-    if (same(a->small[i], name))
-      return 1;
-  return 0;
-}
-
 /* How many of the missing effects are among the findings by name. */
 static int hits(const blind_trial *t, const blind_answer *a)
 {
@@ -179,8 +185,8 @@ static void why_not_named(const blind_trial *t, const blind_answer *a, const bli
 {
   const char *own = t->missing[0].effect->name;
   const double as_good = 1.05, passing = 25;
-  if (has_small(a, own))
-    append(why, "significant but under --min-gain");
+  if (is_listed(a, own))
+    append(why, "listed as significant, but under --min-gain and beside something else");
   else if (hits(t, a) == t->n_missing && a->n_found > t->n_missing)
     append(why, "right and another one besides");
   else if (hits(t, a) > 0 && hits(t, a) < t->n_missing)

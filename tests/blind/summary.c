@@ -310,7 +310,10 @@ int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t 
   failed |= write_effects(file, record, n, 0);
   write_list(file, "False alarms", record, n, is_false_alarm);
   write_list(file, "Misses above twice the information limit", record, n, is_miss_above);
-  write_list(file, "Not named, but stated as indistinguishable from what was named", record, n, is_stated_only);
+  write_list(file,
+             "Not added under their names, but stated: indistinguishable from what was named, or significant but below "
+             "--min-gain",
+             record, n, is_stated_only);
   write_list(file, "Misses below twice the information limit", record, n, is_miss_below);
   return failed;
 }
