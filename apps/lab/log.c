@@ -7,6 +7,7 @@
 
 #include "logheader.h"
 #include "loglong.h"
+#include "logshape.h"
 #include "number.h"
 
 /* A command may be a measured one that overshoots a little; beyond this it is in other units. */
@@ -42,6 +43,20 @@ static int read_word(struct reader *r, const char *begin, const char *end)
                   lab_log_show(begin, end, shown));
 }
 
+/* Where columns have weights, those of one channel are added up; its offset counts once. */
+static void put_number(struct reader *r, int i, const lab_column *column, double number)
+{
+  double *at = &r->log->value[column->channel][r->log->n];
+  int before = 0, j;
+  if (!r->format->weighted) {
+    *at = column->scale * number + column->offset;
+    return;
+  }
+  for (j = 0; j < i; j++)
+    before |= r->header.column[j].channel == column->channel;
+  *at = r->format->weight[i] * column->scale * number + (before ? *at : column->offset);
+}
+
 static int read_field(struct reader *r, int i, const char *begin, const char *end)
 {
   const lab_column *column = &r->header.column[i];
@@ -57,7 +72,7 @@ static int read_field(struct reader *r, int i, const char *begin, const char *en
   if (column->channel == LAB_COLUMN_VALUE)
     r->value = number;
   else
-    r->log->value[column->channel][r->log->n] = column->scale * number + column->offset;
+    put_number(r, i, column, number);
   return LAB_OK;
 }
 
@@ -219,7 +234,7 @@ static int finish(struct reader *r)
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;
-  return LAB_OK;
+  return lab_log_shape(log, r->format, r->error);
 }
 
 static int read_text(struct reader *r, const char *path, double ambient, const lab_text *text)

@@ -47,6 +47,29 @@ static void write_quantities(FILE *file, const lab_log_format *format)
     fputs(" };\n", file);
 }
 
+static void write_weights(FILE *file, const lab_log_format *format)
+{
+  int i;
+  for (i = 0; i < format->weighted; i++)
+    fprintf(file, "%s%.17g", i ? ", " : "  weights = ( ", format->weight[i]);
+  if (format->weighted)
+    fputs(" );\n", file);
+}
+
+static void write_lead(FILE *file, const lab_log_format *format)
+{
+  int i, c;
+  for (i = 0; i < format->n_lead; i++) {
+    fputs(i ? ", {" : "  lead = ( {", file);
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      if (!isnan(format->lead[i][c]))
+        fprintf(file, " %s = \"%.17g %s\";", lab_channels[c].key, format->lead[i][c], lab_log_unit(format, c));
+    fputs(" }", file);
+  }
+  if (format->n_lead)
+    fputs(" );\n", file);
+}
+
 void lab_log_format_write(FILE *file, const lab_log_format *format)
 {
   fputs("log = {\n", file);
@@ -66,5 +89,11 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   write_channels(file, "offset", format, format->offset, 0, 1);
   write_channels(file, "constants", format, format->constant, NAN, 1);
   write_quantities(file, format);
+  write_weights(file, format);
+  if (format->way_back >= 0)
+    fprintf(file, "  way_back = \"%s\";\n", lab_channels[format->way_back].key);
+  if (format->runs == LAB_RUNS_MEAN)
+    fputs("  runs = \"mean\";\n", file);
+  write_lead(file, format);
   fputs("};\n", file);
 }
