@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "internal.h"
+#include "stem.h"
 #include "transducer.h"
 
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out)
@@ -24,6 +25,7 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   out->heat = t.heat;
   out->supply = t.supply - t.supply_resistance * t.drawn - model->p.ambient_pressure;
   out->friction = t.friction;
+  out->holding_force = pneu_stem_holding(&t);
   out->choked = t.choked;
   out->shown_pressure = t.p_shown;
   out->shown_temperature = t.T_shown;

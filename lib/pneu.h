@@ -273,6 +273,7 @@ typedef struct pneu_output {
   pneu_real heat;              /* [W] from the wall into the gas */
   pneu_real supply;            /* [Pa] gauge, at the transducer */
   pneu_real friction;          /* [N] level of dry friction while sliding */
+  pneu_real holding_force;     /* [N] at the stem, positive against the air, that moves it as it moves without its mass */
   int choked;                  /* 1: the flow in use is choked */
   pneu_real shown_pressure;    /* [Pa] gauge, by its sensor */
   pneu_real shown_temperature; /* [K] by its sensor */

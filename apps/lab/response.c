@@ -7,12 +7,12 @@
 #include "cvode.h"
 #include "sampler.h"
 
-enum { COLUMNS = 10 };
+enum { COLUMNS = 11 };
 
 static double **trace_column(lab_trace *trace, int i)
 {
-  double **const column[COLUMNS] = {&trace->t, &trace->u, &trace->p,       &trace->x,        &trace->v,
-                                    &trace->T, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat};
+  double **const column[COLUMNS] = {&trace->t, &trace->u,       &trace->p,        &trace->x,    &trace->v,    &trace->T,
+                                    &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat, &trace->force};
   return column[i];
 }
 
@@ -62,6 +62,7 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   trace->mass_in[i] = out.mass_in;
   trace->mass_out[i] = out.mass_out;
   trace->heat[i] = out.heat;
+  trace->force[i] = out.holding_force;
   trace->mode[i] = state->mode;
 }
 

@@ -28,6 +28,7 @@ typedef struct lab_trace {
   double *mass_in;  /* [kg/s] */
   double *mass_out; /* [kg/s] */
   double *heat;     /* [W] */
+  double *force;    /* [N] that holds the stem, see pneu_output.holding_force */
   int *mode;        /* enum pneu_mode */
 } lab_trace;
 
