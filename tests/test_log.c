@@ -381,6 +381,25 @@ static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state
   assert_refused("0\n5\n3\n", "log.csv", "a column x");
 }
 
+static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  format.every = 2;
+  log = read_log("0,1\n1,2\n2,3\n0,4\n1,5\n2,6\n3,7\n");
+  assert_int_equal(log.n, 4);
+  assert_int_equal(log.n_runs, 2);
+  assert_int_equal(log.run[1], 2);
+  assert_int_equal(log.run[2], 4);
+  assert_close(CHANNEL(log, P)[1], 3e5, 1e-6, 0);
+  assert_close(CHANNEL(log, TIME)[2], 0, 0, 0);
+  assert_close(CHANNEL(log, P)[3], 6e5, 1e-6, 0);
+  assert_int_equal(log.line[3], 6);
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
 {
   lab_log log;
@@ -720,6 +739,7 @@ int main(void)
       CASE(test_lab_log_read__weights__add_columns_up),
       CASE(test_lab_log_read__way_back__is_reversed),
       CASE(test_lab_log_read__way_back_that_is_missing__is_refused),
+      CASE(test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run),
       CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
       CASE(test_lab_log_read__lead__comes_before_each_run),
       CASE(test_lab_log_read__lead_after_the_first_row__is_refused),

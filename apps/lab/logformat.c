@@ -37,6 +37,7 @@ void lab_log_format_default(lab_log_format *format)
   format->decimal = '.';
   format->comment = '#';
   format->way_back = -1;
+  format->every = 1;
   format->from = -INFINITY;
   format->to = INFINITY;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
@@ -129,6 +130,11 @@ static int read_new_run(const config_setting_t *setting, lab_log_format *format,
 static int read_damaged(const config_setting_t *setting, lab_log_format *format, lab_error *error)
 {
   return lab_config_choice(setting, damaged_words, DAMAGED_WORDS, sizeof damaged_words[0], &format->damaged, error);
+}
+
+static int read_every(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_count(setting, 1, SKIP_MAX, &format->every, error);
 }
 
 static int read_weights(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -244,23 +250,12 @@ static const struct log_key {
   const char *name;
   int (*read)(const config_setting_t *, lab_log_format *, lab_error *);
 } log_keys[] = {
-    {"delimiter", read_delimiter},
-    {"decimal", read_decimal},
-    {"thousands", read_thousands},
-    {"comment", read_comment},
-    {"skip_lines", read_skip_lines},
-    {"columns", read_columns},
-    {"time_step", read_time_step},
-    {"window", read_window},
-    {"new_run", read_new_run},
-    {"damaged", read_damaged},
-    {"scale", read_scale},
-    {"offset", read_offset},
-    {"constants", read_constants},
-    {"quantities", read_quantities},
-    {"weights", read_weights},
-    {"way_back", read_way_back},
-    {"runs", read_runs},
+    {"delimiter", read_delimiter}, {"decimal", read_decimal},       {"thousands", read_thousands},
+    {"comment", read_comment},     {"skip_lines", read_skip_lines}, {"columns", read_columns},
+    {"time_step", read_time_step}, {"window", read_window},         {"new_run", read_new_run},
+    {"damaged", read_damaged},     {"scale", read_scale},           {"offset", read_offset},
+    {"constants", read_constants}, {"quantities", read_quantities}, {"weights", read_weights},
+    {"every", read_every},         {"way_back", read_way_back},     {"runs", read_runs},
     {"lead", read_lead},
 };
 enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };

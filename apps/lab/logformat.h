@@ -15,6 +15,7 @@
  *     scale      = { x = -1.0; };  // value = scale * value + offset, after the conversion to SI
  *     offset     = { x = "70 mm"; };
  *     constants  = { u = 1; };     // channels that the file does not have
+ *     every      = 10;             // only the first of every so many rows of a run; default 1
  *     weights    = ( 1, 0.5, -0.5 ); // a channel is the sum of its columns, each times its weight; one for each column
  *     way_back   = "p";            // a loop written twice upwards: rows after the first fall of p go in reverse order
  *     runs       = "mean";         // "each" (default), or one run: the mean over the runs' rows of the same time
@@ -58,6 +59,7 @@ typedef struct lab_log_format {
   int damaged;   /* enum lab_damaged */
   int n_columns; /* 0: the file has a header */
   char column[LAB_COLUMN_MAX][LAB_COLUMN_TEXT];
+  int every;    /* rows of which one is kept; at least 1 */
   int weighted; /* not 0: weights are given, and a channel may have several columns */
   double weight[LAB_COLUMN_MAX];
   int way_back; /* channel whose first fall starts the way back; -1: none */

@@ -89,6 +89,8 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   write_channels(file, "offset", format, format->offset, 0, 1);
   write_channels(file, "constants", format, format->constant, NAN, 1);
   write_quantities(file, format);
+  if (format->every > 1)
+    fprintf(file, "  every = %d;\n", format->every);
   write_weights(file, format);
   if (format->way_back >= 0)
     fprintf(file, "  way_back = \"%s\";\n", lab_channels[format->way_back].key);
