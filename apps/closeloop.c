@@ -65,17 +65,21 @@ static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *er
   return LAB_OK;
 }
 
-/* Error of a model on the log that was held out. Nothing of the model is fitted; only the instants at which the command
- * changed are, within the row that shows each. */
-static int judge(const lab_rig *rig, const pneu_params *params, bench *b, lab_errors *errors, lab_error *error)
+/* Error of a model on the log that was held out. Nothing that the logs share is fitted; what each log has for itself is,
+ * and so are the instants at which the command changed, within the row that shows each. */
+static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *error)
 {
   static lab_unknowns u;
-  lab_rig own = *rig;
-  own.params = *params;
-  own.n_fit = 0;
+  lab_rig own = *model;
+  int j;
+  for (own.n_fit = j = 0; j < model->n_fit; j++)
+    if (model->fit_per_log[j]) {
+      own.fit_per_log[own.n_fit] = 1;
+      own.fit[own.n_fit++] = model->fit[j];
+    }
   if (lab_unknowns_open(&own, b->experiment, b->n, &u, error))
     return error->status;
-  if (u.n > 0 && lab_unknowns_fit(&u, NULL, error))
+  if (u.n > 0 && lab_unknowns_fit(&u, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   return lab_loop_errors(&u, errors, error);
 }
@@ -85,9 +89,9 @@ static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
   static bench b;
   int status = add_log(rig, holdout, &b, error);
   if (status == LAB_OK)
-    status = judge(rig, &story->declared->params, &b, &story->holdout_before, error);
+    status = judge(&story->declared->rig, &b, &story->holdout_before, error);
   if (status == LAB_OK)
-    status = judge(rig, &story->completed->params, &b, &story->holdout_after, error);
+    status = judge(&story->completed->rig, &b, &story->holdout_after, error);
   story->has_holdout = status == LAB_OK;
   close_bench(&b);
   return status;
@@ -123,7 +127,7 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
   lab_loop_options_default(&how);
   how.alpha = alpha;
   how.min_gain = min_gain;
-  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, &result.fit, error))
+  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;

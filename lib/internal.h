@@ -84,6 +84,9 @@ void pneu_transducer_flow(pneu_terms *terms);
 /* Flow between the chamber and a reservoir, either way, added to the sums. */
 void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
 
+/* Add the free terms on the equations first..last (enum pneu_term_equation) to the sums. */
+void pneu_add_terms(pneu_terms *terms, int first, int last);
+
 /* Inverse of the leading n x n block of a, in place.  Returns: PNEU_OK or PNEU_E_SINGULAR. */
 int pneu_invert(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX]);
 

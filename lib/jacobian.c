@@ -86,7 +86,7 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   pneu_terms t;
   const int n = pneu_dimension(model, state->mode);
-  if (model->n_active > 0 || model->p.proportional_band > 0 || model->law.pressure_input) {
+  if (model->n_active > 0 || model->n_terms > 0 || model->p.proportional_band > 0 || model->law.pressure_input) {
     differences(model, state, input, y, f0, n, jac);
     return PNEU_OK;
   }

@@ -33,6 +33,32 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   return PNEU_OK;
 }
 
+/* Whether an effect or a free term stands between the state and what is shown, or a force is shown. */
+static int has_sensors(const pneu_model *model)
+{
+  return model->n_terms > 0 || model->law.position_input ||
+         (model->n_active > 0 && pneu_effect_at(model->active[model->n_active - 1])->stage >= PNEU_STAGE_LAG);
+}
+
+int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)
+{
+  pneu_output out;
+  int status;
+  if (has_sensors(model)) {
+    status = pneu_observe(model, state, input, &out);
+    shown->pressure = out.shown_pressure;
+    shown->temperature = out.shown_temperature;
+    shown->position = out.shown_position;
+    shown->force = model->law.position_input ? out.holding_force : 0;
+    return status;
+  }
+  shown->pressure = state->p;
+  shown->temperature = model->thermal ? state->T : model->p.ambient_temperature;
+  shown->position = state->x;
+  shown->force = 0;
+  return PNEU_OK;
+}
+
 static void start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state)
 {
   pneu_terms t;

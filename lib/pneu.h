@@ -6,12 +6,14 @@
  *   Sign       x grows in the direction in which the air drives the stem, from 0 at the lower
  *              stop (spring side) to `stroke`; mass flow is positive into the chamber.
  *   Arguments  model first, then state, then inputs, outputs last.
- *   Memory     the caller owns everything; no function keeps a pointer or allocates. No pointer
- *              may be NULL unless its comment says so.
+ *   Memory     the caller owns everything; nothing is allocated, and no function but pneu_model_terms
+ *              keeps a pointer. No pointer may be NULL unless its comment says so.
  *   Results    functions that can fail return PNEU_OK (0), a value > 0 to ask an integrator for a
  *              smaller step, or a value < 0 to stop; pneu_status_text() has the words.
  *   Precision  pneu_real is double, or float where everything is compiled with PNEU_SINGLE.
  *   Effects    compile the library and its user with the same effects.def: it sets array sizes.
+ *   Free terms the same holds for PNEU_TERM_KNOTS, room for the knots of a free term. 0 leaves free
+ *              terms out of the code.
  *
  * The equations are derived in DESIGN.md; [B] stands for M. Bartys, "Dynamics of single-action
  * pneumatic actuators", whose model this library extends.
@@ -27,6 +29,10 @@ typedef float pneu_real;
 #define pneu_model_init pneu_model_init_single /* a mixed build fails at link time */
 #else
 typedef double pneu_real;
+#endif
+
+#ifndef PNEU_TERM_KNOTS
+#define PNEU_TERM_KNOTS 33
 #endif
 
 #ifdef __cplusplus
@@ -100,6 +106,27 @@ extern "C" {
   X(heat_ratio,          "1",        1.01,   1.67,   1.4,       "gamma of the gas") \
   X(polytropic_index,    "1",        1.0,    1.67,   1.4,       "n of the polytropic law")
 
+/* What a free term is added to. Friction is added to the level that the effects have made, in both directions and at
+ * break-away, and is not below 0 with it; LuGre friction, whose force is a share of dry_friction, needs that above 0.
+ * Flow comes in at ambient temperature and leaves at that of the gas. Heat counts where the chamber law is an energy
+ * balance; flow and heat, where pressure is no input; sensors show the term as it is, behind their lags and gains.
+ *    name            key in files      unit */
+#define PNEU_TERM_EQUATION_LIST(X) \
+  X(FORCE,          "force",          "N",    "force on the stem, positive against the air") \
+  X(FRICTION,       "friction",       "N",    "level of dry friction") \
+  X(FLOW,           "flow",           "kg/s", "mass flow into the chamber") \
+  X(HEAT,           "heat",           "W",    "heat into the gas") \
+  X(SHOWN_PRESSURE, "shown_pressure", "Pa",   "what the pressure sensor shows too much") \
+  X(SHOWN_POSITION, "shown_position", "m",    "what the position sensor shows too much")
+
+/* What a free term depends on: always the true value, never a sensor's.
+ *    name      key   unit */
+#define PNEU_TERM_ARGUMENT_LIST(X) \
+  X(POSITION, "x", "m",   "position of the stem") \
+  X(VELOCITY, "v", "m/s", "velocity of the stem, signed") \
+  X(PRESSURE, "p", "Pa",  "gauge pressure in the chamber") \
+  X(OPENING,  "u", "1",   "opening of the transducer after its own dynamics; 0 where pressure is an input")
+
 enum pneu_status {
 #define X(name, code, text) name = code,
   PNEU_STATUS_LIST(X)
@@ -135,6 +162,20 @@ enum pneu_param {
   PNEU_PARAM_BASE_COUNT
 };
 
+enum pneu_term_equation {
+#define X(name, key, unit, text) PNEU_TERM_##name,
+  PNEU_TERM_EQUATION_LIST(X)
+#undef X
+  PNEU_TERM_EQUATION_COUNT
+};
+
+enum pneu_term_argument {
+#define X(name, key, unit, text) PNEU_TERM_OVER_##name,
+  PNEU_TERM_ARGUMENT_LIST(X)
+#undef X
+  PNEU_TERM_ARGUMENT_COUNT
+};
+
 /* Effects, the places of their parameters in pneu_params.effect, and their number of states. */
 enum pneu_effect_id {
 #define PNEU_EFFECT(name, n_param, n_state) PNEU_EFFECT_##name,
@@ -157,7 +198,8 @@ enum pneu_effect_sizes {
   PNEU_PARAM_COUNT = PNEU_PARAM_BASE_COUNT + PNEU_EFFECT_PARAM_COUNT,
   PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* never 0: C has no empty array */
   PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT, /* p, T, effects, x, v */
-  PNEU_STAGE_COUNT = 8                          /* of the Rosenbrock method */
+  PNEU_STAGE_COUNT = 8,                         /* of the Rosenbrock method */
+  PNEU_TERM_ROOM = PNEU_TERM_KNOTS > 0 ? PNEU_TERM_KNOTS : 1
 };
 
 /* clang-format on */
@@ -207,6 +249,16 @@ typedef struct pneu_param_info {
   const char *meaning;
 } pneu_param_info;
 
+/* A free term: something that acts, measured but not named. Its value lies on straight lines between knots at equal
+ * distances, the first at `from` and the last at `to`, and is constant beyond them. */
+typedef struct pneu_term {
+  int equation;                    /* enum pneu_term_equation */
+  int argument;                    /* enum pneu_term_argument */
+  int n;                           /* knots, 2..PNEU_TERM_KNOTS */
+  pneu_real from, to;              /* argument at the first and at the last knot, from < to */
+  pneu_real value[PNEU_TERM_ROOM]; /* at the knots, in the unit of the equation */
+} pneu_term;
+
 typedef struct pneu_model pneu_model;
 struct pneu_terms; /* the running sums of one evaluation; private to lib/ */
 
@@ -226,7 +278,7 @@ typedef struct pneu_effect {
   void (*prepare)(struct pneu_model *model, const pneu_real *param);   /* change the model's constants; may be NULL */
 } pneu_effect;
 
-/* Constant after pneu_model_init; may lie in read-only memory.
+/* Constant after pneu_model_init and pneu_model_terms; may lie in read-only memory.
  *
  * Time that the state does not hold: effects of pure delay leave command_delay and position_skew here, and whoever
  * owns the clock applies them. The programs do: they hand pneu_run each command command_delay late, and show at time
@@ -258,6 +310,8 @@ struct pneu_model {
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
   unsigned char state_of[PNEU_EFFECT_COUNT + 1]; /* first state in pneu_state.extra */
+  int n_terms;
+  const pneu_term *term; /* free terms, the caller's */
 };
 
 /* What can be read off a state, by pneu_observe. */
@@ -273,12 +327,20 @@ typedef struct pneu_output {
   pneu_real heat;              /* [W] from the wall into the gas */
   pneu_real supply;            /* [Pa] gauge, at the transducer */
   pneu_real friction;          /* [N] level of dry friction while sliding */
-  pneu_real holding_force;     /* [N] at the stem, positive against the air, that moves it as it moves without its mass */
+  pneu_real holding_force;     /* [N] that keeps the stem at its velocity, positive against the air */
   int choked;                  /* 1: the flow in use is choked */
   pneu_real shown_pressure;    /* [Pa] gauge, by its sensor */
   pneu_real shown_temperature; /* [K] by its sensor */
   pneu_real shown_position;    /* [m] by its sensor */
 } pneu_output;
+
+/* What the sensors show, by pneu_show. */
+typedef struct pneu_shown {
+  pneu_real pressure;    /* [Pa] gauge */
+  pneu_real temperature; /* [K] */
+  pneu_real position;    /* [m] */
+  pneu_real force;       /* [N] where position is an input: pneu_output.holding_force; else 0 */
+} pneu_shown;
 
 typedef struct pneu_options {
   pneu_real tol;   /* local error in units of stroke, full pressure and so on; 1e-10..1e-2 */
@@ -348,6 +410,15 @@ int pneu_effect_params(int i, int *count);
  * Returns: PNEU_OK, PNEU_E_PARAM, PNEU_E_LAW. On error `model` must not be used. */
 int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *law, int *bad);
 
+/* Add free terms to an initialised model, in place of those that it has; it has none after pneu_model_init.
+ * In:      term  n terms, checked and then used where they lie: they must outlive the model unchanged, and may be in
+ *                read-only memory. NULL with n = 0
+ *          n     >= 0
+ * Out:     model
+ * Returns: PNEU_OK; PNEU_E_LAW for an unknown equation or argument; PNEU_E_PARAM for a number that is not finite, for
+ *          from >= to, for knots fewer than 2 or more than PNEU_TERM_KNOTS. On error the model keeps what it has. */
+int pneu_model_terms(pneu_model *model, const pneu_term *term, int n);
+
 /* Words for a status, a mode, a gas law, a flow law.  Returns: a constant string, "unknown" out of range. */
 const char *pneu_status_text(int status);
 const char *pneu_mode_text(int mode);
@@ -373,6 +444,10 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
  * Returns: PNEU_OK, or PNEU_RETRY_STATE if the state is not physical (mass, temperature or volume <= 0). */
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out);
 
+/* What the sensors show of a state: the same as the last three of pneu_observe, without an evaluation where no effect
+ * of a sensor is active.  Returns: as pneu_observe. */
+int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown);
+
 /* Packed vector for an external integrator: p, [T], states of effects, x, v. At rest x and v are
  * frozen and left out.
  * Returns: the number of entries in the state's mode. Out: y */
@@ -395,7 +470,7 @@ void pneu_scales(const pneu_model *model, pneu_real *scale);
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
              pneu_real *dydt);
 
-/* d(dydt)/dy, row by row; analytic where no effect is active, else by differences (relative
+/* d(dydt)/dy, row by row; analytic where no effect and no free term is active, else by differences (relative
  * accuracy about the square root of the machine's).
  * In:      f0   dydt at y
  * Out:     jac  jac[i][j] = d f_i / d y_j */

@@ -77,6 +77,13 @@ static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next,
   }
 }
 
+/* A build without free terms need not link them. */
+static void add_terms(pneu_terms *t, int first, int last)
+{
+  if (PNEU_TERM_KNOTS > 0 && t->model->n_terms > 0)
+    pneu_add_terms(t, first, last);
+}
+
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *t, pneu_real *rate)
 {
@@ -92,11 +99,14 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   }
   add_effects(t, y, PNEU_STAGE_WALL, &next, rate);
   pneu_stem_force(t);
+  add_effects(t, y, PNEU_STAGE_FORCE, &next, rate);
+  add_terms(t, PNEU_TERM_FORCE, PNEU_TERM_HEAT);
   add_effects(t, y, PNEU_STAGE_BRISTLE, &next, rate);
   t->p_shown = t->p - model->p.ambient_pressure;
   t->T_shown = t->T;
   t->x_shown = t->x;
   add_effects(t, y, PNEU_STAGE_SENSOR, &next, rate);
+  add_terms(t, PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_SHOWN_POSITION);
   return PNEU_OK;
 }
 

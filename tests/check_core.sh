@@ -98,4 +98,24 @@ if $CC -std=c90 $other "$user" "$archive" -lm -o "$scratch/mixed" 2> /dev/null; 
   echo "check_core: a user of the other precision links" >&2
   exit 1
 fi
+
+# A build without free terms: the evaluation does not refer to them, the user still runs. The full build does refer.
+refers()
+{
+  $NM "$1" | grep -q 'U pneu_add_terms$'
+}
+
+mkdir "$scratch/without"
+for file in "$source"/*.c "$source"/effects/*.c; do
+  $CC -std=c99 -Os -Wall -Wextra -Werror $single -DPNEU_TERM_KNOTS=0 -c "$file" -o "$scratch/without/$(basename "$file" .c).o"
+done
+$AR rcs "$scratch/without.a" "$scratch"/without/*.o
+report "$scratch/without.a"
+if refers "$scratch/without.a" || ! refers "$archive"; then
+  echo "check_core: free terms are not left out where PNEU_TERM_KNOTS is 0, or are missing where it is not" >&2
+  exit 1
+fi
+$CC -std=c90 $single -DPNEU_TERM_KNOTS=0 "$user" "$scratch/without.a" -lm -o "$scratch/trimmed"
+$RUN "$scratch/trimmed" > "$scratch/trimmed.out"
+cmp "$scratch/consumer.out" "$scratch/trimmed.out"
 echo "check_core: $(basename "$archive") is clean"

@@ -118,15 +118,20 @@ static void check_stem(const audit *a, const pneu_state *start, const pneu_state
   assert_close(a->spring_side_work, kinetic + spring + a->external + spent, TOL(1e-6, 5e-3) * spent, 0);
 }
 
+static void check_model(const pneu_model *m)
+{
+  const pneu_input shut = fixture_input(m, 0);
+  const pneu_state start = fixture_rest(m, 0, 0, &shut);
+  pneu_state end = start;
+  const audit a = run(m, &end);
+  check_gas(&a, &start, &end);
+  check_stem(&a, &start, &end);
+}
+
 static void check_run(const pneu_params *p, int gas, int flow)
 {
   const pneu_model m = fixture_model(p, gas, flow);
-  const pneu_input shut = fixture_input(&m, 0);
-  const pneu_state start = fixture_rest(&m, 0, 0, &shut);
-  pneu_state end = start;
-  const audit a = run(&m, &end);
-  check_gas(&a, &start, &end);
-  check_stem(&a, &start, &end);
+  check_model(&m);
 }
 
 static void test_pneu_run__each_actuator_and_law__keeps_mass_and_energy(void **state)
@@ -217,6 +222,26 @@ static void test_stribeck_friction__run__keeps_mass_and_energy(void **state)
   check_effect("stribeck_friction");
 }
 
+/* A force over position gives back at the lower stop what it took. */
+static void test_free_terms__run__keep_mass_and_energy(void **state)
+{
+  static const pneu_term term[] = {
+      {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 5, 0, (pneu_real)0.02, {0, 50, 300, -100, 0}},
+      {PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 4, 0, (pneu_real)0.02, {0, 200, -100, 400}},
+      {PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 3, 0, 400000, {(pneu_real)1e-5, 0, (pneu_real)-2e-5}},
+      {PNEU_TERM_HEAT, PNEU_TERM_OVER_OPENING, 3, -1, 1, {-3, 1, 2}}};
+  int gas, n;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+    for (n = 1; n <= COUNT(term); n++) {
+      const pneu_params p = fixture_params(FIXTURE_R1_400);
+      pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+      assert_int_equal(pneu_model_terms(&m, term, n), PNEU_OK);
+      check_note("%d terms, %s", n, pneu_gas_key(gas));
+      check_model(&m);
+    }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -229,6 +254,7 @@ int main(void)
       cmocka_unit_test(test_transducer_lag__run__keeps_mass_and_energy),
       cmocka_unit_test(test_vent_restriction__run__keeps_mass_and_energy),
       cmocka_unit_test(test_stribeck_friction__run__keeps_mass_and_energy),
+      cmocka_unit_test(test_free_terms__run__keep_mass_and_energy),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

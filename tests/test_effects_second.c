@@ -1,5 +1,5 @@
-/* Every effect against the independent implementation of tests/second: the same parameters, the same random commands,
- * the same measured channels. */
+/* Every effect, and free terms that sample what has no effect here, against the independent implementation of
+ * tests/second: the same parameters, the same random commands, the same measured channels. */
 #include "fixture.h"
 
 #include "../apps/lab/response.h"
@@ -217,6 +217,8 @@ typedef struct experiment {
   int gas, flow;
   size_t n;
   double t[CHANGES], u[CHANGES];
+  pneu_term term[2];
+  int n_terms;
 } experiment;
 
 static double channel[3][SAMPLES];
@@ -270,8 +272,8 @@ static experiment random_experiment(uint64_t seed, int gas, int flow)
 
 static lab_trace respond(const experiment *e)
 {
-  const pneu_model m = fixture_model(&e->p, e->gas, e->flow);
-  const lab_response_options options = {LAB_STEPPER, 1e-9, t_end, 0};
+  pneu_model m = fixture_model(&e->p, e->gas, e->flow);
+  const lab_response_options options = {LAB_STEPPER, 1e-9, t_end, 0, 0};
   lab_schedule schedule;
   pneu_input input[CHANGES];
   double t[SAMPLES];
@@ -279,6 +281,7 @@ static lab_trace respond(const experiment *e)
   lab_error error;
   pneu_state start;
   size_t i;
+  assert_int_equal(pneu_model_terms(&m, e->term, e->n_terms), PNEU_OK);
   for (i = 0; i < e->n; i++)
     input[i] = fixture_input(&m, e->u[i]);
   for (i = 0; i < SAMPLES; i++)
@@ -382,6 +385,197 @@ static void test_lab_respond__random_sets_of_effects__agree_with_the_second_impl
   }
 }
 
+/* ---- free terms ---- */
+
+/* What the other side has as a law, and this side as a table over one argument. */
+typedef struct term_case {
+  const char *name;
+  int equation, argument;
+  double from, to;
+  int isothermal_only;
+  void (*set)(second_rig *g);
+  double (*curve)(const second_rig *g, double argument);
+} term_case;
+
+static void set_bump(second_rig *g)
+{
+  g->bump = 200;
+  g->bump_at = 0.011;
+  g->bump_width = 2e-3;
+}
+
+static double bump(const second_rig *g, double x)
+{
+  const double s = (x - g->bump_at) / g->bump_width;
+  return g->bump * exp(-s * s);
+}
+
+static void set_relief(second_rig *g)
+{
+  g->relief_area = 1e-7;
+  g->relief_from = 1.9e5; /* between two knots, as in life */
+  g->relief_span = 7e4;
+}
+
+/* [B, Eq. 8] out of the chamber. */
+static double relief(const second_rig *g, double p)
+{
+  const double open = fmin(fmax((p - g->relief_from) / g->relief_span, 0), 1), upstream = p + g->ambient;
+  return -g->relief_area * open * sqrt(2 * upstream * fmax(p, 0) / (g->gas_constant * g->ambient_temperature));
+}
+
+static void set_cubic(second_rig *g)
+{
+  g->spring_cubic = 8e7;
+}
+
+static double cubic(const second_rig *g, double x)
+{
+  return g->spring_cubic * x * x * x;
+}
+
+static void set_seal(second_rig *g)
+{
+  g->friction_pressure = 1e-3;
+}
+
+static double seal(const second_rig *g, double p)
+{
+  return g->friction_pressure * fabs(p);
+}
+
+static void set_shown_pressure(second_rig *g)
+{
+  g->pressure_gain = -0.04;
+}
+
+static double shown_pressure(const second_rig *g, double p)
+{
+  return g->pressure_gain * p;
+}
+
+static void set_shown_position(second_rig *g)
+{
+  g->position_gain = 0.05;
+}
+
+static double shown_position(const second_rig *g, double x)
+{
+  return g->position_gain * x;
+}
+
+static const term_case terms[] = {
+    {"bump", PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, set_bump, bump},
+    {"relief", PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 0, 4e5, 1, set_relief, relief},
+    {"cubic", PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, set_cubic, cubic},
+    {"seal", PNEU_TERM_FRICTION, PNEU_TERM_OVER_PRESSURE, 0, 4e5, 0, set_seal, seal},
+    {"shown pressure", PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_PRESSURE, -1e5, 4e5, 0, set_shown_pressure,
+     shown_pressure},
+    {"shown position", PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, set_shown_position,
+     shown_position},
+};
+
+static void sample_term(const term_case *c, const second_rig *g, int n, pneu_term *term)
+{
+  int i;
+  term->equation = c->equation;
+  term->argument = c->argument;
+  term->n = n;
+  term->from = (pneu_real)c->from;
+  term->to = (pneu_real)c->to;
+  for (i = 0; i < n; i++)
+    term->value[i] = (pneu_real)c->curve(g, c->from + (c->to - c->from) * i / (n - 1));
+}
+
+/* Largest distance between a curve and its table. */
+static double interpolation_error(const term_case *c, const second_rig *g, const pneu_term *term)
+{
+  enum { FINE = 64 };
+  double most = 0;
+  int i, k;
+  for (i = 0; i + 1 < term->n; i++)
+    for (k = 0; k < FINE; k++) {
+      const double part = (double)k / FINE;
+      const double at = c->from + (c->to - c->from) * (i + part) / (term->n - 1);
+      const double table = (1 - part) * (double)term->value[i] + part * (double)term->value[i + 1];
+      most = fmax(most, fabs(c->curve(g, at) - table));
+    }
+  return most;
+}
+
+static apart distance(const lab_trace *a, const lab_trace *b)
+{
+  apart d = {0, 0, 0};
+  int i;
+  for (i = 0; i < SAMPLES; i++) {
+    d.p = fmax(d.p, fabs(a->p[i] - b->p[i]) / 4e5);
+    d.x = fmax(d.x, fabs(a->x[i] - b->x[i]) / 0.02);
+    d.T = fmax(d.T, fabs(a->T[i] - b->T[i]) / 298.15);
+  }
+  return d;
+}
+
+/* How far a constant error of the first term, of either sign, moves the response. */
+static apart moved_by(const experiment *e, double error)
+{
+  experiment off = *e;
+  lab_trace base = respond(e);
+  apart most = {0, 0, 0};
+  int sign;
+  off.n_terms = 2;
+  off.term[1] = e->term[0];
+  off.term[1].n = 2;
+  for (sign = -1; sign <= 1; sign += 2) {
+    lab_trace trace;
+    apart d;
+    off.term[1].value[0] = off.term[1].value[1] = (pneu_real)(sign * error);
+    trace = respond(&off);
+    d = distance(&base, &trace);
+    most.p = fmax(most.p, d.p);
+    most.x = fmax(most.x, d.x);
+    most.T = fmax(most.T, d.T);
+    lab_trace_free(&trace);
+  }
+  lab_trace_free(&base);
+  return most;
+}
+
+/* Both sides agree as well as a table can: the interpolation error may move the response as much as a constant of its
+ * size does, and both implementations differ by 1e-5 without it. Without the table they are far apart. */
+static void check_term(const term_case *c, const int *law, int knots)
+{
+  const double same = 1e-5;
+  experiment e = random_experiment(9, law[0], law[1]);
+  apart d, allowed, without;
+  c->set(&e.g);
+  without = compare(&e);
+  sample_term(c, &e.g, knots, &e.term[0]);
+  e.n_terms = 1;
+  d = compare(&e);
+  allowed = moved_by(&e, interpolation_error(c, &e.g, &e.term[0]));
+  check_note("%s, %s, %d knots: p %.1e, x %.1e, T %.1e apart; by interpolation %.1e, %.1e, %.1e; without %.1e, %.1e",
+             c->name, pneu_gas_key(law[0]), knots, d.p, d.x, d.T, allowed.p, allowed.x, allowed.T, without.p,
+             without.x);
+  if (getenv("PNEU_SHOW"))
+    printf("%s\n", check_case);
+  assert_between(d.p, 0, allowed.p + same);
+  assert_between(d.x, 0, allowed.x + same);
+  assert_between(d.T, 0, allowed.T + same);
+  assert_true(fmax(without.p, without.x) > 10 * fmax(d.p, d.x));
+}
+
+static void test_lab_respond__table_of_what_has_no_effect__is_that_of_the_second_implementation(void **state)
+{
+  int law, i;
+  (void)state;
+  for (i = 0; i < COUNT(terms); i++)
+    for (law = 0; law < COUNT(laws); law++)
+      if (laws[law][0] == PNEU_GAS_ISOTHERMAL || !terms[i].isothermal_only) {
+        check_term(&terms[i], laws[law], (PNEU_TERM_KNOTS + 1) / 2);
+        check_term(&terms[i], laws[law], PNEU_TERM_KNOTS);
+      }
+}
+
 static void test_effects_def__each_effect__is_compared(void **state)
 {
   int e, i, found;
@@ -397,6 +591,7 @@ static void test_effects_def__each_effect__is_compared(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_respond__table_of_what_has_no_effect__is_that_of_the_second_implementation),
       cmocka_unit_test(test_effects_def__each_effect__is_compared),
       cmocka_unit_test(test_lab_respond__base_model__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_respond__each_effect__is_that_of_the_second_implementation),

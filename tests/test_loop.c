@@ -82,7 +82,7 @@ static void close_loop(const second_rig *g, lab_unknowns *u, lab_loop_result *re
   assert_int_equal(lab_experiment_open(&rig, &log, 0, &experiment, &error), LAB_OK);
   assert_int_equal(experiment.n_switches, 5);
   assert_int_equal(lab_unknowns_open(&rig, &experiment, 1, u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(u, &result->fit, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(u, LAB_FIT_WHOLE, NULL, &error), LAB_OK);
   assert_int_equal(lab_loop_run(u, &options, result, &error), LAB_OK);
   lab_experiment_close(&experiment);
   lab_log_free(&log);
@@ -99,8 +99,8 @@ static void test_lab_loop_run__nothing_missing__says_none_and_finds_the_paramete
   assert_int_equal(result.n_found, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
-  assert_close(u.params.spring_rate, 4e5, 0, 2e-3);
-  assert_close(u.params.dry_friction, 480, 0, 2e-2);
+  assert_close(u.rig.params.spring_rate, 4e5, 0, 2e-3);
+  assert_close(u.rig.params.dry_friction, 480, 0, 2e-2);
   lab_loop_close(&result);
 }
 
@@ -120,7 +120,7 @@ static void test_lab_loop_run__leak__is_named_and_sized(void **state)
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_int_equal(result.n_found, 1);
   assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_leak");
-  assert_close(*pneu_param_at(&u.params, result.found[0].param), 1.5e-8, 0, 0.05);
+  assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 1.5e-8, 0, 0.05);
   assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
   lab_loop_close(&result);

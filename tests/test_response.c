@@ -37,7 +37,7 @@ static pneu_input input_of(const pneu_model *m, int i, int j)
 static lab_trace respond(const pneu_model *m, size_t n, const double *t_row, const pneu_input *input, double shift,
                          int integrator)
 {
-  const lab_response_options options = {integrator, 1e-9, t_end, 0};
+  const lab_response_options options = {integrator, 1e-9, t_end, 0, 0};
   lab_schedule schedule;
   double t[SAMPLES];
   lab_trace trace;
@@ -166,7 +166,7 @@ static void test_lab_respond__negative_skew__looks_beyond_the_end(void **state)
 
 static void test_lab_respond__statistics_only__needs_no_trace(void **state)
 {
-  const lab_response_options options = {LAB_STEPPER, 1e-6, t_end, 1};
+  const lab_response_options options = {LAB_STEPPER, 1e-6, t_end, 1, 0};
   pneu_model m;
   pneu_input input[2];
   const double t[] = {0, 0.2};

@@ -132,6 +132,18 @@ static void test_simulate__vessel__fills(void **state)
   assert_close(cell(1540, 3), 0, 0, 0);
 }
 
+/* Shut for 0.5 s: a constant flow into a litre makes the pressure rise by q R T/V. */
+static void test_simulate__flow_of_no_name__fills_while_shut(void **state)
+{
+  (void)state;
+  scratch_text("unlisted.cfg", "actuator = { stroke = 0; dead_volume = \"1 l\"; };\n"
+                               "unlisted = ( { equation = \"flow\"; argument = \"p\"; from = 0; to = 1;\n"
+                               "  values = [ 0.01, 0.01 ]; unit = \"g/s\"; } );\n");
+  assert_int_equal(run("@/unlisted.cfg --step"), 0);
+  assert_close(cell(41, 0), 0.4, 0, 0);
+  assert_close(cell(41, 2), 0.4e-3 * 1e-5 * 287.1015193370166 * 298.15 / 1e-3, 0, 1e-6);
+}
+
 static void test_simulate__pressure_command__is_written_as_one(void **state)
 {
   (void)state;
@@ -223,6 +235,7 @@ int main(void)
       cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
       cmocka_unit_test(test_simulate__runs__start_afresh),
       cmocka_unit_test(test_simulate__vessel__fills),
+      cmocka_unit_test(test_simulate__flow_of_no_name__fills_while_shut),
       cmocka_unit_test(test_simulate__pressure_command__is_written_as_one),
       cmocka_unit_test(test_simulate__out__writes_the_file_and_nothing_else),
       cmocka_unit_test(test_simulate__bad_log__leaves_no_file),

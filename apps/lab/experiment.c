@@ -13,17 +13,29 @@ static int is_predicted(int channel)
   return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T;
 }
 
+/* Rows before the command first changes. */
+static size_t rows_at_rest(const lab_experiment *e)
+{
+  const double *u = e->log->value[LAB_CHANNEL_U];
+  size_t n = 1;
+  while (n < e->n && (!u || u[e->first + n] == u[e->first]))
+    n++;
+  return u ? n : 0;
+}
+
 static int add_channel(lab_experiment *e, int channel, lab_error *error)
 {
+  const double *value = e->log->value[channel] + e->first;
   double sigma = e->rig->noise[channel];
   if (isnan(sigma))
-    sigma = lab_noise_estimate(e->log->value[channel] + e->first, e->n);
+    sigma = lab_noise_estimate(value, e->n);
   if (!(sigma > 0))
     return lab_fail(error, LAB_DATA,
                     "%s: channel %s does not change, or has too few values to tell its noise; declare it in the group "
                     "noise of the rig file",
                     e->log->path, lab_channels[channel].key);
   e->channel[e->n_channels] = channel;
+  e->memory[e->n_channels] = lab_noise_memory(value, rows_at_rest(e));
   e->sigma[e->n_channels++] = sigma;
   return LAB_OK;
 }
@@ -123,19 +135,17 @@ static int shift(const lab_experiment *e, const double *early, lab_schedule *sch
   return LAB_OK;
 }
 
-int lab_experiment_predict(const lab_experiment *e, const pneu_params *params, const double *early, double tol,
-                           double *y, lab_error *error)
+int lab_experiment_predict(const lab_experiment *e, const lab_rig *rig, const double *early, double tol, double *y,
+                           lab_error *error)
 {
   const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
-  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0};
-  lab_rig rig = *e->rig;
+  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0, 1};
   lab_schedule schedule;
   lab_trace trace;
   pneu_model model;
   pneu_state start;
   int c, status;
-  rig.params = *params;
-  if (lab_rig_model(&rig, &model, error) || lab_start_from_log(&model, e->drive.input, e->log, e->run, &start, error))
+  if (lab_rig_model(rig, &model, error) || lab_start_from_log(&model, e->drive.input, e->log, e->run, &start, error))
     return error->status = error->status == LAB_DATA ? LAB_NUMERIC : error->status;
   if (shift(e, early, &schedule, error))
     return error->status;

@@ -47,6 +47,7 @@ typedef struct lab_fit_problem {
 } lab_fit_problem;
 
 enum lab_fit_search {
+  LAB_FIT_NONE,        /* the start is the answer: only intervals and remarks */
   LAB_FIT_POLISH_ONLY, /* Levenberg-Marquardt from the start */
   LAB_FIT_BOBYQA,      /* quadratic model; for smooth residuals */
   LAB_FIT_SBPLX,       /* simplex on subspaces; for kinks */

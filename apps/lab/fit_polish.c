@@ -157,6 +157,10 @@ int fit_polish(fit_run *run)
   double *memory = calloc(m * (size_t)(run->problem->n + 2), sizeof *memory);
   polish s;
   int outcome;
+  if (run->options->search == LAB_FIT_NONE) {
+    free(memory);
+    return revise(run) < 0 ? FIT_END : FIT_GOOD;
+  }
   if (!memory) {
     run->status = lab_fail_memory(&run->error, "Levenberg-Marquardt");
     return FIT_END;

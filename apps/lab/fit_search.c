@@ -68,7 +68,7 @@ int fit_search(fit_run *run, const double *z, unsigned long seed)
   search s;
   double sum;
   int outcome = fit_evaluate(run, z, &sum);
-  if (outcome != FIT_GOOD || run->options->search == LAB_FIT_POLISH_ONLY)
+  if (outcome != FIT_GOOD || run->options->search <= LAB_FIT_POLISH_ONLY)
     return outcome;
   s.run = run;
   s.penalty = 1e3 * sum + 1e-30;

@@ -1,14 +1,21 @@
 #include "loop.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
-static const double alike_cosine = 0.95; /* directions nearer than this are alike */
-static const double alike_chi2 = 6.0;    /* and refits that differ by less, about 95 % for two parameters */
+static const double alike_bic = 9.2;     /* refits that differ by less are alike: odds of a hundred to one */
+static const double worth = 0.05;        /* of the best statistic: leaders have at least so much */
+static const double alone = 3;           /* a slot is tried at once if it explains so much more than any effect, */
+static const double mostly = 0.5;        /* and so much of all there is */
+static const double active_share = 0.15; /* of a free term's largest height: knots below it are not where it acts */
+enum { BEAM = 2, SLOTS = 2, POOL = LAB_LOOP_LEADERS + SLOTS, BRIEF = 8, FINALISTS = 3, REFINED = 21, MARGIN = 2 };
 
 void lab_loop_options_default(lab_loop_options *options)
 {
+  memset(options, 0, sizeof *options);
   options->alpha = 0.01;
   options->min_gain = 0.02;
   options->max_effects = LAB_LOOP_EFFECTS;
@@ -61,243 +68,590 @@ static void channel_error(const lab_unknowns *u, const double *r, int channel, l
 
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
 {
-  double *r = malloc((u->n_data + LAB_FIT_MAX) * sizeof *r);
+  double *r = malloc((u->n_data + 1) * sizeof *r);
   int c, status;
   clear_errors(errors);
   if (!r)
     return lab_fail_memory(error, "residuals");
-  status = lab_unknowns_residuals((void *)u, NULL, r, error);
+  status = lab_unknowns_errors(u, r, error);
   for (c = 0; status == LAB_OK && c < LAB_CHANNEL_COUNT; c++)
     channel_error(u, r, c, errors);
   free(r);
   return status;
 }
 
+/* What is left is noise: chi-square within six standard deviations of its expectation, or the error within a twentieth
+ * of the noise, as far as a declared noise can be trusted. */
+static int is_noise(double chi2, size_t values)
+{
+  const double n = (double)values;
+  return chi2 < n + 6 * sqrt(2 * n) || chi2 < 1.1025 * n;
+}
+
+/* Share by which the error of the channel that gains most falls. */
+static double gain(const lab_errors *before, const lab_errors *after)
+{
+  double most = 0;
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (before->rmse[c] > 0)
+      most = fmax(most, 1 - after->rmse[c] / before->rmse[c]);
+  return most;
+}
+
+/* ---- Models ---- */
+
+/* A model with what was added to it, fitted. */
+typedef struct attempt {
+  lab_unknowns u;
+  double chi2; /* of the residuals, with priors */
+  double bic;
+  int fitted;
+  int n_found;
+  lab_found found[LAB_LOOP_EFFECTS];
+} attempt;
+
+/* Schwarz 1978: what a fit costs, with what it fits counted. */
+static double bic(const lab_unknowns *u, double chi2)
+{
+  return chi2 + (double)u->n * log((double)u->n_data);
+}
+
+static void name_of(const attempt *a, char *text, size_t size)
+{
+  size_t used = 0;
+  int i;
+  snprintf(text, size, "declared model");
+  for (i = 0; i < a->n_found && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " + " : "",
+                             a->found[i].effect < 0 ? "unlisted" : pneu_effect_at(a->found[i].effect)->name);
+}
+
+static void note_step(lab_loop_result *result, const attempt *a, int kept)
+{
+  lab_step *step = result->n_steps < LAB_LOOP_STEPS ? &result->step[result->n_steps++] : NULL;
+  if (!step)
+    return;
+  name_of(a, step->name, sizeof step->name);
+  step->n_added = a->n_found;
+  step->chi2 = a->chi2;
+  step->bic = a->bic;
+  step->kept = kept;
+}
+
+static int fit_attempt(attempt *a, int steps, lab_error *error)
+{
+  const int status = lab_unknowns_fit(&a->u, steps, &a->chi2, error);
+  a->fitted = status == LAB_OK;
+  a->bic = bic(&a->u, a->chi2);
+  return status;
+}
+
+static lab_found *append_found(attempt *a)
+{
+  lab_found *found = &a->found[a->n_found++];
+  memset(found, 0, sizeof *found);
+  found->effect = found->term = found->shape = -1;
+  found->degrees = 1;
+  return found;
+}
+
 /* ---- Refits ---- */
 
-/* The model with one candidate taken up and everything fitted again. */
-typedef struct refit {
-  lab_unknowns u;
-  lab_fit_result fit;
-  int candidate, tried;
-} refit;
+/* Where a refit begins. The present fit may have bent its parameters to stand in for the effect; then the values
+ * before any fit, with the effect at its usual size, are nearer to the truth. */
+enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, STARTS };
 
-/* Take up a candidate at a size and fit, from where the unknowns are. */
-static int fit_with(const lab_unknowns *u, const lab_candidate *c, double size, refit *r, lab_error *error)
+/* The model with one candidate, from one start. */
+static void refit_from(const attempt *base, const lab_candidate *c, int start, attempt *a)
 {
   pneu_param_info info;
-  r->u = *u;
+  double usual, size;
+  lab_error ignored;
+  lab_found *found;
+  int j;
+  *a = *base;
+  a->fitted = 0;
   pneu_param_describe(c->param, &info);
-  if (lab_unknowns_add(&r->u, c->param, (double)info.neutral + size, error))
-    return error->status;
-  if (c->shape >= 0 && lab_unknowns_add(&r->u, c->shape, c->shape_value, error))
-    return error->status;
-  return lab_unknowns_fit(&r->u, &r->fit, error);
-}
-
-/* Two starts, the better one counts: from the present fit, which may have bent its parameters to stand in for the
- * effect, and from before any fit with the effect at its usual size. */
-static int refit_candidate(const lab_unknowns *u, const lab_candidate *c, refit *r, lab_error *error)
-{
-  refit *fresh = malloc(sizeof *fresh);
-  pneu_param_info info;
-  double usual;
-  int j, first, second;
-  if (!fresh)
-    return lab_fail_memory(error, "a refit");
-  pneu_param_describe(c->param, &info);
-  usual = (double)(info.value - info.neutral);
-  first = fit_with(u, c, c->size != 0 ? c->size : 0.02 * usual, r, error);
-  fresh->u = *u;
-  for (j = 0; j < u->n; j++)
-    fresh->u.unknown[j].value = u->unknown[j].first;
-  second = fit_with(&fresh->u, c, c->size * usual < 0 ? -usual : usual, fresh, error);
-  if (second == LAB_OK && (first != LAB_OK || fresh->fit.chi2 < r->fit.chi2)) {
-    r->u = fresh->u;
-    r->fit = fresh->fit;
-    first = LAB_OK;
-  }
-  free(fresh);
-  return first;
-}
-
-/* Schwarz 1978: what a fit costs, its parameters counted. */
-static double bic(const refit *r)
-{
-  return r->fit.chi2 + (double)r->u.n * log((double)r->u.n_data);
-}
-
-/* The candidates worth a refit: those that pass, one for each effect, down to a tenth of the best statistic. A slope
- * ranks large effects poorly, so that more than the first few get their chance. */
-static int choose_leaders(const lab_trace_result *trace, double level, refit *leader)
-{
-  int i, k, n = 0;
-  for (i = 0; i < trace->n && n < LAB_LOOP_LEADERS; i++) {
-    const lab_candidate *c = &trace->candidate[i];
-    int seen = 0;
-    if (!(c->p_value < level) || c->statistic < 0.1 * trace->candidate[0].statistic)
-      break;
-    for (k = 0; k < n; k++)
-      seen |= trace->candidate[leader[k].candidate].effect == c->effect;
-    if (!seen)
-      leader[n++].candidate = i;
-  }
-  return n;
-}
-
-/* Refit the leaders, in parallel; the best of them first.  Returns: their number. */
-static int refit_leaders(const lab_unknowns *u, const lab_trace_result *trace, double level, refit *leader)
-{
-  int i, k = 0, best = 0;
-  const int n = choose_leaders(trace, level, leader);
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++) {
-    lab_error ignored;
-    leader[i].tried = refit_candidate(u, &trace->candidate[leader[i].candidate], &leader[i], &ignored) == LAB_OK;
-  }
-  for (i = 0; i < n; i++)
-    if (leader[i].tried) {
-      if (i != k)
-        leader[k] = leader[i];
-      if (bic(&leader[k]) < bic(&leader[best]))
-        best = k;
-      k++;
-    }
-  if (best != 0) {
-    const refit keep = leader[0];
-    leader[0] = leader[best];
-    leader[best] = keep;
-  }
-  return k;
-}
-
-/* Candidates whose direction and refit are as good as the winner's. */
-static void note_alike(const lab_trace_result *trace, const refit *leader, int n, lab_found *found)
-{
-  int i;
-  for (i = 1; i < n; i++) {
-    const lab_candidate *c = &trace->candidate[leader[i].candidate];
-    const double likeness = lab_trace_likeness(trace, leader[0].u.n_data, leader[0].candidate, leader[i].candidate);
-    if (c->effect != found->effect && likeness > alike_cosine && bic(&leader[i]) - bic(&leader[0]) < alike_chi2)
-      found->alike[found->n_alike++] = c->effect;
-  }
-}
-
-static void note_found(const lab_trace_result *trace, const refit *leader, int n, double chi2_before, double chi2_after,
-                       lab_found *found)
-{
-  const lab_candidate *c = &trace->candidate[leader[0].candidate];
-  memset(found, 0, sizeof *found);
+  usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
+  size = start == FROM_SLOPE && c->size != 0 ? c->size : usual;
+  for (j = 0; start == FROM_DECLARED && j < a->u.n; j++)
+    a->u.unknown[j].value = a->u.unknown[j].first;
+  if (lab_unknowns_add(&a->u, c->param, (double)info.neutral + size, &ignored) ||
+      (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)) || fit_attempt(a, BRIEF, &ignored))
+    return;
+  found = append_found(a);
   found->effect = c->effect;
   found->param = c->param;
   found->shape = c->shape;
   found->statistic = c->statistic;
   found->p_value = c->p_value;
-  found->explained = (chi2_before - chi2_after) / fmax(chi2_before - (double)leader[0].u.n_data, 1);
-  found->chi2_before = chi2_before;
-  found->chi2_after = chi2_after;
-  note_alike(trace, leader, n, found);
 }
 
-/* Trace the residual of the present model and add the best effect.  Out: added, 0 when nothing passes. */
-static int add_one(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, int *added,
-                   lab_error *error)
+/* Better of two attempts takes the place of the first. */
+static void keep_better(attempt *a, const attempt *other)
 {
-  lab_trace_result trace;
-  refit *leader = malloc(LAB_LOOP_LEADERS * sizeof *leader);
-  lab_errors before, after;
-  int n, status;
-  *added = 0;
-  if (!leader)
-    return lab_fail_memory(error, "refits");
-  status = lab_trace_effects(u, &trace, error);
-  if (status == LAB_OK)
-    status = lab_loop_errors(u, &before, error);
-  if (status == LAB_OK) {
-    result->level = options->alpha / (trace.tests > 0 ? trace.tests : 1);
-    n = refit_leaders(u, &trace, result->level, leader);
-    if (n > 0 && lab_loop_errors(&leader[0].u, &after, error) == LAB_OK) {
-      if (sqrt(after.chi2 / before.chi2) < 1 - options->min_gain) {
-        note_found(&trace, leader, n, before.chi2, after.chi2, &result->found[result->n_found++]);
-        *u = leader[0].u;
-        result->fit = leader[0].fit;
-        *added = 1;
-      } else {
-        result->listed[result->n_listed++] = trace.candidate[leader[0].candidate].effect;
+  if (other->fitted && (!a->fitted || other->chi2 < a->chi2))
+    *a = *other;
+}
+
+/* The candidates worth a refit: those that pass, one for each effect. */
+static int choose_leaders(const lab_trace_result *trace, double level, const lab_candidate **leader)
+{
+  int i, k, n = 0;
+  for (i = 0; i < trace->n && n < LAB_LOOP_LEADERS; i++) {
+    const lab_candidate *c = &trace->candidate[i];
+    int seen = 0;
+    if (!(c->p_value < level) || c->statistic < worth * trace->candidate[0].statistic)
+      break;
+    for (k = 0; k < n; k++)
+      seen |= leader[k]->effect == c->effect;
+    if (!seen)
+      leader[n++] = c;
+  }
+  return n;
+}
+
+static int any_is_noise(const attempt *a, int n)
+{
+  int i, any = 0;
+  for (i = 0; i < n; i++)
+    any |= a[i].fitted && is_noise(a[i].chi2, a[i].u.n_data);
+  return any;
+}
+
+static int by_bic(const void *x, const void *y)
+{
+  const attempt *a = x, *b = y;
+  if (a->fitted != b->fitted)
+    return b->fitted - a->fitted;
+  return a->bic < b->bic ? -1 : a->bic > b->bic;
+}
+
+/* Fit those to the end that are in the running after a brief fit: the best few, and whatever is nearly as good. */
+static void fit_finalists(attempt *a, int n)
+{
+  int i;
+  qsort(a, (size_t)n, sizeof *a, by_bic);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++) {
+    lab_error ignored;
+    if (a[i].fitted && (i < FINALISTS || a[i].bic < 1.2 * a[0].bic))
+      fit_attempt(&a[i], LAB_FIT_WHOLE, &ignored);
+  }
+}
+
+/* Refit the leaders, in parallel: all from the first start, and from the others for as long as none leaves only noise.
+ */
+static void refit_leaders(const attempt *base, const lab_candidate *const *leader, int n, attempt *a)
+{
+  int i, start;
+  for (i = 0; i < n; i++)
+    a[i].fitted = 0;
+  for (start = 0; start < STARTS && !any_is_noise(a, n); start++) {
+#pragma omp parallel for schedule(dynamic)
+    for (i = 0; i < n; i++) {
+      attempt *mine = malloc(sizeof *mine);
+      if (mine) {
+        refit_from(base, leader[i], start, mine);
+        keep_better(&a[i], mine);
       }
+      free(mine);
     }
   }
-  free(leader);
-  if (result->trace.n == 0)
-    result->trace = trace;
-  else
-    lab_trace_close(&trace);
+  fit_finalists(a, n);
+}
+
+/* ---- What has no name ---- */
+
+static void refit_slot(const attempt *base, const lab_slot *slot, attempt *a)
+{
+  lab_error ignored;
+  lab_found *found;
+  *a = *base;
+  a->fitted = 0;
+  if (lab_unknowns_add_term(&a->u, &slot->term, slot->scale, 0, &ignored) || fit_attempt(a, BRIEF, &ignored))
+    return;
+  found = append_found(a);
+  found->term = a->u.rig.n_terms - 1;
+  found->statistic = slot->statistic;
+  found->degrees = slot->degrees;
+  found->scale = slot->scale;
+}
+
+static int ascending(const void *x, const void *y)
+{
+  const double a = *(const double *)x, b = *(const double *)y;
+  return (a > b) - (a < b);
+}
+
+/* The level of a free term where it does not act: the median of its knots. */
+static double base_level(const pneu_term *term)
+{
+  double value[PNEU_TERM_ROOM];
+  int i;
+  for (i = 0; i < term->n; i++)
+    value[i] = (double)term->value[i];
+  qsort(value, (size_t)term->n, sizeof *value, ascending);
+  return value[term->n / 2];
+}
+
+int lab_term_where(const pneu_term *term, double *from, double *to)
+{
+  const double level = base_level(term), knot = (double)(term->to - term->from) / (term->n - 1);
+  double most = 0;
+  int i, first = -1, last = -1;
+  for (i = 0; i < term->n; i++)
+    most = fmax(most, fabs((double)term->value[i] - level));
+  for (i = 0; i < term->n; i++)
+    if (fabs((double)term->value[i] - level) > active_share * most) {
+      first = first < 0 ? i : first;
+      last = i;
+    }
+  *from = (double)term->from + knot * (first > MARGIN ? first - MARGIN : 0);
+  *to = (double)term->from + knot * (last + MARGIN < term->n ? last + MARGIN : term->n - 1);
+  return last - first < term->n / 2;
+}
+
+/* Values of one term, less a level, at the knots of another; 0 at its ends. */
+static void resample(const pneu_term *from, double level, pneu_term *to)
+{
+  int i;
+  for (i = 0; i < to->n; i++) {
+    const double at = (double)(to->from + (to->to - to->from) * (pneu_real)i / (pneu_real)(to->n - 1));
+    const double place = (at - (double)from->from) / (double)(from->to - from->from) * (from->n - 1);
+    const int k = place < from->n - 2 ? (int)fmax(place, 0) : from->n - 2;
+    const double share = fmin(fmax(place - k, 0), 1);
+    to->value[i] = (pneu_real)((1 - share) * (double)from->value[k] + share * (double)from->value[k + 1] - level);
+  }
+  to->value[0] = to->value[to->n - 1] = 0;
+}
+
+/* A free term that acts on a short stretch only: knots there, close together, and none elsewhere. */
+static void refine(attempt *a)
+{
+  const lab_found *found = &a->found[a->n_found - 1];
+  const pneu_term coarse = a->u.rig.term[found->term];
+  const double level = base_level(&coarse);
+  attempt *fine = malloc(sizeof *fine);
+  double from, to;
+  pneu_term term = coarse;
+  lab_error ignored;
+  if (fine && lab_term_where(&coarse, &from, &to)) {
+    *fine = *a;
+    lab_unknowns_drop_term(&fine->u);
+    term.n = REFINED;
+    term.from = (pneu_real)from;
+    term.to = (pneu_real)to;
+    resample(&coarse, level, &term);
+    if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &ignored) == LAB_OK &&
+        fit_attempt(fine, LAB_FIT_WHOLE, &ignored) == LAB_OK && fine->bic < a->bic)
+      *a = *fine;
+  }
+  free(fine);
+}
+
+/* The best slots, refitted. */
+static int refit_slots(const attempt *base, const lab_slot *slot, int n, attempt *a)
+{
+  int i;
+  n = n < SLOTS ? n : SLOTS;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    refit_slot(base, &slot[i], &a[i]);
+  qsort(a, (size_t)n, sizeof *a, by_bic);
+  if (n > 0 && a[0].fitted) {
+    lab_error ignored;
+    fit_attempt(&a[0], LAB_FIT_WHOLE, &ignored);
+    refine(&a[0]);
+  }
+  return n;
+}
+
+/* ---- Search ---- */
+
+/* Effects whose refits are as good as the winner's. */
+static void note_alike(attempt *pool, int n)
+{
+  lab_found *found = &pool[0].found[pool[0].n_found - 1];
+  int i, k;
+  for (i = 1; i < n && pool[i].bic - pool[0].bic < alike_bic; i++) {
+    const int effect = pool[i].found[pool[i].n_found - 1].effect;
+    int known = effect < 0 || effect == found->effect || pool[i].n_found != pool[0].n_found;
+    for (k = 0; k < found->n_alike; k++)
+      known |= found->alike[k] == effect;
+    if (known)
+      continue;
+    if (found->n_alike < LAB_LOOP_LEADERS)
+      found->alike_params[found->n_alike] = pool[i].u.rig.params;
+    found->alike[found->n_alike++] = effect;
+  }
+}
+
+static double seconds(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The search: where it is and what it is to bring. */
+typedef struct search {
+  const lab_loop_options *options;
+  lab_loop_result *result;
+  attempt *beam; /* BEAM best models so far, best first */
+  int n_beam;
+  attempt *pool; /* POOL extensions of them */
+  int n_pool;
+} search;
+
+static void tell(const search *s, const char *what)
+{
+  if (s->options->tell)
+    s->options->tell(s->options->context, what);
+}
+
+/* Free terms beside the effects.
+ * In:      eager  0: only where a slot explains most of what there is, and far more than any effect does */
+static void try_slots(search *s, const attempt *base, const lab_scan *scan, double best_effect, int eager)
+{
+  lab_slot slot[LAB_SLOT_MAX];
+  int n;
+  if (base->u.rig.n_terms > 0 || is_noise(base->chi2, base->u.n_data))
+    return;
+  tell(s, "looking for what has no name");
+  n = lab_trace_slots(scan, slot);
+  if (n > 0 && (eager || (slot[0].statistic > mostly * scan->excess && slot[0].statistic > alone * best_effect)))
+    s->n_pool += refit_slots(base, slot, n, s->pool + s->n_pool);
+}
+
+/* Try every extension of one model by one effect or free term. */
+static int extend(search *s, const attempt *base, lab_error *error)
+{
+  const double start = seconds();
+  const lab_candidate *leader[LAB_LOOP_LEADERS];
+  lab_trace_result trace;
+  lab_scan scan;
+  attempt copy = *base;
+  int n, status = lab_scan_open(&copy.u, &scan, error);
+  if (status == LAB_OK) {
+    tell(s, "tracing the residual");
+    lab_trace_effects(&scan, &trace);
+    if (s->result->trace.n == 0)
+      s->result->trace_s = seconds() - start;
+    if (trace.tests > 0)
+      s->result->level = s->options->alpha / trace.tests;
+    n = choose_leaders(&trace, s->result->level, leader);
+    if (n > 0)
+      try_slots(s, base, &scan, trace.candidate[0].statistic, 0);
+    tell(s, "fitting the leaders");
+    if (!any_is_noise(s->pool, s->n_pool)) {
+      refit_leaders(base, leader, n, s->pool + s->n_pool);
+      s->n_pool += n;
+    }
+    if (s->result->trace.n == 0)
+      s->result->trace = trace;
+    else
+      lab_trace_close(&trace);
+  }
+  lab_scan_close(&scan);
   return status;
 }
 
-/* Without one of the found effects, refitted: does its absence cost more than it saves in parameters? */
-static int is_needed(const lab_unknowns *u, const lab_loop_result *result, int which, lab_unknowns *without,
-                     lab_fit_result *fit)
+/* The pool, best first, without what could not be fitted. */
+static void rank(search *s)
 {
-  const lab_found *found = &result->found[which];
-  const int fewer = found->shape >= 0 ? 2 : 1;
-  lab_error ignored;
-  *without = *u;
-  if (found->shape >= 0)
-    lab_unknowns_drop(without, found->shape);
-  lab_unknowns_drop(without, found->param);
-  if (lab_unknowns_fit(without, fit, &ignored))
-    return 1;
-  return fit->chi2 - result->fit.chi2 > fewer * log((double)u->n_data);
+  int i;
+  qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, by_bic);
+  while (s->n_pool > 0 && !s->pool[s->n_pool - 1].fitted)
+    s->n_pool--;
+  for (i = 0; i < s->n_pool; i++)
+    note_step(s->result, &s->pool[i], i < BEAM);
 }
 
-/* Try the model without each effect that was added before the last. */
-static void remove_needless(lab_unknowns *u, lab_loop_result *result)
+/* Significant, but not worth adding. */
+static void list_small(search *s)
 {
-  lab_unknowns *without = malloc(sizeof *without);
-  lab_fit_result *fit = malloc(sizeof *fit);
-  int i, k;
-  for (i = 0; without && fit && result->n_found > 1 && i < result->n_found - 1; i++) {
-    if (is_needed(u, result, i, without, fit))
+  lab_loop_result *r = s->result;
+  int i;
+  for (i = 0; i < s->n_pool && r->n_listed < LAB_TRACE_MAX; i++) {
+    const lab_found *found = &s->pool[i].found[s->pool[i].n_found - 1];
+    if (s->pool[i].fitted && found->effect >= 0 && s->pool[i].bic < s->beam[0].bic)
+      r->listed[r->n_listed++] = found->effect;
+  }
+}
+
+/* Whether some model at hand leaves only noise, so that poorer ones need not be extended. */
+static int settled(const search *s)
+{
+  return any_is_noise(s->beam, 1) || any_is_noise(s->pool, s->n_pool);
+}
+
+/* One round: extend the models of the beam and take the best extensions for the next.
+ * Out:     better  0 when none is worth it */
+static int advance(search *s, int *better, lab_error *error)
+{
+  lab_errors before, after;
+  int i;
+  *better = 0;
+  s->n_pool = 0;
+  for (i = 0; i < s->n_beam && (i == 0 || !settled(s)); i++)
+    if (extend(s, &s->beam[i], error))
+      return error->status;
+  rank(s);
+  if (s->n_pool == 0 || !(s->pool[0].bic < s->beam[0].bic))
+    return LAB_OK;
+  if (lab_loop_errors(&s->beam[0].u, &before, error) || lab_loop_errors(&s->pool[0].u, &after, error))
+    return error->status;
+  if (gain(&before, &after) < s->options->min_gain) {
+    list_small(s);
+    return LAB_OK;
+  }
+  note_alike(s->pool, s->n_pool);
+  for (i = 0; i < s->n_pool && i < BEAM; i++) {
+    lab_found *found = &s->pool[i].found[s->pool[i].n_found - 1];
+    found->chi2_before = before.chi2;
+    found->chi2_after = s->pool[i].chi2;
+    found->explained = (before.chi2 - s->pool[i].chi2) / fmax(before.chi2 - (double)before.n, 1);
+    s->beam[i] = s->pool[i];
+  }
+  s->n_beam = i;
+  *better = 1;
+  return LAB_OK;
+}
+
+/* Without one of the found effects, fitted again.  Returns: 0, or -1 where that fails. */
+static int leave_out(const attempt *a, int which, attempt *without)
+{
+  lab_error ignored;
+  int k;
+  *without = *a;
+  if (a->found[which].shape >= 0)
+    lab_unknowns_drop(&without->u, a->found[which].shape);
+  lab_unknowns_drop(&without->u, a->found[which].param);
+  for (k = which; k + 1 < without->n_found; k++)
+    without->found[k] = without->found[k + 1];
+  without->n_found--;
+  return fit_attempt(without, LAB_FIT_WHOLE, &ignored) == LAB_OK ? 0 : -1;
+}
+
+/* Take out again what is not needed now that other effects have come. */
+static void remove_needless(attempt *a)
+{
+  attempt *without = malloc(sizeof *without);
+  int i;
+  for (i = 0; without && a->n_found > 1 && i < a->n_found - 1; i++)
+    if (a->found[i].term < 0 && leave_out(a, i, without) == 0 && without->bic <= a->bic) {
+      *a = *without;
+      i = -1;
+    }
+  free(without);
+}
+
+/* An effect that was the best one alone need not be the best one beside those that came after it: put each earlier one
+ * to the test again. */
+static int exchange(search *s, lab_error *error)
+{
+  attempt *without = malloc(sizeof *without);
+  int i, status = without ? LAB_OK : lab_fail_memory(error, "the search");
+  for (i = 0; status == LAB_OK && i < s->beam[0].n_found - 1; i++) {
+    if (s->beam[0].found[i].term >= 0 || leave_out(&s->beam[0], i, without))
       continue;
-    *u = *without;
-    result->fit = *fit;
-    for (k = i; k + 1 < result->n_found; k++)
-      result->found[k] = result->found[k + 1];
-    result->n_found--;
-    i--;
+    s->n_pool = 0;
+    status = extend(s, without, error);
+    rank(s);
+    if (s->n_pool > 0 && s->pool[0].bic < s->beam[0].bic) {
+      note_alike(s->pool, s->n_pool);
+      s->beam[0] = s->pool[0];
+    }
   }
   free(without);
-  free(fit);
+  return status;
 }
 
-/* What is left is noise: chi-square within six standard deviations of its expectation, or the error within a twentieth
- * of the noise, as far as a declared noise can be trusted. */
-static int is_noise(const lab_errors *errors)
+static int verdict_of(const attempt *a, const lab_errors *after)
 {
-  const double n = (double)errors->n;
-  return errors->chi2 < n + 6 * sqrt(2 * n) || errors->chi2 < 1.1025 * n;
+  int i, unlisted = 0;
+  for (i = 0; i < a->n_found; i++)
+    unlisted |= a->found[i].term >= 0;
+  if (unlisted)
+    return LAB_VERDICT_UNLISTED;
+  if (!is_noise(after->chi2, after->n))
+    return LAB_VERDICT_UNDECIDED;
+  return a->n_found > 0 ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE;
+}
+
+/* Nothing that has a name would do: a free term beside what was found, which may then be needless. */
+static int last_resort(search *s, lab_error *error)
+{
+  lab_scan scan;
+  int status;
+  s->n_pool = 0;
+  status = lab_scan_open(&s->beam[0].u, &scan, error);
+  if (status == LAB_OK)
+    try_slots(s, &s->beam[0], &scan, 0, 1);
+  lab_scan_close(&scan);
+  rank(s);
+  if (s->n_pool > 0 && s->pool[0].bic < s->beam[0].bic && s->beam[0].n_found < LAB_LOOP_EFFECTS) {
+    s->beam[0] = s->pool[0];
+    remove_needless(&s->beam[0]);
+  }
+  return status;
+}
+
+static int search_all(search *s, lab_error *error)
+{
+  attempt *best = &s->beam[0];
+  int rounds, better = 1;
+  for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
+    if (advance(s, &better, error))
+      return error->status;
+    if (better && best->n_found > 1 && best->u.rig.n_terms == 0) {
+      remove_needless(best);
+      if (exchange(s, error))
+        return error->status;
+    }
+    if (best->u.rig.n_terms > 0)
+      break;
+  }
+  if (best->u.rig.n_terms > 0 || is_noise(best->chi2, best->u.n_data) || best->n_found == LAB_LOOP_EFFECTS)
+    return LAB_OK;
+  return last_resort(s, error);
 }
 
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error)
 {
-  const lab_fit_result fit = result->fit;
-  int added = 1;
+  search s = {options, result, NULL, 1, NULL, 0};
+  int status = LAB_OK;
   memset(result, 0, sizeof *result);
-  result->fit = fit;
-  if (lab_loop_errors(u, &result->before, error))
-    return error->status;
-  while (added && result->n_found < options->max_effects) {
-    if (add_one(u, options, result, &added, error))
-      return error->status;
-    remove_needless(u, result);
+  s.beam = malloc(BEAM * sizeof *s.beam);
+  s.pool = malloc((size_t)BEAM * POOL * sizeof *s.pool);
+  if (!s.beam || !s.pool)
+    status = lab_fail_memory(error, "the search");
+  if (status == LAB_OK)
+    status = lab_loop_errors(u, &result->before, error);
+  if (status == LAB_OK) {
+    memset(&s.beam[0], 0, sizeof s.beam[0]);
+    s.beam[0].u = *u;
+    s.beam[0].fitted = 1;
+    s.beam[0].chi2 = result->before.chi2;
+    s.beam[0].bic = bic(u, s.beam[0].chi2);
+    note_step(result, &s.beam[0], 1);
+    status = search_all(&s, error);
   }
-  if (lab_loop_errors(u, &result->after, error))
-    return error->status;
-  result->verdict = !is_noise(&result->after) ? LAB_VERDICT_UNDECIDED
-                    : result->n_found > 0     ? LAB_VERDICT_EFFECT
-                                              : LAB_VERDICT_NONE;
-  return LAB_OK;
+  if (status == LAB_OK) {
+    *u = s.beam[0].u;
+    result->n_found = s.beam[0].n_found;
+    memcpy(result->found, s.beam[0].found, sizeof result->found);
+    status = lab_loop_errors(u, &result->after, error);
+  }
+  if (status == LAB_OK) {
+    result->verdict = verdict_of(&s.beam[0], &result->after);
+    status = lab_unknowns_spread(u, &result->fit, error);
+  }
+  free(s.beam);
+  free(s.pool);
+  return status;
 }
 
 void lab_loop_close(lab_loop_result *result)

@@ -5,24 +5,17 @@
 
 #include "trace.h"
 
-enum { LAB_LOOP_EFFECTS = 3, LAB_LOOP_LEADERS = 6 };
+enum { LAB_LOOP_EFFECTS = 3, LAB_LOOP_LEADERS = 6, LAB_LOOP_STEPS = 24 };
 
 enum lab_verdict { LAB_VERDICT_NONE, LAB_VERDICT_EFFECT, LAB_VERDICT_UNLISTED, LAB_VERDICT_UNDECIDED };
 
 typedef struct lab_loop_options {
   double alpha;    /* chance of naming anything when nothing is missing */
-  double min_gain; /* share by which an effect must lower the error to be added */
+  double min_gain; /* share by which an effect must lower the error of some channel to be added */
   int max_effects;
+  void (*tell)(void *context, const char *what); /* told what is being done; may be NULL */
+  void *context;
 } lab_loop_options;
-
-/* An effect that was added. */
-typedef struct lab_found {
-  int effect, param, shape; /* shape: -1 if none */
-  double statistic, p_value, explained;
-  double chi2_before, chi2_after; /* of the data */
-  int n_alike;                    /* effects that the log cannot tell from it */
-  int alike[LAB_TRACE_MAX];
-} lab_found;
 
 /* Error of a model on the experiments it was given: root mean square per channel. */
 typedef struct lab_errors {
@@ -32,6 +25,27 @@ typedef struct lab_errors {
   size_t n;
 } lab_errors;
 
+/* What was added: an effect, or a free term where nothing that has a name would do. */
+typedef struct lab_found {
+  int effect, param, shape; /* effect: -1 for a free term; shape: -1 if none */
+  int term;                 /* of the model's free terms; -1 for an effect */
+  double statistic, p_value, explained;
+  int degrees;                    /* of freedom of the statistic */
+  double scale;                   /* free term: a value of it that matters */
+  double chi2_before, chi2_after; /* of the data */
+  int n_alike;                    /* effects that the log cannot tell from it */
+  int alike[LAB_TRACE_MAX];
+  pneu_params alike_params[LAB_LOOP_LEADERS]; /* models with the first of them in its place, fitted */
+} lab_found;
+
+/* A model that was tried: the declared one first. */
+typedef struct lab_step {
+  char name[LAB_FIT_TEXT]; /* of what it has beyond the declared model, joined by " + " */
+  int n_added;
+  double chi2, bic; /* of the residuals; Schwarz 1978 */
+  int kept;         /* the search went on from it */
+} lab_step;
+
 typedef struct lab_loop_result {
   int verdict; /* enum lab_verdict */
   int n_found;
@@ -39,8 +53,11 @@ typedef struct lab_loop_result {
   lab_errors before, after;
   lab_fit_result fit;     /* of the final model */
   lab_trace_result trace; /* of the declared model: what was tried; to be closed */
+  double trace_s;         /* [s] that this scan took */
   int n_listed;           /* effects that are significant but gain less than min_gain */
   int listed[LAB_TRACE_MAX];
+  int n_steps;
+  lab_step step[LAB_LOOP_STEPS];
   double level; /* p-value that a single candidate has to pass */
 } lab_loop_result;
 
@@ -49,14 +66,17 @@ void lab_loop_options_default(lab_loop_options *options);
 
 /* Run the loop.
  * In/out:  u       declared model, fitted; then the completed one
- *          result  fit: of the declared model
- * Out:     result  the rest; to be closed with lab_loop_close, also after an error
+ * Out:     result  to be closed with lab_loop_close, also after an error
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error);
 void lab_loop_close(lab_loop_result *result);
 
 /* Error of the present model of `u` on its experiments. */
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
+
+/* Where a free term acts: the stretch of its argument outside which it stays near one level.
+ * Returns: 1 if that is a short one, 0 if it acts nearly everywhere. */
+int lab_term_where(const pneu_term *term, double *from, double *to);
 
 /* "none", "effect", "unlisted", "undecided" */
 const char *lab_verdict_text(int verdict);

@@ -8,6 +8,7 @@
 #include <cjson/cJSON.h>
 
 #include "outfile.h"
+#include "rigterm.h"
 
 static int open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
 {
@@ -37,18 +38,9 @@ static cJSON *add_interval(cJSON *to, const char *name, double value, const char
   return o;
 }
 
-static int unknown_of(const lab_unknowns *u, int param)
-{
-  int j;
-  for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].index == param)
-      return j;
-  return -1;
-}
-
 static void add_effect_param(cJSON *to, const lab_story *story, int param)
 {
-  const int j = param < 0 ? -1 : unknown_of(story->completed, param);
+  const int j = param < 0 ? -1 : lab_unknowns_find(story->completed, param);
   pneu_param_info info;
   if (j < 0)
     return;
@@ -74,6 +66,16 @@ static void add_found(cJSON *to, const lab_story *story, const lab_found *found)
   list = cJSON_AddArrayToObject(o, "indistinguishable_from");
   for (i = 0; i < found->n_alike; i++)
     cJSON_AddItemToArray(list, cJSON_CreateString(pneu_effect_at(found->alike[i])->name));
+}
+
+static void add_unlisted(cJSON *to, const lab_story *story, const lab_found *found)
+{
+  const pneu_term *term = &story->completed->rig.term[found->term];
+  cJSON *o = cJSON_CreateObject();
+  cJSON_AddItemToArray(to, o);
+  cJSON_AddNumberToObject(o, "eq", term->equation);
+  cJSON_AddNumberToObject(o, "arg", term->argument);
+  add_number(o, "statistic", found->statistic);
 }
 
 static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
@@ -134,8 +136,12 @@ static cJSON *json_of(const lab_story *story)
   cJSON_AddStringToObject(root, "sentence", sentence);
   o = cJSON_AddArrayToObject(root, "found");
   for (i = 0; i < result->n_found; i++)
-    add_found(o, story, &result->found[i]);
-  cJSON_AddArrayToObject(root, "unlisted");
+    if (result->found[i].effect >= 0)
+      add_found(o, story, &result->found[i]);
+  o = cJSON_AddArrayToObject(root, "unlisted");
+  for (i = 0; i < result->n_found; i++)
+    if (result->found[i].term >= 0)
+      add_unlisted(o, story, &result->found[i]);
   add_parameters(root, story);
   o = cJSON_AddObjectToObject(root, "error");
   add_errors(o, "before", &result->before);
@@ -183,7 +189,7 @@ int lab_story_model(const lab_story *story, const char *folder, lab_error *error
   lab_outfile out;
   if (open_in(folder, "model.cfg", &out, error))
     return error->status;
-  rig.params = story->completed->params;
+  rig = story->completed->rig;
   rig.friction = LAB_FRICTION_COULOMB; /* its effects are written with their sizes */
   lab_rig_write(out.file, &rig, "The completed model, by closeloop.");
   return lab_out_close(&out, error);
@@ -191,7 +197,7 @@ int lab_story_model(const lab_story *story, const char *folder, lab_error *error
 
 int lab_story_header(const lab_story *story, const char *folder, lab_error *error)
 {
-  pneu_params params = story->completed->params;
+  pneu_params params = story->completed->rig.params;
   lab_outfile out;
   int i;
   if (open_in(folder, "model.h", &out, error))
@@ -212,6 +218,7 @@ int lab_story_header(const lab_story *story, const char *folder, lab_error *erro
   fprintf(out.file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n",
           story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input, story->rig->laws.position_input,
           pneu_gas_key(story->rig->laws.gas), pneu_flow_key(story->rig->laws.flow));
+  lab_terms_print_c(out.file, story->completed->rig.term, story->completed->rig.n_terms);
   return lab_out_close(&out, error);
 }
 
@@ -249,9 +256,9 @@ int lab_story_residual(const lab_story *story, const char *folder, lab_error *er
   lab_outfile out;
   int c, status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
-    status = lab_unknowns_residuals((void *)story->declared, NULL, before, error);
+    status = lab_unknowns_errors(story->declared, before, error);
   if (status == LAB_OK)
-    status = lab_unknowns_residuals((void *)u, NULL, after, error);
+    status = lab_unknowns_errors(u, after, error);
   if (status == LAB_OK)
     status = open_in(folder, "residual.csv", &out, error);
   if (status == LAB_OK) {
@@ -291,8 +298,8 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
   }
   used += (size_t)snprintf(text, size, "The model lacks ");
   for (i = 0; i < r->n_found && used < size; i++)
-    used +=
-        (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "", pneu_effect_at(r->found[i].effect)->name);
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "",
+                             r->found[i].effect < 0 ? "unlisted" : pneu_effect_at(r->found[i].effect)->name);
   if (used < size)
     snprintf(text + used, size - used, ": with it the error falls from %.2f to %.2f times the noise.", before, after);
 }

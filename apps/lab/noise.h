@@ -12,4 +12,9 @@
  * Returns: in the unit of the channel; NaN with fewer than eight differences. */
 double lab_noise_estimate(const double *value, size_t n);
 
+/* Correlation of the noise from one row to the next, from a stretch in which nothing moves.
+ * In:      value  n values; NaN is a gap
+ * Returns: -0.9 .. 0.9; 0 for fewer than 50 values, or where it is not told from 0 (four standard errors). */
+double lab_noise_memory(const double *value, size_t n);
+
 #endif

@@ -7,25 +7,28 @@
 #include "cvode.h"
 #include "sampler.h"
 
-enum { COLUMNS = 11 };
+enum { COLUMNS = 11, SHOWN_COLUMNS = 5 };
 
+/* Column i; what sensors show, and when, comes first. */
 static double **trace_column(lab_trace *trace, int i)
 {
-  double **const column[COLUMNS] = {&trace->t, &trace->u,       &trace->p,        &trace->x,    &trace->v,    &trace->T,
-                                    &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat, &trace->force};
+  double **const column[COLUMNS] = {&trace->t, &trace->p, &trace->x,       &trace->T,        &trace->force, &trace->u,
+                                    &trace->v, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat};
   return column[i];
 }
 
-static int trace_allocate(lab_trace *trace, size_t n, lab_error *error)
+static int trace_allocate(lab_trace *trace, size_t n, int shown_only, lab_error *error)
 {
+  const int columns = shown_only ? SHOWN_COLUMNS : COLUMNS;
   int i;
   memset(trace, 0, sizeof *trace);
   trace->n = n;
-  trace->mode = calloc(n ? n : 1, sizeof *trace->mode);
-  for (i = 0; i < COLUMNS; i++)
-    if (!(*trace_column(trace, i) = calloc(n ? n : 1, sizeof(double))))
+  if (!shown_only)
+    trace->mode = calloc(n ? n : 1, sizeof *trace->mode);
+  for (i = 0; i < columns; i++)
+    if (!(*trace_column(trace, i) = malloc((n ? n : 1) * sizeof(double))))
       break;
-  if (i == COLUMNS && trace->mode)
+  if (i == columns && (trace->mode || shown_only))
     return LAB_OK;
   lab_trace_free(trace);
   return lab_fail_memory(error, "a response");
@@ -64,6 +67,18 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   trace->heat[i] = out.heat;
   trace->force[i] = out.holding_force;
   trace->mode[i] = state->mode;
+}
+
+static void record_shown(void *context, size_t i, const pneu_state *state, const pneu_input *input)
+{
+  recorder *r = context;
+  pneu_shown shown;
+  if (pneu_show(r->model, state, input, &shown) != PNEU_OK)
+    memset(&shown, 0xff, sizeof shown); /* every number NaN */
+  r->trace->p[i] = (double)shown.pressure;
+  r->trace->x[i] = (double)shown.position;
+  r->trace->T[i] = (double)shown.temperature;
+  r->trace->force[i] = (double)shown.force;
 }
 
 static int sample_step(void *context, const pneu_step_view *view)
@@ -179,10 +194,9 @@ static void show_commands(const lab_schedule *s, lab_trace *trace)
 static void record_position(void *context, size_t i, const pneu_state *state, const pneu_input *input)
 {
   recorder *r = context;
-  pneu_output out;
-  memset(&out, 0, sizeof out);
-  pneu_observe(r->model, state, input, &out);
-  r->trace->x[i] = (double)out.shown_position;
+  pneu_shown shown = {0, 0, 0, 0};
+  pneu_show(r->model, state, input, &shown);
+  r->trace->x[i] = (double)shown.position;
 }
 
 /* One pass through the schedule: samples at t - skew, handed to `take`. */
@@ -216,7 +230,8 @@ static int passes(engine *e, const pneu_model *model, const pneu_state *start, c
                   double t_end, lab_trace *trace, lab_error *error)
 {
   const double skew = (double)model->position_skew;
-  int status = pass(e, model, start, schedule, t_end, 0, record, trace, error);
+  const int shown_only = trace && !trace->mode;
+  int status = pass(e, model, start, schedule, t_end, 0, shown_only ? record_shown : record, trace, error);
   if (status == LAB_OK && trace && skew != 0)
     status = pass(e, model, start, schedule, skew < 0 ? t_end - skew : t_end, skew, record_position, trace, error);
   return status;
@@ -236,7 +251,7 @@ static int delayed_passes(engine *e, const pneu_model *model, const pneu_state *
     delay_commands(schedule, (double)model->command_delay, t, input, &late);
     status = passes(e, model, start, &late, t_end, trace, error);
   }
-  if (status == LAB_OK && trace)
+  if (status == LAB_OK && trace && trace->u)
     show_commands(schedule, trace);
   free(t);
   free(input);
@@ -250,7 +265,7 @@ int lab_respond(const pneu_model *model, const pneu_state *start, const lab_sche
   int status;
   if (options->count_only)
     trace = NULL;
-  if (trace && trace_allocate(trace, n, error))
+  if (trace && trace_allocate(trace, n, options->shown_only, error))
     return error->status;
   memset(&e.work, 0, sizeof e.work);
   e.tol = options->tol;

@@ -15,7 +15,7 @@ typedef struct lab_schedule {
   const pneu_input *input;
 } lab_schedule;
 
-/* Sampled response; every array has n entries, owned by this struct. */
+/* Sampled response; every array has n entries, owned by this struct; NULL what was not asked for. */
 typedef struct lab_trace {
   size_t n;
   double *t;        /* [s] */
@@ -41,6 +41,7 @@ typedef struct lab_response_options {
   double tol;     /* relative to full scale: 1e-4 .. 1e-10 */
   double t_end;   /* [s] */
   int count_only; /* not 0: no samples, statistics only (trace may be NULL) */
+  int shown_only; /* not 0: only p, x, T and force of the trace are filled, in a third of the time */
 } lab_response_options;
 
 /* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run). Commands act

@@ -6,6 +6,7 @@
 #include "config.h"
 #include "names.h"
 #include "rigkeys.h"
+#include "rigterm.h"
 
 /* ---- Names of what can be fitted ---- */
 
@@ -206,7 +207,7 @@ static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab
   return LAB_OK;
 }
 
-static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
+static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
 {
   char text[LAB_FIT_COUNT][LAB_FIT_TEXT];
   const char *names[LAB_FIT_COUNT];
@@ -218,8 +219,20 @@ static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error
     status = lab_config_choice(setting, names, LAB_FIT_COUNT, sizeof names[0], &index, error);
     if (status == LAB_OK)
       status = add_fit(setting, index, rig, error);
+    if (status == LAB_OK)
+      rig->fit_per_log[rig->n_fit - 1] = (unsigned char)per_log;
   }
   return status;
+}
+
+static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return read_fit_list(list, 0, rig, error);
+}
+
+static int read_fit_per_log(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return read_fit_list(list, 1, rig, error);
 }
 
 /* Channel of a key in the noise group, "pressure" or "p"; time and command have no noise. */
@@ -276,14 +289,20 @@ static int read_log(const config_setting_t *group, lab_rig *rig, lab_error *erro
   return lab_log_format_read(group, &rig->log, error);
 }
 
+static int read_unlisted(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return lab_terms_read(list, LAB_TERM_MAX, rig->term, &rig->n_terms, error);
+}
+
 /* In the order of reading: effects after the friction law, log after the transducer. */
 static const struct section {
   const char *name;
   int (*read)(const config_setting_t *, lab_rig *, lab_error *);
 } sections[] = {
-    {"actuator", read_keys}, {"transducer", read_keys}, {"supply", read_keys}, {"ambient", read_keys},
-    {"gas", read_keys},      {"laws", read_keys},       {"fit", read_fit},     {"noise", read_noise},
-    {"inputs", read_inputs}, {"effects", read_effects}, {"log", read_log},
+    {"actuator", read_keys}, {"transducer", read_keys}, {"supply", read_keys},     {"ambient", read_keys},
+    {"gas", read_keys},      {"laws", read_keys},       {"fit", read_fit},         {"fit_per_log", read_fit_per_log},
+    {"noise", read_noise},   {"inputs", read_inputs},   {"effects", read_effects}, {"unlisted", read_unlisted},
+    {"log", read_log},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 
@@ -333,16 +352,12 @@ static int is_active(const pneu_model *model, int effect)
   return 0;
 }
 
-/* A parameter that is set but cannot act under the declared laws is a mistake, not a remark. */
-static int check_effects_act(const lab_rig *rig, lab_error *error)
+static int check_effects_act(const lab_rig *rig, const pneu_model *model, lab_error *error)
 {
-  pneu_model model;
   int e, i, count;
-  if (lab_rig_model(rig, &model, error))
-    return error->status;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     const int first = pneu_effect_params(e, &count);
-    for (i = 0; i < count && !is_active(&model, e); i++) {
+    for (i = 0; i < count && !is_active(model, e); i++) {
       pneu_param_info info;
       pneu_param_describe(first + i, &info);
       if (!info.shape && *pneu_param_at((pneu_params *)&rig->params, first + i) != info.neutral)
@@ -352,6 +367,28 @@ static int check_effects_act(const lab_rig *rig, lab_error *error)
     }
   }
   return LAB_OK;
+}
+
+static int check_terms_act(const lab_rig *rig, const pneu_model *model, lab_error *error)
+{
+  const int heats = model->thermal && rig->laws.gas != PNEU_GAS_POLYTROPIC;
+  int i;
+  for (i = 0; i < rig->n_terms; i++)
+    if (rig->term[i].equation == PNEU_TERM_HEAT && !heats)
+      return lab_fail(error, LAB_DATA,
+                      "%s: unlisted[%d]: heat does nothing with the other laws declared (gas law \"%s\"); it needs "
+                      "the gas law \"energy\"",
+                      rig->file, i, pneu_gas_key(rig->laws.gas));
+  return LAB_OK;
+}
+
+/* What is set but cannot act under the declared laws is a mistake, not a remark. */
+static int check_all_acts(const lab_rig *rig, lab_error *error)
+{
+  pneu_model model;
+  if (lab_rig_model(rig, &model, error) || check_effects_act(rig, &model, error))
+    return error->status;
+  return check_terms_act(rig, &model, error);
 }
 
 static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
@@ -378,15 +415,18 @@ int lab_rig_read(const char *path, lab_rig *rig, lab_error *error)
   if (status == LAB_OK)
     status = read_sections(&config, rig, error);
   config_destroy(&config);
-  return status == LAB_OK ? check_effects_act(rig, error) : status;
+  return status == LAB_OK ? check_all_acts(rig, error) : status;
 }
 
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)
 {
   char name[LAB_FIT_TEXT];
   int bad, status = pneu_model_init(model, &rig->params, &rig->laws, &bad);
-  if (status == PNEU_OK)
-    return LAB_OK;
-  return lab_fail(error, LAB_DATA, "%s: %s%s%s", rig->file, bad >= 0 ? lab_fit_name(bad, name) : "",
-                  bad >= 0 ? ": " : "", pneu_status_text(status));
+  if (status != PNEU_OK)
+    return lab_fail(error, LAB_DATA, "%s: %s%s%s", rig->file, bad >= 0 ? lab_fit_name(bad, name) : "",
+                    bad >= 0 ? ": " : "", pneu_status_text(status));
+  status = pneu_model_terms(model, rig->term, rig->n_terms);
+  if (status != PNEU_OK)
+    return lab_fail(error, LAB_DATA, "%s: unlisted: %s", rig->file, pneu_status_text(status));
+  return LAB_OK;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "rigkeys.h"
+#include "rigterm.h"
 
 /* Text in quotes as libconfig reads it back. */
 static void write_text(FILE *file, const char *text)
@@ -70,13 +71,14 @@ static void write_keys(FILE *file, const lab_rig *rig)
   fputs("};\n", file);
 }
 
-static void write_fit(FILE *file, const lab_rig *rig)
+static void write_fit(FILE *file, const lab_rig *rig, const char *key, int per_log)
 {
   char name[LAB_FIT_TEXT];
-  int i;
+  int i, any = 0;
   for (i = 0; i < rig->n_fit; i++)
-    fprintf(file, "%s\"%s\"", i ? ", " : "fit = ( ", lab_fit_name(rig->fit[i], name));
-  if (rig->n_fit)
+    if (rig->fit_per_log[i] == per_log)
+      fprintf(file, "%s%s\"%s\"", any ? ", " : key, any ? "" : " = ( ", lab_fit_name(rig->fit[i], name)), any = 1;
+  if (any)
     fputs(" );\n", file);
 }
 
@@ -153,9 +155,11 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
 {
   write_remark(file, remark);
   write_keys(file, rig);
-  write_fit(file, rig);
+  write_fit(file, rig, "fit", 0);
+  write_fit(file, rig, "fit_per_log", 1);
   write_noise(file, rig);
   write_inputs(file, rig);
   write_effects(file, rig);
+  lab_terms_write(file, rig->term, rig->n_terms);
   lab_log_format_write(file, &rig->log);
 }

@@ -169,8 +169,8 @@ int lab_start_from_log(const pneu_model *model, const pneu_input *input, const l
     if (rest(model, input, &seen, state) != PNEU_OK || pneu_observe(model, state, input, &out) != PNEU_OK)
       return lab_fail(error, LAB_DATA, "%s:%d: the run begins with p = %g Pa gauge, x = %g m: no state of this rig",
                       log->path, log->line[log->run[run]], seen.p, seen.x);
-    seen.p = read.p - (double)(out.pressure - state->p);
-    seen.x = read.x - (double)(out.position - state->x);
+    seen.p = read.p - (double)(out.shown_pressure - state->p);
+    seen.x = read.x - (double)(out.shown_position - state->x);
   }
   return LAB_OK;
 }

@@ -5,14 +5,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "descent.h"
+
 static const double uniform_spread = 0.28867513459481287; /* standard deviation of a uniform distribution of width 1 */
+static const double slope_step = 1e-3;                    /* of a slope's difference, over what matters */
+
+/* ---- What there is to find ---- */
 
 static lab_unknown *append(lab_unknowns *u)
 {
   lab_unknown *x = u->n < LAB_FIT_MAX ? &u->unknown[u->n++] : NULL;
-  if (x)
+  if (x) {
     memset(x, 0, sizeof *x);
+    x->experiment = LAB_ALL_EXPERIMENTS;
+  }
   return x;
+}
+
+static int no_room(lab_error *error)
+{
+  return lab_fail(error, LAB_DATA, "more than %d things to fit at once", (int)LAB_FIT_MAX);
 }
 
 static void describe_param(lab_unknown *x, int param)
@@ -39,13 +51,34 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
 {
   lab_unknown *x = append(u);
   if (!x)
-    return lab_fail(error, LAB_DATA, "more than %d things to fit at once", (int)LAB_FIT_MAX);
+    return no_room(error);
   describe_param(x, param);
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);
   if (param != LAB_FIT_ORIFICE_AREA)
-    *pneu_param_at(&u->params, param) = (pneu_real)x->value;
+    *pneu_param_at(&u->rig.params, param) = (pneu_real)x->value;
+  return LAB_OK;
+}
+
+int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, int held, lab_error *error)
+{
+  int i;
+  if (u->rig.n_terms == LAB_TERM_MAX || u->n + term->n > LAB_FIT_MAX)
+    return no_room(error);
+  u->rig.term[u->rig.n_terms] = *term;
+  for (i = held; i < term->n - held; i++) {
+    lab_unknown *x = append(u);
+    x->kind = LAB_UNKNOWN_KNOT;
+    x->term = u->rig.n_terms;
+    x->index = i;
+    snprintf(x->name, sizeof x->name, "unlisted_%d.%d", x->term + 1, i + 1);
+    x->value = x->first = (double)term->value[i];
+    x->lower = -1e3 * scale;
+    x->upper = 1e3 * scale;
+    x->scale = scale;
+  }
+  u->rig.n_terms++;
   return LAB_OK;
 }
 
@@ -58,7 +91,26 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
       u->unknown[k++] = u->unknown[j];
   u->n = k;
   pneu_param_describe(param, &info);
-  *pneu_param_at(&u->params, param) = info.shape ? info.value : info.neutral;
+  *pneu_param_at(&u->rig.params, param) = info.shape ? info.value : info.neutral;
+}
+
+void lab_unknowns_drop_term(lab_unknowns *u)
+{
+  int j, k;
+  u->rig.n_terms--;
+  for (j = k = 0; j < u->n; j++)
+    if (u->unknown[j].kind != LAB_UNKNOWN_KNOT || u->unknown[j].term != u->rig.n_terms)
+      u->unknown[k++] = u->unknown[j];
+  u->n = k;
+}
+
+int lab_unknowns_find(const lab_unknowns *u, int param)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].index == param)
+      return j;
+  return -1;
 }
 
 /* A change of command happened between the row before and the row that shows it: half the bracket, give or take what a
@@ -75,6 +127,7 @@ static void add_switches(lab_unknowns *u)
         continue;
       x->kind = LAB_UNKNOWN_SWITCH;
       x->index = index;
+      x->experiment = e;
       snprintf(x->name, sizeof x->name, "switch_%d", index + 1);
       snprintf(x->unit, sizeof x->unit, "s");
       x->value = x->first = x->prior = bracket / 2;
@@ -85,6 +138,27 @@ static void add_switches(lab_unknowns *u)
   }
 }
 
+static double declared_value(const lab_rig *rig, int param)
+{
+  return param == LAB_FIT_ORIFICE_AREA ? 1.0 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
+}
+
+/* A parameter that each experiment has for itself. */
+static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, lab_error *error)
+{
+  int e;
+  for (e = 0; e < u->n_experiments; e++) {
+    char name[LAB_FIT_TEXT];
+    lab_unknown *x;
+    if (lab_unknowns_add(u, param, declared_value(rig, param), error))
+      return error->status;
+    x = &u->unknown[u->n - 1];
+    x->experiment = e;
+    snprintf(x->name, sizeof x->name, "%.80s.%d", lab_fit_name(param, name), e + 1);
+  }
+  return LAB_OK;
+}
+
 int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int n_experiments, lab_unknowns *u,
                       lab_error *error)
 {
@@ -92,37 +166,40 @@ int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int 
   memset(u, 0, sizeof *u);
   u->experiment = experiment;
   u->n_experiments = n_experiments;
-  u->params = u->declared = rig->params;
-  u->tol = 1e-7;
+  u->rig = *rig;
+  u->declared = rig->params;
+  u->tol = 1e-6;
   for (e = 0; e < n_experiments; e++)
     u->n_data += experiment[e].n * (size_t)experiment[e].n_channels;
-  for (j = 0; j < rig->n_fit; j++) {
-    const int param = rig->fit[j];
-    const double value =
-        param == LAB_FIT_ORIFICE_AREA ? 1.0 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
-    if (lab_unknowns_add(u, param, value, error))
+  for (j = 0; j < rig->n_fit; j++)
+    if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], error)
+                            : lab_unknowns_add(u, rig->fit[j], declared_value(rig, rig->fit[j]), error))
       return error->status;
-  }
   add_switches(u);
   u->m = u->n_data + (size_t)u->n;
   return LAB_OK;
 }
 
-void lab_unknowns_params(const lab_unknowns *u, const double *theta, pneu_params *params)
+/* ---- Residuals ---- */
+
+static void apply_one(const lab_unknown *x, double value, const pneu_params *declared, lab_rig *rig)
+{
+  if (x->kind == LAB_UNKNOWN_KNOT) {
+    rig->term[x->term].value[x->index] = (pneu_real)value;
+  } else if (x->kind == LAB_UNKNOWN_PARAM && x->index == LAB_FIT_ORIFICE_AREA) {
+    rig->params.fill_area = declared->fill_area * (pneu_real)value;
+    rig->params.vent_area = declared->vent_area * (pneu_real)value;
+  } else if (x->kind == LAB_UNKNOWN_PARAM) {
+    *pneu_param_at(&rig->params, x->index) = (pneu_real)value;
+  }
+}
+
+void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int experiment, lab_rig *rig)
 {
   int j;
-  *params = u->params;
-  for (j = 0; j < u->n; j++) {
-    const lab_unknown *x = &u->unknown[j];
-    if (x->kind != LAB_UNKNOWN_PARAM)
-      continue;
-    if (x->index == LAB_FIT_ORIFICE_AREA) {
-      params->fill_area = u->declared.fill_area * (pneu_real)theta[j];
-      params->vent_area = u->declared.vent_area * (pneu_real)theta[j];
-    } else {
-      *pneu_param_at(params, x->index) = (pneu_real)theta[j];
-    }
-  }
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].experiment == LAB_ALL_EXPERIMENTS || u->unknown[j].experiment == experiment)
+      apply_one(&u->unknown[j], theta[j], &u->declared, rig);
 }
 
 /* How early each change of command of an experiment was, in its order. */
@@ -137,7 +214,7 @@ static void early_of(const lab_unknowns *u, const double *theta, int first, cons
   }
 }
 
-/* Turn predictions into residuals, in place. */
+/* Turn predictions into errors over noise, in place. */
 static void weigh(const lab_experiment *e, double *r)
 {
   int c;
@@ -150,28 +227,65 @@ static void weigh(const lab_experiment *e, double *r)
     }
 }
 
-static int residuals_at(const lab_unknowns *u, const pneu_params *params, const double *theta, double *r,
-                        lab_error *error)
+/* Take the memory out of the noise: what is left of each error after the part that the row before it predicts. */
+static void whiten(const lab_experiment *e, double *r)
 {
-  int e, j, first = 0;
+  int c;
+  size_t i;
+  for (c = 0; c < e->n_channels; c++) {
+    const double memory = e->memory[c], fresh = 1 / sqrt(1 - memory * memory);
+    double *channel = r + (size_t)c * e->n;
+    for (i = memory != 0 ? e->n - 1 : 0; i > 0; i--)
+      if (channel[i] != 0 && channel[i - 1] != 0)
+        channel[i] = fresh * (channel[i] - memory * channel[i - 1]);
+  }
+}
+
+/* Errors of one experiment over noise. */
+static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, int first, double *r,
+                     lab_error *error)
+{
+  const lab_experiment *x = &u->experiment[e];
+  lab_rig rig = *model;
+  double *early = malloc((x->n_switches + 1) * sizeof *early);
+  int j, status;
+  if (!early)
+    return lab_fail_memory(error, "a schedule");
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].experiment == e)
+      apply_one(&u->unknown[j], theta[j], &u->declared, &rig);
+  early_of(u, theta, first, x, early);
+  status = lab_experiment_predict(x, &rig, early, u->tol, r, error);
+  free(early);
+  if (status == LAB_OK)
+    weigh(x, r);
+  return status;
+}
+
+static int errors_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int whitened, double *r,
+                     lab_error *error)
+{
+  int e, first = 0;
   for (e = 0; e < u->n_experiments; e++) {
     const lab_experiment *x = &u->experiment[e];
-    double *early = calloc(x->n_switches + 1, sizeof *early);
-    int status;
-    if (!early)
-      return lab_fail_memory(error, "a schedule");
-    early_of(u, theta, first, x, early);
-    status = lab_experiment_predict(x, params, early, u->tol, r, error);
-    free(early);
-    if (status != LAB_OK)
-      return status;
-    weigh(x, r);
+    if (errors_of(u, model, theta, e, first, r, error))
+      return error->status;
+    if (whitened)
+      whiten(x, r);
     r += x->n * (size_t)x->n_channels;
     first += (int)x->n_switches;
   }
-  for (j = 0; j < u->n; j++)
-    r[j] = u->unknown[j].spread > 0 ? (u->unknown[j].prior - theta[j]) / u->unknown[j].spread : 0;
   return LAB_OK;
+}
+
+static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, double *r, lab_error *error)
+{
+  int j, status = errors_at(u, model, theta, 1, r, error);
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    r[u->n_data + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / x->spread : 0;
+  }
+  return status;
 }
 
 static void present(const lab_unknowns *u, double *theta)
@@ -185,47 +299,79 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
 {
   const lab_unknowns *u = context;
   double now[LAB_FIT_MAX];
-  pneu_params params;
+  lab_rig model = u->rig;
   if (!theta) {
     present(u, now);
     theta = now;
   }
-  lab_unknowns_params(u, theta, &params);
-  return residuals_at(u, &params, theta, r, error);
+  lab_unknowns_apply(u, theta, LAB_ALL_EXPERIMENTS, &model);
+  return residuals_at(u, &model, theta, r, error);
 }
 
-int lab_unknowns_residuals_with(const lab_unknowns *u, const pneu_params *params, double *r, lab_error *error)
+int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
   present(u, now);
-  return residuals_at(u, params, now, r, error);
+  return residuals_at(u, rig, now, r, error);
 }
 
-/* One column: a difference into the side where there is room, with a step that is small beside what matters. */
-static int slope_column(lab_unknowns *u, const double *theta, const double *r, int j, double *column, lab_error *error)
+int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
 {
+  double now[LAB_FIT_MAX];
+  present(u, now);
+  return errors_at(u, &u->rig, now, 0, r, error);
+}
+
+/* A difference into the side where there is room, with a step that is small beside what matters. */
+int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
+{
+  const lab_unknowns *u = context;
   const lab_unknown *x = &u->unknown[j];
-  double at[LAB_FIT_MAX], step = 1e-3 * (x->scale > 0 ? x->scale : 1);
+  double at[LAB_FIT_MAX], step = slope_step * (x->scale > 0 ? x->scale : 1);
   size_t i;
   memcpy(at, theta, (size_t)u->n * sizeof *at);
   if (theta[j] + step > x->upper)
     step = -step;
   at[j] = theta[j] + step;
-  if (lab_unknowns_residuals(u, at, column, error))
+  if (lab_unknowns_residuals(context, at, column, error))
     return error->status;
   for (i = 0; i < u->m; i++)
     column[i] = (column[i] - r[i]) / (at[j] - theta[j]);
   return LAB_OK;
 }
 
-int lab_unknowns_slopes(void *context, const double *theta, const double *r, double *slope, lab_error *error)
+/* ---- Fits ---- */
+
+int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
+{
+  double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], own;
+  unsigned char lasting[LAB_FIT_MAX];
+  lab_descent problem = {u->n, 0, steps, lower, upper, lasting, u, lab_unknowns_residuals, lab_unknowns_slope};
+  int j;
+  u->m = problem.m = u->n_data + (size_t)u->n;
+  for (j = 0; j < u->n; j++) {
+    lower[j] = u->unknown[j].lower;
+    upper[j] = u->unknown[j].upper;
+    lasting[j] = u->unknown[j].kind != LAB_UNKNOWN_PARAM;
+  }
+  present(u, theta);
+  if (lab_descend(&problem, theta, chi2 ? chi2 : &own, error))
+    return error->status;
+  for (j = 0; j < u->n; j++)
+    u->unknown[j].value = theta[j];
+  lab_unknowns_apply(u, theta, LAB_ALL_EXPERIMENTS, &u->rig);
+  return LAB_OK;
+}
+
+/* All columns of the slopes, in parallel. Signature of fit.h. */
+static int slopes(void *context, const double *theta, const double *r, double *slope, lab_error *error)
 {
   lab_unknowns *u = context;
   int j, status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < u->n; j++) {
     lab_error mine;
-    const int at = slope_column(u, theta, r, j, slope + (size_t)j * u->m, &mine);
+    const int at = lab_unknowns_slope(u, theta, r, j, slope + (size_t)j * u->m, &mine);
     if (at != LAB_OK) {
 #pragma omp critical(slope_error)
       *error = mine, status = at;
@@ -234,28 +380,18 @@ int lab_unknowns_slopes(void *context, const double *theta, const double *r, dou
   return status;
 }
 
-int lab_unknowns_fit(lab_unknowns *u, lab_fit_result *result, lab_error *error)
+int lab_unknowns_spread(lab_unknowns *u, lab_fit_result *result, lab_error *error)
 {
   lab_fit_param param[LAB_FIT_MAX];
-  lab_fit_problem problem = {u->n, param, 0, lab_unknowns_residuals, lab_unknowns_slopes, u, NULL, 1};
+  lab_fit_problem problem = {u->n, param, 0, lab_unknowns_residuals, slopes, u, NULL, 1};
   lab_fit_options options;
-  lab_fit_result own;
   int j;
-  if (!result)
-    result = &own;
-  u->m = u->n_data + (size_t)u->n;
-  problem.m = u->m;
+  u->m = problem.m = u->n_data + (size_t)u->n;
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
     param[j] = (lab_fit_param){x->name, x->unit, x->value, x->lower, x->upper, 0, x->scale};
   }
   lab_fit_options_default(&options);
-  options.search = LAB_FIT_POLISH_ONLY;
-  options.chi2_exact = 1e-6; /* 0.01 of chi-square for ten thousand values: far below what decides anything */
-  if (lab_fit_run(&problem, &options, result, error))
-    return error->status;
-  for (j = 0; j < u->n; j++)
-    u->unknown[j].value = result->theta[j];
-  lab_unknowns_params(u, result->theta, &u->params);
-  return LAB_OK;
+  options.search = LAB_FIT_NONE;
+  return lab_fit_run(&problem, &options, result, error);
 }

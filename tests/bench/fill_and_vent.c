@@ -78,7 +78,7 @@ static double run_once(lab_cvode *cvode, const pneu_model *model, int integrator
 
 static double position_error(const pneu_model *model, int integrator, double tol, const lab_trace *reference)
 {
-  const lab_response_options options = {integrator, tol, 0, 0};
+  const lab_response_options options = {integrator, tol, 0, 0, 0};
   lab_trace trace;
   lab_error error;
   double gap = 0;
@@ -148,7 +148,7 @@ static void rows(const pneu_model *model, const point (*p)[2], table *diagram, t
 
 static int bench_law(lab_cvode *cvode, int law, table *diagram, table *summary, lab_error *error)
 {
-  const lab_response_options tight = {LAB_CVODE, 1e-12, 0, 0};
+  const lab_response_options tight = {LAB_CVODE, 1e-12, 0, 0, 0};
   point p[TOLERANCES][2];
   pneu_params params;
   pneu_laws chosen = {0};

@@ -1,0 +1,256 @@
+#include "descent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { N = LAB_DESCENT_MAX, TRIES = 12 };
+
+static const double enough = 0.02;       /* of chi-square: no decision hangs on it */
+static const double enough_share = 1e-6; /* of chi-square */
+static const double poor = 0.5;          /* gain over promise below which kept slopes are renewed */
+
+/* Where a descent is. */
+typedef struct descent {
+  const lab_descent *problem;
+  double theta[N], trial[N];
+  double *r, *r_trial; /* m */
+  double *J;           /* m * n, column by column */
+  double A[N][N];      /* J'J */
+  double g[N];         /* J'r */
+  double chi2, lambda;
+} descent;
+
+static double dot(const double *a, const double *b, size_t m)
+{
+  double sum = 0;
+  size_t i;
+#pragma omp simd reduction(+ : sum)
+  for (i = 0; i < m; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+int lab_solve_positive(int n, int stride, double *a, double *b)
+{
+  int i, j, k;
+  for (j = 0; j < n; j++) {
+    double *row = a + (size_t)j * (size_t)stride;
+    for (k = 0; k < j; k++) {
+      const double *above = a + (size_t)k * (size_t)stride;
+      double sum = row[k];
+      for (i = 0; i < k; i++)
+        sum -= row[i] * above[i];
+      row[k] = sum / above[k];
+    }
+    for (k = 0; k < j; k++)
+      row[j] -= row[k] * row[k];
+    if (!(row[j] > 0))
+      return -1;
+    row[j] = sqrt(row[j]);
+  }
+  for (j = 0; j < n; j++) {
+    for (k = 0; k < j; k++)
+      b[j] -= a[(size_t)j * (size_t)stride + (size_t)k] * b[k];
+    b[j] /= a[(size_t)j * (size_t)stride + (size_t)j];
+  }
+  for (j = n - 1; j >= 0; j--) {
+    for (k = j + 1; k < n; k++)
+      b[j] -= a[(size_t)k * (size_t)stride + (size_t)j] * b[k];
+    b[j] /= a[(size_t)j * (size_t)stride + (size_t)j];
+  }
+  return 0;
+}
+
+/* Renew the slopes, all of them or only those that do not last, and what follows from them. */
+static int renew(descent *d, int all, lab_error *error)
+{
+  const lab_descent *p = d->problem;
+  int fresh[N], j, k, status = LAB_OK;
+#pragma omp parallel for schedule(dynamic)
+  for (j = 0; j < p->n; j++) {
+    lab_error mine;
+    int at;
+    fresh[j] = all || !p->lasting[j];
+    at = fresh[j] ? p->slope(p->context, d->theta, d->r, j, d->J + (size_t)j * p->m, &mine) : LAB_OK;
+    if (at == LAB_NUMERIC) /* no slope to be had: it stays where it is */
+      memset(d->J + (size_t)j * p->m, 0, p->m * sizeof *d->J);
+    else if (at != LAB_OK) {
+#pragma omp critical(descent_error)
+      *error = mine, status = at;
+    }
+  }
+  if (status != LAB_OK)
+    return status;
+#pragma omp parallel for schedule(dynamic) private(k)
+  for (j = 0; j < p->n; j++) {
+    d->g[j] = dot(d->J + (size_t)j * p->m, d->r, p->m);
+    for (k = 0; k <= j; k++)
+      if (fresh[j] || fresh[k])
+        d->A[j][k] = dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
+  }
+  for (j = 0; j < p->n; j++)
+    for (k = 0; k < j; k++)
+      d->A[k][j] = d->A[j][k];
+  return LAB_OK;
+}
+
+/* Damped step for the unknowns in `of`, the others moved by `step` already. */
+static int solve_free(const descent *d, const int *of, int k, const int *is_free, double *step)
+{
+  const int n = d->problem->n;
+  double a[N][N], b[N];
+  int i, j;
+  for (i = 0; i < k; i++) {
+    for (j = 0; j < k; j++)
+      a[i][j] = d->A[of[i]][of[j]];
+    a[i][i] += d->lambda * a[i][i] + 1e-300;
+    b[i] = -d->g[of[i]];
+    for (j = 0; j < n; j++)
+      if (!is_free[j])
+        b[i] -= d->A[of[i]][j] * step[j];
+  }
+  if (lab_solve_positive(k, N, &a[0][0], b))
+    return -1;
+  for (i = 0; i < k; i++)
+    step[of[i]] = b[i];
+  return 0;
+}
+
+/* A step that stays within the bounds: what would leave them goes onto its bound, and the rest is solved again. What
+ * stands on a bound and is pulled outwards does not take part.  Returns: 0, or -1 if there is no step. */
+static int bounded_step(const descent *d, double *step)
+{
+  const lab_descent *p = d->problem;
+  int is_free[N], of[N], j, k, hit = 1;
+  for (j = 0; j < p->n; j++) {
+    step[j] = 0;
+    is_free[j] =
+        d->A[j][j] > 0 && !(d->theta[j] <= p->lower[j] && d->g[j] > 0) && !(d->theta[j] >= p->upper[j] && d->g[j] < 0);
+  }
+  while (hit) {
+    for (j = k = 0; j < p->n; j++)
+      if (is_free[j])
+        of[k++] = j;
+    if (k == 0)
+      return 0;
+    if (solve_free(d, of, k, is_free, step))
+      return -1;
+    for (hit = 0, j = 0; j < k; j++) {
+      const int at = of[j];
+      const double to = d->theta[at] + step[at], bound = fmin(fmax(to, p->lower[at]), p->upper[at]);
+      if (bound != to) {
+        step[at] = bound - d->theta[at];
+        is_free[at] = 0;
+        hit = 1;
+      }
+    }
+  }
+  return 0;
+}
+
+/* Decrease of chi-square that the linear model promises. */
+static double promise(const descent *d, const double *step)
+{
+  const int n = d->problem->n;
+  double sum = 0;
+  int i, j;
+  for (i = 0; i < n; i++) {
+    double row = 0;
+    for (j = 0; j < n; j++)
+      row += d->A[i][j] * step[j];
+    sum -= step[i] * (2 * d->g[i] + row);
+  }
+  return sum;
+}
+
+static void accept(descent *d, double chi2)
+{
+  double *keep = d->r;
+  d->r = d->r_trial;
+  d->r_trial = keep;
+  memcpy(d->theta, d->trial, sizeof d->theta);
+  d->chi2 = chi2;
+}
+
+/* One step downhill, damped until it is one.
+ * Out:     gain  over promise; done, 1 when no step is worth taking */
+static int step_down(descent *d, double *quality, int *done, lab_error *error)
+{
+  const lab_descent *p = d->problem;
+  const double least = fmax(enough, enough_share * d->chi2);
+  double step[N];
+  int j, tries;
+  *done = 1;
+  for (tries = 0; tries < TRIES; tries++) {
+    double promised, chi2;
+    int status;
+    if (bounded_step(d, step)) {
+      d->lambda = fmax(10 * d->lambda, 1e-12);
+      continue;
+    }
+    promised = promise(d, step);
+    if (!(promised > least))
+      return LAB_OK;
+    for (j = 0; j < p->n; j++)
+      d->trial[j] = fmin(fmax(d->theta[j] + step[j], p->lower[j]), p->upper[j]);
+    status = p->residuals(p->context, d->trial, d->r_trial, error);
+    if (status != LAB_OK && status != LAB_NUMERIC)
+      return status;
+    chi2 = status == LAB_OK ? dot(d->r_trial, d->r_trial, p->m) : (double)NAN;
+    if (chi2 < d->chi2) {
+      *quality = (d->chi2 - chi2) / promised;
+      *done = d->chi2 - chi2 < least;
+      d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
+      accept(d, chi2);
+      return LAB_OK;
+    }
+    d->lambda = fmax(8 * d->lambda, 1e-3);
+  }
+  return LAB_OK;
+}
+
+static int run(descent *d, lab_error *error)
+{
+  const lab_descent *p = d->problem;
+  int i, done = 0, all = 1, status = p->residuals(p->context, d->theta, d->r, error);
+  double quality = 1;
+  if (status != LAB_OK)
+    return status;
+  d->chi2 = dot(d->r, d->r, p->m);
+  d->lambda = 1e-6;
+  for (i = 0; i < p->steps; i++) {
+    if (renew(d, all, error) || step_down(d, &quality, &done, error))
+      return error->status;
+    if (done && all)
+      break;
+    all = done || quality < poor; /* before it ends, once more with slopes that are all new */
+  }
+  return LAB_OK;
+}
+
+int lab_descend(const lab_descent *problem, double *theta, double *chi2, lab_error *error)
+{
+  const size_t m = problem->m, n = (size_t)problem->n;
+  descent *d = calloc(1, sizeof *d);
+  double *memory = malloc((n + 2) * m * sizeof *memory);
+  int status;
+  if (!d || !memory) {
+    free(d);
+    free(memory);
+    return lab_fail_memory(error, "a fit");
+  }
+  d->problem = problem;
+  d->r = memory;
+  d->r_trial = memory + m;
+  d->J = memory + 2 * m;
+  memcpy(d->theta, theta, n * sizeof *theta);
+  status = run(d, error);
+  if (status == LAB_OK) {
+    memcpy(theta, d->theta, n * sizeof *theta);
+    *chi2 = d->chi2;
+  }
+  free(memory);
+  free(d);
+  return status;
+}
