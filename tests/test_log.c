@@ -400,6 +400,46 @@ static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_ru
   lab_log_free(&log);
 }
 
+static void test_lab_log_read__held_out__takes_other_rows_and_another_window(void **state)
+{
+  static const char text[] = "0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n";
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  format.every = 2;
+  format.to = 3;
+  format.holdout_from = 2;
+  format.holdout_to = 5;
+  format.holdout_first = 1;
+  log = read_log(text);
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[1], 2, 0, 0);
+  lab_log_free(&log);
+  lab_log_format_hold_out(&format);
+  log = read_log(text);
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[0], 3, 0, 0);
+  assert_close(CHANNEL(log, P)[1], 6e5, 1e-6, 0);
+  lab_log_free(&log);
+  format.first = 4;
+  assert_refused(text, "log.csv:3", "before log.first");
+}
+
+static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  strcpy(format.name[LAB_CHANNEL_X], "_l [dm]");
+  strcpy(format.name[LAB_CHANNEL_PS], "_p [bar]");
+  assert_int_equal(lab_log_read(scratch_text("tube_l3_p4.5_start.csv", "0,1\n1,2\n"), &format, ambient, &log, &error),
+                   LAB_OK);
+  assert_close(CHANNEL(log, X)[1], 0.3, 1e-15, 0);
+  assert_close(CHANNEL(log, PS)[0], 4.5e5, 1e-9, 0);
+  lab_log_free(&log);
+  assert_refused("0,1\n1,2\n", "log.csv", "\"_l\" and a number in the file's name");
+}
+
 static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
 {
   lab_log log;
@@ -740,6 +780,8 @@ int main(void)
       CASE(test_lab_log_read__way_back__is_reversed),
       CASE(test_lab_log_read__way_back_that_is_missing__is_refused),
       CASE(test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run),
+      CASE(test_lab_log_read__held_out__takes_other_rows_and_another_window),
+      CASE(test_lab_log_read__name_of_the_file__tells_a_channel),
       CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
       CASE(test_lab_log_read__lead__comes_before_each_run),
       CASE(test_lab_log_read__lead_after_the_first_row__is_refused),

@@ -247,9 +247,11 @@ static void test_lab_rig_read__log_group__becomes_the_format(void **state)
 /* Written and read again, the shape of a raw log is the same. */
 static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
 {
-  lab_rig rig = read_rig("log = { columns = ( \"t [ms]\", \"p [bar]\", \"p [bar]\" ); weights = ( 1, 0.5, -0.25 ); every = 7;\n"
-                         "  new_run = \"t drops\"; runs = \"mean\";\n"
-                         "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; }, { t = 0; u = 1; } ); };");
+  lab_rig rig = read_rig(
+      "log = { columns = ( \"t [ms]\", \"p [bar]\", \"p [bar]\" ); weights = ( 1, 0.5, -0.25 ); every = 7; first = 2;\n"
+      "  name = { x = \"_l [dm]\"; }; holdout = { window = ( \"5 s\", \"6 s\" ); first = 3; };\n"
+      "  new_run = \"t drops\"; runs = \"mean\";\n"
+      "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; }, { t = 0; u = 1; } ); };");
   FILE *file = fopen(scratch_path("again.cfg"), "w");
   (void)state;
   assert_non_null(file);
@@ -260,6 +262,11 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
   assert_int_equal(rig.log.weighted, 3);
   assert_close(rig.log.weight[2], -0.25, 0, 0);
   assert_int_equal(rig.log.every, 7);
+  assert_int_equal(rig.log.first, 2);
+  assert_string_equal(rig.log.name[LAB_CHANNEL_X], "_l [dm]");
+  assert_int_equal(rig.log.holdout_first, 3);
+  assert_close(rig.log.holdout_from, 5, 0, 0);
+  assert_close(rig.log.holdout_to, 6, 0, 0);
   assert_int_equal(rig.log.runs, LAB_RUNS_MEAN);
   assert_int_equal(rig.log.way_back, -1);
   assert_int_equal(rig.log.n_lead, 2);
@@ -497,6 +504,9 @@ static void test_lab_rig_read__bad_log_group__is_refused(void **state)
   assert_refused("log = { damaged = \"keep\"; };\n", "log.damaged", "unknown word");
   assert_refused("log = { columns = ( \"t [s]\" ); weights = ( 1, 2 ); };\n", "log:", "a weight for each of the 1");
   assert_refused("log = { every = 0; };\n", "log.every", "whole number");
+  assert_refused("log = { name = { x = \"_l\"; }; };\n", "log.name.x", "mark [unit]");
+  assert_refused("log = { name = { q = \"_l [m]\"; }; };\n", "log.name.q", "unknown key");
+  assert_refused("log = { holdout = { rows = 1; }; };\n", "log.holdout.rows", "unknown key");
   assert_refused("log = { way_back = \"p\"; };\n", "log:", "way_back needs time_step");
   assert_refused("log = { way_back = \"q\"; };\n", "log.way_back", "unknown word");
   assert_refused("log = { runs = \"mean\"; };\n", "log:", "needs new_run");

@@ -250,13 +250,39 @@ static int read_text(struct reader *r, const char *path, double ambient, const l
   return LAB_OK;
 }
 
+/* Channels that the file's name tells become constants. */
+static int take_name(const char *path, lab_log_format *format, lab_error *error)
+{
+  const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    char mark[LAB_COLUMN_TEXT], *end = NULL;
+    const char *at;
+    double scale, offset, number;
+    if (!*format->name[c])
+      continue;
+    if (lab_column_mark(format->name[c], lab_log_unit(format, c), mark, &scale, &offset, error))
+      return error->status;
+    at = strstr(file, mark);
+    number = at ? strtod(at + strlen(mark), &end) : 0;
+    if (!at || end == at + strlen(mark))
+      return lab_fail(error, LAB_DATA, "%s: expected \"%s\" and a number in the file's name (log.name.%s)", path, mark,
+                      lab_channels[c].key);
+    format->constant[c] = format->scale[c] * (scale * number + offset) + format->offset[c];
+  }
+  return LAB_OK;
+}
+
 int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error)
 {
-  struct reader r = {.source = {.path = path, .format = format}, .format = format, .log = log, .error = error};
+  lab_log_format own = *format;
+  struct reader r = {.source = {.path = path, .format = &own}, .format = &own, .log = log, .error = error};
   lab_text text;
   int status;
   memset(log, 0, sizeof *log);
-  status = lab_text_read(path, &text, error);
+  status = take_name(path, &own, error);
+  if (status == LAB_OK)
+    status = lab_text_read(path, &text, error);
   if (status != LAB_OK)
     return status;
   status = read_text(&r, path, ambient, &text);

@@ -38,6 +38,8 @@ void lab_log_format_default(lab_log_format *format)
   format->comment = '#';
   format->way_back = -1;
   format->every = 1;
+  format->holdout_first = -1;
+  format->holdout_from = format->holdout_to = (double)NAN;
   format->from = -INFINITY;
   format->to = INFINITY;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
@@ -135,6 +137,29 @@ static int read_damaged(const config_setting_t *setting, lab_log_format *format,
 static int read_every(const config_setting_t *setting, lab_log_format *format, lab_error *error)
 {
   return lab_config_count(setting, 1, SKIP_MAX, &format->every, error);
+}
+
+static int read_first(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_count(setting, 0, SKIP_MAX, &format->first, error);
+}
+
+/* Channels that the file's name tells. */
+static int read_name(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    char mark[LAB_COLUMN_TEXT];
+    double scale, offset;
+    status = lab_config_text(member, format->name[c], LAB_COLUMN_TEXT, error);
+    if (status == LAB_OK && lab_column_mark(format->name[c], lab_log_unit(format, c), mark, &scale, &offset, error))
+      status = lab_config_fail_in(member, error);
+  }
+  return status;
 }
 
 static int read_weights(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -246,16 +271,60 @@ static int read_quantities(const config_setting_t *setting, lab_log_format *form
   return status;
 }
 
+/* ---- What differs where a log is held out ---- */
+
+static int read_holdout(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  static const struct word keys[] = {{"window"}, {"first"}};
+  const config_setting_t *window, *first;
+  lab_log_format out = *format;
+  if (lab_config_is_group(group, error) || lab_config_known(group, keys, 2, sizeof keys[0], error))
+    return error->status;
+  window = config_setting_get_member((config_setting_t *)group, "window");
+  first = config_setting_get_member((config_setting_t *)group, "first");
+  if ((window && read_window(window, &out, error)) || (first && read_first(first, &out, error)))
+    return error->status;
+  format->holdout_from = window ? out.from : (double)NAN;
+  format->holdout_to = window ? out.to : (double)NAN;
+  format->holdout_first = first ? out.first : -1;
+  return LAB_OK;
+}
+
+void lab_log_format_hold_out(lab_log_format *format)
+{
+  if (!isnan(format->holdout_from)) {
+    format->from = format->holdout_from;
+    format->to = format->holdout_to;
+  }
+  if (format->holdout_first >= 0)
+    format->first = format->holdout_first;
+}
+
 static const struct log_key {
   const char *name;
   int (*read)(const config_setting_t *, lab_log_format *, lab_error *);
 } log_keys[] = {
-    {"delimiter", read_delimiter}, {"decimal", read_decimal},       {"thousands", read_thousands},
-    {"comment", read_comment},     {"skip_lines", read_skip_lines}, {"columns", read_columns},
-    {"time_step", read_time_step}, {"window", read_window},         {"new_run", read_new_run},
-    {"damaged", read_damaged},     {"scale", read_scale},           {"offset", read_offset},
-    {"constants", read_constants}, {"quantities", read_quantities}, {"weights", read_weights},
-    {"every", read_every},         {"way_back", read_way_back},     {"runs", read_runs},
+    {"delimiter", read_delimiter},
+    {"decimal", read_decimal},
+    {"thousands", read_thousands},
+    {"comment", read_comment},
+    {"skip_lines", read_skip_lines},
+    {"columns", read_columns},
+    {"time_step", read_time_step},
+    {"window", read_window},
+    {"new_run", read_new_run},
+    {"damaged", read_damaged},
+    {"scale", read_scale},
+    {"offset", read_offset},
+    {"constants", read_constants},
+    {"quantities", read_quantities},
+    {"weights", read_weights},
+    {"first", read_first},
+    {"name", read_name},
+    {"holdout", read_holdout},
+    {"every", read_every},
+    {"way_back", read_way_back},
+    {"runs", read_runs},
     {"lead", read_lead},
 };
 enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };

@@ -42,14 +42,17 @@ static int reverse_way_back(lab_log *log, int channel, lab_error *error)
 
 /* ---- Fewer rows ---- */
 
-static void keep_every(lab_log *log, size_t every)
+static int keep_every(lab_log *log, size_t every, size_t offset, lab_error *error)
 {
   size_t run, i, n = 0;
   int c;
   for (run = 0; run < log->n_runs; run++) {
     const size_t first = log->run[run];
+    if (first + offset >= log->run[run + 1])
+      return lab_fail(error, LAB_DATA, "%s:%d: expected more than the %zu rows before log.first in this run", log->path,
+                      log->line[first], offset);
     log->run[run] = n;
-    for (i = first; i < log->run[run + 1]; i += every, n++) {
+    for (i = first + offset; i < log->run[run + 1]; i += every, n++) {
       log->line[n] = log->line[i];
       for (c = 0; c < LAB_CHANNEL_COUNT; c++)
         if (log->value[c])
@@ -57,6 +60,7 @@ static void keep_every(lab_log *log, size_t every)
     }
   }
   log->n = log->run[log->n_runs] = n;
+  return LAB_OK;
 }
 
 /* ---- Many runs into one ---- */
@@ -216,8 +220,8 @@ int lab_log_shape(lab_log *log, const lab_log_format *format, lab_error *error)
 {
   if (format->way_back >= 0 && reverse_way_back(log, format->way_back, error))
     return error->status;
-  if (format->every > 1)
-    keep_every(log, (size_t)format->every);
+  if ((format->every > 1 || format->first > 0) && keep_every(log, (size_t)format->every, (size_t)format->first, error))
+    return error->status;
   if (format->runs == LAB_RUNS_MEAN && mean_of_runs(log, error))
     return error->status;
   return format->n_lead > 0 ? put_lead(log, format, error) : LAB_OK;
