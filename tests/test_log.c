@@ -501,6 +501,26 @@ static void test_lab_log_read__lead__comes_before_each_run(void **state)
   lab_log_free(&log);
 }
 
+static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  set_lead();
+  format.lead[0][LAB_CHANNEL_P] = NAN;
+  format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_P + 1;
+  format.lead_last[0][LAB_CHANNEL_PS] = LAB_CHANNEL_P + 1;
+  log = read_log("5,nan\n20,2\n21,4\n5,3\n6,5\n");
+  assert_int_equal(log.n, 9);
+  assert_close(CHANNEL(log, P)[0], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, PS)[0], 4e5, 1e-6, 0);
+  assert_true(isnan(CHANNEL(log, PS)[1]));
+  assert_close(CHANNEL(log, P)[5], 3e5, 1e-6, 0);
+  assert_close(CHANNEL(log, PS)[5], 5e5, 1e-6, 0);
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
 {
   (void)state;
@@ -784,6 +804,7 @@ int main(void)
       CASE(test_lab_log_read__name_of_the_file__tells_a_channel),
       CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
       CASE(test_lab_log_read__lead__comes_before_each_run),
+      CASE(test_lab_log_read__lead_of_ends__takes_first_and_last_values),
       CASE(test_lab_log_read__lead_after_the_first_row__is_refused),
       CASE(test_lab_log_read__missing_file__says_so),
       CASE(test_lab_log_read__folder__says_so),

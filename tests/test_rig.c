@@ -251,7 +251,7 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
       "log = { columns = ( \"t [ms]\", \"p [bar]\", \"p [bar]\" ); weights = ( 1, 0.5, -0.25 ); every = 7; first = 2;\n"
       "  name = { x = \"_l [dm]\"; }; holdout = { window = ( \"5 s\", \"6 s\" ); first = 3; };\n"
       "  new_run = \"t drops\"; runs = \"mean\";\n"
-      "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; }, { t = 0; u = 1; } ); };");
+      "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; ps = \"last p\"; x = \"first x\"; }, { t = 0; u = 1; } ); };");
   FILE *file = fopen(scratch_path("again.cfg"), "w");
   (void)state;
   assert_non_null(file);
@@ -273,6 +273,9 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
   assert_close(rig.log.lead[0][LAB_CHANNEL_TIME], -1e-3, 0, 0);
   assert_close(rig.log.lead[0][LAB_CHANNEL_P], 2e5, 1e-9, 0);
   assert_true(isnan(rig.log.lead[1][LAB_CHANNEL_P]));
+  assert_int_equal(rig.log.lead_last[0][LAB_CHANNEL_PS], LAB_CHANNEL_P + 1);
+  assert_int_equal(rig.log.lead_first[0][LAB_CHANNEL_X], LAB_CHANNEL_X + 1);
+  assert_int_equal(rig.log.lead_first[1][LAB_CHANNEL_X], 0);
   assert_close(rig.log.lead[1][LAB_CHANNEL_U], 1, 0, 0);
   rig = read_rig("log = { columns = ( \"p [kPa]\", \"x [mm]\" ); time_step = 10; way_back = \"p\"; };");
   assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
@@ -510,6 +513,7 @@ static void test_lab_rig_read__bad_log_group__is_refused(void **state)
   assert_refused("log = { way_back = \"p\"; };\n", "log:", "way_back needs time_step");
   assert_refused("log = { way_back = \"q\"; };\n", "log.way_back", "unknown word");
   assert_refused("log = { runs = \"mean\"; };\n", "log:", "needs new_run");
+  assert_refused("log = { lead = ( { t = 0; p = \"last q\"; } ); };\n", "log.lead[0].p", "\"first p\"");
   assert_refused("log = { lead = ( { u = 1; } ); };\n", "log.lead[0]", "its time t");
   assert_refused("log = { lead = ( { t = 1; }, { t = 1; } ); };\n", "log.lead[1]", "after that of the row before");
   assert_refused("log = { time_step = 0; };\n", "log.time_step", "expected");

@@ -9,6 +9,9 @@
 #include "names.h"
 #include "units.h"
 
+/* Above every value that a log can have, and an exact integer with those after it. */
+static const double lead_code = 1e15;
+
 struct word {
   const char *name;
 };
@@ -229,14 +232,48 @@ static int read_constants(const config_setting_t *setting, lab_log_format *forma
   return read_channels(setting, format, format->constant, read_one_constant, error);
 }
 
-/* One row of `lead`: a group of channels, with t. */
-static int read_lead_row(const config_setting_t *setting, lab_log_format *format, double *row, lab_error *error)
+/* "first p", "last p", or a value with its unit.  Out: value  channel + 1 of the first two, as an infinite code */
+static int read_lead_value(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
 {
+  const char *text = config_setting_get_string(setting);
+  const int last = text && strncmp(text, "last ", 5) == 0, first = text && strncmp(text, "first ", 6) == 0;
+  int channel;
+  if (!first && !last)
+    return read_one_constant(setting, unit, value, error);
+  channel = lab_name_index(text + (first ? 6 : 5), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+  if (channel < 0)
+    return lab_config_expected(setting, "\"first\" or \"last\" with a channel, such as \"first p\"", error);
+  *value = lead_code + (last ? LAB_CHANNEL_COUNT : 0) + channel;
+  return LAB_OK;
+}
+
+/* Take codes of read_lead_value out of a row. */
+static void decode_lead(lab_log_format *format, int row)
+{
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    const double code = format->lead[row][c] - lead_code;
+    format->lead_first[row][c] = format->lead_last[row][c] = 0;
+    if (!(code >= 0))
+      continue;
+    if (code < LAB_CHANNEL_COUNT)
+      format->lead_first[row][c] = (int)code + 1;
+    else
+      format->lead_last[row][c] = (int)code - LAB_CHANNEL_COUNT + 1;
+    format->lead[row][c] = NAN;
+  }
+}
+
+/* One row of `lead`: a group of channels, with t. */
+static int read_lead_row(const config_setting_t *setting, lab_log_format *format, int index, lab_error *error)
+{
+  double *row = format->lead[index];
   int c;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     row[c] = NAN;
-  if (read_channels(setting, format, row, read_one_constant, error))
+  if (read_channels(setting, format, row, read_lead_value, error))
     return error->status;
+  decode_lead(format, index);
   return isnan(row[LAB_CHANNEL_TIME]) ? lab_config_expected(setting, "a row with its time t", error) : LAB_OK;
 }
 
@@ -245,7 +282,7 @@ static int read_lead(const config_setting_t *setting, lab_log_format *format, la
   int i, status = lab_config_list(setting, 1, LAB_LEAD_MAX, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++) {
     const config_setting_t *row = config_setting_get_elem(setting, (unsigned)i);
-    status = read_lead_row(row, format, format->lead[i], error);
+    status = read_lead_row(row, format, i, error);
     if (status == LAB_OK && i > 0 && format->lead[i][LAB_CHANNEL_TIME] <= format->lead[i - 1][LAB_CHANNEL_TIME])
       status = lab_config_expected(row, "a time after that of the row before", error);
   }

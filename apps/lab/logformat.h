@@ -22,7 +22,8 @@
  *     weights    = ( 1, 0.5, -0.5 ); // a channel is the sum of its columns, each times its weight; one for each column
  *     way_back   = "p";            // a loop written twice upwards: rows after the first fall of p go in reverse order
  *     runs       = "mean";         // "each" (default), or one run: the mean over the runs' rows of the same time
- *     lead       = ( { t = "-1 ms"; u = 0; }, { t = "0 s"; u = 1; } ); // rows put before each run; the rest are gaps
+ *     lead       = ( { t = "-1 ms"; u = 0; }, { t = "0 s"; u = 1; } ); // rows put before each run; the rest are gaps;
+ *                                  // "first p" and "last p" stand for what the run's p begins and ends with
  *     quantities = { p_abs_bar = "p_abs [bar]"; T_wall = "-"; }; // long format: columns "quantity" and "value"
  *   };
  * SPDX-License-Identifier: MIT */
@@ -72,8 +73,10 @@ typedef struct lab_log_format {
   int way_back; /* channel whose first fall starts the way back; -1: none */
   int runs;     /* enum lab_runs */
   int n_lead;
-  double lead[LAB_LEAD_MAX][LAB_CHANNEL_COUNT]; /* SI; NaN: a gap, or what the run begins with for u */
-  int n_quantities;                             /* 0: one column a channel */
+  double lead[LAB_LEAD_MAX][LAB_CHANNEL_COUNT];    /* SI; NaN: a gap, or what the run begins with for u */
+  int lead_first[LAB_LEAD_MAX][LAB_CHANNEL_COUNT]; /* channel + 1 whose first value in the run it is; 0: none */
+  int lead_last[LAB_LEAD_MAX][LAB_CHANNEL_COUNT];  /* likewise the last */
+  int n_quantities;                                /* 0: one column a channel */
   lab_long_quantity quantity[LAB_QUANTITY_MAX];
   double time_step; /* [s]; 0: the file has a column t */
   double from, to;  /* [s] window, infinite where there is none */

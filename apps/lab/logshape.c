@@ -144,7 +144,7 @@ static int add_channels(lab_log *log, const lab_log_format *format, lab_error *e
   size_t i;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     for (k = 0; k < format->n_lead && !log->value[c]; k++) {
-      if (isnan(format->lead[k][c]))
+      if (isnan(format->lead[k][c]) && !format->lead_first[k][c] && !format->lead_last[k][c])
         continue;
       if (!(log->value[c] = malloc(log->n * sizeof(double))))
         return lab_fail_memory(error, log->path);
@@ -152,6 +152,27 @@ static int add_channels(lab_log *log, const lab_log_format *format, lab_error *e
         log->value[c][i] = c == LAB_CHANNEL_U ? format->lead[format->n_lead - 1][c] : (double)NAN;
     }
   return LAB_OK;
+}
+
+/* The first or last value of a channel in a run that is no gap; NaN if there is none. */
+static double end_value(const lab_log *log, int channel, size_t run, int last)
+{
+  const double *value = log->value[channel];
+  size_t i = last ? log->run[run + 1] - 1 : log->run[run], n;
+  for (n = log->run[run + 1] - log->run[run]; value && n > 0; n--, i += last ? (size_t)-1 : 1)
+    if (!isnan(value[i]))
+      return value[i];
+  return (double)NAN;
+}
+
+/* What the lead says of a channel in its row k. */
+static double lead_value(const lab_log *log, const lab_log_format *format, size_t k, int channel, size_t run)
+{
+  if (format->lead_first[k][channel])
+    return end_value(log, format->lead_first[k][channel] - 1, run, 0);
+  if (format->lead_last[k][channel])
+    return end_value(log, format->lead_last[k][channel] - 1, run, 1);
+  return format->lead[k][channel];
 }
 
 /* One channel with its lead before each run. */
@@ -164,7 +185,7 @@ static int lead_channel(const lab_log *log, const lab_log_format *format, int ch
   for (run = 0; to && run < log->n_runs; run++) {
     const size_t first = log->run[run], rows = log->run[run + 1] - first;
     for (k = 0; k < extra; k++) {
-      const double given = format->lead[k][channel];
+      const double given = lead_value(log, format, k, channel, run);
       to[n++] = channel == LAB_CHANNEL_U && isnan(given) ? value[first] : given;
     }
     memcpy(to + n, value + first, rows * sizeof *to);
@@ -196,23 +217,24 @@ static int lead_lines(lab_log *log, size_t extra)
 static int put_lead(lab_log *log, const lab_log_format *format, lab_error *error)
 {
   const double last = format->lead[format->n_lead - 1][LAB_CHANNEL_TIME];
+  double *made[LAB_CHANNEL_COUNT] = {NULL};
   size_t run;
-  int c;
+  int c, status = LAB_OK;
   for (run = 0; run < log->n_runs; run++)
     if (log->value[LAB_CHANNEL_TIME][log->run[run]] <= last)
       return lab_fail(error, LAB_DATA, "%s:%d: expected a run that begins after its lead, %g s, found %g s", log->path,
                       log->line[log->run[run]], last, log->value[LAB_CHANNEL_TIME][log->run[run]]);
   if (add_channels(log, format, error))
     return error->status;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
-    double *with_lead;
-    if (!log->value[c])
-      continue;
-    if (!lead_channel(log, format, c, &with_lead))
-      return lab_fail_memory(error, log->path);
-    free(log->value[c]);
-    log->value[c] = with_lead;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (log->value[c] && !lead_channel(log, format, c, &made[c]))
+      status = lab_fail_memory(error, log->path);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) { /* only now, for a lead may look at any channel */
+    free(status == LAB_OK ? log->value[c] : made[c]);
+    log->value[c] = status == LAB_OK ? made[c] : log->value[c];
   }
+  if (status != LAB_OK)
+    return status;
   return lead_lines(log, (size_t)format->n_lead) ? LAB_OK : lab_fail_memory(error, log->path);
 }
 

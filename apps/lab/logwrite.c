@@ -87,7 +87,10 @@ static void write_lead(FILE *file, const lab_log_format *format)
   for (i = 0; i < format->n_lead; i++) {
     fputs(i ? ", {" : "  lead = ( {", file);
     for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-      if (!isnan(format->lead[i][c]))
+      if (format->lead_first[i][c] || format->lead_last[i][c])
+        fprintf(file, " %s = \"%s %s\";", lab_channels[c].key, format->lead_first[i][c] ? "first" : "last",
+                lab_channels[format->lead_first[i][c] + format->lead_last[i][c] - 1].key);
+      else if (!isnan(format->lead[i][c]))
         fprintf(file, " %s = \"%.17g %s\";", lab_channels[c].key, format->lead[i][c], lab_log_unit(format, c));
     fputs(" }", file);
   }
