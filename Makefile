@@ -6,6 +6,7 @@ OPT     ?= -O2
 MEASURED ?= ../shared/data
 SANITIZE ?=
 PREFIX  ?= /usr/local
+N       ?= 500
 
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef -Wwrite-strings -Wold-style-definition \
            -Wstrict-prototypes -Wmissing-prototypes -Wdouble-promotion -Wpointer-arith
@@ -24,11 +25,13 @@ LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
 LAB_C   := $(wildcard apps/lab/*.c apps/study/*.c)
 PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
-HELP_C  := tests/fixture.c $(filter-out %/main.c,$(wildcard tests/second/*.c))
+BLIND_C := $(wildcard tests/blind/*.c)
+HELP_C  := tests/fixture.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
 
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
 LAB_O   := $(LAB_C:%.c=$(BUILD)/%.o)
 HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
+BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab.a
@@ -61,10 +64,26 @@ check: install-packages
 	@$(MAKE) --no-print-directory all
 	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
 
+## Close the loop on every measured set (MEASURED names the data's folder); writes results/measured/
+measured: $(STATIC) closeloop $(BUILD)/measured
+	MEASURED='$(MEASURED)' $(BUILD)/measured study/measured/sets.cfg
+.PHONY: measured
+
+$(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+
 ## Time one fill-and-vent beside CVODE, in one run; writes results/bench.csv and work_precision.csv
 bench: $(BUILD)/tests/bench/fill_and_vent
 	$< results
 	gnuplot -e "IN='results'; OUT='results/work_precision.svg'" study/figures/work_precision.gp
+
+## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
+blind: closeloop $(BUILD)/tests/blind/blind
+	$(BUILD)/tests/blind/blind --trials $(N) --work $(BUILD)/blind
+## Repeat trial K of them and keep its files in build/blind/kept
+blind-trial: closeloop $(BUILD)/tests/blind/blind
+	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
+.PHONY: blind blind-trial
 
 ## Build the test programs
 tests: $(TESTS)
@@ -90,6 +109,15 @@ $(BUILD)/apps/study/products.o: apps/study/products.c $(SOURCES)
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DSTUDY_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
 
+# Scripts and templates that a program carries inside, a line a string.
+CARRIED := $(wildcard apps/lab/report/*) study/figures/style.gp
+$(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
+	@mkdir -p $(@D)
+	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
+
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
+
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
 
@@ -102,6 +130,10 @@ $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
 
 $(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+
+# No $(STATIC) here: what it links with proves that the trials know nothing of the library.
+$(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP_O) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@

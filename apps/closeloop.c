@@ -5,16 +5,22 @@
 #include <string.h>
 #include <time.h>
 
+#include "lab/advise.h"
 #include "lab/cli.h"
+#include "lab/interrupt.h"
 #include "lab/log.h"
 #include "lab/loop.h"
 #include "lab/loopfiles.h"
 #include "lab/outfile.h"
+#include "lab/progress.h"
+#include "lab/report_html.h"
 
 enum { LOG_MAX = 32, RUN_MAX = 256 };
 
 static const char *holdout, *out;
 static double alpha = 0.01, min_gain = 0.02;
+static int no_figures;
+static lab_progress progress;
 
 static const lab_option options[] = {
     {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv[,LOG2.csv]",
@@ -22,6 +28,7 @@ static const lab_option options[] = {
     {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>", 0, 0},
     {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
     {"min-gain", LAB_OPTION_REAL, &min_gain, "SHARE", "error that an effect must save to be added (0.02)", 0, 1},
+    {"no-figures", LAB_OPTION_FLAG, &no_figures, NULL, "report without figures, without gnuplot", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
@@ -65,8 +72,8 @@ static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *er
   return LAB_OK;
 }
 
-/* Error of a model on the log that was held out. Nothing that the logs share is fitted; what each log has for itself is,
- * and so are the instants at which the command changed, within the row that shows each. */
+/* Error of a model on the log that was held out. Nothing that the logs share is fitted; what each log has for itself
+ * is, and so are the instants at which the command changed, within the row that shows each. */
 static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *error)
 {
   static lab_unknowns u;
@@ -116,16 +123,44 @@ static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
   return status;
 }
 
+/* Figures, if wanted, and the page around them. */
+static int write_page(const lab_story *story, const char *folder, lab_error *error)
+{
+  lab_evidence evidence;
+  lab_figures figures = {0};
+  int status = lab_evidence_collect(story, &evidence, error);
+  if (status == LAB_OK && !no_figures)
+    status = lab_figures_draw(story, &evidence, &figures, error);
+  if (status == LAB_OK)
+    status = lab_figures_write(&figures, folder, error);
+  if (status == LAB_OK)
+    status = lab_report_html(story, &evidence, &figures, folder, error);
+  lab_figures_free(&figures);
+  lab_evidence_free(&evidence);
+  return status;
+}
+
+static int write_files(const lab_story *story, const char *folder, lab_error *error)
+{
+  if (lab_make_folder(folder, error) || lab_story_residual(story, folder, error) ||
+      lab_story_model(story, folder, error) || lab_story_header(story, folder, error) ||
+      lab_story_json(story, folder, error))
+    return error->status;
+  return write_page(story, folder, error);
+}
+
+/* All files at once, as far as Ctrl-C is concerned. */
 static int write_story(const lab_story *story, lab_error *error)
 {
   char folder[LAB_PATH_TEXT];
+  int status;
   snprintf(folder, sizeof folder, "results/%s", story->rig->name);
   if (out)
     snprintf(folder, sizeof folder, "%s", out);
-  if (lab_make_folder(folder, error) || lab_story_residual(story, folder, error) ||
-      lab_story_model(story, folder, error) || lab_story_header(story, folder, error))
-    return error->status;
-  return lab_story_json(story, folder, error);
+  lab_interrupt_hold();
+  status = write_files(story, folder, error);
+  lab_interrupt_release();
+  return status;
 }
 
 static double seconds(void)
@@ -135,42 +170,68 @@ static double seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void say(void *context, const char *what)
+{
+  (void)context;
+  lab_progress_say(&progress, what);
+}
+
 static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
 {
   static lab_unknowns declared, completed;
   static lab_loop_result result;
   lab_loop_options how;
-  lab_story story = {rig, &declared, &completed, &result, 0, {{0}, {0}, 0, 0}, {{0}, {0}, 0, 0}, 0, 0, 0};
+  static lab_story story;
   const double start = seconds();
   char sentence[512];
+  int status;
+  story.rig = rig;
+  story.declared = &declared;
+  story.completed = &completed;
+  story.result = &result;
   lab_loop_options_default(&how);
+  how.tell = say;
   how.alpha = alpha;
   how.min_gain = min_gain;
-  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, LAB_FIT_WHOLE, NULL, error))
+  lab_progress_say(&progress, "fitting the declared model");
+  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) ||
+      lab_unknowns_fit(&declared, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;
   if (lab_loop_run(&completed, &how, &result, error))
     return error->status;
-  story.trace_s = seconds() - start - story.fit_s;
+  story.trace_s = result.trace_s;
+  if (holdout)
+    lab_progress_say(&progress, "judging on the held-out log");
   if (holdout && hold_out(rig, &story, error))
     return error->status;
+  lab_progress_say(&progress, "looking for the test to record next");
+  if (lab_advise(&story, error))
+    return error->status;
   story.total_s = seconds() - start;
+  lab_progress_say(&progress, "writing the report");
+  status = write_story(&story, error);
+  lab_progress_end(&progress);
   lab_story_sentence(&story, sentence, sizeof sentence);
   puts(sentence);
-  return write_story(&story, error);
+  return status;
 }
 
 static int run(const lab_cli *cli, lab_error *error)
 {
   static lab_rig rig;
   static bench b;
-  int i, status = lab_rig_read(cli->operand[0], &rig, error);
+  int i, status;
+  lab_progress_begin(&progress, program.name, cli->quiet);
+  lab_progress_say(&progress, "reading");
+  status = lab_rig_read(cli->operand[0], &rig, error);
   for (i = 1; i < cli->n_operands && status == LAB_OK; i++)
     status = add_log(&rig, cli->operand[i], &b, error);
   if (status == LAB_OK)
     status = close_loop(&rig, &b, error);
   close_bench(&b);
+  lab_progress_end(&progress);
   return status;
 }
 
@@ -178,7 +239,9 @@ int main(int argc, char **argv)
 {
   lab_error error;
   lab_cli cli;
-  int status = lab_cli_read(&program, argc, argv, &cli, &error);
+  int status;
+  lab_interrupt_catch();
+  status = lab_cli_read(&program, argc, argv, &cli, &error);
   if (status == LAB_OK && !cli.done)
     status = run(&cli, &error);
   return status == LAB_OK ? 0 : lab_cli_report(&program, &error);

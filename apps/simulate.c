@@ -1,6 +1,7 @@
 /* simulate: what a model predicts for the commands of a log, or for the standard experiment.
  * SPDX-License-Identifier: MIT */
 #include "lab/cli.h"
+#include "lab/interrupt.h"
 #include "lab/log.h"
 #include "lab/outfile.h"
 #include "lab/response.h"
@@ -138,6 +139,7 @@ int main(int argc, char **argv)
 {
   lab_cli cli;
   lab_error error;
+  lab_interrupt_catch();
   if (lab_cli_read(&program, argc, argv, &cli, &error))
     return lab_cli_report(&program, &error);
   if (!cli.done && run(&cli, &error))

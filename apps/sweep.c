@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "lab/cli.h"
+#include "lab/interrupt.h"
 #include "study/products.h"
 
 static int force, no_figures;
@@ -51,7 +52,9 @@ int main(int argc, char **argv)
 {
   lab_error error;
   lab_cli cli;
-  int status = lab_cli_read(&program, argc, argv, &cli, &error);
+  int status;
+  lab_interrupt_catch();
+  status = lab_cli_read(&program, argc, argv, &cli, &error);
   if (status == LAB_OK && !cli.done)
     status = sweep(&cli, &error);
   return status == LAB_OK ? 0 : lab_cli_report(&program, &error);

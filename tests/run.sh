@@ -75,6 +75,12 @@ suites() {
   done
 }
 
+# closeloop against 40 rigs without its answer; the bars are in tests/blind/bars.c.
+blind_trials() {
+  rm -rf "$BUILD/blind-sample"
+  "$BUILD/tests/blind/blind" --trials 40 --seed 2 --check --quiet --work "$BUILD/blind-sample" --out "$BUILD/blind-sample"
+}
+
 # The study, without figures, against the committed tables.
 study_agrees() {
   again="$BUILD/study-again"
@@ -98,6 +104,8 @@ pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a"
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
+pass "closeloop: its folder, interrupted runs" sh tests/check_closeloop.sh
+$MAKE --no-print-directory "$BUILD/tests/blind/blind" >/dev/null && pass "blind: 40 trials of closeloop" blind_trials
 $MAKE --no-print-directory "$BUILD/tests/compare" >/dev/null && pass "study: same numbers as results/" study_agrees
 
 say "$passed passed, $failed failed, $skipped skipped"

@@ -1,6 +1,7 @@
 /* apps/lab/schedule, start, standard and table */
 #include "scratch.h"
 
+#include "../apps/lab/rigkeys.h"
 #include "../apps/lab/schedule.h"
 #include "../apps/lab/standard.h"
 #include "../apps/lab/start.h"
@@ -241,6 +242,26 @@ static void test_lab_start_from_log__held_by_friction__stays_where_it_is_seen(vo
   assert_int_equal(start.mode, PNEU_MODE_STUCK);
 }
 
+/* A sensor's error is not in the state: bias and gain as the model has them are taken out. */
+static void test_lab_start_from_log__sensors_in_error__starts_from_what_is_there(void **state)
+{
+  static const struct sensor {
+    const char *effect;
+    double size;
+  } sensors[] = {{"pressure_bias", 1400}, {"position_gain", 0.05}};
+  pneu_state start;
+  int i, first;
+  (void)state;
+  for (i = 0; i < 2; i++) {
+    first = pneu_effect_params(lab_effect_index(sensors[i].effect), NULL);
+    *pneu_param_at(&rig.params, first) = (pneu_real)sensors[i].size;
+  }
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  start = start_of("t [s],u [1],p [Pa],x [mm]\n0,0,201400,10.5\n", 0);
+  assert_close(start.p, 200e3, 1e-6, 0);
+  assert_close(start.x, 10e-3, 0, 1.01 * 0.05 * 0.05 * 0.05); /* three rounds, each takes out all but the gain */
+}
+
 static void test_lab_start_from_log__no_position__follows_from_pressure(void **state)
 {
   pneu_state start = start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0);
@@ -366,6 +387,7 @@ int main(void)
       CASE(test_lab_start_from_log__vessel_seen_late__is_full_while_it_fills),
       CASE(test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it),
       CASE(test_lab_start_from_log__held_by_friction__stays_where_it_is_seen),
+      CASE(test_lab_start_from_log__sensors_in_error__starts_from_what_is_there),
       CASE(test_lab_start_from_log__no_position__follows_from_pressure),
       CASE(test_lab_start_from_log__no_pressure__follows_from_position),
       CASE(test_lab_start_from_log__nothing_measured__is_empty_and_down),

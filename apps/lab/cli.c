@@ -50,7 +50,7 @@ static void print_usage(const lab_program *program, const struct table *table)
     printf("  %-20s %s\n", head, row->help);
   }
   printf("\nExit status: 0 done, 1 data or configuration at fault, 2 usage, 3 numerical failure, 4 no disk, permission "
-         "or memory.\n");
+         "or memory.\nCtrl-C ends it by the signal, 130 in a shell, with every file whole or absent.\n");
 }
 
 static int bad_number(const lab_option *row, const char *text, lab_error *error)

@@ -1,4 +1,5 @@
 #include "loop.h"
+#include "unlisted.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,12 +7,21 @@
 #include <string.h>
 #include <time.h>
 
-static const double alike_bic = 9.2;     /* refits that differ by less are alike: odds of a hundred to one */
-static const double worth = 0.05;        /* of the best statistic: leaders have at least so much */
-static const double alone = 3;           /* a slot is tried at once if it explains so much more than any effect, */
-static const double mostly = 0.5;        /* and so much of all there is */
-static const double active_share = 0.15; /* of a free term's largest height: knots below it are not where it acts */
-enum { BEAM = 2, SLOTS = 2, POOL = LAB_LOOP_LEADERS + SLOTS, BRIEF = 8, FINALISTS = 3, REFINED = 21, MARGIN = 2 };
+static const double alike_bic = 9.2; /* refits that differ by less are alike: odds of a hundred to one */
+static const double name_bonus = 20; /* by which a free term must be better than an effect */
+static const double worth = 0.05;    /* of the best statistic: leaders have at least so much */
+static const double alone = 3;       /* a slot is tried at once if it explains so much more than any effect, */
+static const double mostly = 0.5;    /* and so much of all there is */
+enum {
+  BEAM = 2,
+  SLOTS = 2,
+  ALL_LEADERS = 40,
+  POOL = ALL_LEADERS + SLOTS,
+  BRIEF = 8,
+  FINALISTS = 3,
+  REFINED = 21,
+  MARGIN = 2
+};
 
 void lab_loop_options_default(lab_loop_options *options)
 {
@@ -68,7 +78,7 @@ static void channel_error(const lab_unknowns *u, const double *r, int channel, l
 
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
 {
-  double *r = malloc((u->n_data + 1) * sizeof *r);
+  double *r = malloc((u->n_rows + 1) * sizeof *r);
   int c, status;
   clear_errors(errors);
   if (!r)
@@ -88,17 +98,6 @@ static int is_noise(double chi2, size_t values)
   return chi2 < n + 6 * sqrt(2 * n) || chi2 < 1.1025 * n;
 }
 
-/* Share by which the error of the channel that gains most falls. */
-static double gain(const lab_errors *before, const lab_errors *after)
-{
-  double most = 0;
-  int c;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (before->rmse[c] > 0)
-      most = fmax(most, 1 - after->rmse[c] / before->rmse[c]);
-  return most;
-}
-
 /* ---- Models ---- */
 
 /* A model with what was added to it, fitted. */
@@ -111,10 +110,10 @@ typedef struct attempt {
   lab_found found[LAB_LOOP_EFFECTS];
 } attempt;
 
-/* Schwarz 1978: what a fit costs, with what it fits counted. */
+/* Schwarz 1978: what a fit costs, with what it fits counted, and what has no name against what has. */
 static double bic(const lab_unknowns *u, double chi2)
 {
-  return chi2 + (double)u->n * log((double)u->n_data);
+  return chi2 + (double)u->n * log((double)u->n_data) + name_bonus * u->rig.n_terms;
 }
 
 static void name_of(const attempt *a, char *text, size_t size)
@@ -156,29 +155,56 @@ static lab_found *append_found(attempt *a)
   return found;
 }
 
+/* Share by which the error of the channel that gains most falls; of all together where it is seen coarsely. */
+static double gain(const attempt *a, const attempt *b, const lab_errors *before, const lab_errors *after)
+{
+  double most = a->u.window ? 1 - sqrt(b->chi2 / a->chi2) : 0;
+  int c;
+  for (c = 0; !a->u.window && c < LAB_CHANNEL_COUNT; c++)
+    if (before->rmse[c] > 0)
+      most = fmax(most, 1 - after->rmse[c] / before->rmse[c]);
+  return most;
+}
+
 /* ---- Refits ---- */
 
 /* Where a refit begins. The present fit may have bent its parameters to stand in for the effect; then the values
  * before any fit, with the effect at its usual size, are nearer to the truth. */
 enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, STARTS };
 
-/* The model with one candidate, from one start. */
-static void refit_from(const attempt *base, const lab_candidate *c, int start, attempt *a)
+/* The model with one candidate of some size, before it is fitted.  Returns: 0, or -1 if there is no room. */
+static int take_up(const attempt *base, const lab_candidate *c, double size, int as_declared, attempt *a)
 {
   pneu_param_info info;
-  double usual, size;
   lab_error ignored;
-  lab_found *found;
+  double theta[LAB_FIT_MAX];
   int j;
   *a = *base;
   a->fitted = 0;
   pneu_param_describe(c->param, &info);
-  usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
-  size = start == FROM_SLOPE && c->size != 0 ? c->size : usual;
-  for (j = 0; start == FROM_DECLARED && j < a->u.n; j++)
+  for (j = 0; as_declared && j < a->u.n; j++)
     a->u.unknown[j].value = a->u.unknown[j].first;
   if (lab_unknowns_add(&a->u, c->param, (double)info.neutral + size, &ignored) ||
-      (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)) || fit_attempt(a, BRIEF, &ignored))
+      (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)))
+    return -1;
+  for (j = 0; j < a->u.n; j++)
+    theta[j] = a->u.unknown[j].value;
+  lab_unknowns_apply(&a->u, theta, LAB_ALL_EXPERIMENTS, &a->u.rig);
+  return 0;
+}
+
+/* The model with one candidate, from one start. */
+static void refit_from(const attempt *base, const lab_candidate *c, int start, attempt *a)
+{
+  pneu_param_info info;
+  double usual;
+  lab_error ignored;
+  lab_found *found;
+  pneu_param_describe(c->param, &info);
+  usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
+  if (start == FROM_SLOPE && c->size != 0)
+    usual = c->size;
+  if (take_up(base, c, usual, start == FROM_DECLARED, a) || fit_attempt(a, BRIEF, &ignored))
     return;
   found = append_found(a);
   found->effect = c->effect;
@@ -279,40 +305,6 @@ static void refit_slot(const attempt *base, const lab_slot *slot, attempt *a)
   found->scale = slot->scale;
 }
 
-static int ascending(const void *x, const void *y)
-{
-  const double a = *(const double *)x, b = *(const double *)y;
-  return (a > b) - (a < b);
-}
-
-/* The level of a free term where it does not act: the median of its knots. */
-static double base_level(const pneu_term *term)
-{
-  double value[PNEU_TERM_ROOM];
-  int i;
-  for (i = 0; i < term->n; i++)
-    value[i] = (double)term->value[i];
-  qsort(value, (size_t)term->n, sizeof *value, ascending);
-  return value[term->n / 2];
-}
-
-int lab_term_where(const pneu_term *term, double *from, double *to)
-{
-  const double level = base_level(term), knot = (double)(term->to - term->from) / (term->n - 1);
-  double most = 0;
-  int i, first = -1, last = -1;
-  for (i = 0; i < term->n; i++)
-    most = fmax(most, fabs((double)term->value[i] - level));
-  for (i = 0; i < term->n; i++)
-    if (fabs((double)term->value[i] - level) > active_share * most) {
-      first = first < 0 ? i : first;
-      last = i;
-    }
-  *from = (double)term->from + knot * (first > MARGIN ? first - MARGIN : 0);
-  *to = (double)term->from + knot * (last + MARGIN < term->n ? last + MARGIN : term->n - 1);
-  return last - first < term->n / 2;
-}
-
 /* Values of one term, less a level, at the knots of another; 0 at its ends. */
 static void resample(const pneu_term *from, double level, pneu_term *to)
 {
@@ -332,17 +324,17 @@ static void refine(attempt *a)
 {
   const lab_found *found = &a->found[a->n_found - 1];
   const pneu_term coarse = a->u.rig.term[found->term];
-  const double level = base_level(&coarse);
+  const double margin = MARGIN * (double)(coarse.to - coarse.from) / (coarse.n - 1);
   attempt *fine = malloc(sizeof *fine);
-  double from, to;
+  double from, to, level, peak;
   pneu_term term = coarse;
   lab_error ignored;
-  if (fine && lab_term_where(&coarse, &from, &to)) {
+  if (fine && lab_unlisted_stretch(&coarse, &from, &to, &level, &peak)) {
     *fine = *a;
     lab_unknowns_drop_term(&fine->u);
     term.n = REFINED;
-    term.from = (pneu_real)from;
-    term.to = (pneu_real)to;
+    term.from = (pneu_real)fmax(from - margin, (double)coarse.from);
+    term.to = (pneu_real)fmin(to + margin, (double)coarse.to);
     resample(&coarse, level, &term);
     if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &ignored) == LAB_OK &&
         fit_attempt(fine, LAB_FIT_WHOLE, &ignored) == LAB_OK && fine->bic < a->bic)
@@ -375,7 +367,7 @@ static void note_alike(attempt *pool, int n)
 {
   lab_found *found = &pool[0].found[pool[0].n_found - 1];
   int i, k;
-  for (i = 1; i < n && pool[i].bic - pool[0].bic < alike_bic; i++) {
+  for (i = 1; found->effect >= 0 && i < n && pool[i].bic - pool[0].bic < alike_bic; i++) {
     const int effect = pool[i].found[pool[i].n_found - 1].effect;
     int known = effect < 0 || effect == found->effect || pool[i].n_found != pool[0].n_found;
     for (k = 0; k < found->n_alike; k++)
@@ -503,7 +495,7 @@ static int advance(search *s, int *better, lab_error *error)
     return LAB_OK;
   if (lab_loop_errors(&s->beam[0].u, &before, error) || lab_loop_errors(&s->pool[0].u, &after, error))
     return error->status;
-  if (gain(&before, &after) < s->options->min_gain) {
+  if (gain(&s->beam[0], &s->pool[0], &before, &after) < s->options->min_gain) {
     list_small(s);
     return LAB_OK;
   }
@@ -569,14 +561,14 @@ static int exchange(search *s, lab_error *error)
   return status;
 }
 
-static int verdict_of(const attempt *a, const lab_errors *after)
+static int verdict_of(const attempt *a)
 {
   int i, unlisted = 0;
   for (i = 0; i < a->n_found; i++)
     unlisted |= a->found[i].term >= 0;
   if (unlisted)
     return LAB_VERDICT_UNLISTED;
-  if (!is_noise(after->chi2, after->n))
+  if (!is_noise(a->chi2, a->u.n_data))
     return LAB_VERDICT_UNDECIDED;
   return a->n_found > 0 ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE;
 }
@@ -611,46 +603,80 @@ static int search_all(search *s, lab_error *error)
       if (exchange(s, error))
         return error->status;
     }
-    if (best->u.rig.n_terms > 0)
-      break;
+    if (best->u.rig.n_terms > 0 || (best->u.window && is_noise(best->chi2, best->u.n_data)))
+      break; /* a coarse view does not see fine differences */
   }
   if (best->u.rig.n_terms > 0 || is_noise(best->chi2, best->u.n_data) || best->n_found == LAB_LOOP_EFFECTS)
     return LAB_OK;
   return last_resort(s, error);
 }
 
-int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error)
+/* The search from a declared model, fitted, in the view that the unknowns have.  Out: best, with what was added */
+static int search_from(const lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, attempt *best,
+                       lab_error *error)
 {
   search s = {options, result, NULL, 1, NULL, 0};
   int status = LAB_OK;
-  memset(result, 0, sizeof *result);
-  s.beam = malloc(BEAM * sizeof *s.beam);
+  s.beam = calloc(BEAM, sizeof *s.beam);
   s.pool = malloc((size_t)BEAM * POOL * sizeof *s.pool);
   if (!s.beam || !s.pool)
     status = lab_fail_memory(error, "the search");
-  if (status == LAB_OK)
-    status = lab_loop_errors(u, &result->before, error);
   if (status == LAB_OK) {
-    memset(&s.beam[0], 0, sizeof s.beam[0]);
     s.beam[0].u = *u;
-    s.beam[0].fitted = 1;
-    s.beam[0].chi2 = result->before.chi2;
-    s.beam[0].bic = bic(u, s.beam[0].chi2);
+    status = fit_attempt(&s.beam[0], LAB_FIT_WHOLE, error);
+  }
+  if (status == LAB_OK) {
     note_step(result, &s.beam[0], 1);
     status = search_all(&s, error);
-  }
-  if (status == LAB_OK) {
-    *u = s.beam[0].u;
-    result->n_found = s.beam[0].n_found;
-    memcpy(result->found, s.beam[0].found, sizeof result->found);
-    status = lab_loop_errors(u, &result->after, error);
-  }
-  if (status == LAB_OK) {
-    result->verdict = verdict_of(&s.beam[0], &result->after);
-    status = lab_unknowns_spread(u, &result->fit, error);
+    *best = s.beam[0];
   }
   free(s.beam);
   free(s.pool);
+  return status;
+}
+
+/* The search seen coarsely, if the log is rough.  Out: done, 1 if it left only noise */
+static int search_coarsely(const lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result,
+                           attempt *best, int *done, lab_error *error)
+{
+  lab_unknowns coarse = *u;
+  *done = 0;
+  result->window = lab_unknowns_rough(u);
+  if (result->window == 0)
+    return LAB_OK;
+  lab_unknowns_view(&coarse, result->window);
+  if (search_from(&coarse, options, result, best, error))
+    return error->status;
+  *done = best->n_found > 0 && is_noise(best->chi2, best->u.n_data);
+  if (!*done) {
+    lab_trace_close(&result->trace);
+    result->n_steps = result->n_listed = 0;
+    result->window = 0;
+  }
+  return LAB_OK;
+}
+
+int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error)
+{
+  attempt *best = malloc(sizeof *best);
+  int done = 0, status;
+  memset(result, 0, sizeof *result);
+  status = best ? lab_loop_errors(u, &result->before, error) : lab_fail_memory(error, "the search");
+  if (status == LAB_OK)
+    status = search_coarsely(u, options, result, best, &done, error);
+  if (status == LAB_OK && !done)
+    status = search_from(u, options, result, best, error);
+  if (status == LAB_OK) {
+    *u = best->u;
+    result->n_found = best->n_found;
+    memcpy(result->found, best->found, sizeof result->found);
+    result->verdict = verdict_of(best);
+    status = lab_unknowns_spread(u, &result->fit, error);
+    lab_unknowns_view(u, 0);
+  }
+  if (status == LAB_OK)
+    status = lab_loop_errors(u, &result->after, error);
+  free(best);
   return status;
 }
 

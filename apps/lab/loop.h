@@ -58,7 +58,8 @@ typedef struct lab_loop_result {
   int listed[LAB_TRACE_MAX];
   int n_steps;
   lab_step step[LAB_LOOP_STEPS];
-  double level; /* p-value that a single candidate has to pass */
+  size_t window; /* rows of a window if the log is rough and was seen coarsely (coarse.h); else 0 */
+  double level;  /* p-value that a single candidate has to pass */
 } lab_loop_result;
 
 /* alpha 0.01, min_gain 0.02, three effects. */
@@ -73,10 +74,6 @@ void lab_loop_close(lab_loop_result *result);
 
 /* Error of the present model of `u` on its experiments. */
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
-
-/* Where a free term acts: the stretch of its argument outside which it stays near one level.
- * Returns: 1 if that is a short one, 0 if it acts nearly everywhere. */
-int lab_term_where(const pneu_term *term, double *from, double *to);
 
 /* "none", "effect", "unlisted", "undecided" */
 const char *lab_verdict_text(int verdict);

@@ -8,7 +8,9 @@
 #include <cjson/cJSON.h>
 
 #include "outfile.h"
+#include "quantile.h"
 #include "rigterm.h"
+#include "unlisted.h"
 
 static int open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
 {
@@ -49,8 +51,9 @@ static void add_effect_param(cJSON *to, const lab_story *story, int param)
                story->result->fit.high[j]);
 }
 
-static void add_found(cJSON *to, const lab_story *story, const lab_found *found)
+static void add_found(cJSON *to, const lab_story *story, int which)
 {
+  const lab_found *found = &story->result->found[which];
   const pneu_effect *effect = pneu_effect_at(found->effect);
   cJSON *o = cJSON_CreateObject(), *list;
   int i;
@@ -66,16 +69,23 @@ static void add_found(cJSON *to, const lab_story *story, const lab_found *found)
   list = cJSON_AddArrayToObject(o, "indistinguishable_from");
   for (i = 0; i < found->n_alike; i++)
     cJSON_AddItemToArray(list, cJSON_CreateString(pneu_effect_at(found->alike[i])->name));
+  cJSON_AddStringToObject(o, "would_separate", found->n_alike ? story->separate[which].text : "");
 }
 
 static void add_unlisted(cJSON *to, const lab_story *story, const lab_found *found)
 {
   const pneu_term *term = &story->completed->rig.term[found->term];
   cJSON *o = cJSON_CreateObject();
+  char where[LAB_WHERE_TEXT];
   cJSON_AddItemToArray(to, o);
-  cJSON_AddNumberToObject(o, "eq", term->equation);
-  cJSON_AddNumberToObject(o, "arg", term->argument);
+  cJSON_AddStringToObject(o, "equation", lab_unlisted_equation(term));
+  cJSON_AddStringToObject(o, "argument", lab_term_arguments[term->argument].key);
+  cJSON_AddStringToObject(o, "what", lab_unlisted_what(term));
+  cJSON_AddStringToObject(o, "where", lab_unlisted_where(term, where));
   add_number(o, "statistic", found->statistic);
+  add_number(o, "degrees", found->degrees);
+  add_number(o, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+  add_number(o, "explained", found->explained);
 }
 
 static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
@@ -125,6 +135,20 @@ static void add_candidates(cJSON *to, const lab_trace_result *trace)
   }
 }
 
+/* Every model that was tried. */
+static void add_steps(cJSON *root, const lab_loop_result *result)
+{
+  cJSON *list = cJSON_AddArrayToObject(root, "steps");
+  int i;
+  for (i = 0; i < result->n_steps; i++) {
+    cJSON *o = cJSON_CreateObject();
+    cJSON_AddItemToArray(list, o);
+    cJSON_AddStringToObject(o, "model", result->step[i].name);
+    add_number(o, "chi2", result->step[i].chi2);
+    add_number(o, "bic", result->step[i].bic);
+  }
+}
+
 static cJSON *json_of(const lab_story *story)
 {
   const lab_loop_result *result = story->result;
@@ -137,7 +161,7 @@ static cJSON *json_of(const lab_story *story)
   o = cJSON_AddArrayToObject(root, "found");
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].effect >= 0)
-      add_found(o, story, &result->found[i]);
+      add_found(o, story, i);
   o = cJSON_AddArrayToObject(root, "unlisted");
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].term >= 0)
@@ -155,6 +179,9 @@ static cJSON *json_of(const lab_story *story)
   o = cJSON_AddArrayToObject(root, "significant_but_small");
   for (i = 0; i < result->n_listed; i++)
     cJSON_AddItemToArray(o, cJSON_CreateString(pneu_effect_at(result->listed[i])->name));
+  if (story->next.kind == LAB_ADVICE_TRIAL)
+    cJSON_AddStringToObject(root, "record_next", story->next.text);
+  add_steps(root, result);
   o = cJSON_AddObjectToObject(root, "timing");
   add_number(o, "fit_s", story->fit_s);
   add_number(o, "trace_s", story->trace_s);
@@ -251,8 +278,8 @@ static void residual_rows(FILE *file, const lab_unknowns *u, const double *befor
 int lab_story_residual(const lab_story *story, const char *folder, lab_error *error)
 {
   const lab_unknowns *u = story->completed;
-  double *before = malloc((u->n_data + LAB_FIT_MAX) * sizeof *before);
-  double *after = malloc((u->n_data + LAB_FIT_MAX) * sizeof *after);
+  double *before = malloc((u->n_rows + 1) * sizeof *before);
+  double *after = malloc((u->n_rows + 1) * sizeof *after);
   lab_outfile out;
   int c, status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
@@ -279,27 +306,56 @@ int lab_story_residual(const lab_story *story, const char *folder, lab_error *er
 
 /* ---- The sentence ---- */
 
+/* "chamber_leak", "dry friction at x = 11 .. 13 mm, both directions" */
+static void name_found(const lab_story *story, const lab_found *found, char *text, size_t size)
+{
+  char where[LAB_WHERE_TEXT];
+  const pneu_term *term;
+  if (found->effect >= 0) {
+    snprintf(text, size, "%s", pneu_effect_at(found->effect)->name);
+    return;
+  }
+  term = &story->completed->rig.term[found->term];
+  snprintf(text, size, "something that has no name here (%s, %s)", lab_unlisted_what(term),
+           lab_unlisted_where(term, where));
+}
+
+static const char *found_names(const lab_story *story, char *text, size_t size)
+{
+  const lab_loop_result *r = story->result;
+  size_t used = 0;
+  int i;
+  for (i = 0; i < r->n_found && used < size; i++) {
+    char name[LAB_WHERE_TEXT + 128];
+    name_found(story, &r->found[i], name, sizeof name);
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "", name);
+  }
+  return text;
+}
+
 void lab_story_sentence(const lab_story *story, char *text, size_t size)
 {
   const lab_loop_result *r = story->result;
   const double before = sqrt(r->before.chi2 / (double)r->before.n), after = sqrt(r->after.chi2 / (double)r->after.n);
-  size_t used = 0;
-  int i;
-  if (r->verdict == LAB_VERDICT_UNDECIDED) {
+  char names[512];
+  if (r->verdict == LAB_VERDICT_UNDECIDED && r->n_found)
     snprintf(text, size,
-             "Undecided: what is left, %.2f times the noise, is not noise, and the catalogue does not explain it%s.",
-             after, r->n_found ? " (report.json has what came nearest)" : "");
-    return;
-  }
-  if (r->n_found == 0) {
-    snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise.",
-             before);
-    return;
-  }
-  used += (size_t)snprintf(text, size, "The model lacks ");
-  for (i = 0; i < r->n_found && used < size; i++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "",
-                             r->found[i].effect < 0 ? "unlisted" : pneu_effect_at(r->found[i].effect)->name);
-  if (used < size)
-    snprintf(text + used, size - used, ": with it the error falls from %.2f to %.2f times the noise.", before, after);
+             "Undecided: %s comes nearest and lowers the error from %.2f to %.2f times the noise, but what is left is "
+             "not noise.",
+             found_names(story, names, sizeof names), before, after);
+  else if (r->verdict == LAB_VERDICT_UNDECIDED)
+    snprintf(text, size,
+             "Undecided: what is left, %.2f times the noise, is not noise, and the catalogue does not explain it.",
+             after);
+  else if (r->window > 0)
+    snprintf(text, size,
+             "The model lacks %s: the stem sticks and slips, and with it the model does so as much as the log, though "
+             "no model keeps in step with every slip.",
+             found_names(story, names, sizeof names));
+  else if (r->n_found > 0)
+    snprintf(text, size, "The model lacks %s: with it the error falls from %.2f to %.2f times the noise.",
+             found_names(story, names, sizeof names), before, after);
+  else
+    snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise%s.",
+             before, r->n_listed ? ", and what is significant would not change that" : "");
 }

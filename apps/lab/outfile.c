@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "interrupt.h"
+
 static const char part_suffix[] = ".part";
 
 static int cannot(const char *what, const char *path, lab_error *error)
@@ -77,8 +79,11 @@ static int is_special(const char *path)
   return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
+/* While there is a part, a signal waits (interrupt.h). */
 static void forget(lab_outfile *out)
 {
+  if (out->part)
+    lab_interrupt_release();
   free(out->path);
   free(out->part);
   memset(out, 0, sizeof *out);
@@ -99,8 +104,8 @@ int lab_out_open(lab_outfile *out, const char *path, lab_error *error)
   int special = path && is_special(path), status;
   memset(out, 0, sizeof *out);
   out->path = join(path ? path : "standard output", "");
-  if (path && !special)
-    out->part = join(path, part_suffix);
+  if (path && !special && (out->part = join(path, part_suffix)))
+    lab_interrupt_hold();
   out->file = path ? NULL : stdout;
   if (!out->path || (path && !special && !out->part))
     status = lab_fail_memory(error, "a file name");

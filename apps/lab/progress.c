@@ -35,6 +35,15 @@ void lab_progress_show(lab_progress *progress, double done, double total)
   progress->written = 1;
 }
 
+void lab_progress_say(lab_progress *progress, const char *what)
+{
+  if (!progress->stream)
+    return;
+  fprintf(progress->stream, "\r%s: %s ... \033[K", progress->what, what);
+  fflush(progress->stream);
+  progress->written = 1;
+}
+
 void lab_progress_end(lab_progress *progress)
 {
   if (progress->written)

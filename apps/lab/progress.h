@@ -19,6 +19,9 @@ void lab_progress_begin(lab_progress *progress, const char *what, int quiet);
  * time (an OpenMP critical section). */
 void lab_progress_show(lab_progress *progress, double done, double total);
 
+/* Say what is being done, where nobody can tell how much of it is left.  In: what  not kept */
+void lab_progress_say(lab_progress *progress, const char *what);
+
 /* Clear the line. */
 void lab_progress_end(lab_progress *progress);
 

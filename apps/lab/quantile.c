@@ -65,3 +65,21 @@ double lab_student_quantile(double p, double degrees)
   }
   return 0.5 * (low + high);
 }
+
+/* Q(d/2, x/2) by Q(a + 1, z) = Q(a, z) + z^a e^-z/Gamma(a + 1) from Q(1/2, z) = erfc(sqrt z) or Q(1, z) = e^-z
+ * [DLMF 8.8.6, 8.4.6, 8.4.8]: for whole degrees of freedom a sum of positive terms. */
+double lab_chi2_tail(double x, int degrees)
+{
+  const double z = 0.5 * x;
+  double a = degrees % 2 ? 0.5 : 1;
+  double tail = degrees % 2 ? erfc(sqrt(z)) : exp(-z);
+  for (; a < 0.5 * degrees && z > 0; a++)
+    tail += exp(a * log(z) - z - lgamma(a + 1));
+  return fmin(tail, 1);
+}
+
+double lab_chi2_threshold(double p)
+{
+  const double z = lab_student_quantile(0.5 * p, HUGE_VAL);
+  return z * z;
+}

@@ -7,13 +7,13 @@
 #include "cvode.h"
 #include "sampler.h"
 
-enum { COLUMNS = 11, SHOWN_COLUMNS = 5 };
+enum { COLUMNS = 12, SHOWN_COLUMNS = 5 };
 
 /* Column i; what sensors show, and when, comes first. */
 static double **trace_column(lab_trace *trace, int i)
 {
   double **const column[COLUMNS] = {&trace->t, &trace->p, &trace->x,       &trace->T,        &trace->force, &trace->u,
-                                    &trace->v, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat};
+                                    &trace->v, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat,  &trace->ps};
   return column[i];
 }
 
@@ -66,6 +66,7 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   trace->mass_out[i] = out.mass_out;
   trace->heat[i] = out.heat;
   trace->force[i] = out.holding_force;
+  trace->ps[i] = out.supply;
   trace->mode[i] = state->mode;
 }
 

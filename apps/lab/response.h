@@ -29,6 +29,7 @@ typedef struct lab_trace {
   double *mass_out; /* [kg/s] */
   double *heat;     /* [W] */
   double *force;    /* [N] that holds the stem, see pneu_output.holding_force */
+  double *ps;       /* [Pa] gauge, supply at the transducer */
   int *mode;        /* enum pneu_mode */
 } lab_trace;
 

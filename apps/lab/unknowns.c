@@ -5,10 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "coarse.h"
 #include "descent.h"
 
 static const double uniform_spread = 0.28867513459481287; /* standard deviation of a uniform distribution of width 1 */
-static const double slope_step = 1e-3;                    /* of a slope's difference, over what matters */
+static const double slope_step = 1e-3;                    /* of a slope's difference, over what matters; */
+static const double rough_share = 0.3;  /* of the windows with motion: that many rough ones are no accident */
+static const double coarse_step = 0.05; /* so long a step where slips come and go on shorter ones */
 
 /* ---- What there is to find ---- */
 
@@ -170,7 +173,8 @@ int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int 
   u->declared = rig->params;
   u->tol = 1e-6;
   for (e = 0; e < n_experiments; e++)
-    u->n_data += experiment[e].n * (size_t)experiment[e].n_channels;
+    u->n_rows += experiment[e].n * (size_t)experiment[e].n_channels;
+  u->n_data = u->n_rows;
   for (j = 0; j < rig->n_fit; j++)
     if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], error)
                             : lab_unknowns_add(u, rig->fit[j], declared_value(rig, rig->fit[j]), error))
@@ -241,9 +245,9 @@ static void whiten(const lab_experiment *e, double *r)
   }
 }
 
-/* Errors of one experiment over noise. */
-static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, int first, double *r,
-                     lab_error *error)
+/* Predictions of one experiment. */
+static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, int first, double *r,
+                   lab_error *error)
 {
   const lab_experiment *x = &u->experiment[e];
   lab_rig rig = *model;
@@ -257,8 +261,6 @@ static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *
   early_of(u, theta, first, x, early);
   status = lab_experiment_predict(x, &rig, early, u->tol, r, error);
   free(early);
-  if (status == LAB_OK)
-    weigh(x, r);
   return status;
 }
 
@@ -268,8 +270,9 @@ static int errors_at(const lab_unknowns *u, const lab_rig *model, const double *
   int e, first = 0;
   for (e = 0; e < u->n_experiments; e++) {
     const lab_experiment *x = &u->experiment[e];
-    if (errors_of(u, model, theta, e, first, r, error))
+    if (predict(u, model, theta, e, first, r, error))
       return error->status;
+    weigh(x, r);
     if (whitened)
       whiten(x, r);
     r += x->n * (size_t)x->n_channels;
@@ -278,9 +281,46 @@ static int errors_at(const lab_unknowns *u, const lab_rig *model, const double *
   return LAB_OK;
 }
 
+/* Residuals of all channels of an experiment, seen coarsely.  Returns: the place after them. */
+static double *coarsen(const lab_unknowns *u, const lab_experiment *x, const double *predicted, double *r)
+{
+  int c;
+  for (c = 0; c < x->n_channels; c++) {
+    lab_coarse_residuals(x->log->value[x->channel[c]] + x->first, predicted + (size_t)c * x->n, x->n, u->window,
+                         x->sigma[c], r);
+    r += 2 * lab_coarse_count(x->n, u->window);
+  }
+  return r;
+}
+
+static int coarse_residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, double *r,
+                               lab_error *error)
+{
+  double *predicted = malloc((u->n_rows + 1) * sizeof *predicted);
+  int e, first = 0, status = predicted ? LAB_OK : lab_fail_memory(error, "a response");
+  for (e = 0; e < u->n_experiments && status == LAB_OK; e++) {
+    status = predict(u, model, theta, e, first, predicted, error);
+    if (status == LAB_OK)
+      r = coarsen(u, &u->experiment[e], predicted, r);
+    first += (int)u->experiment[e].n_switches;
+  }
+  free(predicted);
+  return status;
+}
+
+void lab_unknowns_view(lab_unknowns *u, size_t window)
+{
+  int e;
+  u->window = window;
+  u->n_data = window ? 0 : u->n_rows;
+  for (e = 0; window && e < u->n_experiments; e++)
+    u->n_data += 2 * lab_coarse_count(u->experiment[e].n, window) * (size_t)u->experiment[e].n_channels;
+  u->m = u->n_data + (size_t)u->n;
+}
+
 static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, double *r, lab_error *error)
 {
-  int j, status = errors_at(u, model, theta, 1, r, error);
+  int j, status = u->window ? coarse_residuals_at(u, model, theta, r, error) : errors_at(u, model, theta, 1, r, error);
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
     r[u->n_data + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / x->spread : 0;
@@ -322,12 +362,50 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
   return errors_at(u, &u->rig, now, 0, r, error);
 }
 
+/* Share of the windows in which the position of an experiment is rougher than the model's.
+ * In:      r  its errors over noise */
+static double roughness(const lab_experiment *x, const double *r, size_t window)
+{
+  double *predicted = malloc((x->n + 1) * sizeof *predicted), share = 0;
+  int c;
+  size_t i;
+  for (c = 0; predicted && c < x->n_channels; c++) {
+    if (x->channel[c] != LAB_CHANNEL_X)
+      continue;
+    for (i = 0; i < x->n; i++)
+      predicted[i] = lab_experiment_measured(x, c, i) - r[(size_t)c * x->n + i] * x->sigma[c];
+    share = lab_coarse_roughness(x->log->value[LAB_CHANNEL_X] + x->first, predicted, x->n, window, x->sigma[c]);
+  }
+  free(predicted);
+  return share;
+}
+
+size_t lab_unknowns_rough(const lab_unknowns *u)
+{
+  enum { WINDOWS = 90, SHORTEST = 30, LONGEST = 200 };
+  double *errors = malloc((u->n_rows + 1) * sizeof *errors);
+  const double *r = errors;
+  size_t window = 0;
+  lab_error ignored;
+  int e;
+  if (errors && lab_unknowns_errors(u, errors, &ignored) == LAB_OK)
+    for (e = 0; e < u->n_experiments && !window; e++) {
+      const lab_experiment *x = &u->experiment[e];
+      const size_t fair = x->n / WINDOWS, w = fair < SHORTEST ? SHORTEST : fair > LONGEST ? LONGEST : fair;
+      if (roughness(x, r, w) > rough_share)
+        window = w;
+      r += x->n * (size_t)x->n_channels;
+    }
+  free(errors);
+  return window;
+}
+
 /* A difference into the side where there is room, with a step that is small beside what matters. */
 int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
 {
   const lab_unknowns *u = context;
   const lab_unknown *x = &u->unknown[j];
-  double at[LAB_FIT_MAX], step = slope_step * (x->scale > 0 ? x->scale : 1);
+  double at[LAB_FIT_MAX], step = (u->window ? coarse_step : slope_step) * (x->scale > 0 ? x->scale : 1);
   size_t i;
   memcpy(at, theta, (size_t)u->n * sizeof *at);
   if (theta[j] + step > x->upper)

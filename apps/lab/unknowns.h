@@ -34,7 +34,9 @@ typedef struct lab_unknowns {
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
   double tol;       /* of the stepper */
-  size_t n_data, m; /* measured values; residuals: those, and one for each unknown */
+  size_t n_rows;    /* measured values */
+  size_t window;    /* rows of a window where the residuals are those of coarse.h; 0: row by row */
+  size_t n_data, m; /* residuals of the data; all residuals: those, and one for each unknown */
 } lab_unknowns;
 
 /* Collect the unknowns of a rig's fit list and the switches of the experiments.
@@ -75,7 +77,14 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
  * In:      rig  in the place of the model; what each experiment has for itself still applies */
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error);
 
-/* Errors over noise, not whitened: n_data values for the present unknowns. */
+/* See the experiments coarsely from now on, in windows of so many rows; 0: row by row. */
+void lab_unknowns_view(lab_unknowns *u, size_t window);
+
+/* Rows of a window in which to see the experiments coarsely, if the stem of one of them sticks and slips where the
+ * present model's does not; else 0. */
+size_t lab_unknowns_rough(const lab_unknowns *u);
+
+/* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);
 
 /* Slope of the residuals in unknown j by a difference. */

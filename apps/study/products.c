@@ -3,13 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../lab/gnuplot.h"
 #include "../lab/outfile.h"
 #include "../lab/progress.h"
 #include "agreement.h"
 #include "attribution.h"
 #include "conclusions.h"
 #include "done.h"
-#include "gnuplot.h"
 #include "hypotheses.h"
 #include "measured_products.h"
 #include "numbers.h"
@@ -141,7 +141,7 @@ static int make_figure(maker *m, const char *name, const char *needs, lab_error 
   key = done_hash_file(done_hash_file(key, script), table_path);
   if (!exists(table_path) || is_fresh(m, product, key))
     return step(m);
-  if (gnuplot_draw(script, m->s->results, out, error) || done_note(&m->record, product, key, file, error))
+  if (lab_gnuplot_draw(script, m->s->results, out, error) || done_note(&m->record, product, key, file, error))
     return error->status;
   return step(m);
 }

@@ -1,12 +1,12 @@
 # Style that the figures share. A script sets TITLE, SUBTITLE and, where it needs more than the default, HEIGHT,
-# then loads this file from its own folder. IN is the folder of tables, OUT the SVG to write.
+# then loads this file from its own folder. IN is the folder of tables, OUT the SVG to write; without it, standard output.
 if (!exists("HEIGHT")) HEIGHT = 560
 if (!exists("NAME")) NAME = "libpneu"
 WIDTH = 820
 
 set encoding utf8
 set terminal svg enhanced size WIDTH,HEIGHT font "sans-serif,14" background "#ffffff" name NAME
-set output OUT
+if (exists("OUT")) set output OUT
 
 # Tables: named columns. A filter gives NaN for the rows of another curve, which are skipped, so that rows of
 # several curves may alternate; a line runs on past an empty field, its marker is left out.

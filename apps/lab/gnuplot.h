@@ -1,0 +1,20 @@
+/* Figures by gnuplot.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_GNUPLOT_H
+#define LAB_GNUPLOT_H
+
+#include <stdio.h>
+
+#include "message.h"
+
+/* Draw a figure, whole or not at all: runs the script with IN, the folder of the tables, and OUT, the file to write.
+ * Returns: LAB_OK; LAB_WORLD if gnuplot is not there or fails. */
+int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error);
+
+/* Run a script that has its data in it and draws to standard output. Nothing is left on the disk, however it ends.
+ * In:      script  a file without a name (tmpfile), written
+ * Out:     drawing  what was drawn, to be freed
+ * Returns: LAB_OK; LAB_WORLD if gnuplot is not there or fails. */
+int lab_gnuplot_run(FILE *script, char **drawing, lab_error *error);
+
+#endif

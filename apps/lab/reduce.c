@@ -1,0 +1,88 @@
+#include "reduce.h"
+
+#include <math.h>
+
+static const double widest_gap = 0.02; /* of the axis, over which a line is still drawn */
+
+/* A column in the making: rows of its lowest and highest value. */
+typedef struct column {
+  int index; /* -1: none yet */
+  size_t low, high, last;
+} column;
+
+static size_t put_column(const column *c, const double *at, const double *value, lab_point *point)
+{
+  const size_t first = c->low < c->high ? c->low : c->high, second = c->low < c->high ? c->high : c->low;
+  point[0] = (lab_point){at[first], value[first]};
+  if (first == second)
+    return 1;
+  point[1] = (lab_point){at[second], value[second]};
+  return 2;
+}
+
+static int column_of(double at, double from, double to, int columns)
+{
+  const int index = to > from ? (int)floor((at - from) / (to - from) * columns) : 0;
+  return index < 0 ? 0 : index < columns ? index : columns - 1;
+}
+
+size_t lab_envelope(const double *at, const double *value, size_t n, const size_t *first, int n_runs, double from,
+                    double to, int columns, lab_point *point)
+{
+  column c = {-1, 0, 0, 0};
+  size_t i, used = 0;
+  int run = 0;
+  for (i = 0; i < n; i++) {
+    int index, breaks = 0;
+    for (; run < n_runs && first[run] <= i; run++)
+      breaks = 1;
+    if (breaks && c.index >= 0) {
+      used += put_column(&c, at, value, point + used);
+      point[used++] = (lab_point){at[c.last], (double)NAN};
+      c.index = -1;
+    }
+    if (isnan(value[i]))
+      continue;
+    index = column_of(at[i], from, to, columns);
+    if (c.index >= 0 && index != c.index) {
+      used += put_column(&c, at, value, point + used);
+      if (i > c.last + 1 && at[i] - at[c.last] > widest_gap * (to - from))
+        point[used++] = (lab_point){at[c.last], (double)NAN};
+    }
+    if (index != c.index)
+      c = (column){index, i, i, i};
+    c.low = value[i] < value[c.low] ? i : c.low;
+    c.high = value[i] > value[c.high] ? i : c.high;
+    c.last = i;
+  }
+  return c.index >= 0 ? used + put_column(&c, at, value, point + used) : used;
+}
+
+void lab_bin_means(const double *at, const double *value, size_t n, double from, double to, int n_bins, lab_bin *bin)
+{
+  size_t i;
+  int b;
+  for (b = 0; b < n_bins; b++)
+    bin[b] = (lab_bin){0, from + (to - from) * (b + 0.5) / n_bins, 0};
+  for (i = 0; i < n; i++)
+    if (!isnan(at[i]) && !isnan(value[i])) {
+      lab_bin *mine = &bin[column_of(at[i], from, to, n_bins)];
+      mine->mean += value[i];
+      mine->n++;
+    }
+  for (b = 0; b < n_bins; b++)
+    bin[b].mean = bin[b].n ? bin[b].mean / (double)bin[b].n : (double)NAN;
+}
+
+int lab_range(const double *value, size_t n, double *low, double *high)
+{
+  size_t i;
+  *low = HUGE_VAL;
+  *high = -HUGE_VAL;
+  for (i = 0; i < n; i++)
+    if (!isnan(value[i])) {
+      *low = fmin(*low, value[i]);
+      *high = fmax(*high, value[i]);
+    }
+  return *low <= *high;
+}

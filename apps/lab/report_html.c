@@ -1,0 +1,539 @@
+#include "report_html.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cjson/cJSON.h>
+
+#include "outfile.h"
+#include "quantile.h"
+#include "shown.h"
+#include "unlisted.h"
+#include "svginline.h"
+#include "template.h"
+
+/* The page, a line a string; made by make. */
+static const char *const page_html[] = {
+#include "apps/lab/report/page.html.inc"
+    NULL};
+
+static const double white_level = 0.01; /* p-value below which a residual is called not white */
+static const double rough = 0.1;        /* half an interval over the value, from which on it is worth a word */
+
+/* What the values of the page are made from. */
+typedef struct telling {
+  const lab_story *story;
+  const lab_evidence *evidence;
+  const lab_figures *figures;
+} telling;
+
+/* ---- Values ---- */
+
+static void put(cJSON *to, const char *name, const char *format, ...) LAB_PRINTF(3, 4);
+static void put(cJSON *to, const char *name, const char *format, ...)
+{
+  char text[1400];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  cJSON_AddStringToObject(to, name, text);
+}
+
+/* Add a text to a list. */
+static void say(cJSON *list, const char *format, ...) LAB_PRINTF(2, 3);
+static void say(cJSON *list, const char *format, ...)
+{
+  char text[1400];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  cJSON_AddItemToArray(list, cJSON_CreateString(text));
+}
+
+static cJSON *append(cJSON *list)
+{
+  cJSON *item = cJSON_CreateObject();
+  cJSON_AddItemToArray(list, item);
+  return item;
+}
+
+static void put_number(cJSON *to, const char *name, double value, int digits)
+{
+  char text[LAB_SHOWN_TEXT];
+  cJSON_AddStringToObject(to, name, lab_shown_number(value, digits, text));
+}
+
+static void put_quantity(cJSON *to, const char *name, double value, const char *unit, int digits)
+{
+  char text[LAB_SHOWN_TEXT];
+  cJSON_AddStringToObject(to, name, lab_shown_quantity(value, unit, digits, text));
+}
+
+static void put_p(cJSON *to, const char *name, double p)
+{
+  char text[LAB_SHOWN_TEXT];
+  cJSON_AddStringToObject(to, name, lab_shown_p(p, text));
+}
+
+static void put_share(cJSON *to, const char *name, double share)
+{
+  put(to, name, "%.3g %%", 100 * fmin(fmax(share, 0), 1));
+}
+
+static const char *effect_name(int effect)
+{
+  return pneu_effect_at(effect)->name;
+}
+
+static int has_completed(const telling *t)
+{
+  return t->story->result->n_found > 0;
+}
+
+/* ---- Head and errors ---- */
+
+static void put_head(const telling *t, cJSON *page)
+{
+  static const char *const badge[] = {"nothing missing", "effect found", "something unlisted", "undecided"};
+  const lab_story *story = t->story;
+  const int verdict = story->result->verdict;
+  char sentence[512];
+  lab_story_sentence(story, sentence, sizeof sentence);
+  put(page, "sentence", "%s", sentence);
+  put(page, "verdict", "%s", lab_verdict_text(verdict));
+  put(page, "badge", "%s", badge[verdict]);
+  put(page, "rig", "%s", story->rig->name);
+  put(page, "rig_file", "%s", story->rig->file);
+  put(page, "gas", "%s", pneu_gas_key(story->rig->laws.gas));
+  put(page, "flow", "%s", pneu_flow_key(story->rig->laws.flow));
+  put(page, "version", "%s", PNEU_VERSION);
+  put(page, "completed", "%s", has_completed(t) ? "yes" : "");
+  put(page, "holdout", "%s", story->has_holdout ? "yes" : "");
+}
+
+/* "5356 rows in 2 runs of a.csv, b.csv" */
+static void put_logs(const telling *t, cJSON *page)
+{
+  const lab_unknowns *u = t->story->completed;
+  const lab_log *last = NULL;
+  char names[1024] = "";
+  int e;
+  for (e = 0; e < u->n_experiments; e++) {
+    const size_t used = strlen(names);
+    if (u->experiment[e].log != last)
+      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", u->experiment[e].log->path);
+    last = u->experiment[e].log;
+  }
+  if (u->n_experiments > 1)
+    put(page, "rows", "%zu rows in %d runs", t->evidence->n, u->n_experiments);
+  else
+    put(page, "rows", "%zu rows", t->evidence->n);
+  put(page, "logs", "%s", names);
+}
+
+/* A column of the table of errors. */
+typedef struct column {
+  const char *heading;
+  const lab_errors *errors;
+  int shown;
+} column;
+
+static void put_errors(const telling *t, cJSON *page)
+{
+  const lab_story *story = t->story;
+  const int both = has_completed(t), held = story->has_holdout;
+  const column columns[] = {{"declared model, fitted", &story->result->before, 1},
+                            {"completed model", &story->result->after, both},
+                            {"held-out log, declared model", &story->holdout_before, held},
+                            {"held-out log, completed model", &story->holdout_after, both && held}};
+  const size_t n = sizeof columns / sizeof *columns;
+  cJSON *headings = cJSON_AddArrayToObject(page, "headings"), *errors = cJSON_AddArrayToObject(page, "errors");
+  size_t i;
+  int c;
+  for (i = 0; i < n; i++)
+    if (columns[i].shown)
+      say(headings, "%s", columns[i].heading);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    cJSON *row, *cells;
+    if (isnan(story->result->before.rmse[c]))
+      continue;
+    row = append(errors);
+    put(row, "channel", "%s %s", lab_channels[c].quantity, lab_channels[c].key);
+    cells = cJSON_AddArrayToObject(row, "columns");
+    for (i = 0; i < n; i++)
+      if (columns[i].shown) {
+        cJSON *cell = append(cells);
+        put_quantity(cell, "rmse", columns[i].errors->rmse[c], lab_channels[c].unit, 3);
+        put_number(cell, "in_noise", columns[i].errors->in_noise[c], 3);
+      }
+  }
+}
+
+/* ---- Why ---- */
+
+/* Digits at which both ends of the interval of an unknown can be told apart. */
+static int digits_of(const telling *t, int j)
+{
+  const lab_fit_result *fit = &t->story->result->fit;
+  const double value = fabs(t->story->completed->unknown[j].value), width = fit->high[j] - fit->low[j];
+  if (fit->state[j] != LAB_FIT_FREE || !(width > 0) || !(value > width))
+    return 4;
+  return (int)fmin(fmax(4, 2 + ceil(log10(value / width))), 9);
+}
+
+/* "0.0136 .. 0.0138", or why there is none */
+static void put_interval(const telling *t, int j, cJSON *to)
+{
+  const lab_fit_result *fit = &t->story->result->fit;
+  const double scale = lab_shown_as(t->story->completed->unknown[j].unit).scale;
+  char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT];
+  if (fit->state[j] == LAB_FIT_FREE)
+    put(to, "interval", "%s .. %s", lab_shown_number(scale * fit->low[j], digits_of(t, j), low),
+        lab_shown_number(scale * fit->high[j], digits_of(t, j), high));
+  else
+    put(to, "interval", "%s", lab_fit_state_text(fit->state[j]));
+}
+
+/* All parameters of an effect that were fitted. */
+static void put_sizes(const telling *t, int effect, cJSON *list)
+{
+  const lab_unknowns *u = t->story->completed;
+  int i, count, first = pneu_effect_params(effect, &count);
+  for (i = first; i < first + count; i++) {
+    const int j = lab_unknowns_find(u, i);
+    pneu_param_info info;
+    cJSON *item;
+    if (j < 0)
+      continue;
+    pneu_param_describe(i, &info);
+    item = append(list);
+    put(item, "meaning", "%s", info.meaning);
+    put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, digits_of(t, j));
+    put_interval(t, j, item);
+  }
+}
+
+/* What was found and has no name. */
+static void put_unlisted(const telling *t, const lab_found *found, cJSON *list)
+{
+  const pneu_term *term = &t->story->completed->rig.term[found->term];
+  char where[LAB_WHERE_TEXT];
+  cJSON *item = append(list);
+  put(item, "name", "Not in the catalogue");
+  put(item, "what", "Something acts like %s: %s.", lab_unlisted_what(term), lab_unlisted_where(term, where));
+  put(item, "footprint", "%s", lab_unlisted_where(term, where));
+  put(item, "source", "a free term, piecewise linear; its knots are in model.cfg");
+  put(item, "equation", "%s", lab_unlisted_equation(term));
+  cJSON_AddArrayToObject(item, "sizes");
+  put_share(item, "explained", found->explained);
+  put_number(item, "statistic", found->statistic, 3);
+  put_number(item, "threshold", lab_chi2_threshold(t->story->result->level), 3);
+  put_p(item, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+}
+
+static void put_found(const telling *t, const lab_found *found, cJSON *list)
+{
+  static const struct {
+    const char *key, *words;
+  } equations[] = {{"mass", "balance of mass in the chamber"},
+                   {"energy", "balance of energy in the chamber"},
+                   {"force", "balance of forces on the stem"},
+                   {"command", "from the command to the opening"},
+                   {"sensor", "what a sensor shows"}};
+  const pneu_effect *effect = pneu_effect_at(found->effect);
+  cJSON *item = append(list);
+  size_t i;
+  put(item, "name", "%s", effect->name);
+  put(item, "what", "%s", effect->what);
+  put(item, "footprint", "%s", effect->footprint);
+  put(item, "source", "%s", effect->source);
+  for (i = 0; i < sizeof equations / sizeof *equations; i++)
+    if (!strcmp(equations[i].key, effect->equation))
+      put(item, "equation", "%s: %s", effect->equation, equations[i].words);
+  put_sizes(t, found->effect, cJSON_AddArrayToObject(item, "sizes"));
+  put_share(item, "explained", found->explained);
+  put_number(item, "statistic", found->statistic, 3);
+  put_number(item, "threshold", lab_chi2_threshold(t->story->result->level), 3);
+  put_p(item, "p_value", found->p_value);
+}
+
+/* Why nothing was added, or nothing more. */
+static void put_reasons(const telling *t, cJSON *list)
+{
+  const lab_loop_result *r = t->story->result;
+  char statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT];
+  int i;
+  if (r->n_found == 0 && r->n_listed == 0 && r->trace.n > 0 && r->level > 0)
+    say(list, "Of all effects %s comes nearest, with a statistic of %s; it would take %s to be more than chance.",
+        effect_name(r->trace.candidate[0].effect), lab_shown_number(r->trace.candidate[0].statistic, 3, statistic),
+        lab_shown_number(lab_chi2_threshold(r->level), 3, threshold));
+  for (i = 0; i < r->n_listed; i++)
+    say(list, "%s is more than chance, but would lower the error by less than --min-gain asks for, and was not added.",
+        effect_name(r->listed[i]));
+  if (r->verdict == LAB_VERDICT_UNDECIDED)
+    say(list, "What is left is not noise, and no effect of the catalogue explains it. The figures below show when and "
+              "where it arises.");
+}
+
+/* ---- Limits and advice ---- */
+
+/* The remark of a fit, a clause an item; those on instants of the command are of no use to a reader. */
+static void put_remarks(const char *remark, cJSON *list)
+{
+  while (*remark) {
+    const char *end = strstr(remark, "; ");
+    const int length = (int)(end ? end - remark : (long)strlen(remark));
+    char clause[LAB_FIT_REMARK];
+    snprintf(clause, sizeof clause, "%.*s", length, remark);
+    if (!strstr(clause, "switch_"))
+      say(list, "%s.", clause);
+    remark += length + (end ? 2 : 0);
+  }
+}
+
+static void put_rough(const telling *t, cJSON *list)
+{
+  const lab_unknowns *u = t->story->completed;
+  const lab_fit_result *fit = &t->story->result->fit;
+  int j;
+  for (j = 0; j < u->n; j++) {
+    const double half = 0.5 * (fit->high[j] - fit->low[j]);
+    if (u->unknown[j].kind != LAB_UNKNOWN_SWITCH && fit->state[j] == LAB_FIT_FREE &&
+        half > rough * fabs(u->unknown[j].value))
+      say(list, "%s is known only within %.2g %% either way.", u->unknown[j].name,
+          100 * half / fabs(u->unknown[j].value));
+  }
+}
+
+/* Effects none of whose candidates leaves a trace. */
+static void put_invisible(const lab_trace_result *trace, cJSON *list)
+{
+  unsigned char tried[PNEU_EFFECT_COUNT + 1] = {0}, visible[PNEU_EFFECT_COUNT + 1] = {0};
+  char names[512] = "";
+  int i;
+  for (i = 0; i < trace->n; i++) {
+    tried[trace->candidate[i].effect] = 1;
+    visible[trace->candidate[i].effect] |= trace->candidate[i].visible > 0;
+  }
+  for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
+    const size_t used = strlen(names);
+    if (tried[i] && !visible[i])
+      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", effect_name(i));
+  }
+  if (*names)
+    say(list, "With the declared laws this log could not show: %s.", names);
+}
+
+static void put_limits(const telling *t, cJSON *list)
+{
+  const lab_loop_result *r = t->story->result;
+  int i, k;
+  for (i = 0; i < r->n_found; i++)
+    for (k = 0; k < r->found[i].n_alike; k++)
+      say(list, "%s from %s: both explain it equally well.", effect_name(r->found[i].effect),
+          effect_name(r->found[i].alike[k]));
+  put_rough(t, list);
+  put_remarks(r->fit.remark, list);
+  put_invisible(&r->trace, list);
+  if (cJSON_GetArraySize(list) == 0)
+    say(list, "Nothing to report: every parameter is determined, and no two effects are confused.");
+}
+
+static void put_next(const telling *t, cJSON *list)
+{
+  const lab_loop_result *r = t->story->result;
+  int i, k;
+  for (i = 0; i < r->n_found; i++)
+    for (k = 0; k < r->found[i].n_alike; k++)
+      if (k == 0 && t->story->separate[i].kind != LAB_ADVICE_NONE)
+        say(list, "To tell %s from %s: %s. %s", effect_name(r->found[i].effect), effect_name(r->found[i].alike[k]),
+            t->story->separate[i].text, t->story->separate[i].why);
+      else
+        say(list, "To tell %s from %s, a test in which one of them shows alone. %s: %s. %s: %s.",
+            effect_name(r->found[i].effect), effect_name(r->found[i].alike[k]), effect_name(r->found[i].effect),
+            pneu_effect_at(r->found[i].effect)->footprint, effect_name(r->found[i].alike[k]),
+            pneu_effect_at(r->found[i].alike[k])->footprint);
+  if (t->story->next.kind == LAB_ADVICE_TRIAL)
+    say(list, "%s. %s", t->story->next.text, t->story->next.why);
+  if (r->verdict == LAB_VERDICT_UNDECIDED || r->verdict == LAB_VERDICT_UNLISTED)
+    say(list, "Tests that part the equations: hold with both orifices shut at several positions (mass), slow full "
+              "strokes both ways (forces), rest on either stop (sensors).");
+  if (!t->story->has_holdout)
+    say(list, "Another log with other commands, given by --holdout: the only test that a fit cannot flatter.");
+  if (cJSON_GetArraySize(list) == 0)
+    say(list, "Nothing is needed to settle this verdict.");
+}
+
+/* ---- Parameters ---- */
+
+static void put_parameter(const telling *t, int j, cJSON *list)
+{
+  const lab_unknown *x = &t->story->completed->unknown[j];
+  const lab_shown shown = lab_shown_as(x->unit);
+  pneu_params declared = t->story->rig->params;
+  pneu_param_info info = {0};
+  cJSON *item = append(list);
+  put(item, "name", "%s", x->name);
+  put(item, "unit", "%s", *shown.unit ? shown.unit : "1");
+  put_number(item, "value", shown.scale * x->value, digits_of(t, j));
+  put_interval(t, j, item);
+  if (x->kind != LAB_UNKNOWN_PARAM)
+    return;
+  if (x->index == LAB_FIT_ORIFICE_AREA) {
+    put(item, "declared", "1");
+    put(item, "meaning", "factor on fill_area and vent_area");
+  } else if (pneu_param_describe(x->index, &info) == PNEU_OK) {
+    put(item, "meaning", "%s", info.meaning);
+    if (x->index < PNEU_PARAM_BASE_COUNT || *pneu_param_at(&declared, x->index) != info.neutral)
+      put_number(item, "declared", shown.scale * (double)*pneu_param_at(&declared, x->index), 4);
+    else
+      put(item, "declared", "absent");
+  }
+}
+
+static void put_parameters(const telling *t, cJSON *page)
+{
+  const lab_unknowns *u = t->story->completed;
+  cJSON *list = cJSON_AddArrayToObject(page, "parameters");
+  int j, switches = 0;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH)
+      switches++;
+    else
+      put_parameter(t, j, list);
+  if (switches > 0) {
+    list = cJSON_AddArrayToObject(page, "switches");
+    say(list, "Fitted as well: the instants of %d changes of command, each between the two rows that bracket it.",
+        switches);
+  }
+}
+
+/* ---- Whiteness and candidates ---- */
+
+static void put_whiteness(const telling *t, cJSON *list)
+{
+  int c;
+  for (c = 0; c < t->evidence->n_channels; c++) {
+    const lab_evidence_channel *mine = &t->evidence->channel[c];
+    const lab_whiteness *after = &mine->whiteness[LAB_STAGE_AFTER];
+    const int white = after->p_value >= white_level;
+    cJSON *item = append(list);
+    put(item, "channel", "%s %s", lab_channels[mine->channel].quantity, lab_channels[mine->channel].key);
+    put(item, "before", "%.3f", mine->whiteness[LAB_STAGE_BEFORE].correlation[1]);
+    if (has_completed(t))
+      put(item, "after", "%.3f", after->correlation[1]);
+    put_number(item, "q", after->statistic, 3);
+    put(item, "lags", "%d", after->degrees);
+    put_p(item, "p_value", after->p_value);
+    put(item, "mood", "%s", white ? "good" : "bad");
+    put(item, "words", "%s", isnan(after->p_value) ? "too few values" : white ? "white" : "not white");
+  }
+}
+
+static void put_candidates(const telling *t, cJSON *page)
+{
+  const lab_trace_result *trace = &t->story->result->trace;
+  cJSON *list = cJSON_AddArrayToObject(page, "candidates");
+  char threshold[LAB_SHOWN_TEXT];
+  int i;
+  for (i = 0; i < trace->n; i++) {
+    const lab_candidate *c = &trace->candidate[i];
+    pneu_param_info info;
+    cJSON *item = append(list);
+    pneu_param_describe(c->param, &info);
+    put(item, "effect", "%s", effect_name(c->effect));
+    put(item, "parameter", "%s", info.name);
+    put_number(item, "statistic", c->statistic, 3);
+    put_p(item, "p_value", c->p_value);
+    put_share(item, "explained", c->explained);
+    put_number(item, "visible", c->visible, 2);
+  }
+  put(page, "tried", "%d effects and parameters, %d slopes in all; the threshold is %s", trace->n, trace->tests,
+      t->story->result->level > 0 ? lab_shown_number(lab_chi2_threshold(t->story->result->level), 3, threshold) : "-");
+}
+
+/* ---- The page ---- */
+
+/* Figures in order: the first one stands beside the errors.  Returns: 0 without memory. */
+static int put_figures(const telling *t, cJSON *page)
+{
+  cJSON *first = cJSON_AddArrayToObject(page, "overview"), *others = cJSON_AddArrayToObject(page, "figures");
+  int i;
+  for (i = 0; i < t->figures->n; i++) {
+    const lab_figure *figure = &t->figures->figure[i];
+    char *svg = lab_svg_inline(figure->svg, figure->name, figure->alt);
+    cJSON *item;
+    if (!svg)
+      return 0;
+    item = append(i == 0 ? first : others);
+    cJSON_AddStringToObject(item, "svg", svg);
+    put(item, "reading", "%s", figure->reading);
+    free(svg);
+  }
+  return 1;
+}
+
+static cJSON *values_of(const telling *t)
+{
+  cJSON *page = cJSON_CreateObject(), *found = cJSON_AddArrayToObject(page, "found");
+  int i;
+  put_head(t, page);
+  put_logs(t, page);
+  put_errors(t, page);
+  for (i = 0; i < t->story->result->n_found; i++)
+    (t->story->result->found[i].effect < 0 ? put_unlisted : put_found)(t, &t->story->result->found[i], found);
+  put_reasons(t, cJSON_AddArrayToObject(page, "reasons"));
+  put_limits(t, cJSON_AddArrayToObject(page, "limits"));
+  put_next(t, cJSON_AddArrayToObject(page, "next"));
+  put_parameters(t, page);
+  put_whiteness(t, cJSON_AddArrayToObject(page, "whiteness"));
+  put_candidates(t, page);
+  if (put_figures(t, page))
+    return page;
+  cJSON_Delete(page);
+  return NULL;
+}
+
+static char *template_text(void)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *file = open_memstream(&text, &size);
+  const char *const *line;
+  for (line = page_html; file && *line; line++)
+    fputs(*line, file);
+  if (file && fclose(file) == 0)
+    return text;
+  free(text);
+  return NULL;
+}
+
+static int write_page(const cJSON *page, const char *text, const char *folder, lab_error *error)
+{
+  char path[LAB_PATH_TEXT + 32];
+  lab_outfile out;
+  snprintf(path, sizeof path, "%s/report.html", folder);
+  if (lab_out_open(&out, path, error))
+    return error->status;
+  if (lab_template_write(out.file, text, page, error)) {
+    lab_out_abandon(&out);
+    return error->status;
+  }
+  return lab_out_close(&out, error);
+}
+
+int lab_report_html(const lab_story *story, const lab_evidence *evidence, const lab_figures *figures,
+                    const char *folder, lab_error *error)
+{
+  const telling t = {story, evidence, figures};
+  cJSON *page = values_of(&t);
+  char *text = template_text();
+  const int status = page && text ? write_page(page, text, folder, error) : lab_fail_memory(error, "report.html");
+  cJSON_Delete(page);
+  free(text);
+  return status;
+}

@@ -1,0 +1,24 @@
+/* What closeloop found but has no name for, in words: the equation, the argument and the place of a free term.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_UNLISTED_H
+#define LAB_UNLISTED_H
+
+#include "rig.h"
+
+enum { LAB_WHERE_TEXT = 160 };
+
+/* "mass", "energy", "force" or "sensor", as in report.json. */
+const char *lab_unlisted_equation(const pneu_term *term);
+
+/* "dry friction", "a flow into or out of the chamber" */
+const char *lab_unlisted_what(const pneu_term *term);
+
+/* "x = 11.2 .. 13.1 mm, both directions", or "all along x, ...", with the largest value. */
+const char *lab_unlisted_where(const pneu_term *term, char text[LAB_WHERE_TEXT]);
+
+/* Where a free term acts: the stretch of its argument outside which it stays near one level.
+ * Out:     level  where it does not act, in its unit; peak  its largest departure from there, signed
+ * Returns: 1 if the stretch is a short one, 0 if it acts nearly everywhere. */
+int lab_unlisted_stretch(const pneu_term *term, double *from, double *to, double *level, double *peak);
+
+#endif

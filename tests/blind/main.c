@@ -1,0 +1,229 @@
+/* Blind trials: closeloop against rigs whose answer it does not know.
+ *
+ * Each trial is drawn from its number alone, simulated by the independent rig of tests/second, given to closeloop as
+ * files, and scored. Nothing here is linked with the library.
+ * SPDX-License-Identifier: MIT */
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <omp.h>
+
+#include "../../apps/lab/cli.h"
+#include "../../apps/lab/outfile.h"
+#include "../../apps/lab/progress.h"
+#include "journal.h"
+#include "limit.h"
+#include "score.h"
+#include "summary.h"
+
+enum { PATHS = 512, TRIALS_MAX = 1000000 };
+
+static const char *closeloop = "./closeloop", *out = "results", *work = "build/blind", *keep;
+static int trials = 500, seed = 1, jobs, only = -1, check;
+static double timeout = 120;
+
+static const lab_option options[] = {
+    {"trials", LAB_OPTION_COUNT, &trials, "N", "how many (500)", 1, TRIALS_MAX},
+    {"trial", LAB_OPTION_COUNT, &only, "K", "this one alone: show its truth, the answer and the score", 0, TRIALS_MAX},
+    {"seed", LAB_OPTION_COUNT, &seed, "N", "of everything that is drawn (1)", 0, 1000000},
+    {"closeloop", LAB_OPTION_TEXT, &closeloop, "FILE", "the program to be tried (./closeloop)", 0, 0},
+    {"out", LAB_OPTION_TEXT, &out, "DIR", "where blind.csv and blind.md go (results)", 0, 0},
+    {"work", LAB_OPTION_TEXT, &work, "DIR", "journal and logs of the trials under way (build/blind)", 0, 0},
+    {"keep", LAB_OPTION_TEXT, &keep, "DIR", "leave the files of every trial there", 0, 0},
+    {"timeout", LAB_OPTION_REAL, &timeout, "S", "time that closeloop has for one trial (120)", 1, 1e6},
+    {"jobs", LAB_OPTION_COUNT, &jobs, "N", "trials at once; default: one a core", 1, 1024},
+    {"check", LAB_OPTION_FLAG, &check, NULL, "exit status 1 unless every bar is met", 0, 0},
+    {NULL, 0, NULL, NULL, NULL, 0, 0}};
+
+static const lab_program program = {
+    "blind", "", "Draw rigs with and without something missing, let closeloop find it, count how often it is right.",
+    options, 0,  0};
+
+/* ---- One trial ---- */
+
+/* Remove a folder of files. */
+static void remove_folder(const char *path)
+{
+  DIR *folder = opendir(path);
+  struct dirent *entry;
+  char inner[PATHS + 300];
+  while (folder && (entry = readdir(folder))) {
+    snprintf(inner, sizeof inner, "%s/%s", path, entry->d_name);
+    unlink(inner);
+  }
+  if (folder)
+    closedir(folder);
+  rmdir(path);
+}
+
+/* Write its logs, ask, score. */
+static int one_trial(int number, blind_record *record, lab_error *error)
+{
+  blind_trial *t = malloc(sizeof *t);
+  blind_answer *answer = malloc(sizeof *answer);
+  double limit[BLIND_AT_ONCE], statistic;
+  char folder[PATHS];
+  int i, status = t && answer ? LAB_OK : lab_fail_memory(error, "a trial");
+  snprintf(folder, sizeof folder, "%s/trial-%d", keep ? keep : work, number);
+  if (status == LAB_OK) {
+    blind_draw((uint64_t)seed, number, t);
+    status = blind_write_logs(t, folder, error);
+  }
+  for (i = 0; status == LAB_OK && i < t->n_missing; i++)
+    status = blind_limit(t, i, &limit[i], &statistic, error);
+  if (status == LAB_OK)
+    status = blind_ask(closeloop, folder, timeout, answer, error);
+  if (status == LAB_OK)
+    blind_score(t, limit, answer, record);
+  if (!keep)
+    remove_folder(folder);
+  free(t);
+  free(answer);
+  return status == LAB_OK ? LAB_OK : lab_fail_in(error, "trial %d", number);
+}
+
+static int show_one(lab_error *error)
+{
+  blind_record record;
+  if (one_trial(only, &record, error))
+    return error->status;
+  blind_record_header(stdout);
+  blind_record_write(stdout, &record);
+  return LAB_OK;
+}
+
+/* ---- All of them ---- */
+
+/* Checksum of a file: FNV-1a. */
+static uint64_t checksum(const char *path)
+{
+  uint64_t sum = UINT64_C(14695981039346656037);
+  FILE *file = fopen(path, "rb");
+  int c;
+  while (file && (c = getc(file)) != EOF)
+    sum = (sum ^ (uint64_t)c) * UINT64_C(1099511628211);
+  if (file)
+    fclose(file);
+  return sum;
+}
+
+static int run_all(int quiet, blind_journal *journal, lab_error *error)
+{
+  lab_progress progress;
+  int k, done = 0, status = LAB_OK;
+  char *todo = calloc((size_t)trials, 1);
+  if (!todo)
+    return lab_fail_memory(error, "trials");
+  for (k = 0; k < trials; k++)
+    done += !(todo[k] = (char)!blind_journal_has(journal, k));
+  lab_progress_begin(&progress, "blind trials", quiet);
+#pragma omp parallel for schedule(dynamic) num_threads(jobs ? jobs : omp_get_max_threads())
+  for (k = 0; k < trials; k++) {
+    blind_record record;
+    lab_error mine;
+    int failed;
+    if (!todo[k] || status != LAB_OK)
+      continue;
+    failed = one_trial(k, &record, &mine);
+#pragma omp critical(blind_journal)
+    {
+      if (!failed)
+        failed = blind_journal_add(journal, &record, &mine);
+      if (failed) {
+        status = failed;
+        *error = mine;
+      }
+      lab_progress_show(&progress, ++done, trials);
+    }
+  }
+  lab_progress_end(&progress);
+  free(todo);
+  blind_journal_sort(journal);
+  return status;
+}
+
+static int write_csv(const blind_journal *j, lab_error *error)
+{
+  char path[PATHS];
+  lab_outfile file;
+  int i;
+  snprintf(path, sizeof path, "%s/blind.csv", out);
+  if (lab_out_open(&file, path, error))
+    return error->status;
+  blind_record_header(file.file);
+  for (i = 0; i < j->n; i++)
+    blind_record_write(file.file, &j->record[i]);
+  return lab_out_close(&file, error);
+}
+
+static int write_md(const blind_journal *j, lab_error *error)
+{
+  char path[PATHS];
+  lab_outfile file;
+  snprintf(path, sizeof path, "%s/blind.md", out);
+  if (lab_out_open(&file, path, error))
+    return error->status;
+  if (blind_summary_write(file.file, j->record, j->n, (uint64_t)seed)) {
+    lab_out_abandon(&file);
+    return lab_fail_memory(error, "the summary");
+  }
+  return lab_out_close(&file, error);
+}
+
+/* A line for each bar.  Returns: how many are missed */
+static int say_bars(const blind_journal *j)
+{
+  int i, missed = 0;
+  for (i = 0; i < blind_bar_count; i++) {
+    const blind_bar *bar = &blind_bars[i];
+    const blind_count c = blind_bar_counts(bar, j->record, j->n);
+    const int met = blind_bar_met(bar, c);
+    missed += !met;
+    printf("%-70s %3d of %3d", bar->what, c.k, c.n);
+    if (bar->at_least >= 0)
+      printf("  (%s %g %%)%s", bar->at_least ? "at least" : "at most", 100 * bar->share, met ? "" : "  MISSED");
+    printf("\n");
+  }
+  return missed;
+}
+
+static int run(const lab_cli *cli, const char *self, lab_error *error)
+{
+  blind_journal journal;
+  char path[PATHS], key[200];
+  int status;
+  if (access(closeloop, X_OK))
+    return lab_fail(error, LAB_WORLD, "%s: %s; name the program with --closeloop", closeloop, strerror(errno));
+  if (only >= 0)
+    return show_one(error);
+  snprintf(path, sizeof path, "%s/journal.csv", work);
+  snprintf(key, sizeof key, "# seed %d, timeout %g s, closeloop %016" PRIx64 ", blind %016" PRIx64, seed, timeout,
+           checksum(closeloop), checksum(self));
+  status = blind_journal_open(&journal, path, key, trials, error);
+  if (status == LAB_OK)
+    status = run_all(cli->quiet, &journal, error);
+  if (status == LAB_OK)
+    status = write_csv(&journal, error);
+  if (status == LAB_OK)
+    status = write_md(&journal, error);
+  if (status == LAB_OK && say_bars(&journal) && check)
+    status = lab_fail(error, LAB_DATA, "a bar is missed; %s/blind.md lists the trials", out);
+  blind_journal_close(&journal);
+  return status;
+}
+
+int main(int argc, char **argv)
+{
+  lab_error error;
+  lab_cli cli;
+  int status = lab_cli_read(&program, argc, argv, &cli, &error);
+  if (status == LAB_OK && !cli.done)
+    status = run(&cli, argv[0], &error);
+  return status == LAB_OK ? 0 : lab_cli_report(&program, &error);
+}

@@ -1,0 +1,83 @@
+#!/bin/sh
+# closeloop and its folder: every file there, the same bytes again, whole after Ctrl-C, and words where gnuplot is missing.
+set -u
+: "${BUILD:=build}"
+folder="$BUILD/closeloop"
+rm -rf "$folder"
+mkdir -p "$folder/bin" "$folder/empty"
+files="report.json report.html model.cfg model.h residual.csv response.svg residual.svg arguments.svg autocorrelation.svg \
+parameters.svg"
+wrong=0
+
+complain() {
+  echo "$*"
+  wrong=$((wrong + 1))
+}
+
+# expect STATUS WHAT COMMAND...
+expect() {
+  status=$1
+  what=$2
+  shift 2
+  "$@" >"$folder/out" 2>"$folder/err"
+  got=$?
+  [ "$got" -eq "$status" ] || complain "$what: expected status $status, got $got: $(cat "$folder/err")"
+}
+
+# A rig that answers as declared, and its log.
+printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02 mm"; };\n' |
+  cat study/actuators/r1-400.cfg - >"$folder/rig.cfg"
+./simulate study/actuators/r1-400.cfg --step | awk 'NR == 1 || NR % 5 == 0' >"$folder/log.csv"
+
+expect 0 "first run" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/whole"
+expect 0 "second run" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/again"
+for file in $files; do
+  [ -s "$folder/whole/$file" ] || complain "$file is not written"
+  [ "$file" = report.json ] || cmp "$folder/whole/$file" "$folder/again/$file" || complain "$file differs from run to run"
+done
+grep -q "$(cat "$folder/out")" "$folder/whole/report.html" || complain "report.html does not say: $(cat "$folder/out")"
+if command -v xmllint >/dev/null 2>&1; then
+  xmllint --noout "$folder/whole"/*.svg "$folder/whole/report.html" || complain "malformed"
+fi
+
+# the model it writes is one that it reads
+expect 0 "model.cfg" ./closeloop "$folder/whole/model.cfg" "$folder/log.csv" --out "$folder/model" --no-figures
+[ -e "$folder/model/response.svg" ] && complain "--no-figures drew a figure"
+
+# without gnuplot the rest is there, and the message names the way out
+expect 4 "no gnuplot" env PATH="$folder/empty" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/without"
+grep -q -- "--no-figures" "$folder/err" || complain "no way out without gnuplot: $(cat "$folder/err")"
+[ -s "$folder/without/report.json" ] || complain "no report.json without gnuplot"
+
+# whole FOLDER: what is in it is what an undisturbed run writes
+whole() {
+  for path in "$1"/*; do
+    [ -e "$path" ] || continue
+    name=$(basename "$path")
+    case $name in
+    report.json) grep -q '^}$' "$path" || complain "half-written: $path" ;;
+    *) cmp "$path" "$folder/whole/$name" || complain "half-written: $path" ;;
+    esac
+  done
+}
+
+# Ctrl-C while it fits: nothing is written
+expect 130 "interrupted fit" timeout --preserve-status -s INT 0.03 \
+  ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/early"
+[ -e "$folder/early" ] && complain "an interrupted fit has written something"
+
+# Ctrl-C while gnuplot draws, to the program and then to all: it is put off until the files are in their place
+cat >"$folder/bin/gnuplot" <<'SCRIPT'
+#!/bin/sh
+kill -INT $PPID $$
+PATH=$REAL_PATH exec gnuplot "$@"
+SCRIPT
+chmod +x "$folder/bin/gnuplot"
+expect 130 "interrupted drawing" env REAL_PATH="$PATH" PATH="$folder/bin:$PATH" \
+  ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/late"
+whole "$folder/late"
+for file in $files; do
+  [ -s "$folder/late/$file" ] || complain "interrupted drawing: $file is missing"
+done
+
+exit "$((wrong != 0))"
