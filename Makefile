@@ -64,6 +64,14 @@ check: install-packages
 	@$(MAKE) --no-print-directory all
 	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
 
+## Close the loop on every measured set (MEASURED names the data's folder); writes results/measured/
+measured: $(STATIC) closeloop $(BUILD)/measured
+	MEASURED='$(MEASURED)' $(BUILD)/measured study/measured/sets.cfg
+.PHONY: measured
+
+$(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+
 ## Time one fill-and-vent beside CVODE, in one run; writes results/bench.csv and work_precision.csv
 bench: $(BUILD)/tests/bench/fill_and_vent
 	$< results

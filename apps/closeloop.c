@@ -23,8 +23,8 @@ static int no_figures;
 static lab_progress progress;
 
 static const lab_option options[] = {
-    {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv", "judge the completed model on this log, which it has not seen", 0,
-     0},
+    {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv[,LOG2.csv]",
+     "judge the completed model on these logs, which it has not seen", 0, 0},
     {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>", 0, 0},
     {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
     {"min-gain", LAB_OPTION_REAL, &min_gain, "SHARE", "error that an effect must save to be added (0.02)", 0, 1},
@@ -91,10 +91,29 @@ static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *
   return lab_loop_errors(&u, errors, error);
 }
 
+/* Read each log of the list "a.csv,b.csv". */
+static int add_held_out(const lab_rig *rig, const char *list, bench *b, lab_error *error)
+{
+  int status = LAB_OK;
+  while (status == LAB_OK && *list) {
+    char path[LAB_PATH_TEXT];
+    const size_t length = strcspn(list, ",");
+    snprintf(path, sizeof path, "%.*s", (int)length, list);
+    status = b->n_logs < LOG_MAX ? add_log(rig, path, b, error)
+                                 : lab_fail(error, LAB_DATA, "more than %d logs held out", (int)LOG_MAX);
+    list += length + (list[length] == ',');
+  }
+  return status;
+}
+
 static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
 {
+  static lab_rig own;
   static bench b;
-  int status = add_log(rig, holdout, &b, error);
+  int status;
+  own = *rig;
+  lab_log_format_hold_out(&own.log);
+  status = add_held_out(&own, holdout, &b, error);
   if (status == LAB_OK)
     status = judge(&story->declared->rig, &b, &story->holdout_before, error);
   if (status == LAB_OK)

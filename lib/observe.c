@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "internal.h"
+#include "stem.h"
 #include "transducer.h"
 
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out)
@@ -24,6 +25,7 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   out->heat = t.heat;
   out->supply = t.supply - t.supply_resistance * t.drawn - model->p.ambient_pressure;
   out->friction = t.friction;
+  out->holding_force = pneu_stem_holding(&t);
   out->choked = t.choked;
   out->shown_pressure = t.p_shown;
   out->shown_temperature = t.T_shown;
@@ -31,10 +33,10 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   return PNEU_OK;
 }
 
-/* Whether an effect or a free term stands between the state and what is shown. */
+/* Whether an effect or a free term stands between the state and what is shown, or a force is shown. */
 static int has_sensors(const pneu_model *model)
 {
-  return model->n_terms > 0 ||
+  return model->n_terms > 0 || model->law.position_input ||
          (model->n_active > 0 && pneu_effect_at(model->active[model->n_active - 1])->stage >= PNEU_STAGE_LAG);
 }
 
@@ -47,11 +49,13 @@ int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input
     shown->pressure = out.shown_pressure;
     shown->temperature = out.shown_temperature;
     shown->position = out.shown_position;
+    shown->force = model->law.position_input ? out.holding_force : 0;
     return status;
   }
   shown->pressure = state->p;
   shown->temperature = model->thermal ? state->T : model->p.ambient_temperature;
   shown->position = state->x;
+  shown->force = 0;
   return PNEU_OK;
 }
 

@@ -327,6 +327,7 @@ typedef struct pneu_output {
   pneu_real heat;              /* [W] from the wall into the gas */
   pneu_real supply;            /* [Pa] gauge, at the transducer */
   pneu_real friction;          /* [N] level of dry friction while sliding */
+  pneu_real holding_force;     /* [N] that keeps the stem at its velocity, positive against the air */
   int choked;                  /* 1: the flow in use is choked */
   pneu_real shown_pressure;    /* [Pa] gauge, by its sensor */
   pneu_real shown_temperature; /* [K] by its sensor */
@@ -338,6 +339,7 @@ typedef struct pneu_shown {
   pneu_real pressure;    /* [Pa] gauge */
   pneu_real temperature; /* [K] */
   pneu_real position;    /* [m] */
+  pneu_real force;       /* [N] where position is an input: pneu_output.holding_force; else 0 */
 } pneu_shown;
 
 typedef struct pneu_options {

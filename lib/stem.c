@@ -22,6 +22,14 @@ pneu_real pneu_stem_acceleration(const pneu_terms *t, int mode)
   return (t->force - t->model->viscous * t->v - dry) / t->model->p.moving_mass;
 }
 
+pneu_real pneu_stem_holding(const pneu_terms *t)
+{
+  /* what the balance of forces leaves at the present velocity; at rest dry friction may take any part of it */
+  const pneu_real sense = t->v > 0 ? PNEU_C(1.0) : t->v < 0 ? PNEU_C(-1.0) : PNEU_C(0.0);
+  const pneu_real dry = t->model->bristle ? t->bristle_force : sense * t->friction;
+  return t->force + t->input->force - t->model->viscous * t->v - dry;
+}
+
 int pneu_dimension(const pneu_model *model, int mode)
 {
   static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};

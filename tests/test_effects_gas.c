@@ -60,6 +60,31 @@ static void footprint_laminar_leak(void)
   }
 }
 
+/* The flow solves s = q/c + (q/(c p_c))^2, s = p^2 - p_a^2 by size, from inside and outside; slow, it is laminar. */
+static void footprint_porous_leak(void)
+{
+  static const double at[] = {7e5, 2e5, 1e3, -5e4};
+  pneu_params p = fixture_vessel(1e-3);
+  const double c = 2e-15, crossover = 4e5, pa = (double)p.ambient_pressure;
+  int i, driven;
+  fixture_set(&p, "porous_leak", c);
+  fixture_set(&p, "crossover_pressure", crossover);
+  for (i = 0; i < COUNT(at); i++) {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 0);
+    const pneu_state s = fixture_rest(&m, at[i], 0, &input);
+    const fixture_sample f = fixture_look(&m, &s, &input);
+    const double q = f.out - f.in, share = q / (c * crossover), squared = at[i] * (at[i] + 2 * pa);
+    assert_close(q / c + share * fabs(share), squared, 0, TOL(1e-12, 1e-5));
+  }
+  for (driven = 0; driven < 2; driven++) {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, driven, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
+    assert_true(driven == !(fixture_look(&m, &s, &input).out > 0));
+  }
+}
+
 static double inflow(const pneu_params *p, int flow, double pressure)
 {
   const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
@@ -386,6 +411,7 @@ static footprint footprints[] = {
     {"exhaust_back_pressure", "venting__is_slowed_and_filling_is_not", footprint_exhaust_back_pressure},
     {"heat_transfer", "shut_vessel__levels_temperature_and_pressure_recovers", footprint_heat_transfer},
     {"laminar_leak", "shut_vessel__follows_the_closed_form", footprint_laminar_leak},
+    {"porous_leak", "flow__solves_its_law_both_ways", footprint_porous_leak},
     {"supply_droop", "filling__is_slowed_and_venting_is_not", footprint_supply_droop},
     {"transducer_lag", "vessel__runs_late_by_the_integral_of_the_lag", footprint_transducer_lag},
     {"vent_restriction", "venting__takes_longer_and_filling_does_not", footprint_vent_restriction},

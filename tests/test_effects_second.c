@@ -79,6 +79,13 @@ static void set_laminar_leak(pneu_params *p, second_rig *g, double size)
   BOTH("laminar_leak", laminar_leak, 2e-16);
 }
 
+static void set_porous_leak(pneu_params *p, second_rig *g, double size)
+{
+  BOTH("porous_leak", porous_leak, 3e-16);
+  g->crossover = 3e5;
+  fixture_set(p, "crossover_pressure", g->crossover);
+}
+
 static void set_position_bias(pneu_params *p, second_rig *g, double size)
 {
   BOTH("position_bias", position_bias, -4e-4);
@@ -192,15 +199,13 @@ typedef struct effect_case {
 #name, set_##name                                                                                                  \
   }
 static const effect_case cases[] = {
-    CASE(area_variation),        CASE(chamber_leak),      CASE(channel_skew),
-    CASE(choked_flow),           CASE(connecting_tube),   CASE(dead_time),
-    CASE(exhaust_back_pressure), CASE(friction_position), CASE(friction_pressure),
-    CASE(heat_transfer),         CASE(laminar_leak),      CASE(position_bias),
-    CASE(position_gain),         CASE(position_lag),      CASE(presliding),
-    CASE(pressure_bias),         CASE(pressure_gain),     CASE(pressure_lag),
-    CASE(spring_hardening),      CASE(spring_hysteresis), CASE(stop_compliance),
-    CASE(stribeck_friction),     CASE(supply_droop),      CASE(temperature_lag),
-    CASE(transducer_lag),        CASE(travel_limit),      CASE(vent_restriction),
+    CASE(area_variation),    CASE(chamber_leak),    CASE(channel_skew),          CASE(choked_flow),
+    CASE(connecting_tube),   CASE(dead_time),       CASE(exhaust_back_pressure), CASE(friction_position),
+    CASE(friction_pressure), CASE(heat_transfer),   CASE(laminar_leak),          CASE(porous_leak),
+    CASE(position_bias),     CASE(position_gain),   CASE(position_lag),          CASE(presliding),
+    CASE(pressure_bias),     CASE(pressure_gain),   CASE(pressure_lag),          CASE(spring_hardening),
+    CASE(spring_hysteresis), CASE(stop_compliance), CASE(stribeck_friction),     CASE(supply_droop),
+    CASE(temperature_lag),   CASE(transducer_lag),  CASE(travel_limit),          CASE(vent_restriction),
     CASE(wall_temperature),
 };
 

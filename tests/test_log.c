@@ -330,6 +330,205 @@ static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void *
   lab_log_free(&log);
 }
 
+/* ---- Rows put into shape ---- */
+
+static void test_lab_log_read__weights__add_columns_up(void **state)
+{
+  static const double weight[] = {1, 0.5, -0.5, 0.5, -0.5};
+  static const char *const column[] = {"t [s]", "p [hPa]", "p [hPa]", "p [hPa]", "p [hPa]"};
+  lab_log log;
+  (void)state;
+  for (format.n_columns = 0; format.n_columns < 5; format.n_columns++)
+    strcpy(format.column[format.n_columns], column[format.n_columns]);
+  format.weighted = 5;
+  memcpy(format.weight, weight, sizeof weight);
+  format.offset[LAB_CHANNEL_P] = 7;
+  log = read_log("0,1012,1010,1007,1006\n1,1050,1010,1026,1006\n2,1050,,1026,1006\n");
+  assert_close(CHANNEL(log, TIME)[1], 1, 0, 0);
+  assert_close(CHANNEL(log, P)[0], 150 + 7, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[1], 3000 + 7, 1e-9, 0);
+  assert_true(isnan(CHANNEL(log, P)[2]));
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__way_back__is_reversed(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("-", "p [kPa]", "x [mm]");
+  format.time_step = 10;
+  format.way_back = LAB_CHANNEL_P;
+  log = read_log("up,0,0\nup,5,0\nup,10,1\ndown,0,0\ndown,4,2\ndown,10,3\n");
+  assert_int_equal(log.n, 6);
+  assert_close(CHANNEL(log, P)[2], 10000, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[3], 10000, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[4], 4000, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[5], 0, 1e-9, 0);
+  assert_close(CHANNEL(log, X)[3], 3e-3, 1e-12, 0);
+  assert_close(CHANNEL(log, TIME)[4], 40, 0, 0);
+  assert_int_equal(log.line[3], 6);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state)
+{
+  (void)state;
+  set_columns("p [kPa]", NULL, NULL);
+  format.time_step = 10;
+  format.way_back = LAB_CHANNEL_P;
+  assert_refused("0\n5\n10\n", "log.csv:1", "fall once");
+  format.way_back = LAB_CHANNEL_X;
+  assert_refused("0\n5\n3\n", "log.csv", "a column x");
+}
+
+static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  format.every = 2;
+  log = read_log("0,1\n1,2\n2,3\n0,4\n1,5\n2,6\n3,7\n");
+  assert_int_equal(log.n, 4);
+  assert_int_equal(log.n_runs, 2);
+  assert_int_equal(log.run[1], 2);
+  assert_int_equal(log.run[2], 4);
+  assert_close(CHANNEL(log, P)[1], 3e5, 1e-6, 0);
+  assert_close(CHANNEL(log, TIME)[2], 0, 0, 0);
+  assert_close(CHANNEL(log, P)[3], 6e5, 1e-6, 0);
+  assert_int_equal(log.line[3], 6);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__held_out__takes_other_rows_and_another_window(void **state)
+{
+  static const char text[] = "0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n";
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  format.every = 2;
+  format.to = 3;
+  format.holdout_from = 2;
+  format.holdout_to = 5;
+  format.holdout_first = 1;
+  log = read_log(text);
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[1], 2, 0, 0);
+  lab_log_free(&log);
+  lab_log_format_hold_out(&format);
+  log = read_log(text);
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[0], 3, 0, 0);
+  assert_close(CHANNEL(log, P)[1], 6e5, 1e-6, 0);
+  lab_log_free(&log);
+  format.first = 4;
+  assert_refused(text, "log.csv:3", "before log.first");
+}
+
+static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  strcpy(format.name[LAB_CHANNEL_X], "_l [dm]");
+  strcpy(format.name[LAB_CHANNEL_PS], "_p [bar]");
+  assert_int_equal(lab_log_read(scratch_text("tube_l3_p4.5_start.csv", "0,1\n1,2\n"), &format, ambient, &log, &error),
+                   LAB_OK);
+  assert_close(CHANNEL(log, X)[1], 0.3, 1e-15, 0);
+  assert_close(CHANNEL(log, PS)[0], 4.5e5, 1e-9, 0);
+  lab_log_free(&log);
+  assert_refused("0,1\n1,2\n", "log.csv", "\"_l\" and a number in the file's name");
+}
+
+static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", "p2 [bar]");
+  format.new_run = LAB_RUN_T_DROPS;
+  format.runs = LAB_RUNS_MEAN;
+  log = read_log("5,1,0\n20,2,1\n5,3,nan\n18,7,5\n4,9,9\n");
+  assert_int_equal(log.n, 4);
+  assert_int_equal(log.n_runs, 1);
+  assert_int_equal(log.run[1], 4);
+  assert_close(CHANNEL(log, TIME)[1], 5e-3, 1e-12, 0);
+  assert_close(CHANNEL(log, P)[0], 9e5, 1e-6, 0);
+  assert_close(CHANNEL(log, P)[1], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, P2)[1], 0, 1e-6, 0);
+  assert_close(CHANNEL(log, P)[2], 7e5, 1e-6, 0);
+  assert_close(CHANNEL(log, P)[3], 2e5, 1e-6, 0);
+  assert_int_equal(log.line[0], 5);
+  lab_log_free(&log);
+}
+
+static void set_lead(void)
+{
+  int k, c;
+  for (k = 0; k < 2; k++)
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      format.lead[k][c] = NAN;
+  format.n_lead = 2;
+  format.lead[0][LAB_CHANNEL_TIME] = -1e-3;
+  format.lead[0][LAB_CHANNEL_U] = 0;
+  format.lead[0][LAB_CHANNEL_P] = 5;
+  format.lead[1][LAB_CHANNEL_TIME] = 0;
+  format.lead[1][LAB_CHANNEL_U] = 1;
+}
+
+static void test_lab_log_read__lead__comes_before_each_run(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  set_lead();
+  log = read_log("5,1\n20,2\n5,3\n");
+  assert_int_equal(log.n, 7);
+  assert_int_equal(log.n_runs, 2);
+  assert_int_equal(log.run[1], 4);
+  assert_int_equal(log.run[2], 7);
+  assert_close(CHANNEL(log, TIME)[0], -1e-3, 0, 0);
+  assert_close(CHANNEL(log, TIME)[4], -1e-3, 0, 0);
+  assert_close(CHANNEL(log, TIME)[6], 5e-3, 1e-12, 0);
+  assert_close(CHANNEL(log, P)[0], 5, 0, 0);
+  assert_true(isnan(CHANNEL(log, P)[1]));
+  assert_close(CHANNEL(log, P)[3], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, U)[0], 0, 0, 0);
+  assert_close(CHANNEL(log, U)[1], 1, 0, 0);
+  assert_close(CHANNEL(log, U)[3], 1, 0, 0);
+  assert_close(CHANNEL(log, U)[4], 0, 0, 0);
+  assert_int_equal(log.line[4], 3);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  set_lead();
+  format.lead[0][LAB_CHANNEL_P] = NAN;
+  format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_P + 1;
+  format.lead_last[0][LAB_CHANNEL_PS] = LAB_CHANNEL_P + 1;
+  log = read_log("5,nan\n20,2\n21,4\n5,3\n6,5\n");
+  assert_int_equal(log.n, 9);
+  assert_close(CHANNEL(log, P)[0], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, PS)[0], 4e5, 1e-6, 0);
+  assert_true(isnan(CHANNEL(log, PS)[1]));
+  assert_close(CHANNEL(log, P)[5], 3e5, 1e-6, 0);
+  assert_close(CHANNEL(log, PS)[5], 5e5, 1e-6, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
+{
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  set_lead();
+  assert_refused("0,1\n20,2\n", "log.csv:1", "begins after its lead");
+}
+
 /* ---- Bad files ---- */
 
 static void test_lab_log_read__missing_file__says_so(void **state)
@@ -597,6 +796,16 @@ int main(void)
       CASE(test_lab_log_read__long_format__joins_rows_of_one_time),
       CASE(test_lab_log_read__long_format_with_command__holds_it),
       CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one),
+      CASE(test_lab_log_read__weights__add_columns_up),
+      CASE(test_lab_log_read__way_back__is_reversed),
+      CASE(test_lab_log_read__way_back_that_is_missing__is_refused),
+      CASE(test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run),
+      CASE(test_lab_log_read__held_out__takes_other_rows_and_another_window),
+      CASE(test_lab_log_read__name_of_the_file__tells_a_channel),
+      CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
+      CASE(test_lab_log_read__lead__comes_before_each_run),
+      CASE(test_lab_log_read__lead_of_ends__takes_first_and_last_values),
+      CASE(test_lab_log_read__lead_after_the_first_row__is_refused),
       CASE(test_lab_log_read__missing_file__says_so),
       CASE(test_lab_log_read__folder__says_so),
       CASE(test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault),

@@ -244,6 +244,43 @@ static void test_lab_rig_read__log_group__becomes_the_format(void **state)
   assert_true(isnan(rig.log.constant[LAB_CHANNEL_P]));
 }
 
+/* Written and read again, the shape of a raw log is the same. */
+static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
+{
+  lab_rig rig = read_rig(
+      "log = { columns = ( \"t [ms]\", \"p [bar]\", \"p [bar]\" ); weights = ( 1, 0.5, -0.25 ); every = 7; first = 2;\n"
+      "  name = { x = \"_l [dm]\"; }; holdout = { window = ( \"5 s\", \"6 s\" ); first = 3; };\n"
+      "  new_run = \"t drops\"; runs = \"mean\";\n"
+      "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; ps = \"last p\"; x = \"first x\"; }, { t = 0; u = 1; } ); };");
+  FILE *file = fopen(scratch_path("again.cfg"), "w");
+  (void)state;
+  assert_non_null(file);
+  lab_rig_write(file, &rig, NULL);
+  fclose(file);
+  if (lab_rig_read(scratch_path("again.cfg"), &rig, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(rig.log.weighted, 3);
+  assert_close(rig.log.weight[2], -0.25, 0, 0);
+  assert_int_equal(rig.log.every, 7);
+  assert_int_equal(rig.log.first, 2);
+  assert_string_equal(rig.log.name[LAB_CHANNEL_X], "_l [dm]");
+  assert_int_equal(rig.log.holdout_first, 3);
+  assert_close(rig.log.holdout_from, 5, 0, 0);
+  assert_close(rig.log.holdout_to, 6, 0, 0);
+  assert_int_equal(rig.log.runs, LAB_RUNS_MEAN);
+  assert_int_equal(rig.log.way_back, -1);
+  assert_int_equal(rig.log.n_lead, 2);
+  assert_close(rig.log.lead[0][LAB_CHANNEL_TIME], -1e-3, 0, 0);
+  assert_close(rig.log.lead[0][LAB_CHANNEL_P], 2e5, 1e-9, 0);
+  assert_true(isnan(rig.log.lead[1][LAB_CHANNEL_P]));
+  assert_int_equal(rig.log.lead_last[0][LAB_CHANNEL_PS], LAB_CHANNEL_P + 1);
+  assert_int_equal(rig.log.lead_first[0][LAB_CHANNEL_X], LAB_CHANNEL_X + 1);
+  assert_int_equal(rig.log.lead_first[1][LAB_CHANNEL_X], 0);
+  assert_close(rig.log.lead[1][LAB_CHANNEL_U], 1, 0, 0);
+  rig = read_rig("log = { columns = ( \"p [kPa]\", \"x [mm]\" ); time_step = 10; way_back = \"p\"; };");
+  assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
+}
+
 static void test_lab_rig_read__long_log__lists_quantities(void **state)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
@@ -468,6 +505,17 @@ static void test_lab_rig_read__bad_log_group__is_refused(void **state)
   assert_refused("log = { window = ( 0, \"2 m\" ); };\n", "log.window[1]", "expected a unit like s");
   assert_refused("log = { new_run = \"t rises\"; };\n", "log.new_run", "\"t drops\"");
   assert_refused("log = { damaged = \"keep\"; };\n", "log.damaged", "unknown word");
+  assert_refused("log = { columns = ( \"t [s]\" ); weights = ( 1, 2 ); };\n", "log:", "a weight for each of the 1");
+  assert_refused("log = { every = 0; };\n", "log.every", "whole number");
+  assert_refused("log = { name = { x = \"_l\"; }; };\n", "log.name.x", "mark [unit]");
+  assert_refused("log = { name = { q = \"_l [m]\"; }; };\n", "log.name.q", "unknown key");
+  assert_refused("log = { holdout = { rows = 1; }; };\n", "log.holdout.rows", "unknown key");
+  assert_refused("log = { way_back = \"p\"; };\n", "log:", "way_back needs time_step");
+  assert_refused("log = { way_back = \"q\"; };\n", "log.way_back", "unknown word");
+  assert_refused("log = { runs = \"mean\"; };\n", "log:", "needs new_run");
+  assert_refused("log = { lead = ( { t = 0; p = \"last q\"; } ); };\n", "log.lead[0].p", "\"first p\"");
+  assert_refused("log = { lead = ( { u = 1; } ); };\n", "log.lead[0]", "its time t");
+  assert_refused("log = { lead = ( { t = 1; }, { t = 1; } ); };\n", "log.lead[1]", "after that of the row before");
   assert_refused("log = { time_step = 0; };\n", "log.time_step", "expected");
   assert_refused("log = { scale = { q = 1; }; };\n", "log.scale.q", "unknown key");
   assert_refused("log = { scale = { x = 0; }; };\n", "log.scale.x", "other than 0");
@@ -647,6 +695,7 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__lugre_law__switches_its_effect_on),
       cmocka_unit_test(test_lab_rig_read__effects_before_laws__have_the_last_word),
       cmocka_unit_test(test_lab_rig_read__log_group__becomes_the_format),
+      cmocka_unit_test(test_lab_rig_read__shape_of_a_log__is_read_and_written),
       cmocka_unit_test(test_lab_rig_read__long_log__lists_quantities),
       cmocka_unit_test(test_lab_rig_read__proportional_band__makes_the_command_a_pressure),
       cmocka_unit_test(test_lab_rig_read__no_fill_area__needs_no_supply),

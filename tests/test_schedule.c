@@ -186,6 +186,41 @@ static void test_lab_start_from_log__moving_from_the_first_row__takes_the_first_
   assert_close(start.x, 0, 0, 0);
 }
 
+/* Down and up again, so that both halves of the curve have one mean. */
+static void test_lab_start_from_log__curve_with_halves_alike__is_no_level(void **state)
+{
+  char text[65536] = "t [s],u [1],p [kPa]\n", row[64];
+  int i;
+  (void)state;
+  for (i = 0; i < 200; i++) {
+    snprintf(row, sizeof row, "%d,-1,%g\n", i, 100 + 0.01 * (i - 99.5) * (i - 99.5));
+    strcat(text, row);
+  }
+  assert_close(start_of(text, -1).p, (100 + 0.01 * 99.5 * 99.5) * 1e3, 1, 0);
+}
+
+static void test_lab_start_from_log__pressure_that_drives_and_changes__leaves_the_first_position(void **state)
+{
+  char text[4096] = "t [s],p [kPa],x [mm]\n", row[64];
+  int i;
+  (void)state;
+  set_inputs(1, 0, 0, 0);
+  for (i = 0; i < 20; i++) {
+    snprintf(row, sizeof row, "%d,%d,%d\n", i, 100 + i, i % 2 ? 12 : 4);
+    strcat(text, row);
+  }
+  assert_close(start_of(text, 0).x, 4e-3, 1e-15, 0);
+}
+
+static void test_lab_start_from_log__vessel_seen_late__is_full_while_it_fills(void **state)
+{
+  (void)state;
+  rig.params.stroke = 0;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_close(start_of("t [s],u [1],p [kPa]\n0,1,\n1,-1,350\n", 1).p, 4e5, 0, 0);
+  assert_close(start_of("t [s],u [1],p [kPa]\n0,0,\n1,1,150\n", 0).p, 0, 0, 0);
+}
+
 static void test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it(void **state)
 {
   pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
@@ -347,6 +382,9 @@ int main(void)
       CASE(test_lab_drive_from_log__missing_input__is_named),
       CASE(test_lab_start_from_log__noise_at_rest__is_averaged),
       CASE(test_lab_start_from_log__moving_from_the_first_row__takes_the_first_rows),
+      CASE(test_lab_start_from_log__curve_with_halves_alike__is_no_level),
+      CASE(test_lab_start_from_log__pressure_that_drives_and_changes__leaves_the_first_position),
+      CASE(test_lab_start_from_log__vessel_seen_late__is_full_while_it_fills),
       CASE(test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it),
       CASE(test_lab_start_from_log__held_by_friction__stays_where_it_is_seen),
       CASE(test_lab_start_from_log__sensors_in_error__starts_from_what_is_there),

@@ -491,6 +491,28 @@ static void test_pneu_run__random_commands_and_forces__modes_mean_what_they_say(
       }
 }
 
+/* What holds a driven stem: p A - k (x + x_0) - external - c v - F sgn v, whatever force the input has. */
+static void test_pneu_observe__driven_stem__shows_the_force_that_holds_it(void **state)
+{
+  static const double speed[] = {0.01, -0.02, 0};
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  int i;
+  (void)state;
+  p.external_force = 30;
+  for (i = 0; i < COUNT(speed); i++) {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
+    const double v = speed[i], sense = (v > 0) - (v < 0);
+    pneu_input input = fixture_input(&m, 0);
+    pneu_output out;
+    pneu_state s;
+    input.position_rate = (pneu_real)v;
+    input.force = 77;
+    s = fixture_rest(&m, 2.5e5, 0.005, &input);
+    assert_int_equal(pneu_observe(&m, &s, &input, &out), PNEU_OK);
+    assert_close(out.holding_force, 2.5e5 * 0.04 - 4e5 * 0.015 - 30 - 1500 * v - 480 * sense, 0, TOL(1e-12, 1e-5));
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -512,6 +534,7 @@ int main(void)
       cmocka_unit_test(test_pneu_settle__at_rest__mode_follows_the_balance_of_forces),
       cmocka_unit_test(test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_for),
       cmocka_unit_test(test_pneu_events__about_break_away__rise_through_zero_in_newtons),
+      cmocka_unit_test(test_pneu_observe__driven_stem__shows_the_force_that_holds_it),
       cmocka_unit_test(test_pneu_run__random_commands_and_forces__modes_mean_what_they_say),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "foresee.h"
+
 /* The rig and the longest of its records, as the search for a trial sees them. */
 static void inquire(const lab_story *story, lab_inquiry *q)
 {
@@ -27,12 +29,24 @@ static void inquire(const lab_story *story, lab_inquiry *q)
   q->recorded = &x->drive.schedule;
 }
 
+/* Whether anything was recorded that a test can be foreseen for. */
+static int can_foresee(const lab_inquiry *q)
+{
+  int c;
+  for (c = 0; c < LAB_FORESEEN; c++)
+    if (q->noise[lab_foreseen[c]] > 0)
+      return 1;
+  return 0;
+}
+
 int lab_advise(lab_story *story, lab_error *error)
 {
   const lab_loop_result *r = story->result;
   int fit[LAB_FIT_COUNT], i, alike = 0;
   lab_inquiry q;
   inquire(story, &q);
+  if (!can_foresee(&q))
+    return LAB_OK;
   for (i = 0; i < r->n_found; i++) {
     const lab_found *found = &r->found[i];
     alike += found->n_alike;

@@ -306,7 +306,7 @@ static int draw_arguments(const drawing *d)
   axis over[LAB_ARGUMENT_COUNT];
   const int n = choose_axes(d, over);
   int i;
-  if (n == 0)
+  if (n == 0 || v->n < BINS * BIN_LEAST / 2) /* hardly a bin would be full */
     return 0;
   entitle(d, "Where the residual sits");
   tell(d, "Mean of the residual in bins, in units of the noise.");

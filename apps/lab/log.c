@@ -7,6 +7,7 @@
 
 #include "logheader.h"
 #include "loglong.h"
+#include "logshape.h"
 #include "number.h"
 
 /* A command may be a measured one that overshoots a little; beyond this it is in other units. */
@@ -42,6 +43,20 @@ static int read_word(struct reader *r, const char *begin, const char *end)
                   lab_log_show(begin, end, shown));
 }
 
+/* Where columns have weights, those of one channel are added up; its offset counts once. */
+static void put_number(struct reader *r, int i, const lab_column *column, double number)
+{
+  double *at = &r->log->value[column->channel][r->log->n];
+  int before = 0, j;
+  if (!r->format->weighted) {
+    *at = column->scale * number + column->offset;
+    return;
+  }
+  for (j = 0; j < i; j++)
+    before |= r->header.column[j].channel == column->channel;
+  *at = r->format->weight[i] * column->scale * number + (before ? *at : column->offset);
+}
+
 static int read_field(struct reader *r, int i, const char *begin, const char *end)
 {
   const lab_column *column = &r->header.column[i];
@@ -57,7 +72,7 @@ static int read_field(struct reader *r, int i, const char *begin, const char *en
   if (column->channel == LAB_COLUMN_VALUE)
     r->value = number;
   else
-    r->log->value[column->channel][r->log->n] = column->scale * number + column->offset;
+    put_number(r, i, column, number);
   return LAB_OK;
 }
 
@@ -219,7 +234,7 @@ static int finish(struct reader *r)
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;
-  return LAB_OK;
+  return lab_log_shape(log, r->format, r->error);
 }
 
 static int read_text(struct reader *r, const char *path, double ambient, const lab_text *text)
@@ -235,13 +250,39 @@ static int read_text(struct reader *r, const char *path, double ambient, const l
   return LAB_OK;
 }
 
+/* Channels that the file's name tells become constants. */
+static int take_name(const char *path, lab_log_format *format, lab_error *error)
+{
+  const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    char mark[LAB_COLUMN_TEXT], *end = NULL;
+    const char *at;
+    double scale, offset, number;
+    if (!*format->name[c])
+      continue;
+    if (lab_column_mark(format->name[c], lab_log_unit(format, c), mark, &scale, &offset, error))
+      return error->status;
+    at = strstr(file, mark);
+    number = at ? strtod(at + strlen(mark), &end) : 0;
+    if (!at || end == at + strlen(mark))
+      return lab_fail(error, LAB_DATA, "%s: expected \"%s\" and a number in the file's name (log.name.%s)", path, mark,
+                      lab_channels[c].key);
+    format->constant[c] = format->scale[c] * (scale * number + offset) + format->offset[c];
+  }
+  return LAB_OK;
+}
+
 int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error)
 {
-  struct reader r = {.source = {.path = path, .format = format}, .format = format, .log = log, .error = error};
+  lab_log_format own = *format;
+  struct reader r = {.source = {.path = path, .format = &own}, .format = &own, .log = log, .error = error};
   lab_text text;
   int status;
   memset(log, 0, sizeof *log);
-  status = lab_text_read(path, &text, error);
+  status = take_name(path, &own, error);
+  if (status == LAB_OK)
+    status = lab_text_read(path, &text, error);
   if (status != LAB_OK)
     return status;
   status = read_text(&r, path, ambient, &text);

@@ -73,3 +73,11 @@ int lab_column_read(const char *text, const lab_log_format *format, double ambie
   column->scale *= format->scale[found->channel];
   return LAB_OK;
 }
+
+int lab_column_mark(const char *text, const char *si, char *mark, double *scale, double *offset, lab_error *error)
+{
+  char unit[LAB_COLUMN_TEXT];
+  if (!split(text, mark, unit) || !*unit)
+    return lab_fail(error, LAB_DATA, "expected \"mark [unit]\", found \"%s\"", text);
+  return lab_unit_factor(unit, si, scale, offset, error);
+}

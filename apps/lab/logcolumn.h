@@ -20,4 +20,11 @@ typedef struct lab_column {
 int lab_column_read(const char *text, const lab_log_format *format, double ambient, lab_column *column,
                     lab_error *error);
 
+/* Read "mark [unit]": the number behind `mark` in a file's name.
+ * In:      si  unit to convert to
+ * Out:     mark           LAB_COLUMN_TEXT bytes
+ *          scale, offset  SI value = scale * number + offset
+ * Returns: LAB_OK; LAB_DATA. */
+int lab_column_mark(const char *text, const char *si, char *mark, double *scale, double *offset, lab_error *error);
+
 #endif

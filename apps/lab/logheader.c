@@ -154,8 +154,9 @@ static int check_channels(const lab_header *header, const lab_log_format *format
   int i;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
     int n = lab_header_count(header, format, i);
-    if (n > 1)
-      return lab_fail(error, LAB_DATA, "expected channel %s once, found %d of it; name a column to ignore \"-\"",
+    if (n > 1 && !format->weighted)
+      return lab_fail(error, LAB_DATA,
+                      "expected channel %s once, found %d of it; name a column to ignore \"-\", or give log.weights",
                       lab_channels[i].key, n);
     if (n && !isnan(format->constant[i]))
       return lab_fail(error, LAB_DATA, "expected channel %s once, found it as a column and in log.constants",

@@ -27,7 +27,8 @@ typedef struct lab_header {
  * Returns: LAB_OK; LAB_DATA with file, line and column. */
 int lab_header_read(lab_log_source *source, double ambient, lab_header *header, lab_error *error);
 
-/* Columns and quantities that lead to a channel or a role (0 or 1 after lab_header_read, but for ignored ones). */
+/* Columns and quantities that lead to a channel or a role (0 or 1 after lab_header_read, but for ignored ones
+ * and for channels that are weighted sums). */
 int lab_header_count(const lab_header *header, const lab_log_format *format, int channel);
 
 /* The next line that is not a comment.

@@ -47,6 +47,57 @@ static void write_quantities(FILE *file, const lab_log_format *format)
     fputs(" };\n", file);
 }
 
+static void write_weights(FILE *file, const lab_log_format *format)
+{
+  int i;
+  for (i = 0; i < format->weighted; i++)
+    fprintf(file, "%s%.17g", i ? ", " : "  weights = ( ", format->weight[i]);
+  if (format->weighted)
+    fputs(" );\n", file);
+}
+
+static void write_held_out(FILE *file, const lab_log_format *format)
+{
+  const int window = !isnan(format->holdout_from), first = format->holdout_first >= 0;
+  if (format->first > 0)
+    fprintf(file, "  first = %d;\n", format->first);
+  if (window || first)
+    fputs("  holdout = {", file);
+  if (window)
+    fprintf(file, " window = ( \"%.17g s\", \"%.17g s\" );", format->holdout_from, format->holdout_to);
+  if (first)
+    fprintf(file, " first = %d;", format->holdout_first);
+  if (window || first)
+    fputs(" };\n", file);
+}
+
+static void write_channel_names(FILE *file, const lab_log_format *format)
+{
+  int c, any = 0;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (*format->name[c])
+      fprintf(file, "%s %s = \"%s\";", any++ ? "" : "  name = {", lab_channels[c].key, format->name[c]);
+  if (any)
+    fputs(" };\n", file);
+}
+
+static void write_lead(FILE *file, const lab_log_format *format)
+{
+  int i, c;
+  for (i = 0; i < format->n_lead; i++) {
+    fputs(i ? ", {" : "  lead = ( {", file);
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      if (format->lead_first[i][c] || format->lead_last[i][c])
+        fprintf(file, " %s = \"%s %s\";", lab_channels[c].key, format->lead_first[i][c] ? "first" : "last",
+                lab_channels[format->lead_first[i][c] + format->lead_last[i][c] - 1].key);
+      else if (!isnan(format->lead[i][c]))
+        fprintf(file, " %s = \"%.17g %s\";", lab_channels[c].key, format->lead[i][c], lab_log_unit(format, c));
+    fputs(" }", file);
+  }
+  if (format->n_lead)
+    fputs(" );\n", file);
+}
+
 void lab_log_format_write(FILE *file, const lab_log_format *format)
 {
   fputs("log = {\n", file);
@@ -66,5 +117,15 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   write_channels(file, "offset", format, format->offset, 0, 1);
   write_channels(file, "constants", format, format->constant, NAN, 1);
   write_quantities(file, format);
+  if (format->every > 1)
+    fprintf(file, "  every = %d;\n", format->every);
+  write_held_out(file, format);
+  write_channel_names(file, format);
+  write_weights(file, format);
+  if (format->way_back >= 0)
+    fprintf(file, "  way_back = \"%s\";\n", lab_channels[format->way_back].key);
+  if (format->runs == LAB_RUNS_MEAN)
+    fputs("  runs = \"mean\";\n", file);
+  write_lead(file, format);
   fputs("};\n", file);
 }

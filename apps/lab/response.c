@@ -7,13 +7,13 @@
 #include "cvode.h"
 #include "sampler.h"
 
-enum { COLUMNS = 11, SHOWN_COLUMNS = 4 };
+enum { COLUMNS = 12, SHOWN_COLUMNS = 5 };
 
 /* Column i; what sensors show, and when, comes first. */
 static double **trace_column(lab_trace *trace, int i)
 {
-  double **const column[COLUMNS] = {&trace->t, &trace->p,       &trace->x,        &trace->T,    &trace->u, &trace->v,
-                                    &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat, &trace->ps};
+  double **const column[COLUMNS] = {&trace->t, &trace->p, &trace->x,       &trace->T,        &trace->force, &trace->u,
+                                    &trace->v, &trace->m, &trace->mass_in, &trace->mass_out, &trace->heat,  &trace->ps};
   return column[i];
 }
 
@@ -65,6 +65,7 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   trace->mass_in[i] = out.mass_in;
   trace->mass_out[i] = out.mass_out;
   trace->heat[i] = out.heat;
+  trace->force[i] = out.holding_force;
   trace->ps[i] = out.supply;
   trace->mode[i] = state->mode;
 }
@@ -78,6 +79,7 @@ static void record_shown(void *context, size_t i, const pneu_state *state, const
   r->trace->p[i] = (double)shown.pressure;
   r->trace->x[i] = (double)shown.position;
   r->trace->T[i] = (double)shown.temperature;
+  r->trace->force[i] = (double)shown.force;
 }
 
 static int sample_step(void *context, const pneu_step_view *view)
@@ -193,7 +195,7 @@ static void show_commands(const lab_schedule *s, lab_trace *trace)
 static void record_position(void *context, size_t i, const pneu_state *state, const pneu_input *input)
 {
   recorder *r = context;
-  pneu_shown shown = {0, 0, 0};
+  pneu_shown shown = {0, 0, 0, 0};
   pneu_show(r->model, state, input, &shown);
   r->trace->x[i] = (double)shown.position;
 }

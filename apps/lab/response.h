@@ -28,6 +28,7 @@ typedef struct lab_trace {
   double *mass_in;  /* [kg/s] */
   double *mass_out; /* [kg/s] */
   double *heat;     /* [W] */
+  double *force;    /* [N] that holds the stem, see pneu_output.holding_force */
   double *ps;       /* [Pa] gauge, supply at the transducer */
   int *mode;        /* enum pneu_mode */
 } lab_trace;
@@ -41,7 +42,7 @@ typedef struct lab_response_options {
   double tol;     /* relative to full scale: 1e-4 .. 1e-10 */
   double t_end;   /* [s] */
   int count_only; /* not 0: no samples, statistics only (trace may be NULL) */
-  int shown_only; /* not 0: only p, x and T of the trace are filled, in a third of the time */
+  int shown_only; /* not 0: only p, x, T and force of the trace are filled, in a third of the time */
 } lab_response_options;
 
 /* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run). Commands act

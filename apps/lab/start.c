@@ -9,12 +9,19 @@ struct seen {
   double T; /* [K] */
 };
 
-/* Rows before the command first changes. */
-static size_t rows_before_change(const lab_log *log, size_t first, size_t end)
+/* Whether what drives the model has changed from the first row of a run to another. */
+static int has_changed(const pneu_laws *law, const lab_log *log, size_t first, size_t row)
 {
-  const double *u = log->value[LAB_CHANNEL_U];
+  const double *u = log->value[LAB_CHANNEL_U], *p = log->value[LAB_CHANNEL_P], *x = log->value[LAB_CHANNEL_X];
+  return (u && u[row] != u[first]) || (law->pressure_input && p && p[row] != p[first]) ||
+         (law->position_input && x && x[row] != x[first]);
+}
+
+/* Rows before what drives the model first changes. */
+static size_t rows_before_change(const pneu_laws *law, const lab_log *log, size_t first, size_t end)
+{
   size_t n = 1;
-  while (first + n < end && (!u || u[first + n] == u[first]))
+  while (first + n < end && !has_changed(law, log, first, first + n))
     n++;
   return n;
 }
@@ -46,28 +53,49 @@ static double first_value(const double *value, size_t n)
   return value[i];
 }
 
-/* Mean of the first n values; halved until both halves agree within three standard errors, and the first
- * value alone where too few are left to tell. */
+/* Whether values scatter rather than run along a curve: the mean squared step from one to the next is twice the
+ * variance of white noise (von Neumann 1941), and far less for a curve. */
+static int is_scatter(const double *value, size_t n)
+{
+  const double least = 0.5;
+  double error2, step2 = 0, before = (double)NAN;
+  size_t i, steps = 0, there = 0;
+  mean(value, n, &error2);
+  for (i = 0; i < n; i++) {
+    if (isnan(value[i]))
+      continue;
+    there++;
+    if (!isnan(before)) {
+      step2 += (value[i] - before) * (value[i] - before);
+      steps++;
+    }
+    before = value[i];
+  }
+  return step2 >= least * error2 * (double)there * (double)steps;
+}
+
+/* Mean of the first n values; halved until they scatter and both halves agree within three standard errors, and the
+ * first value alone where too few are left to tell. */
 static double level(const double *value, size_t n)
 {
   const size_t few = 8;
   for (; n >= few; n /= 2) {
     double error_a, error_b, error2;
     double a = mean(value, n / 2, &error_a), b = mean(value + n / 2, n - n / 2, &error_b);
-    if ((a - b) * (a - b) <= 9 * (error_a + error_b))
+    if ((a - b) * (a - b) <= 9 * (error_a + error_b) && is_scatter(value, n))
       return mean(value, n, &error2);
   }
   return first_value(value, n);
 }
 
 /* A channel at the start: where it drives the model its first value, else its level. */
-static double look(const lab_log *log, int channel, size_t run, int drives)
+static double look(const pneu_laws *law, const lab_log *log, int channel, size_t run, int drives)
 {
   size_t first = log->run[run], end = log->run[run + 1];
   if (!log->value[channel])
     return NAN;
   return drives ? first_value(log->value[channel] + first, end - first)
-                : level(log->value[channel] + first, rows_before_change(log, first, end));
+                : level(log->value[channel] + first, rows_before_change(law, log, first, end));
 }
 
 /* Force on the stem at rest [N], up positive, friction left out. */
@@ -97,6 +125,14 @@ static double balanced_pressure(const pneu_model *model, const pneu_input *input
   return -net_force(model, input, 0, x) / (double)model->p.area;
 }
 
+/* Pressure at a start that shows none: what the stem says; without a stem, the supply while the transducer fills. */
+static double unseen_pressure(const pneu_model *model, const pneu_input *input, double x)
+{
+  if (!isnan(x))
+    return balanced_pressure(model, input, x);
+  return input->u > 0 ? (double)input->supply_pressure : 0;
+}
+
 /* A stem seen within 2 % of stroke of a stop, and pushed that way, stands on it. */
 static double on_stop(const pneu_model *model, const pneu_input *input, double p, double x)
 {
@@ -111,7 +147,7 @@ static double on_stop(const pneu_model *model, const pneu_input *input, double p
 static int rest(const pneu_model *model, const pneu_input *input, const struct seen *seen, pneu_state *state)
 {
   double T = isnan(seen->T) ? (double)model->p.ambient_temperature : seen->T;
-  double p = isnan(seen->p) ? isnan(seen->x) ? 0 : balanced_pressure(model, input, seen->x) : seen->p;
+  double p = isnan(seen->p) ? unseen_pressure(model, input, seen->x) : seen->p;
   double x = isnan(seen->x) ? balanced_position(model, input, p) : on_stop(model, input, p, seen->x);
   int status = pneu_state_rest(model, (pneu_real)p, (pneu_real)T, (pneu_real)x, input, state);
   if (status == PNEU_OK && model->law.position_input && !isnan(seen->x))
@@ -123,8 +159,9 @@ int lab_start_from_log(const pneu_model *model, const pneu_input *input, const l
                        pneu_state *state, lab_error *error)
 {
   const int rounds = 3; /* a bias is gone after one, a gain of 10 % to 1e-3 after three */
-  const struct seen read = {look(log, LAB_CHANNEL_P, run, model->law.pressure_input),
-                            look(log, LAB_CHANNEL_X, run, model->law.position_input), look(log, LAB_CHANNEL_T, run, 0)};
+  const struct seen read = {look(&model->law, log, LAB_CHANNEL_P, run, model->law.pressure_input),
+                            look(&model->law, log, LAB_CHANNEL_X, run, model->law.position_input),
+                            look(&model->law, log, LAB_CHANNEL_T, run, 0)};
   struct seen seen = read;
   pneu_output out;
   int i;

@@ -192,6 +192,11 @@ static void leaks(const second_rig *g, const chamber *c, double *d)
   if (g->relief_area > 0.0 && c->p > g->relief_from)
     area += g->relief_area * fmin(1.0, (c->p - g->relief_from) / g->relief_span);
   exchange(g, d, -orifice(g, area, c->P, c->T, Pa, Ta), Ta, c->T);
+  if (g->porous_leak > 0.0) {
+    double s = c->P * c->P - Pa * Pa, half = g->crossover * g->crossover / 2.0;
+    double q = g->porous_leak * (sqrt(half * half + 2.0 * half * fabs(s)) - half);
+    exchange(g, d, s > 0.0 ? -q : q, Ta, c->T);
+  }
   exchange(g, d, -g->laminar_leak * (c->P * c->P - Pa * Pa), Ta, c->T);
 }
 

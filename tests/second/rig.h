@@ -36,6 +36,7 @@ typedef struct {
 
   /* mass and energy */
   double leak_area;                             /* m2, orifice to ambient */
+  double porous_leak, crossover;                /* kg/(s Pa2), Pa: P^2 - Pa^2 = q/c + (q/(c p_c))^2 */
   double laminar_leak;                          /* kg/(s Pa2), c (P^2 - Pa^2) */
   double relief_area, relief_from, relief_span; /* m2, Pa gauge, Pa: a leak that opens from a pressure on */
   double heat, heat_natural;                    /* W/K; W/K^(4/3), free convection |dT|^(1/3) dT */

@@ -1,0 +1,250 @@
+#include "logshape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The way back of a loop ---- */
+
+static void swap_rows(lab_log *log, size_t a, size_t b)
+{
+  const int line = log->line[a];
+  int c;
+  log->line[a] = log->line[b];
+  log->line[b] = line;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (log->value[c] && c != LAB_CHANNEL_TIME) {
+      const double value = log->value[c][a];
+      log->value[c][a] = log->value[c][b];
+      log->value[c][b] = value;
+    }
+}
+
+/* Each run goes up twice: from where the channel first falls, its rows are the way back, end first. */
+static int reverse_way_back(lab_log *log, int channel, lab_error *error)
+{
+  const double *value = log->value[channel];
+  size_t run;
+  if (!value)
+    return lab_fail(error, LAB_DATA, "%s: log.way_back needs a column %s", log->path, lab_channels[channel].key);
+  for (run = 0; run < log->n_runs; run++) {
+    size_t a = log->run[run] + 1, b = log->run[run + 1];
+    while (a < b && !(value[a] < value[a - 1]))
+      a++;
+    if (a == b)
+      return lab_fail(error, LAB_DATA, "%s:%d: expected %s to fall once in this run, where the way back begins",
+                      log->path, log->line[log->run[run]], lab_channels[channel].key);
+    while (a + 1 < b)
+      swap_rows(log, a++, --b);
+  }
+  return LAB_OK;
+}
+
+/* ---- Fewer rows ---- */
+
+static int keep_every(lab_log *log, size_t every, size_t offset, lab_error *error)
+{
+  size_t run, i, n = 0;
+  int c;
+  for (run = 0; run < log->n_runs; run++) {
+    const size_t first = log->run[run];
+    if (first + offset >= log->run[run + 1])
+      return lab_fail(error, LAB_DATA, "%s:%d: expected more than the %zu rows before log.first in this run", log->path,
+                      log->line[first], offset);
+    log->run[run] = n;
+    for (i = first + offset; i < log->run[run + 1]; i += every, n++) {
+      log->line[n] = log->line[i];
+      for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+        if (log->value[c])
+          log->value[c][n] = log->value[c][i];
+    }
+  }
+  log->n = log->run[log->n_runs] = n;
+  return LAB_OK;
+}
+
+/* ---- Many runs into one ---- */
+
+struct instant {
+  double t;
+  size_t row;
+};
+
+static int by_time(const void *a, const void *b)
+{
+  const struct instant *x = a, *y = b;
+  if (x->t != y->t)
+    return x->t < y->t ? -1 : 1;
+  return x->row < y->row ? -1 : x->row > y->row;
+}
+
+/* Mean of a channel over the rows of each instant, gaps left out; a command is that of the first row. */
+static void mean_channel(const lab_log *log, const struct instant *order, int channel, double *mean)
+{
+  const double *value = log->value[channel];
+  size_t i, k, n = 0;
+  for (i = 0; i < log->n; i = k) {
+    double sum = 0;
+    size_t there = 0;
+    for (k = i; k < log->n && order[k].t == order[i].t; k++)
+      if (!isnan(value[order[k].row])) {
+        sum += value[order[k].row];
+        there++;
+      }
+    mean[n++] = channel == LAB_CHANNEL_U ? value[order[i].row] : sum / (double)there;
+  }
+}
+
+static size_t mean_lines(lab_log *log, const struct instant *order, double *scratch)
+{
+  size_t i, n = 0;
+  for (i = 0; i < log->n; i++)
+    if (i == 0 || order[i].t != order[i - 1].t)
+      scratch[n++] = log->line[order[i].row];
+  for (i = 0; i < n; i++)
+    log->line[i] = (int)scratch[i];
+  return n;
+}
+
+static int mean_of_runs(lab_log *log, lab_error *error)
+{
+  struct instant *order = malloc(log->n * sizeof *order);
+  double *scratch = malloc(log->n * sizeof *scratch);
+  size_t i, n;
+  int c;
+  if (!order || !scratch) {
+    free(order);
+    free(scratch);
+    return lab_fail_memory(error, log->path);
+  }
+  for (i = 0; i < log->n; i++) {
+    order[i].t = log->value[LAB_CHANNEL_TIME][i];
+    order[i].row = i;
+  }
+  qsort(order, log->n, sizeof *order, by_time);
+  n = mean_lines(log, order, scratch);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (log->value[c]) {
+      mean_channel(log, order, c, scratch);
+      memcpy(log->value[c], scratch, n * sizeof *scratch);
+    }
+  free(order);
+  free(scratch);
+  log->n = log->run[1] = n;
+  log->n_runs = 1;
+  return LAB_OK;
+}
+
+/* ---- Rows before each run ---- */
+
+/* A channel that only the lead has: gaps in all rows. */
+static int add_channels(lab_log *log, const lab_log_format *format, lab_error *error)
+{
+  int c, k;
+  size_t i;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    for (k = 0; k < format->n_lead && !log->value[c]; k++) {
+      if (isnan(format->lead[k][c]) && !format->lead_first[k][c] && !format->lead_last[k][c])
+        continue;
+      if (!(log->value[c] = malloc(log->n * sizeof(double))))
+        return lab_fail_memory(error, log->path);
+      for (i = 0; i < log->n; i++)
+        log->value[c][i] = c == LAB_CHANNEL_U ? format->lead[format->n_lead - 1][c] : (double)NAN;
+    }
+  return LAB_OK;
+}
+
+/* The first or last value of a channel in a run that is no gap; NaN if there is none. */
+static double end_value(const lab_log *log, int channel, size_t run, int last)
+{
+  const double *value = log->value[channel];
+  size_t i = last ? log->run[run + 1] - 1 : log->run[run], n;
+  for (n = log->run[run + 1] - log->run[run]; value && n > 0; n--, i += last ? (size_t)-1 : 1)
+    if (!isnan(value[i]))
+      return value[i];
+  return (double)NAN;
+}
+
+/* What the lead says of a channel in its row k. */
+static double lead_value(const lab_log *log, const lab_log_format *format, size_t k, int channel, size_t run)
+{
+  if (format->lead_first[k][channel])
+    return end_value(log, format->lead_first[k][channel] - 1, run, 0);
+  if (format->lead_last[k][channel])
+    return end_value(log, format->lead_last[k][channel] - 1, run, 1);
+  return format->lead[k][channel];
+}
+
+/* One channel with its lead before each run. */
+static int lead_channel(const lab_log *log, const lab_log_format *format, int channel, double **with_lead)
+{
+  const double *value = log->value[channel];
+  const size_t extra = (size_t)format->n_lead;
+  double *to = *with_lead = malloc((log->n + log->n_runs * extra) * sizeof *to);
+  size_t run, k, n = 0;
+  for (run = 0; to && run < log->n_runs; run++) {
+    const size_t first = log->run[run], rows = log->run[run + 1] - first;
+    for (k = 0; k < extra; k++) {
+      const double given = lead_value(log, format, k, channel, run);
+      to[n++] = channel == LAB_CHANNEL_U && isnan(given) ? value[first] : given;
+    }
+    memcpy(to + n, value + first, rows * sizeof *to);
+    n += rows;
+  }
+  return to != NULL;
+}
+
+static int lead_lines(lab_log *log, size_t extra)
+{
+  int *to = malloc((log->n + log->n_runs * extra) * sizeof *to);
+  size_t run, k, n = 0;
+  for (run = 0; to && run < log->n_runs; run++) {
+    const size_t first = log->run[run], rows = log->run[run + 1] - first;
+    log->run[run] = n;
+    for (k = 0; k < extra; k++)
+      to[n++] = log->line[first];
+    memcpy(to + n, log->line + first, rows * sizeof *to);
+    n += rows;
+  }
+  if (!to)
+    return 0;
+  free(log->line);
+  log->line = to;
+  log->n = log->run[log->n_runs] = n;
+  return 1;
+}
+
+static int put_lead(lab_log *log, const lab_log_format *format, lab_error *error)
+{
+  const double last = format->lead[format->n_lead - 1][LAB_CHANNEL_TIME];
+  double *made[LAB_CHANNEL_COUNT] = {NULL};
+  size_t run;
+  int c, status = LAB_OK;
+  for (run = 0; run < log->n_runs; run++)
+    if (log->value[LAB_CHANNEL_TIME][log->run[run]] <= last)
+      return lab_fail(error, LAB_DATA, "%s:%d: expected a run that begins after its lead, %g s, found %g s", log->path,
+                      log->line[log->run[run]], last, log->value[LAB_CHANNEL_TIME][log->run[run]]);
+  if (add_channels(log, format, error))
+    return error->status;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (log->value[c] && !lead_channel(log, format, c, &made[c]))
+      status = lab_fail_memory(error, log->path);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) { /* only now, for a lead may look at any channel */
+    free(status == LAB_OK ? log->value[c] : made[c]);
+    log->value[c] = status == LAB_OK ? made[c] : log->value[c];
+  }
+  if (status != LAB_OK)
+    return status;
+  return lead_lines(log, (size_t)format->n_lead) ? LAB_OK : lab_fail_memory(error, log->path);
+}
+
+int lab_log_shape(lab_log *log, const lab_log_format *format, lab_error *error)
+{
+  if (format->way_back >= 0 && reverse_way_back(log, format->way_back, error))
+    return error->status;
+  if ((format->every > 1 || format->first > 0) && keep_every(log, (size_t)format->every, (size_t)format->first, error))
+    return error->status;
+  if (format->runs == LAB_RUNS_MEAN && mean_of_runs(log, error))
+    return error->status;
+  return format->n_lead > 0 ? put_lead(log, format, error) : LAB_OK;
+}

@@ -1,0 +1,13 @@
+/* The last step of reading a raw log: rows put in the order and the number that the format asks for.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_LOGSHAPE_H
+#define LAB_LOGSHAPE_H
+
+#include "log.h"
+
+/* Reverse the way back of a loop, keep every so many-th row, take the mean over runs, put the lead before each run; in
+ * this order, and each only if the format has it. In/out:  log  its rows and runs Returns: LAB_OK; LAB_DATA with the
+ * line; LAB_WORLD. */
+int lab_log_shape(lab_log *log, const lab_log_format *format, lab_error *error);
+
+#endif
