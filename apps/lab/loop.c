@@ -7,12 +7,13 @@
 #include <string.h>
 #include <time.h>
 
-static const double alike_bic = 9.2; /* refits that differ by less are alike: odds of a hundred to one */
-static const double name_bonus = 20; /* by which a free term must be better than an effect */
-static const double rival = 3;       /* times the best chi-square: a poorer model is not extended */
-static const double worth = 0.05;    /* of the best statistic: leaders have at least so much */
-static const double alone = 3;       /* a slot is tried at once if it explains so much more than any effect, */
-static const double mostly = 0.5;    /* and so much of all there is */
+static const double alike_bic = 9.2;  /* refits that differ by less are alike: odds of a hundred to one */
+static const double name_bonus = 20;  /* by which a free term must be better than an effect */
+static const double convincing = 0.1; /* of the excess of the best named model: a free term leaves at most so much */
+static const double rival = 3;        /* times the best chi-square: a poorer model is not extended */
+static const double worth = 0.05;     /* of the best statistic: leaders have at least so much */
+static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
+static const double mostly = 0.5;     /* and so much of all there is */
 enum {
   BEAM = 2,
   SLOTS = 2,
@@ -590,6 +591,15 @@ static int verdict_of(const attempt *a)
   return a->n_found > 0 ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE;
 }
 
+/* A free term can bend to nearly anything, and says nothing beyond what it has seen: it must leave only noise, or far
+ * less than what has a name does. */
+static int is_convincing(const attempt *nameless, const attempt *named)
+{
+  const double n = (double)named->u.n_data;
+  return nameless->fitted && nameless->bic < named->bic &&
+         (any_is_noise(nameless, 1) || nameless->chi2 - n < convincing * (named->chi2 - n));
+}
+
 /* Nothing that has a name would do: a free term beside what was found, which may then be needless. */
 static int last_resort(search *s, lab_error *error)
 {
@@ -602,7 +612,7 @@ static int last_resort(search *s, lab_error *error)
   if (status == LAB_OK && (n = lab_trace_slots(&scan, slot)) > 0)
     best_slot(s, best, slot, n, longer);
   lab_scan_close(&scan);
-  if (status != LAB_OK || !longer->fitted || !(longer->bic < best->bic))
+  if (status != LAB_OK || !is_convincing(longer, best))
     return status;
   note_step(s->result, longer, 1);
   if (lab_loop_errors(&best->u, &before, error) || lab_loop_errors(&longer->u, &after, error))
@@ -631,7 +641,7 @@ static int search_all(search *s, lab_error *error)
         return error->status;
     }
   }
-  if (s->nameless->fitted && !any_is_noise(best, 1) && s->nameless->bic < best->bic) {
+  if (s->nameless->fitted && !any_is_noise(best, 1) && is_convincing(s->nameless, best)) {
     *best = *s->nameless;
     note_step(s->result, best, 1);
   }

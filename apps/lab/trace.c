@@ -273,7 +273,8 @@ static const struct place {
     {PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_POSITION, 13}};
 enum { PLACES = sizeof places / sizeof *places };
 
-static const double flow_share = 0.04; /* of the largest flow: a free flow that matters */
+static const size_t rows_per_knot = 20; /* at least: a knot must not follow single rows */
+static const double flow_share = 0.04;  /* of the largest flow: a free flow that matters */
 
 /* Largest pressure, and 98 % of the speeds, that the logs show. */
 static void ranges(const lab_unknowns *u, double *pressure, double *speed)
@@ -375,7 +376,9 @@ int lab_trace_slots(const lab_scan *s, lab_slot slot[LAB_SLOT_MAX])
   if (s->u->rig.n_terms == LAB_TERM_MAX)
     return 0;
   for (i = 0; i < PLACES; i++)
-    if (!vessel || places[i].argument == PNEU_TERM_OVER_PRESSURE || places[i].argument == PNEU_TERM_OVER_OPENING)
+    if ((size_t)places[i].knots * rows_per_knot > s->u->n_rows)
+      continue;
+    else if (!vessel || places[i].argument == PNEU_TERM_OVER_PRESSURE || places[i].argument == PNEU_TERM_OVER_OPENING)
       prepare_slot(s->u, &places[i], &slot[n++]);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)

@@ -389,7 +389,8 @@ size_t lab_unknowns_rough(const lab_unknowns *u)
   size_t window = 0;
   lab_error ignored;
   int e;
-  if (errors && lab_unknowns_errors(u, errors, &ignored) == LAB_OK)
+  const int has_stem = u->rig.params.stroke > 0 && !u->rig.laws.position_input;
+  if (has_stem && errors && lab_unknowns_errors(u, errors, &ignored) == LAB_OK)
     for (e = 0; e < u->n_experiments && !window; e++) {
       const lab_experiment *x = &u->experiment[e];
       const size_t fair = x->n / WINDOWS, w = fair < SHORTEST ? SHORTEST : fair > LONGEST ? LONGEST : fair;
