@@ -47,7 +47,7 @@ static void describe_param(lab_unknown *x, int param)
   snprintf(x->unit, sizeof x->unit, "%s", info.unit);
   x->lower = (double)info.lower;
   x->upper = (double)info.upper;
-  x->scale = fabs((double)info.value - (param < PNEU_PARAM_BASE_COUNT ? 0 : (double)info.neutral));
+  x->scale = fabs((double)info.value - (param < PNEU_PARAM_BASE_COUNT || info.shape ? 0 : (double)info.neutral));
 }
 
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
