@@ -9,7 +9,10 @@
 #include "lab/log.h"
 #include "lab/loop.h"
 #include "lab/loopfiles.h"
+#include "lab/mend.h"
 #include "lab/outfile.h"
+#include "lab/plausible.h"
+#include "lab/thin.h"
 
 enum { LOG_MAX = 32, RUN_MAX = 256 };
 
@@ -39,7 +42,12 @@ typedef struct bench {
   int n_logs;
   lab_experiment experiment[RUN_MAX];
   int n;
+  lab_content content;
+  lab_remarks remarks;
 } bench;
+
+/* The logs to fit, and the one held out. */
+static bench fitted, held;
 
 static void close_bench(bench *b)
 {
@@ -49,13 +57,25 @@ static void close_bench(bench *b)
     lab_log_free(&b->log[--b->n_logs]);
 }
 
+/* Read a log, leave out what is no measurement, and see that it makes sense on this rig. */
+static int read_log(const lab_rig *rig, const char *path, bench *b, lab_error *error)
+{
+  lab_log *log = &b->log[b->n_logs];
+  if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
+    return error->status;
+  b->n_logs++;
+  lab_log_thin(log, LAB_THIN_ROWS, &b->remarks);
+  if (lab_log_mend(rig, log, &b->remarks, error))
+    return error->status;
+  return lab_plausible(rig, log, &b->remarks, &b->content, error);
+}
+
 static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *error)
 {
   lab_log *log = &b->log[b->n_logs];
   size_t run;
-  if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
+  if (read_log(rig, path, b, error))
     return error->status;
-  b->n_logs++;
   for (run = 0; run < log->n_runs; run++) {
     if (b->n == RUN_MAX)
       return lab_fail(error, LAB_DATA, "%s: more than %d runs in all", path, (int)RUN_MAX);
@@ -80,17 +100,15 @@ static int judge(const lab_rig *rig, const pneu_params *params, bench *b, lab_er
   return lab_loop_errors(&u, errors, error);
 }
 
-static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
+static int hold_out(lab_story *story, lab_error *error)
 {
-  static bench b;
-  int status = add_log(rig, holdout, &b, error);
-  if (status == LAB_OK)
-    status = judge(rig, &story->declared->params, &b, &story->holdout_before, error);
-  if (status == LAB_OK)
-    status = judge(rig, &story->completed->params, &b, &story->holdout_after, error);
-  story->has_holdout = status == LAB_OK;
-  close_bench(&b);
-  return status;
+  if (held.n == 0)
+    return LAB_OK;
+  if (judge(story->rig, &story->declared->params, &held, &story->holdout_before, error) ||
+      judge(story->rig, &story->completed->params, &held, &story->holdout_after, error))
+    return error->status;
+  story->has_holdout = 1;
+  return LAB_OK;
 }
 
 static int write_story(const lab_story *story, lab_error *error)
@@ -112,25 +130,37 @@ static double seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
+/* The loop's result where the log cannot carry a name: the fit, and nothing traced. */
+static int decline(const lab_unknowns *u, lab_loop_result *result, lab_error *error)
+{
+  if (lab_loop_errors(u, &result->before, error))
+    return error->status;
+  result->after = result->before;
+  result->verdict = LAB_VERDICT_UNDECIDED;
+  return LAB_OK;
+}
+
+static int close_loop(const lab_rig *rig, lab_error *error)
 {
   static lab_unknowns declared, completed;
   static lab_loop_result result;
   lab_loop_options how;
-  lab_story story = {rig, &declared, &completed, &result, 0, {{0}, {0}, 0, 0}, {{0}, {0}, 0, 0}, 0, 0, 0};
+  lab_story story = {rig, &declared, &completed, &result, 0, {{0}, {0}, 0, 0}, {{0}, {0}, 0, 0}, 0, 0, 0, NULL};
   const double start = seconds();
-  char sentence[512];
+  char sentence[LAB_REMARK_TEXT + 64];
   lab_loop_options_default(&how);
   how.alpha = alpha;
   how.min_gain = min_gain;
-  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) || lab_unknowns_fit(&declared, &result.fit, error))
+  story.remarks = &fitted.remarks;
+  if (lab_unknowns_open(rig, fitted.experiment, fitted.n, &declared, error) ||
+      lab_unknowns_fit(&declared, &result.fit, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;
-  if (lab_loop_run(&completed, &how, &result, error))
+  if (fitted.remarks.doubt ? decline(&completed, &result, error) : lab_loop_run(&completed, &how, &result, error))
     return error->status;
   story.trace_s = seconds() - start - story.fit_s;
-  if (holdout && hold_out(rig, &story, error))
+  if (hold_out(&story, error))
     return error->status;
   story.total_s = seconds() - start;
   lab_story_sentence(&story, sentence, sizeof sentence);
@@ -138,16 +168,31 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
   return write_story(&story, error);
 }
 
+/* Read every log before any fit, so that a bad one costs no waiting. */
+static int read_logs(const lab_cli *cli, const lab_rig *rig, lab_error *error)
+{
+  int i;
+  for (i = 1; i < cli->n_operands; i++)
+    if (add_log(rig, cli->operand[i], &fitted, error))
+      return error->status;
+  if (lab_plausible_content(rig, &fitted.content, &fitted.remarks, error))
+    return error->status;
+  if (holdout && add_log(rig, holdout, &held, error))
+    return error->status;
+  lab_remarks_join(&fitted.remarks, &held.remarks);
+  return LAB_OK;
+}
+
 static int run(const lab_cli *cli, lab_error *error)
 {
   static lab_rig rig;
-  static bench b;
-  int i, status = lab_rig_read(cli->operand[0], &rig, error);
-  for (i = 1; i < cli->n_operands && status == LAB_OK; i++)
-    status = add_log(&rig, cli->operand[i], &b, error);
+  int status = lab_rig_read(cli->operand[0], &rig, error);
   if (status == LAB_OK)
-    status = close_loop(&rig, &b, error);
-  close_bench(&b);
+    status = read_logs(cli, &rig, error);
+  if (status == LAB_OK)
+    status = close_loop(&rig, error);
+  close_bench(&fitted);
+  close_bench(&held);
   return status;
 }
 

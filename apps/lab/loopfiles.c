@@ -123,6 +123,14 @@ static void add_candidates(cJSON *to, const lab_trace_result *trace)
   }
 }
 
+static void add_limitations(cJSON *to, const lab_remarks *remarks)
+{
+  cJSON *list = cJSON_AddArrayToObject(to, "limitations");
+  int i;
+  for (i = 0; remarks && i < remarks->n; i++)
+    cJSON_AddItemToArray(list, cJSON_CreateString(remarks->text[i]));
+}
+
 static cJSON *json_of(const lab_story *story)
 {
   const lab_loop_result *result = story->result;
@@ -149,6 +157,7 @@ static cJSON *json_of(const lab_story *story)
   o = cJSON_AddArrayToObject(root, "significant_but_small");
   for (i = 0; i < result->n_listed; i++)
     cJSON_AddItemToArray(o, cJSON_CreateString(pneu_effect_at(result->listed[i])->name));
+  add_limitations(root, story->remarks);
   o = cJSON_AddObjectToObject(root, "timing");
   add_number(o, "fit_s", story->fit_s);
   add_number(o, "trace_s", story->trace_s);
@@ -278,6 +287,10 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
   const double before = sqrt(r->before.chi2 / (double)r->before.n), after = sqrt(r->after.chi2 / (double)r->after.n);
   size_t used = 0;
   int i;
+  if (story->remarks && story->remarks->doubt) {
+    snprintf(text, size, "Undecided: %s", story->remarks->text[story->remarks->doubt - 1]);
+    return;
+  }
   if (r->verdict == LAB_VERDICT_UNDECIDED) {
     snprintf(text, size,
              "Undecided: what is left, %.2f times the noise, is not noise, and the catalogue does not explain it%s.",

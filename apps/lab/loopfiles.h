@@ -4,6 +4,7 @@
 #define LAB_LOOPFILES_H
 
 #include "loop.h"
+#include "remarks.h"
 
 /* Everything that there is to say about a run. */
 typedef struct lab_story {
@@ -14,6 +15,7 @@ typedef struct lab_story {
   int has_holdout;
   lab_errors holdout_before, holdout_after;
   double fit_s, trace_s, total_s; /* [s] on the clock */
+  const lab_remarks *remarks;     /* what limits the conclusions; NULL: nothing */
 } lab_story;
 
 /* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */

@@ -12,4 +12,8 @@
  * Returns: in the unit of the channel; NaN with fewer than eight differences. */
 double lab_noise_estimate(const double *value, size_t n);
 
+/* Smallest difference between neighbouring values that is not zero: the step of the converter or of the digits
+ * written.  Returns: 0 if all are equal. */
+double lab_smallest_step(const double *value, size_t n);
+
 #endif

@@ -1,0 +1,402 @@
+/* Checks of plausible.h on the command of a log: does it drive what was measured? */
+#include <math.h>
+
+#include "scene.h"
+
+static const double settled_low = 0.3;     /* of the supply, where a long fill ends */
+static const double settled_high = 0.5;    /* of the ambient pressure, where a long vent ends */
+static const double significant = 8;       /* in noise: a change over a stretch that counts */
+static const double visible = 0.05;        /* of the range: likewise */
+static const double against = 0.25;        /* of the range: changes against the command that are worth a word */
+static const double thermal = 0.5;         /* of absolute pressure: a shut chamber that warms rises by less */
+static const double pace_factor = 20;      /* between what is measured and declared, in time */
+static const double alike = 0.4;           /* correlation of rates, measured and expected, below which they differ */
+static const double alike_shifted = 0.8;   /* and above which a shift in time is the reason */
+static const double early_rate = 0.3;      /* of the usual rate with an open orifice */
+static const double longest_dead_time = 1; /* [s]: sound travels 340 m */
+
+/* Something other than the command moves stem or chamber. */
+static int is_driven(const lab_scene *s)
+{
+  return s->rig->input[LAB_CHANNEL_X] || s->rig->input[LAB_CHANNEL_P] || s->y[LAB_CHANNEL_FORCE];
+}
+
+static const char *kind_of(int sign)
+{
+  return sign > 0 ? "fills" : sign < 0 ? "vents" : "shuts both orifices";
+}
+
+/* ---- Levels ---- */
+
+static int is_open(const lab_scene *s, const lab_stretch *stretch)
+{
+  size_t i;
+  for (i = stretch->first; i < stretch->end; i++)
+    if (fabs(s->u[i]) < 0.5)
+      return 0;
+  return stretch->sign != 0 && stretch->end - stretch->first >= LAB_SCENE_FEWEST;
+}
+
+/* Level at the end of a stretch; NaN if it still changes over the last quarter. */
+static double settles(const lab_scene *s, const double *y, const lab_stretch *stretch, double tolerance)
+{
+  const size_t late = stretch->end - (stretch->end - stretch->first) / 4;
+  const double a = lab_scene_value(y, late, stretch->end, 0), b = lab_scene_value(y, late, stretch->end, 1);
+  return late + 1 < stretch->end && late < s->n && fabs(b - a) < tolerance ? b : (double)NAN;
+}
+
+int lab_check_settled(const lab_scene *s, lab_finding *f)
+{
+  const double supply = (double)s->rig->params.supply_pressure, ambient = (double)s->rig->params.ambient_pressure;
+  lab_stretch stretch = {0, 0, 0, 0};
+  char found[LAB_SHOW_TEXT], want[LAB_SHOW_TEXT];
+  if (s->main != LAB_CHANNEL_P || !s->has_expected || is_driven(s))
+    return 0;
+  while (lab_scene_next(s, &stretch)) {
+    const double tolerance = fmax(3 * s->sigma[LAB_CHANNEL_P], 0.02 * supply);
+    double level, ought;
+    if (!is_open(s, &stretch))
+      continue;
+    level = settles(s, s->y[LAB_CHANNEL_P], &stretch, tolerance);
+    ought = settles(s, s->expected.p, &stretch, tolerance);
+    if (stretch.sign > 0 && ought > 0.9 * supply && level < settled_low * supply)
+      return lab_find_at(f, stretch.end - 1,
+                         "p settles at %s while u fills, expected near the supply, %s: check the unit of p and "
+                         "supply.pressure%s",
+                         lab_show(LAB_CHANNEL_P, level, found), lab_show(LAB_CHANNEL_P, supply, want),
+                         lab_unit_slip(LAB_CHANNEL_P, supply / level));
+    if (stretch.sign < 0 && ought < 0.05 * supply && level > settled_high * ambient)
+      return lab_find_at(f, stretch.end - 1, "p settles at %s while u vents, expected near 0 gauge%s",
+                         lab_show(LAB_CHANNEL_P, level, found),
+                         fabs(level - ambient) < 0.15 * ambient ? ": it is the ambient pressure; absolute, so that the "
+                                                                  "column is p_abs?"
+                                                                : ": check its unit and offset");
+  }
+  return 0;
+}
+
+/* ---- Direction ---- */
+
+/* Rises and falls of the main channel that the command allows, and those it does not. */
+struct account {
+  double rise_for, rise_against, fall_for, fall_against;
+  lab_stretch worst; /* the largest change against its command */
+};
+
+/* A shut chamber may warm up. */
+static int is_warming(const lab_scene *s, const lab_stretch *stretch)
+{
+  const double start = lab_scene_value(s->y[s->main], stretch->first, stretch->end, 0);
+  return s->main == LAB_CHANNEL_P && stretch->sign == 0 &&
+         stretch->change < thermal * (start + (double)s->rig->params.ambient_pressure);
+}
+
+static void book(const lab_scene *s, const lab_stretch *stretch, struct account *a)
+{
+  const double size = fabs(stretch->change);
+  const int rises = stretch->change > 0, is_against = rises ? stretch->sign <= 0 : stretch->sign > 0;
+  if (!(size > significant * s->sigma[s->main] && size > visible * lab_scene_span(s, s->main)) ||
+      (rises && is_warming(s, stretch)))
+    return;
+  *(rises ? is_against ? &a->rise_against : &a->rise_for : is_against ? &a->fall_against : &a->fall_for) += size;
+  if (is_against && size > fabs(a->worst.change))
+    a->worst = *stretch;
+}
+
+static int is_idle(const lab_scene *s)
+{
+  size_t i;
+  for (i = 0; i < s->n; i++)
+    if (s->u[i] != s->u[0])
+      return 0;
+  return 1;
+}
+
+int lab_check_command(const lab_scene *s, lab_finding *f)
+{
+  struct account a = {0, 0, 0, 0, {0, 0, 0, 0}};
+  lab_stretch stretch = {0, 0, 0, 0};
+  double least, turned;
+  char size[LAB_SHOW_TEXT];
+  if (s->main < 0 || is_driven(s))
+    return 0;
+  while (lab_scene_next(s, &stretch))
+    book(s, &stretch, &a);
+  least = against * lab_scene_span(s, s->main);
+  turned = a.rise_against + a.fall_against - a.rise_for - a.fall_for;
+  if (!(a.rise_against > fmax(a.rise_for, least)) &&
+      (!(a.fall_against > fmax(a.fall_for, least)) || s->y[LAB_CHANNEL_PS]))
+    return 0;
+  return lab_find_at(
+      f, a.worst.first, "the command does not match: %s %s by %s from t = %.6g s to %.6g s while u = %g %s%s",
+      lab_channels[s->main].key, a.worst.change > 0 ? "rises" : "falls", lab_show(s->main, fabs(a.worst.change), size),
+      s->t[a.worst.first], s->t[a.worst.end - 1], s->u[a.worst.first], kind_of(a.worst.sign),
+      is_idle(s)   ? "; u never changes: is the column right?"
+      : turned > 0 ? "; is its sign turned (log.scale = { u = -1.0; }), or the column of another test?"
+                   : "; is the column of another test, or does 0 stand for vent?");
+}
+
+/* ---- Pace ---- */
+
+/* Rows until a channel has moved by `change` from the start of a stretch; n if it does not. */
+static size_t rows_to(const double *y, const lab_stretch *stretch, double change)
+{
+  const double start = lab_scene_value(y, stretch->first, stretch->end, 0);
+  size_t i = stretch->first;
+  while (i < stretch->end && !((y[i] - start) * (change > 0 ? 1 : -1) >= fabs(change)))
+    i++;
+  return i - stretch->first;
+}
+
+/* Time to move by `change`, at least one row; where the stretch is too short, as long as its mean rate would take. */
+static double time_to(const lab_scene *s, const double *y, const lab_stretch *stretch, double change)
+{
+  const size_t n = stretch->end - stretch->first, rows = rows_to(y, stretch, change);
+  const double whole = s->t[stretch->end - 1] - s->t[stretch->first];
+  const double moved = lab_scene_value(y, stretch->first, stretch->end, 1) - y[stretch->first];
+  if (rows >= n)
+    return change / moved > 1 ? whole * change / moved : (double)NAN;
+  return s->t[stretch->first + (rows > 0 ? rows : 1)] - s->t[stretch->first];
+}
+
+static void swap_up(double *value, int n)
+{
+  for (; n > 0 && value[n] < value[n - 1]; n--) {
+    const double keep = value[n];
+    value[n] = value[n - 1];
+    value[n - 1] = keep;
+  }
+}
+
+/* Median over large strokes of the time taken over the time expected; NaN without any. */
+static double pace(const lab_scene *s)
+{
+  enum { MOST = 64 };
+  const double *expected = lab_scene_expected(s, s->main);
+  double ratio[MOST];
+  lab_stretch stretch = {0, 0, 0, 0};
+  int n = 0;
+  while (n < MOST && lab_scene_next(s, &stretch)) {
+    const double change = stretch.change;
+    if (stretch.sign == 0 || stretch.end - stretch.first < 4 || !(fabs(change) > significant * s->sigma[s->main]) ||
+        !(fabs(change) > 0.3 * lab_scene_span(s, s->main)))
+      continue;
+    ratio[n] = time_to(s, s->y[s->main], &stretch, change / 2) / time_to(s, expected, &stretch, change / 2);
+    if (!isnan(ratio[n]))
+      swap_up(ratio, n++);
+  }
+  return n > 0 ? ratio[n / 2] : (double)NAN;
+}
+
+int lab_check_pace(const lab_scene *s, lab_finding *f)
+{
+  double ratio;
+  if (s->main < 0 || !s->has_expected || is_driven(s))
+    return 0;
+  ratio = pace(s);
+  if (isnan(ratio) || (ratio < pace_factor && ratio > 1 / pace_factor))
+    return 0;
+  return lab_find(f,
+                  "%s moves %.3g times %s than the declared model: check the unit of t, transducer.fill_area and "
+                  "vent_area, and the volume%s",
+                  lab_channels[s->main].key, ratio > 1 ? ratio : 1 / ratio, ratio > 1 ? "slower" : "faster",
+                  lab_unit_slip(LAB_CHANNEL_TIME, ratio));
+}
+
+/* ---- Likeness ---- */
+
+/* Correlation of the rates of the measured channel, `lag` cells later, with the expected ones. */
+static double likeness(const lab_scene *s, int lag)
+{
+  const double *m = s->cells[s->main].mean, *e = s->expected_cells.mean;
+  double mm = 0, ee = 0, me = 0;
+  int k;
+  for (k = 0; k + 1 < s->n_cells; k++) {
+    const double dm = m[k + 1] - m[k], de = e[k + 1] - e[k];
+    mm += dm * dm;
+    ee += de * de;
+    if (k + lag >= 0 && k + lag + 1 < s->n_cells)
+      me += de * (m[k + lag + 1] - m[k + lag]);
+  }
+  return mm > 0 && ee > 0 ? me / sqrt(mm * ee) : 0;
+}
+
+/* Enough movement, measured and expected, for its rates to be seen above the noise. */
+static int rates_are_seen(const lab_scene *s)
+{
+  const double *m = s->cells[s->main].mean;
+  const double per_cell = fmax((double)s->n / s->n_cells, 1), sigma = s->sigma[s->main];
+  double mm = 0;
+  int k;
+  for (k = 0; k + 1 < s->n_cells; k++)
+    mm += (m[k + 1] - m[k]) * (m[k + 1] - m[k]);
+  return mm > 4 * 2 * sigma * sigma / per_cell * s->n_cells &&
+         s->expected_cells.high - s->expected_cells.low > 10 * sigma;
+}
+
+/* The lag at which both are most alike, the shortest one of those within 2 %.  Returns: in cells; 0 if not to be told.
+ * Out: best */
+static int lag_of(const lab_scene *s, double *best)
+{
+  const int most = s->n_cells / 3;
+  int lag;
+  *best = 1;
+  if (s->main < 0 || !s->has_expected || is_driven(s) || !s->u || !rates_are_seen(s))
+    return 0;
+  *best = 0;
+  for (lag = -most; lag <= most; lag++)
+    *best = fmax(*best, likeness(s, lag));
+  for (lag = 0; lag < most; lag++) {
+    if (likeness(s, lag) >= 0.98 * *best)
+      return lag;
+    if (likeness(s, -lag) >= 0.98 * *best)
+      return -lag;
+  }
+  return 0;
+}
+
+int lab_check_early(const lab_scene *s, lab_finding *f)
+{
+  double best;
+  const int lag = lag_of(s, &best);
+  if (lag > -4 || best < alike_shifted)
+    return 0;
+  return lab_find(f,
+                  "the command does not match: %s moves %.3g s before u says so; are both from one test, and on one "
+                  "clock?",
+                  lab_channels[s->main].key, -lag * s->cell);
+}
+
+/* ---- Starts ---- */
+
+/* Median rate of the main channel over the stretches in which an orifice is open, by size. */
+static double open_rate(const lab_scene *s)
+{
+  enum { MOST = 64 };
+  double rate[MOST];
+  lab_stretch stretch = {0, 0, 0, 0};
+  int n = 0;
+  while (n < MOST && lab_scene_next(s, &stretch)) {
+    const double time = s->t[stretch.end - 1] - s->t[stretch.first];
+    if (stretch.sign == 0 || !(time > 0) || isnan(stretch.change))
+      continue;
+    rate[n] = fabs(stretch.change) / time;
+    swap_up(rate, n++);
+  }
+  return n > 0 ? rate[n / 2] : HUGE_VAL;
+}
+
+/* Does the main channel turn within a stretch and then move the way of the coming command, as fast as through an
+ * orifice, though the present one does not allow it? What lasts from the command before, such as a delay, a line that
+ * fills up or a chamber that warms, begins with the stretch; this begins within it.
+ * Returns: 1 if it does, 0 if not, -1 if the stretch is too short to say. */
+static int starts_early(const lab_scene *s, const lab_stretch *now, int next_sign, double rate)
+{
+  const double *mean = s->cells[s->main].mean;
+  const int first = (int)((s->t[now->first] - s->t[0]) / s->cell) + 1;
+  const int last = (int)((s->t[now->end - 1] - s->t[0]) / s->cell) - 1;
+  int k, turn = first;
+  double moved;
+  if (next_sign == 0 || last - first < LAB_SCENE_FEWEST)
+    return -1;
+  for (k = first; k <= last; k++)
+    if (next_sign * mean[k] < next_sign * mean[turn])
+      turn = k;
+  moved = next_sign * (mean[last] - mean[turn]);
+  return turn > first + 2 && moved > significant * s->sigma[s->main] && moved > 0.02 * lab_scene_span(s, s->main) &&
+         moved > early_rate * rate * (last - turn) * s->cell;
+}
+
+/* Does the main channel go on against the command to the end of the stretch, as fast as through an orifice? What lasts
+ * from the command before slows down.  Returns: 1, 0, -1 as starts_early. */
+static int goes_against(const lab_scene *s, const lab_stretch *now, double rate)
+{
+  const double *mean = s->cells[s->main].mean;
+  const int first = (int)((s->t[now->first] - s->t[0]) / s->cell) + 1;
+  const int last = (int)((s->t[now->end - 1] - s->t[0]) / s->cell) - 1, half = (first + last) / 2;
+  const double way = now->sign > 0 ? -1 : 1;
+  double moved;
+  if (last - first < LAB_SCENE_FEWEST)
+    return -1;
+  moved = way * (mean[last] - mean[half]);
+  return moved > significant * s->sigma[s->main] && moved > 0.02 * lab_scene_span(s, s->main) &&
+         moved > early_rate * rate * (last - half) * s->cell && moved > 0.8 * way * (mean[half] - mean[first]);
+}
+
+int lab_check_starts(const lab_scene *s, lab_finding *f)
+{
+  lab_stretch now = {0, 0, 0, 0}, next = {0, 0, 0, 0};
+  size_t where = 0;
+  int early = 0, all = 0;
+  double rate;
+  if (s->main < 0 || is_driven(s) || !lab_scene_next(s, &next))
+    return 0;
+  rate = open_rate(s);
+  for (now = next; lab_scene_next(s, &next); now = next) {
+    const int found = goes_against(s, &now, rate) > 0 ? 1 : starts_early(s, &now, next.sign, rate);
+    all += found >= 0;
+    where = found > 0 && early == 0 ? now.end - 1 : where;
+    early += found > 0;
+  }
+  if (early < 2 || early * 5 < all)
+    return 0;
+  return lab_find_at(
+      f, where,
+      "the command does not match: in %d of %d stretches of u %s moves against it or before it, the first "
+      "time at t = %.6g s; is u from another test, or on another clock?",
+      early, all, lab_channels[s->main].key, s->t[where]);
+}
+
+int lab_check_alike(const lab_scene *s, lab_finding *f)
+{
+  double best;
+  const int lag = lag_of(s, &best);
+  const double now = best < 1 ? likeness(s, 0) : 1;
+  if (now > alike || (best > alike_shifted && lag != 0))
+    return 0;
+  return lab_find(f,
+                  "the command does not match: what %s does is not what the declared model makes of u (correlation of "
+                  "rates %.2f, expected above %.1f); is u from another test, or the rig file of another rig?",
+                  lab_channels[s->main].key, now, alike);
+}
+
+int lab_check_late(const lab_scene *s, lab_finding *f)
+{
+  double best;
+  const int lag = lag_of(s, &best);
+  if (lag < 4 || best < alike_shifted || lag * s->cell < longest_dead_time)
+    return 0;
+  return lab_find(f,
+                  "%s follows u about %.3g s late, longer than a dead time of a transducer or a line: command and "
+                  "measurement seem to be on different clocks",
+                  lab_channels[s->main].key, lag * s->cell);
+}
+
+/* ---- Commands from 0 to 1 ---- */
+
+int lab_check_one_sided(const lab_scene *s, lab_finding *f)
+{
+  lab_stretch stretch = {0, 0, 0, 0};
+  double fall = HUGE_VAL, rise = HUGE_VAL, span;
+  if (s->main < 0 || is_driven(s))
+    return 0;
+  span = lab_scene_span(s, s->main);
+  while (lab_scene_next(s, &stretch)) {
+    const double half = stretch.change / 2;
+    if (stretch.sign < 0)
+      return 0;
+    if (fabs(stretch.change) < 0.5 * span || stretch.end - stretch.first < 2)
+      continue;
+    if (stretch.sign == 0 && half < 0)
+      fall = fmin(fall, time_to(s, s->y[s->main], &stretch, half));
+    if (stretch.sign > 0 && half > 0)
+      rise = fmin(rise, time_to(s, s->y[s->main], &stretch, half));
+  }
+  if (!isfinite(fall) || !isfinite(rise) || fall > 5 * rise)
+    return 0;
+  return lab_find(
+      f,
+      "u is never negative, and %s falls while it is 0, in %.3g s by half: as fast as through an orifice; if "
+      "0 stands for vent, make it -1 by log.scale and log.offset",
+      lab_channels[s->main].key, fall);
+}
