@@ -205,18 +205,20 @@ int lab_check_pace(const lab_scene *s, lab_finding *f)
 
 /* ---- Likeness ---- */
 
-/* Correlation of the rates of the measured channel, `lag` cells later, with the expected ones. */
+/* Correlation of the rates of the measured channel, `lag` cells later, with the expected ones; each over a few cells,
+ * so that a short peak at break-away does not outweigh the strokes. */
 static double likeness(const lab_scene *s, int lag)
 {
   const double *m = s->cells[s->main].mean, *e = s->expected_cells.mean;
+  const int over = 1 + s->n_cells / 64;
   double mm = 0, ee = 0, me = 0;
   int k;
-  for (k = 0; k + 1 < s->n_cells; k++) {
-    const double dm = m[k + 1] - m[k], de = e[k + 1] - e[k];
+  for (k = 0; k + over < s->n_cells; k++) {
+    const double dm = m[k + over] - m[k], de = e[k + over] - e[k];
     mm += dm * dm;
     ee += de * de;
-    if (k + lag >= 0 && k + lag + 1 < s->n_cells)
-      me += de * (m[k + lag + 1] - m[k + lag]);
+    if (k + lag >= 0 && k + lag + over < s->n_cells)
+      me += de * (m[k + lag + over] - m[k + lag]);
   }
   return mm > 0 && ee > 0 ? me / sqrt(mm * ee) : 0;
 }
@@ -269,90 +271,142 @@ int lab_check_early(const lab_scene *s, lab_finding *f)
 
 /* ---- Starts ---- */
 
-/* Median rate of the main channel over the stretches in which an orifice is open, by size. */
-static double open_rate(const lab_scene *s)
+/* What ought to follow the command, as means over cells: the main channel; or, where pressure and position are
+ * measured, the air in the chamber, which no jump of the stem changes. */
+struct follower {
+  double mean[LAB_SCENE_CELLS];
+  double least; /* a change that counts */
+  double rate;  /* usual rate with an open orifice */
+};
+
+/* First and last cell that lie within a stretch.  Returns: 0 if they are too few to say anything. */
+static int cells_in(const lab_scene *s, const lab_stretch *stretch, int *first, int *last)
+{
+  *first = (int)((s->t[stretch->first] - s->t[0]) / s->cell) + 1;
+  *last = (int)((s->t[stretch->end - 1] - s->t[0]) / s->cell) - 1;
+  return *last - *first >= LAB_SCENE_FEWEST;
+}
+
+/* Median rate over the stretches in which an orifice is open, by size. */
+static double open_rate(const lab_scene *s, const double *mean)
 {
   enum { MOST = 64 };
   double rate[MOST];
   lab_stretch stretch = {0, 0, 0, 0};
-  int n = 0;
+  int n = 0, first, last;
   while (n < MOST && lab_scene_next(s, &stretch)) {
-    const double time = s->t[stretch.end - 1] - s->t[stretch.first];
-    if (stretch.sign == 0 || !(time > 0) || isnan(stretch.change))
+    if (stretch.sign == 0 || !cells_in(s, &stretch, &first, &last))
       continue;
-    rate[n] = fabs(stretch.change) / time;
+    rate[n] = fabs(mean[last] - mean[first]) / ((last - first) * s->cell);
     swap_up(rate, n++);
   }
   return n > 0 ? rate[n / 2] : HUGE_VAL;
 }
 
-/* Does the main channel turn within a stretch and then move the way of the coming command, as fast as through an
- * orifice, though the present one does not allow it? What lasts from the command before, such as a delay, a line that
- * fills up or a chamber that warms, begins with the stretch; this begins within it.
- * Returns: 1 if it does, 0 if not, -1 if the stretch is too short to say. */
-static int starts_early(const lab_scene *s, const lab_stretch *now, int next_sign, double rate)
+static void follow(const lab_scene *s, double noise, struct follower *f)
 {
-  const double *mean = s->cells[s->main].mean;
-  const int first = (int)((s->t[now->first] - s->t[0]) / s->cell) + 1;
-  const int last = (int)((s->t[now->end - 1] - s->t[0]) / s->cell) - 1;
-  int k, turn = first;
-  double moved;
-  if (next_sign == 0 || last - first < LAB_SCENE_FEWEST)
-    return -1;
-  for (k = first; k <= last; k++)
-    if (next_sign * mean[k] < next_sign * mean[turn])
-      turn = k;
-  moved = next_sign * (mean[last] - mean[turn]);
-  return turn > first + 2 && moved > significant * s->sigma[s->main] && moved > 0.02 * lab_scene_span(s, s->main) &&
-         moved > early_rate * rate * (last - turn) * s->cell;
+  double low = f->mean[0], high = f->mean[0];
+  int k;
+  for (k = 1; k < s->n_cells; k++) {
+    low = fmin(low, f->mean[k]);
+    high = fmax(high, f->mean[k]);
+  }
+  f->least = fmax(significant * noise, 0.02 * (high - low));
+  f->rate = open_rate(s, f->mean);
 }
 
-/* Does the main channel go on against the command to the end of the stretch, as fast as through an orifice? What lasts
- * from the command before slows down.  Returns: 1, 0, -1 as starts_early. */
-static int goes_against(const lab_scene *s, const lab_stretch *now, double rate)
+static void follow_channel(const lab_scene *s, struct follower *f)
 {
-  const double *mean = s->cells[s->main].mean;
-  const int first = (int)((s->t[now->first] - s->t[0]) / s->cell) + 1;
-  const int last = (int)((s->t[now->end - 1] - s->t[0]) / s->cell) - 1, half = (first + last) / 2;
-  const double way = now->sign > 0 ? -1 : 1;
+  int k;
+  for (k = 0; k < s->n_cells; k++)
+    f->mean[k] = s->cells[s->main].mean[k];
+  follow(s, s->sigma[s->main], f);
+}
+
+/* Absolute pressure times volume, as the mass at constant temperature. */
+static void follow_air(const lab_scene *s, struct follower *f)
+{
+  const pneu_params *q = &s->rig->params;
+  const double ambient = (double)q->ambient_pressure, dead = (double)q->dead_volume, area = (double)q->area;
+  const double p = s->cells[LAB_CHANNEL_P].high + ambient, x = s->cells[LAB_CHANNEL_X].high;
+  int k;
+  for (k = 0; k < s->n_cells; k++)
+    f->mean[k] = (s->cells[LAB_CHANNEL_P].mean[k] + ambient) * (dead + area * s->cells[LAB_CHANNEL_X].mean[k]);
+  follow(s, hypot((dead + area * x) * s->sigma[LAB_CHANNEL_P], p * area * s->sigma[LAB_CHANNEL_X]), f);
+}
+
+/* Does it turn within a stretch and then move the way of the coming command, as fast as through an orifice, though the
+ * present one does not allow it? What lasts from the command before, such as a delay, a line that fills up or a chamber
+ * that warms, begins with the stretch; this begins within it. */
+static int starts_early(const lab_scene *s, const struct follower *f, const lab_stretch *now, int next_sign)
+{
+  int first, last, k, turn;
   double moved;
-  if (last - first < LAB_SCENE_FEWEST)
-    return -1;
-  moved = way * (mean[last] - mean[half]);
-  return moved > significant * s->sigma[s->main] && moved > 0.02 * lab_scene_span(s, s->main) &&
-         moved > early_rate * rate * (last - half) * s->cell && moved > 0.8 * way * (mean[half] - mean[first]);
+  if (next_sign == 0 || !cells_in(s, now, &first, &last))
+    return 0;
+  for (k = turn = first; k <= last; k++)
+    if (next_sign * f->mean[k] < next_sign * f->mean[turn])
+      turn = k;
+  moved = next_sign * (f->mean[last] - f->mean[turn]);
+  return turn > first + 2 && moved > f->least && moved > early_rate * f->rate * (last - turn) * s->cell;
+}
+
+/* Does it go on against the command to the end of the stretch, as fast as through an orifice? What lasts from the
+ * command before slows down. */
+static int goes_against(const lab_scene *s, const struct follower *f, const lab_stretch *now)
+{
+  const double way = now->sign > 0 ? -1 : 1;
+  int first, last, half;
+  double moved;
+  if (!cells_in(s, now, &first, &last))
+    return 0;
+  half = (first + last) / 2;
+  moved = way * (f->mean[last] - f->mean[half]);
+  return moved > f->least && moved > early_rate * f->rate * (last - half) * s->cell &&
+         moved > 0.8 * way * (f->mean[half] - f->mean[first]);
+}
+
+static int contradicts(const lab_scene *s, const struct follower *f, const lab_stretch *now, int next_sign)
+{
+  return goes_against(s, f, now) || starts_early(s, f, now, next_sign);
 }
 
 int lab_check_starts(const lab_scene *s, lab_finding *f)
 {
-  lab_stretch now = {0, 0, 0, 0}, next = {0, 0, 0, 0};
+  const int both = s->y[LAB_CHANNEL_P] && s->y[LAB_CHANNEL_X] && s->rig->params.stroke > 0;
+  struct follower channel, air;
+  lab_stretch now, next = {0, 0, 0, 0};
   size_t where = 0;
-  int early = 0, all = 0;
-  double rate;
+  int wrong = 0, all = 0, first, last;
   if (s->main < 0 || is_driven(s) || !lab_scene_next(s, &next))
     return 0;
-  rate = open_rate(s);
+  follow_channel(s, &channel);
+  if (both)
+    follow_air(s, &air);
   for (now = next; lab_scene_next(s, &next); now = next) {
-    const int found = goes_against(s, &now, rate) > 0 ? 1 : starts_early(s, &now, next.sign, rate);
-    all += found >= 0;
-    where = found > 0 && early == 0 ? now.end - 1 : where;
-    early += found > 0;
+    all += cells_in(s, &now, &first, &last);
+    if (!contradicts(s, &channel, &now, next.sign) || (both && !contradicts(s, &air, &now, next.sign)))
+      continue;
+    where = wrong++ == 0 ? now.end - 1 : where;
   }
-  if (early < 2 || early * 5 < all)
+  if (wrong < 2 || wrong * 5 < all)
     return 0;
   return lab_find_at(
       f, where,
       "the command does not match: in %d of %d stretches of u %s moves against it or before it, the first "
       "time at t = %.6g s; is u from another test, or on another clock?",
-      early, all, lab_channels[s->main].key, s->t[where]);
+      wrong, all, lab_channels[s->main].key, s->t[where]);
 }
 
 int lab_check_alike(const lab_scene *s, lab_finding *f)
 {
-  double best;
-  const int lag = lag_of(s, &best);
-  const double now = best < 1 ? likeness(s, 0) : 1;
-  if (now > alike || (best > alike_shifted && lag != 0))
+  double best, now = -1;
+  int k, lag = lag_of(s, &best);
+  if (best >= 1 || (best > alike_shifted && lag != 0))
+    return 0;
+  for (k = 0; k < s->n_cells / 3 && k * s->cell < longest_dead_time; k++)
+    now = fmax(now, likeness(s, k));
+  if (now > alike)
     return 0;
   return lab_find(f,
                   "the command does not match: what %s does is not what the declared model makes of u (correlation of "
