@@ -8,6 +8,7 @@
 #include "show.h"
 
 static const double spike_size = 25;    /* in noise, from neighbours that agree */
+static const double spike_even = 0.1;   /* of its size: likewise, on a slope */
 static const double spike_agree = 5;    /* in noise; neighbours further apart than this may be a stroke */
 static const double spike_share = 0.05; /* of what the channel covers */
 static const double clip_share = 0.3;   /* of the rows within two deviations of the limit, exactly on it */
@@ -155,10 +156,29 @@ static int clear_saturated(struct stretch *s, int upper, lab_remarks *remarks, l
 /* In:      size  least distance from the neighbours */
 static int is_spike(const struct stretch *s, size_t i, double noise, double size)
 {
-  const double a = s->y[i - 1], b = s->y[i + 1];
+  const double a = s->y[i - 1], b = s->y[i + 1], off = fabs(s->y[i] - (a + b) / 2);
   if (s->u && (s->u[i - 1] != s->u[i] || s->u[i + 1] != s->u[i]))
     return 0;
-  return fabs(a - b) < spike_agree * noise && fabs(s->y[i] - (a + b) / 2) > size;
+  return fabs(a - b) < fmax(spike_agree * noise, spike_even * off) && off > size;
+}
+
+/* A last row that was cut in the middle of its last number reads as a smaller one: far from the two before it, which go
+ * on evenly, and further than anything else moves in a row. */
+static void clear_last(struct stretch *s, double noise, lab_remarks *remarks)
+{
+  double most = spike_size * noise;
+  const size_t end = s->n - 1;
+  size_t i;
+  if (s->n < 4)
+    return;
+  for (i = 1; i < end; i++)
+    most = fmax(most, 2 * fabs(s->y[i] - s->y[i - 1]));
+  if (!(fabs(s->y[end] - s->y[end - 1]) > most))
+    return;
+  s->y[end] = (double)NAN;
+  lab_remark(remarks,
+             "%s:%d: the last value of channel %s is far from those before it, as in a file that was cut: left out.",
+             s->log->path, s->log->line[s->first + end], lab_channels[s->channel].key);
 }
 
 /* One pass.  Out: where, the first row found.  Returns: how many. */
@@ -192,6 +212,7 @@ static void clear_spikes(struct stretch *s, lab_remarks *remarks)
         remarks,
         "%s: %zu values of channel %s are far from both neighbours, the first at line %d (t = %.6g s): left out.",
         s->log->path, n, lab_channels[s->channel].key, s->log->line[s->first + where], s->t[where]);
+  clear_last(s, noise, remarks);
 }
 
 static int mend_channel(struct stretch *s, lab_remarks *remarks, lab_error *error)

@@ -148,15 +148,17 @@ static size_t rows_to(const double *y, const lab_stretch *stretch, double change
   return i - stretch->first;
 }
 
-/* Time to move by `change`, at least one row; where the stretch is too short, as long as its mean rate would take. */
-static double time_to(const lab_scene *s, const double *y, const lab_stretch *stretch, double change)
+/* Time from 10 % to 85 % of `change`, which leaves delays out, at least one row; where the stretch is too
+ * short, as long as its mean rate would take. NaN if it goes the other way. */
+static double time_of(const lab_scene *s, const double *y, const lab_stretch *stretch, double change)
 {
-  const size_t n = stretch->end - stretch->first, rows = rows_to(y, stretch, change);
+  const size_t n = stretch->end - stretch->first, from = rows_to(y, stretch, 0.1 * change);
+  const size_t to = rows_to(y, stretch, 0.85 * change);
   const double whole = s->t[stretch->end - 1] - s->t[stretch->first];
   const double moved = lab_scene_value(y, stretch->first, stretch->end, 1) - y[stretch->first];
-  if (rows >= n)
-    return change / moved > 1 ? whole * change / moved : (double)NAN;
-  return s->t[stretch->first + (rows > 0 ? rows : 1)] - s->t[stretch->first];
+  if (to >= n)
+    return change / moved > 1 ? 0.75 * whole * change / moved : (double)NAN;
+  return fmax(s->t[stretch->first + to] - s->t[stretch->first + from], whole / (double)n);
 }
 
 static void swap_up(double *value, int n)
@@ -181,7 +183,7 @@ static double pace(const lab_scene *s)
     if (stretch.sign == 0 || stretch.end - stretch.first < 4 || !(fabs(change) > significant * s->sigma[s->main]) ||
         !(fabs(change) > 0.3 * lab_scene_span(s, s->main)))
       continue;
-    ratio[n] = time_to(s, s->y[s->main], &stretch, change / 2) / time_to(s, expected, &stretch, change / 2);
+    ratio[n] = time_of(s, s->y[s->main], &stretch, change) / time_of(s, expected, &stretch, change);
     if (!isnan(ratio[n]))
       swap_up(ratio, n++);
   }
@@ -371,9 +373,17 @@ static int contradicts(const lab_scene *s, const struct follower *f, const lab_s
   return goes_against(s, f, now) || starts_early(s, f, now, next_sign);
 }
 
+/* A pressure alone cannot tell a jump of the stem, which compresses or expands the air, from a flow: more is asked of
+ * it. */
+static int are_many(int wrong, int all, int alone)
+{
+  return wrong >= (alone ? 3 : 2) && wrong * (alone ? 3 : 4) >= all;
+}
+
 int lab_check_starts(const lab_scene *s, lab_finding *f)
 {
-  const int both = s->y[LAB_CHANNEL_P] && s->y[LAB_CHANNEL_X] && s->rig->params.stroke > 0;
+  const int stem = s->rig->params.stroke > 0, both = s->y[LAB_CHANNEL_P] && s->y[LAB_CHANNEL_X] && stem;
+  const int alone = stem && !s->y[LAB_CHANNEL_X];
   struct follower channel, air;
   lab_stretch now, next = {0, 0, 0, 0};
   size_t where = 0;
@@ -389,7 +399,7 @@ int lab_check_starts(const lab_scene *s, lab_finding *f)
       continue;
     where = wrong++ == 0 ? now.end - 1 : where;
   }
-  if (wrong < 2 || wrong * 5 < all)
+  if (!are_many(wrong, all, alone))
     return 0;
   return lab_find_at(
       f, where,
@@ -436,21 +446,20 @@ int lab_check_one_sided(const lab_scene *s, lab_finding *f)
     return 0;
   span = lab_scene_span(s, s->main);
   while (lab_scene_next(s, &stretch)) {
-    const double half = stretch.change / 2;
+    const double change = stretch.change;
     if (stretch.sign < 0)
       return 0;
-    if (fabs(stretch.change) < 0.5 * span || stretch.end - stretch.first < 2)
+    if (fabs(stretch.change) < 0.2 * span || stretch.end - stretch.first < 2)
       continue;
-    if (stretch.sign == 0 && half < 0)
-      fall = fmin(fall, time_to(s, s->y[s->main], &stretch, half));
-    if (stretch.sign > 0 && half > 0)
-      rise = fmin(rise, time_to(s, s->y[s->main], &stretch, half));
+    if (stretch.sign == 0 && change < 0)
+      fall = fmin(fall, time_of(s, s->y[s->main], &stretch, change));
+    if (stretch.sign > 0 && change > 0)
+      rise = fmin(rise, time_of(s, s->y[s->main], &stretch, change));
   }
   if (!isfinite(fall) || !isfinite(rise) || fall > 5 * rise)
     return 0;
-  return lab_find(
-      f,
-      "u is never negative, and %s falls while it is 0, in %.3g s by half: as fast as through an orifice; if "
-      "0 stands for vent, make it -1 by log.scale and log.offset",
-      lab_channels[s->main].key, fall);
+  return lab_find(f,
+                  "u is never negative, and %s falls while it is 0, in %.3g s: as fast as through an orifice; if "
+                  "0 stands for vent, make it -1 by log.scale and log.offset",
+                  lab_channels[s->main].key, fall);
 }

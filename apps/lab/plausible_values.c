@@ -56,12 +56,24 @@ static size_t row_of(const lab_scene *s, const lab_cells *cells, double mean)
   return i;
 }
 
+/* Where the declared spring would hold the stem at the highest pressure of the log, friction against it. */
+static double reach(const lab_scene *s)
+{
+  const pneu_params *q = &s->rig->params;
+  const double force = (double)q->area * s->cells[LAB_CHANNEL_P].high - 1.5 * (double)q->dry_friction -
+                       (double)q->external_force - (double)q->spring_rate * (double)q->spring_preload;
+  if (!s->y[LAB_CHANNEL_P] || s->y[LAB_CHANNEL_FORCE] || !(q->spring_rate > 0))
+    return 0;
+  return fmin(fmax(force / (double)q->spring_rate, 0), (double)q->stroke);
+}
+
 /* ---- Ranges ---- */
 
 int lab_check_pressure_range(const lab_scene *s, lab_finding *f)
 {
   const lab_cells *p = &s->cells[LAB_CHANNEL_P];
-  const double supply = supply_of(s);
+  const double supply = supply_of(s),
+               most = s->main == LAB_CHANNEL_P && s->has_expected ? s->expected_cells.high : supply;
   char found[LAB_SHOW_TEXT], limit[LAB_SHOW_TEXT];
   if (!s->y[LAB_CHANNEL_P] || !fills(s) || !(p->high > over_supply * supply))
     return 0;
@@ -69,7 +81,7 @@ int lab_check_pressure_range(const lab_scene *s, lab_finding *f)
                      "p is %s, expected no more than the supply, %s gauge: check the unit of p, supply.pressure, and "
                      "whether the log is of this rig%s",
                      lab_show(LAB_CHANNEL_P, p->high, found), lab_show(LAB_CHANNEL_P, supply, limit),
-                     lab_unit_slip(LAB_CHANNEL_P, p->high / supply));
+                     lab_unit_slip(LAB_CHANNEL_P, p->high / most));
 }
 
 int lab_check_vacuum(const lab_scene *s, lab_finding *f)
@@ -107,7 +119,7 @@ int lab_check_position_range(const lab_scene *s, lab_finding *f)
                      "x is %s, expected 0 to the stroke, %s: check the unit of x, its zero and direction (log.scale, "
                      "log.offset), actuator.stroke, and whether the log is of this rig%s",
                      lab_show(LAB_CHANNEL_X, worst, found), lab_show(LAB_CHANNEL_X, stroke, limit),
-                     lab_unit_slip(LAB_CHANNEL_X, lab_scene_span(s, LAB_CHANNEL_X) / stroke));
+                     lab_unit_slip(LAB_CHANNEL_X, lab_scene_span(s, LAB_CHANNEL_X) / fmax(reach(s), 0.25 * stroke)));
 }
 
 int lab_check_temperature(const lab_scene *s, lab_finding *f)
@@ -124,17 +136,6 @@ int lab_check_temperature(const lab_scene *s, lab_finding *f)
 }
 
 /* ---- Sensors that do not follow ---- */
-
-/* Where the declared spring would hold the stem at the highest pressure of the log, friction against it. */
-static double reach(const lab_scene *s)
-{
-  const pneu_params *q = &s->rig->params;
-  const double force = (double)q->area * s->cells[LAB_CHANNEL_P].high - 1.5 * (double)q->dry_friction -
-                       (double)q->external_force - (double)q->spring_rate * (double)q->spring_preload;
-  if (!s->y[LAB_CHANNEL_P] || s->y[LAB_CHANNEL_FORCE] || !(q->spring_rate > 0))
-    return 0;
-  return fmin(fmax(force / (double)q->spring_rate, 0), (double)q->stroke);
-}
 
 static double span_of(const double *y, size_t n)
 {
@@ -286,15 +287,18 @@ int lab_check_noise(const lab_scene *s, lab_finding *f)
 
 int lab_check_jump(const lab_scene *s, lab_finding *f)
 {
-  const double usual = (s->t[s->n - 1] - s->t[0]) / (double)(s->n - 1);
+  const double whole = s->t[s->n - 1] - s->t[0];
+  double gap, usual;
   size_t i, at = 1;
   for (i = 2; i < s->n; i++)
     if (s->t[i] - s->t[i - 1] > s->t[at] - s->t[at - 1])
       at = i;
-  if (s->t[at] - s->t[at - 1] < fmax(20 * usual, 0.05 * (s->t[s->n - 1] - s->t[0])))
+  gap = s->t[at] - s->t[at - 1];
+  usual = (whole - gap) / (double)(s->n - 2);
+  if (gap < fmax(20 * usual, 0.05 * whole))
     return 0;
   return lab_find_at(f, at,
-                     "no rows from t = %.6g s to %.6g s, where %.3g s apart is usual: the command is taken to hold "
+                     "no rows from t = %.6g s to t = %.6g s, where %.3g s apart is usual: the command is taken to hold "
                      "meanwhile; if a new test begins there, make it a log of its own",
                      s->t[at - 1], s->t[at], usual);
 }
