@@ -7,7 +7,7 @@
 #include "noise.h"
 #include "show.h"
 
-static const double spike_size = 25;    /* in noise, from neighbours that agree */
+static const double spike_size = 25;    /* in noise, from neighbours, two on either side, that agree */
 static const double spike_even = 0.1;   /* of its size: likewise, on a slope */
 static const double spike_agree = 5;    /* in noise; neighbours further apart than this may be a stroke */
 static const double spike_share = 0.05; /* of what the channel covers */
@@ -153,13 +153,22 @@ static int clear_saturated(struct stretch *s, int upper, lab_remarks *remarks, l
   return LAB_OK;
 }
 
+static int command_changes(const struct stretch *s, size_t a, size_t b)
+{
+  size_t i;
+  for (i = a; s->u && i < b; i++)
+    if (s->u[i + 1] != s->u[i])
+      return 1;
+  return 0;
+}
+
 /* In:      size  least distance from the neighbours */
 static int is_spike(const struct stretch *s, size_t i, double noise, double size)
 {
   const double a = s->y[i - 1], b = s->y[i + 1], off = fabs(s->y[i] - (a + b) / 2);
-  if (s->u && (s->u[i - 1] != s->u[i] || s->u[i + 1] != s->u[i]))
-    return 0;
-  return fabs(a - b) < fmax(spike_agree * noise, spike_even * off) && off > size;
+  const double even = fmax(spike_agree * noise, spike_even * off);
+  return off > size && fabs(a - b) < even && fabs(s->y[i - 2] - a) < even && fabs(s->y[i + 2] - b) < even &&
+         !command_changes(s, i - 2, i + 2);
 }
 
 /* A last row that was cut in the middle of its last number reads as a smaller one: far from the two before it, which go
@@ -186,7 +195,7 @@ static size_t clear_spikes_once(struct stretch *s, double noise, size_t *where)
 {
   const double size = fmax(spike_size * noise, spike_share * (limit_of(s, 1) - limit_of(s, 0)));
   size_t i, n = 0;
-  for (i = 1; i + 1 < s->n; i++)
+  for (i = 2; i + 2 < s->n; i++)
     if (is_spike(s, i, noise, size)) {
       *where = n++ ? *where : i;
       s->y[i] = (double)NAN;

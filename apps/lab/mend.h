@@ -3,7 +3,7 @@
  * Saturation. A value at the end of a converter's range shows by the noise that is missing: the largest (or smallest)
  * value comes back exactly, again and again, where the rest of the channel is noisy. A pressure without visible noise
  * that stops from one row to the next, under an open orifice, is taken as saturated too: a chamber settles slowly.
- * Spikes. A value far from both neighbours, which agree.
+ * Spikes. A value far from its neighbours, two on either side, which agree. A peak of break-away has slopes.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_MEND_H
 #define LAB_MEND_H

@@ -12,6 +12,7 @@ static const double thermal = 0.5;         /* of absolute pressure: a shut chamb
 static const double pace_factor = 20;      /* between what is measured and declared, in time */
 static const double alike = 0.4;           /* correlation of rates, measured and expected, below which they differ */
 static const double alike_shifted = 0.8;   /* and above which a shift in time is the reason */
+static const double obedient = 0.75;       /* share of movement the way of the command, above which it is right */
 static const double early_rate = 0.3;      /* of the usual rate with an open orifice */
 static const double longest_dead_time = 1; /* [s]: sound travels 340 m */
 
@@ -37,12 +38,16 @@ static int is_open(const lab_scene *s, const lab_stretch *stretch)
   return stretch->sign != 0 && stretch->end - stretch->first >= LAB_SCENE_FEWEST;
 }
 
-/* Level at the end of a stretch; NaN if it still changes over the last quarter. */
+/* Level at the end of a stretch; NaN if it still changes over the last half, or the stem moves. */
 static double settles(const lab_scene *s, const double *y, const lab_stretch *stretch, double tolerance)
 {
-  const size_t late = stretch->end - (stretch->end - stretch->first) / 4;
+  const size_t late = stretch->end - (stretch->end - stretch->first) / 2;
   const double a = lab_scene_value(y, late, stretch->end, 0), b = lab_scene_value(y, late, stretch->end, 1);
-  return late + 1 < stretch->end && late < s->n && fabs(b - a) < tolerance ? b : (double)NAN;
+  const double *x = s->y[LAB_CHANNEL_X];
+  const double travel =
+      x ? fabs(lab_scene_value(x, late, stretch->end, 1) - lab_scene_value(x, late, stretch->end, 0)) : 0;
+  const int rests = !(travel > 0.02 * (double)s->rig->params.stroke);
+  return late + 1 < stretch->end && rests && fabs(b - a) < tolerance ? b : (double)NAN;
 }
 
 int lab_check_settled(const lab_scene *s, lab_finding *f)
@@ -53,7 +58,7 @@ int lab_check_settled(const lab_scene *s, lab_finding *f)
   if (s->main != LAB_CHANNEL_P || !s->has_expected || is_driven(s))
     return 0;
   while (lab_scene_next(s, &stretch)) {
-    const double tolerance = fmax(3 * s->sigma[LAB_CHANNEL_P], 0.02 * supply);
+    const double tolerance = fmax(3 * s->sigma[LAB_CHANNEL_P], 0.005 * supply);
     double level, ought;
     if (!is_open(s, &stretch))
       continue;
@@ -77,9 +82,12 @@ int lab_check_settled(const lab_scene *s, lab_finding *f)
 
 /* ---- Direction ---- */
 
-/* Rises and falls of the main channel that the command allows, and those it does not. */
+enum { RISES, FALLS };
+enum { ALLOWED, AGAINST };
+
+/* How far the main channel rises and falls as the command allows, and against it. */
 struct account {
-  double rise_for, rise_against, fall_for, fall_against;
+  double moved[2][2];
   lab_stretch worst; /* the largest change against its command */
 };
 
@@ -91,15 +99,28 @@ static int is_warming(const lab_scene *s, const lab_stretch *stretch)
          stretch->change < thermal * (start + (double)s->rig->params.ambient_pressure);
 }
 
+/* Change over a stretch; where both orifices are shut without what lasts from the command before, up to a second. */
+static double change_of(const lab_scene *s, const lab_stretch *stretch)
+{
+  size_t i = stretch->first;
+  const size_t half = (stretch->first + stretch->end) / 2;
+  if (stretch->sign != 0 || stretch->first == 0)
+    return stretch->change;
+  while (i < half && s->t[i] - s->t[stretch->first] < longest_dead_time)
+    i++;
+  return lab_scene_value(s->y[s->main], i, stretch->end, 1) - lab_scene_value(s->y[s->main], i, stretch->end, 0);
+}
+
 static void book(const lab_scene *s, const lab_stretch *stretch, struct account *a)
 {
-  const double size = fabs(stretch->change);
-  const int rises = stretch->change > 0, is_against = rises ? stretch->sign <= 0 : stretch->sign > 0;
+  const double change = change_of(s, stretch), size = fabs(change);
+  const int way = change > 0 ? RISES : FALLS;
+  const int kind = (way == RISES ? stretch->sign <= 0 : stretch->sign > 0) ? AGAINST : ALLOWED;
   if (!(size > significant * s->sigma[s->main] && size > visible * lab_scene_span(s, s->main)) ||
-      (rises && is_warming(s, stretch)))
+      (way == RISES && is_warming(s, stretch)))
     return;
-  *(rises ? is_against ? &a->rise_against : &a->rise_for : is_against ? &a->fall_against : &a->fall_for) += size;
-  if (is_against && size > fabs(a->worst.change))
+  a->moved[way][kind] += size;
+  if (kind == AGAINST && size > fabs(a->worst.change))
     a->worst = *stretch;
 }
 
@@ -112,9 +133,15 @@ static int is_idle(const lab_scene *s)
   return 1;
 }
 
+/* More against the command than with it, and not just a trace. */
+static int is_mismatch(const struct account *a, int way, double least)
+{
+  return a->moved[way][AGAINST] > fmax(a->moved[way][ALLOWED], least);
+}
+
 int lab_check_command(const lab_scene *s, lab_finding *f)
 {
-  struct account a = {0, 0, 0, 0, {0, 0, 0, 0}};
+  struct account a = {{{0, 0}, {0, 0}}, {0, 0, 0, 0}};
   lab_stretch stretch = {0, 0, 0, 0};
   double least, turned;
   char size[LAB_SHOW_TEXT];
@@ -123,9 +150,8 @@ int lab_check_command(const lab_scene *s, lab_finding *f)
   while (lab_scene_next(s, &stretch))
     book(s, &stretch, &a);
   least = against * lab_scene_span(s, s->main);
-  turned = a.rise_against + a.fall_against - a.rise_for - a.fall_for;
-  if (!(a.rise_against > fmax(a.rise_for, least)) &&
-      (!(a.fall_against > fmax(a.fall_for, least)) || s->y[LAB_CHANNEL_PS]))
+  turned = a.moved[RISES][AGAINST] + a.moved[FALLS][AGAINST] - a.moved[RISES][ALLOWED] - a.moved[FALLS][ALLOWED];
+  if (!is_mismatch(&a, RISES, least) && (!is_mismatch(&a, FALLS, least) || s->y[LAB_CHANNEL_PS]))
     return 0;
   return lab_find_at(
       f, a.worst.first, "the command does not match: %s %s by %s from t = %.6g s to %.6g s while u = %g %s%s",
@@ -377,7 +403,7 @@ static int contradicts(const lab_scene *s, const struct follower *f, const lab_s
  * it. */
 static int are_many(int wrong, int all, int alone)
 {
-  return wrong >= (alone ? 3 : 2) && wrong * (alone ? 3 : 4) >= all;
+  return wrong >= (alone ? 3 : 2) && wrong * (alone ? 2 : 4) >= all;
 }
 
 int lab_check_starts(const lab_scene *s, lab_finding *f)
@@ -408,6 +434,27 @@ int lab_check_starts(const lab_scene *s, lab_finding *f)
       wrong, all, lab_channels[s->main].key, s->t[where]);
 }
 
+/* Share of the movement that goes the way of the command, or may go on without one: falls while it is shut. A poor
+ * guess of an area or a volume spoils the likeness, not this. */
+static double obedience(const lab_scene *s)
+{
+  const double *m = s->cells[s->main].mean, noise = significant * s->sigma[s->main];
+  double good = 0, all = 0;
+  lab_stretch stretch = {0, 0, 0, 0};
+  int k, last;
+  while (lab_scene_next(s, &stretch)) {
+    last = (int)((s->t[stretch.end - 1] - s->t[0]) / s->cell);
+    for (k = (int)((s->t[stretch.first] - s->t[0]) / s->cell); k < last && k + 1 < s->n_cells; k++) {
+      const double change = m[k + 1] - m[k];
+      if (fabs(change) * LAB_SCENE_FEWEST < noise)
+        continue;
+      all += fabs(change);
+      good += (change > 0) == (stretch.sign > 0) ? fabs(change) : 0;
+    }
+  }
+  return all > 0 ? good / all : 1;
+}
+
 int lab_check_alike(const lab_scene *s, lab_finding *f)
 {
   double best, now = -1;
@@ -416,7 +463,7 @@ int lab_check_alike(const lab_scene *s, lab_finding *f)
     return 0;
   for (k = 0; k < s->n_cells / 3 && k * s->cell < longest_dead_time; k++)
     now = fmax(now, likeness(s, k));
-  if (now > alike)
+  if (now > alike || obedience(s) > obedient)
     return 0;
   return lab_find(f,
                   "the command does not match: what %s does is not what the declared model makes of u (correlation of "
@@ -449,14 +496,14 @@ int lab_check_one_sided(const lab_scene *s, lab_finding *f)
     const double change = stretch.change;
     if (stretch.sign < 0)
       return 0;
-    if (fabs(stretch.change) < 0.2 * span || stretch.end - stretch.first < 2)
+    if (fabs(stretch.change) < fmax(0.2 * span, significant * s->sigma[s->main]) || stretch.end - stretch.first < 2)
       continue;
     if (stretch.sign == 0 && change < 0)
       fall = fmin(fall, time_of(s, s->y[s->main], &stretch, change));
     if (stretch.sign > 0 && change > 0)
-      rise = fmin(rise, time_of(s, s->y[s->main], &stretch, change));
+      rise = fmin(rise, s->u[stretch.first] * time_of(s, s->y[s->main], &stretch, change));
   }
-  if (!isfinite(fall) || !isfinite(rise) || fall > 5 * rise)
+  if (!isfinite(fall) || !isfinite(rise) || fall > 4 * rise)
     return 0;
   return lab_find(f,
                   "u is never negative, and %s falls while it is 0, in %.3g s: as fast as through an orifice; if "
