@@ -30,6 +30,7 @@ static const struct check {
     {"late", lab_check_late, DOUBT},
     {"one-sided command", lab_check_one_sided, DOUBT},
     {"absolute pressure", lab_check_absolute, DOUBT},
+    {"steps", lab_check_steps, LIMIT},
     {"noise", lab_check_noise, LIMIT},
     {"jump in time", lab_check_jump, LIMIT},
     {"part of the stroke", lab_check_part, LIMIT},

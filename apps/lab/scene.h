@@ -90,6 +90,7 @@ int lab_check_starts(const lab_scene *, lab_finding *);
 int lab_check_alike(const lab_scene *, lab_finding *);
 int lab_check_late(const lab_scene *, lab_finding *);
 int lab_check_one_sided(const lab_scene *, lab_finding *);
+int lab_check_steps(const lab_scene *, lab_finding *);
 int lab_check_noise(const lab_scene *, lab_finding *);
 int lab_check_jump(const lab_scene *, lab_finding *);
 int lab_check_part(const lab_scene *, lab_finding *);
