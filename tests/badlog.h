@@ -15,14 +15,11 @@ typedef struct bad_log {
   double t[BAD_ROWS], u[BAD_ROWS], p[BAD_ROWS], x[BAD_ROWS];
 } bad_log;
 
-/* The R1-400 with 40 cm3 of dead volume and a leak of this area [m2], filled and vented for 10 s. */
-static inline bad_log bad_log_of(double leak)
+/* Run the R1-400 with 40 cm3 of dead volume and a leak of this area [m2], filled and vented for 10 s. */
+static inline void bad_run(double leak, double spacing, const second_log *log)
 {
   static const double t_cmd[] = {0.402, 2.503, 4.001, 5.507, 7.204}, u_cmd[] = {1, 0, -1, 0.5, -0.5};
   second_rig g = second_rig_default_r1_400();
-  static bad_log b;
-  second_log log = {0};
-  size_t i;
   g.flow = SECOND_CHOKED;
   g.dead_volume = 4e-5;
   g.pressure_noise = 320;
@@ -30,13 +27,21 @@ static inline bad_log bad_log_of(double leak)
   g.step = 1e-4;
   g.seed = 7;
   g.leak_area = leak;
+  assert_int_equal(second_run(&g, t_cmd, u_cmd, 5, 10, spacing, log, NULL), 0);
+}
+
+static inline bad_log bad_log_of(double leak)
+{
+  static bad_log b;
+  second_log log = {0};
+  size_t i;
   log.t = b.t;
   log.u = b.u;
   log.p = b.p;
   log.x = b.x;
   b.n = second_samples(10, bad_spacing);
   assert_int_equal(b.n, BAD_ROWS);
-  assert_int_equal(second_run(&g, t_cmd, u_cmd, 5, 10, bad_spacing, &log, NULL), 0);
+  bad_run(leak, bad_spacing, &log);
   for (i = 0; i < b.n; i++) {
     b.p[i] *= 1e-3;
     b.x[i] *= 1e3;

@@ -444,6 +444,38 @@ static void test_closeloop__part_of_a_stroke__is_a_limitation(void **state)
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "of a stroke of 20 mm");
 }
 
+/* ---- Too much ---- */
+
+static void test_closeloop__many_rows__are_thinned_and_said(void **state)
+{
+  enum { MANY = 50001 };
+  static double t[MANY], u[MANY], p[MANY], x[MANY];
+  second_log log = {0};
+  char path[512], *text, *report;
+  FILE *file;
+  int i;
+  (void)state;
+  log.t = t;
+  log.u = u;
+  log.p = p;
+  log.x = x;
+  bad_run(0, 10.0 / (MANY - 1), &log);
+  snprintf(path, sizeof path, "%s", scratch_path("many.csv"));
+  file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < MANY; i++)
+    fprintf(file, "%.6f,%g,%.0f,%.7f\n", t[i], u[i], p[i], x[i]);
+  assert_int_equal(fclose(file), 0);
+  if (run(bad_rig("rig.cfg", ""), path, &text))
+    fail_msg("%s", text);
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_contains(report, "\"verdict\":\t\"none\"");
+  assert_contains(report, "of 50001 rows 16675 are used, one in 3 and");
+  free(report);
+  free(text);
+}
+
 /* ---- Commands ---- */
 
 static void test_closeloop__command_of_wrong_sign__is_refused(void **state)
@@ -593,6 +625,7 @@ int main(void)
       cmocka_unit_test(test_closeloop__short_log__is_undecided),
       cmocka_unit_test(test_closeloop__still_log__is_refused),
       cmocka_unit_test(test_closeloop__part_of_a_stroke__is_a_limitation),
+      cmocka_unit_test(test_closeloop__many_rows__are_thinned_and_said),
       cmocka_unit_test(test_closeloop__command_of_wrong_sign__is_refused),
       cmocka_unit_test(test_closeloop__no_command__is_refused),
       cmocka_unit_test(test_closeloop__command_of_another_test__is_refused),
