@@ -11,9 +11,12 @@
 #include "lab/log.h"
 #include "lab/loop.h"
 #include "lab/loopfiles.h"
+#include "lab/mend.h"
 #include "lab/outfile.h"
 #include "lab/progress.h"
 #include "lab/report_html.h"
+#include "lab/plausible.h"
+#include "lab/thin.h"
 
 enum { LOG_MAX = 32, RUN_MAX = 256 };
 
@@ -46,7 +49,12 @@ typedef struct bench {
   int n_logs;
   lab_experiment experiment[RUN_MAX];
   int n;
+  lab_content content;
+  lab_remarks remarks;
 } bench;
+
+/* The logs to fit, and the one held out. */
+static bench fitted, held;
 
 static void close_bench(bench *b)
 {
@@ -56,13 +64,25 @@ static void close_bench(bench *b)
     lab_log_free(&b->log[--b->n_logs]);
 }
 
+/* Read a log, leave out what is no measurement, and see that it makes sense on this rig. */
+static int read_log(const lab_rig *rig, const char *path, bench *b, lab_error *error)
+{
+  lab_log *log = &b->log[b->n_logs];
+  if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
+    return error->status;
+  b->n_logs++;
+  lab_log_thin(log, LAB_THIN_ROWS, &b->remarks);
+  if (lab_log_mend(rig, log, &b->remarks, error))
+    return error->status;
+  return lab_plausible(rig, log, &b->remarks, &b->content, error);
+}
+
 static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *error)
 {
   lab_log *log = &b->log[b->n_logs];
   size_t run;
-  if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
+  if (read_log(rig, path, b, error))
     return error->status;
-  b->n_logs++;
   for (run = 0; run < log->n_runs; run++) {
     if (b->n == RUN_MAX)
       return lab_fail(error, LAB_DATA, "%s: more than %d runs in all", path, (int)RUN_MAX);
@@ -91,36 +111,39 @@ static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *
   return lab_loop_errors(&u, errors, error);
 }
 
-/* Read each log of the list "a.csv,b.csv". */
-static int add_held_out(const lab_rig *rig, const char *list, bench *b, lab_error *error)
+/* Read each held-out log of the list "a.csv,b.csv". */
+static int add_held_out(const lab_rig *rig, const char *list, lab_error *error)
 {
+  static lab_rig own; /* the experiments keep it */
   int status = LAB_OK;
+  own = *rig;
+  lab_log_format_hold_out(&own.log);
   while (status == LAB_OK && *list) {
     char path[LAB_PATH_TEXT];
     const size_t length = strcspn(list, ",");
     snprintf(path, sizeof path, "%.*s", (int)length, list);
-    status = b->n_logs < LOG_MAX ? add_log(rig, path, b, error)
-                                 : lab_fail(error, LAB_DATA, "more than %d logs held out", (int)LOG_MAX);
+    status = held.n_logs < LOG_MAX ? add_log(&own, path, &held, error)
+                                   : lab_fail(error, LAB_DATA, "more than %d logs held out", (int)LOG_MAX);
     list += length + (list[length] == ',');
   }
   return status;
 }
 
-static int hold_out(const lab_rig *rig, lab_story *story, lab_error *error)
+/* A model that cannot follow the held-out log has no error on it; that is said, and the rest is written. */
+static int hold_out(lab_story *story, lab_error *error)
 {
-  static lab_rig own;
-  static bench b;
   int status;
-  own = *rig;
-  lab_log_format_hold_out(&own.log);
-  status = add_held_out(&own, holdout, &b, error);
+  if (held.n == 0)
+    return LAB_OK;
+  lab_progress_say(&progress, "judging on the held-out log");
+  status = judge(&story->declared->rig, &held, &story->holdout_before, error);
   if (status == LAB_OK)
-    status = judge(&story->declared->rig, &b, &story->holdout_before, error);
-  if (status == LAB_OK)
-    status = judge(&story->completed->rig, &b, &story->holdout_after, error);
+    status = judge(&story->completed->rig, &held, &story->holdout_after, error);
   story->has_holdout = status == LAB_OK;
-  close_bench(&b);
-  return status;
+  if (status != LAB_NUMERIC)
+    return status;
+  lab_remark(&fitted.remarks, "held-out log not judged: %s", error->text);
+  return LAB_OK;
 }
 
 /* Figures, if wanted, and the page around them. */
@@ -176,35 +199,44 @@ static void say(void *context, const char *what)
   lab_progress_say(&progress, what);
 }
 
-static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
+/* The loop's result where the log cannot carry a name: the fit, and nothing traced. */
+static int decline(lab_unknowns *u, lab_loop_result *result, lab_error *error)
+{
+  if (lab_loop_errors(u, &result->before, error))
+    return error->status;
+  result->after = result->before;
+  result->verdict = LAB_VERDICT_UNDECIDED;
+  return lab_unknowns_spread(u, &result->fit, error);
+}
+
+static int close_loop(const lab_rig *rig, lab_error *error)
 {
   static lab_unknowns declared, completed;
   static lab_loop_result result;
   lab_loop_options how;
   static lab_story story;
   const double start = seconds();
-  char sentence[512];
+  char sentence[LAB_REMARK_TEXT + 64];
   int status;
   story.rig = rig;
   story.declared = &declared;
   story.completed = &completed;
   story.result = &result;
+  story.remarks = &fitted.remarks;
   lab_loop_options_default(&how);
   how.tell = say;
   how.alpha = alpha;
   how.min_gain = min_gain;
   lab_progress_say(&progress, "fitting the declared model");
-  if (lab_unknowns_open(rig, b->experiment, b->n, &declared, error) ||
+  if (lab_unknowns_open(rig, fitted.experiment, fitted.n, &declared, error) ||
       lab_unknowns_fit(&declared, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   story.fit_s = seconds() - start;
   completed = declared;
-  if (lab_loop_run(&completed, &how, &result, error))
+  if (fitted.remarks.doubt ? decline(&completed, &result, error) : lab_loop_run(&completed, &how, &result, error))
     return error->status;
   story.trace_s = result.trace_s;
-  if (holdout)
-    lab_progress_say(&progress, "judging on the held-out log");
-  if (holdout && hold_out(rig, &story, error))
+  if (hold_out(&story, error))
     return error->status;
   lab_progress_say(&progress, "looking for the test to record next");
   if (lab_advise(&story, error))
@@ -218,19 +250,34 @@ static int close_loop(const lab_rig *rig, bench *b, lab_error *error)
   return status;
 }
 
+/* Read every log before any fit, so that a bad one costs no waiting. */
+static int read_logs(const lab_cli *cli, const lab_rig *rig, lab_error *error)
+{
+  int i;
+  for (i = 1; i < cli->n_operands; i++)
+    if (add_log(rig, cli->operand[i], &fitted, error))
+      return error->status;
+  if (lab_plausible_content(rig, &fitted.content, &fitted.remarks, error))
+    return error->status;
+  if (holdout && add_held_out(rig, holdout, error))
+    return error->status;
+  lab_remarks_join(&fitted.remarks, &held.remarks);
+  return LAB_OK;
+}
+
 static int run(const lab_cli *cli, lab_error *error)
 {
   static lab_rig rig;
-  static bench b;
-  int i, status;
+  int status;
   lab_progress_begin(&progress, program.name, cli->quiet);
   lab_progress_say(&progress, "reading");
   status = lab_rig_read(cli->operand[0], &rig, error);
-  for (i = 1; i < cli->n_operands && status == LAB_OK; i++)
-    status = add_log(&rig, cli->operand[i], &b, error);
   if (status == LAB_OK)
-    status = close_loop(&rig, &b, error);
-  close_bench(&b);
+    status = read_logs(cli, &rig, error);
+  if (status == LAB_OK)
+    status = close_loop(&rig, error);
+  close_bench(&fitted);
+  close_bench(&held);
   lab_progress_end(&progress);
   return status;
 }

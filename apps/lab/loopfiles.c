@@ -149,6 +149,14 @@ static void add_steps(cJSON *root, const lab_loop_result *result)
   }
 }
 
+static void add_limitations(cJSON *to, const lab_remarks *remarks)
+{
+  cJSON *list = cJSON_AddArrayToObject(to, "limitations");
+  int i;
+  for (i = 0; remarks && i < remarks->n; i++)
+    cJSON_AddItemToArray(list, cJSON_CreateString(remarks->text[i]));
+}
+
 static cJSON *json_of(const lab_story *story)
 {
   const lab_loop_result *result = story->result;
@@ -182,6 +190,7 @@ static cJSON *json_of(const lab_story *story)
   if (story->next.kind == LAB_ADVICE_TRIAL)
     cJSON_AddStringToObject(root, "record_next", story->next.text);
   add_steps(root, result);
+  add_limitations(root, story->remarks);
   o = cJSON_AddObjectToObject(root, "timing");
   add_number(o, "fit_s", story->fit_s);
   add_number(o, "trace_s", story->trace_s);
@@ -338,7 +347,9 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
   const lab_loop_result *r = story->result;
   const double before = sqrt(r->before.chi2 / (double)r->before.n), after = sqrt(r->after.chi2 / (double)r->after.n);
   char names[512];
-  if (r->verdict == LAB_VERDICT_UNDECIDED && r->n_found)
+  if (story->remarks && story->remarks->doubt)
+    snprintf(text, size, "Undecided: %s", story->remarks->text[story->remarks->doubt - 1]);
+  else if (r->verdict == LAB_VERDICT_UNDECIDED && r->n_found)
     snprintf(text, size,
              "Undecided: %s comes nearest and lowers the error from %.2f to %.2f times the noise, but what is left is "
              "not noise.",

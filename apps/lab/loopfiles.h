@@ -4,6 +4,7 @@
 #define LAB_LOOPFILES_H
 
 #include "loop.h"
+#include "remarks.h"
 #include "separate.h"
 
 /* Everything that there is to say about a run. */
@@ -17,6 +18,7 @@ typedef struct lab_story {
   lab_advice separate[LAB_LOOP_EFFECTS]; /* of each found effect from the first that looks like it */
   lab_advice next;                       /* the test that would tell most, where no effects are alike */
   double fit_s, trace_s, total_s;        /* [s] on the clock; trace_s: the scan of all effects */
+  const lab_remarks *remarks;            /* what limits the conclusions; NULL: nothing */
 } lab_story;
 
 /* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */

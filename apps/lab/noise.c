@@ -20,8 +20,7 @@ static double median(double *value, size_t n)
   return n % 2 ? value[n / 2] : (value[n / 2 - 1] + value[n / 2]) / 2;
 }
 
-/* Smallest difference between neighbouring values that is not zero. */
-static double smallest_step(const double *value, size_t n)
+double lab_smallest_step(const double *value, size_t n)
 {
   double step = HUGE_VAL;
   size_t i;
@@ -45,7 +44,7 @@ double lab_noise_estimate(const double *value, size_t n)
       size[m++] = fabs(d);
   }
   if (m >= FEWEST)
-    estimate = fmax(median(size, m) / (second_difference * median_of_size), smallest_step(value, n) / 4);
+    estimate = fmax(median(size, m) / (second_difference * median_of_size), lab_smallest_step(value, n) / 4);
   free(size);
   return estimate;
 }

@@ -17,4 +17,8 @@ double lab_noise_estimate(const double *value, size_t n);
  * Returns: -0.9 .. 0.9; 0 for fewer than 50 values, or where it is not told from 0 (four standard errors). */
 double lab_noise_memory(const double *value, size_t n);
 
+/* Smallest difference between neighbouring values that is not zero: the step of the converter or of the digits
+ * written.  Returns: 0 if all are equal. */
+double lab_smallest_step(const double *value, size_t n);
+
 #endif
