@@ -10,7 +10,8 @@
 
 static int is_predicted(int channel)
 {
-  return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T;
+  return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T ||
+         channel == LAB_CHANNEL_FORCE;
 }
 
 /* Rows before the command first changes. */
@@ -44,7 +45,8 @@ static int add_channels(lab_experiment *e, lab_error *error)
 {
   int c;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (is_predicted(c) && e->log->value[c] && !e->rig->input[c] && add_channel(e, c, error))
+    if (is_predicted(c) && e->log->value[c] && !e->rig->input[c] &&
+        (c != LAB_CHANNEL_FORCE || e->rig->laws.position_input) && add_channel(e, c, error))
       return error->status;
   if (e->n_channels == 0)
     return lab_fail(error, LAB_DATA, "%s: expected a measured channel that is no input: p, x or T", e->log->path);
@@ -116,22 +118,34 @@ double lab_experiment_measured(const lab_experiment *e, int c, size_t i)
 
 static const double *column_of(const lab_trace *trace, int channel)
 {
-  return channel == LAB_CHANNEL_P ? trace->p : channel == LAB_CHANNEL_X ? trace->x : trace->T;
+  return channel == LAB_CHANNEL_P   ? trace->p
+         : channel == LAB_CHANNEL_X ? trace->x
+         : channel == LAB_CHANNEL_T ? trace->T
+                                    : trace->force;
 }
 
-/* The schedule with its changes at other instants. */
-static int shift(const lab_experiment *e, const double *early, lab_schedule *schedule, lab_error *error)
+/* The schedule with its changes at other instants, and the supply of the rig where it is not measured. */
+static int shift(const lab_experiment *e, const lab_rig *rig, const double *early, lab_schedule *schedule,
+                 lab_error *error)
 {
   const size_t n = e->drive.schedule.n;
   double *t = malloc(n * sizeof *t);
+  pneu_input *input = malloc(n * sizeof *input);
   size_t k;
   *schedule = e->drive.schedule;
-  if (!t)
+  if (!t || !input) {
+    free(t);
+    free(input);
     return lab_fail_memory(error, "a schedule");
+  }
   memcpy(t, e->drive.t, n * sizeof *t);
+  memcpy(input, e->drive.input, n * sizeof *input);
   for (k = 0; early && k < e->n_switches; k++)
     t[k + 1] -= early[k];
+  for (k = 0; k < n && !(rig->input[LAB_CHANNEL_PS] && e->log->value[LAB_CHANNEL_PS]); k++)
+    input[k].supply_pressure = rig->params.supply_pressure;
   schedule->t = t;
+  schedule->input = input;
   return LAB_OK;
 }
 
@@ -145,12 +159,17 @@ int lab_experiment_predict(const lab_experiment *e, const lab_rig *rig, const do
   pneu_model model;
   pneu_state start;
   int c, status;
-  if (lab_rig_model(rig, &model, error) || lab_start_from_log(&model, e->drive.input, e->log, e->run, &start, error))
-    return error->status = error->status == LAB_DATA ? LAB_NUMERIC : error->status;
-  if (shift(e, early, &schedule, error))
+  if (shift(e, rig, early, &schedule, error))
     return error->status;
-  status = lab_respond(&model, &start, &schedule, t, e->n, &options, &trace, NULL, error);
+  status = lab_rig_model(rig, &model, error);
+  if (status == LAB_OK)
+    status = lab_start_from_log(&model, schedule.input, e->log, e->run, &start, error);
+  if (status == LAB_DATA)
+    status = error->status = LAB_NUMERIC;
+  if (status == LAB_OK)
+    status = lab_respond(&model, &start, &schedule, t, e->n, &options, &trace, NULL, error);
   free((double *)schedule.t);
+  free((pneu_input *)schedule.input);
   if (status != LAB_OK)
     return status;
   for (c = 0; c < e->n_channels; c++)

@@ -62,7 +62,7 @@ static const char *number(char *cell, double value)
   if (isnan(value))
     strcpy(cell, "-");
   else
-    snprintf(cell, CELL, "%.3g", value);
+    snprintf(cell, CELL, value < 1000 ? "%.3g" : "%.0f", value);
   return cell;
 }
 

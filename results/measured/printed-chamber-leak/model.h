@@ -27,7 +27,7 @@
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
-      (pneu_real)2.186992267775625e-08, /* leak_area [m2] */ \
+      (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
@@ -36,12 +36,12 @@
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
-      (pneu_real)0, /* film_resistance [K/W] */ \
+      (pneu_real)0.2768291908297924, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
-      (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
-      (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
-      (pneu_real)300000, /* crossover_pressure [Pa] */ \
+      (pneu_real)3.0304719708471431e-17, /* laminar_leak [kg/s/Pa2] */ \
+      (pneu_real)1.4434486230563779e-16, /* porous_leak [kg/s/Pa2] */ \
+      (pneu_real)375511.09186721838, /* crossover_pressure [Pa] */ \
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
@@ -67,15 +67,4 @@
       (pneu_real)0 } \
   }
 #define MODEL_LAWS {0, 1, 0, 0} /* isothermal, choked */
-#define MODEL_N_TERMS 1
-/* static const pneu_term term[] = MODEL_TERMS; pneu_model_terms(&model, term, MODEL_N_TERMS); */
-#define MODEL_TERMS \
-  { \
-    { PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 17, (pneu_real)0, (pneu_real)766000, /* kg/s over p [Pa] */ \
-      { (pneu_real)1.1376127219990047e-05, (pneu_real)-3.1273874216582442e-04, (pneu_real)5.8573485371892882e-06, \
-        (pneu_real)5.4952127293386186e-06, (pneu_real)4.9806229389992729e-06, (pneu_real)4.1673119436755491e-06, \
-        (pneu_real)3.3068101664444353e-06, (pneu_real)2.0273475470995465e-06, (pneu_real)5.0079263139343631e-07, \
-        (pneu_real)-2.3134824087777536e-07, (pneu_real)-2.3718669069707033e-06, (pneu_real)-3.7795786347856980e-06, \
-        (pneu_real)-5.0733680951196472e-06, (pneu_real)-8.9942498027000052e-06, (pneu_real)-8.8109712098559667e-06, \
-        (pneu_real)-1.5916498647217415e-05, (pneu_real)-2.7004464315599713e-05 } } \
-  }
+#define MODEL_N_TERMS 0
