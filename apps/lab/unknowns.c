@@ -7,6 +7,7 @@
 
 #include "coarse.h"
 #include "descent.h"
+#include "noise.h"
 
 static const double uniform_spread = 0.28867513459481287; /* standard deviation of a uniform distribution of width 1 */
 static const double slope_step = 1e-3;                    /* of a slope's difference, over what matters; */
@@ -375,7 +376,8 @@ static double roughness(const lab_experiment *x, const double *r, size_t window)
       continue;
     for (i = 0; i < x->n; i++)
       predicted[i] = measured[i] - r[(size_t)c * x->n + i] * x->sigma[c];
-    share = fmax(share, lab_coarse_roughness(measured, predicted, x->n, window, x->sigma[c]));
+    share = fmax(share, lab_coarse_roughness(measured, predicted, x->n, window,
+                                             fmax(x->sigma[c], lab_smallest_step(measured, x->n))));
   }
   free(predicted);
   return share;
