@@ -415,13 +415,13 @@ static void test_closeloop__short_log__is_undecided(void **state)
   bad_log b = sound;
   size_t i;
   (void)state;
-  for (i = 0; i < 15; i++) { /* the first stroke, every 0.1 s */
+  for (i = 0; i < 13; i++) { /* the first stroke, every 0.1 s */
     b.t[i] = sound.t[35 + 10 * i];
     b.u[i] = sound.u[35 + 10 * i];
     b.p[i] = sound.p[35 + 10 * i];
     b.x[i] = sound.x[35 + 10 * i];
   }
-  b.n = 15;
+  b.n = 13;
   assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "too few to name an effect");
 }
 

@@ -5,7 +5,7 @@
 #include "logscene.h"
 
 enum severity { WRONG, LIMIT, DOUBT };
-enum { VALUES_EACH = 10 }; /* measured values for each unknown, below which nothing is named */
+enum { VALUES_EACH = 7 }; /* measured values for each unknown, below which nothing is named */
 
 /* In this order: the first that is WRONG ends it, and a slip of units should be called one. */
 static const struct check {
@@ -65,12 +65,19 @@ static int check_run(const lab_scene *s, lab_remarks *remarks, lab_error *error)
   return LAB_OK;
 }
 
+/* Whether a fit has something to compare with a channel; a force only where it holds a driven stem. */
+static int is_compared(const lab_scene *s, int channel)
+{
+  return lab_scene_predicts(s, channel) ||
+         (channel == LAB_CHANNEL_FORCE && s->y[channel] && !s->rig->input[channel] && s->rig->laws.position_input);
+}
+
 static size_t count_values(const lab_scene *s)
 {
   size_t i, n = 0;
   int c;
   for (c = LAB_CHANNEL_P; c < LAB_CHANNEL_COUNT; c++)
-    for (i = 0; lab_scene_predicts(s, c) && i < s->n; i++)
+    for (i = 0; is_compared(s, c) && i < s->n; i++)
       n += s->y[c][i] == s->y[c][i];
   return n;
 }

@@ -339,7 +339,7 @@ int lab_check_absolute(const lab_scene *s, lab_finding *f)
   const double ambient = (double)s->rig->params.ambient_pressure;
   double start;
   char found[LAB_SHOW_TEXT];
-  if (!s->y[LAB_CHANNEL_P] || s->cells[LAB_CHANNEL_P].low < 0.9 * ambient)
+  if (!s->y[LAB_CHANNEL_P] || s->rig->input[LAB_CHANNEL_P] || s->cells[LAB_CHANNEL_P].low < 0.9 * ambient)
     return 0;
   start = lab_scene_value(s->y[LAB_CHANNEL_P], 0, s->n, 0);
   if (fabs(start - ambient) > 0.03 * ambient)

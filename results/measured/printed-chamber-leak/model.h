@@ -27,21 +27,21 @@
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
-      (pneu_real)0, /* leak_area [m2] */ \
+      (pneu_real)1.9185674590723109e-09, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)5959145648.2856627, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)1.6474825292973736e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
-      (pneu_real)0.2768291908297924, /* film_resistance [K/W] */ \
+      (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
-      (pneu_real)3.0304719708471431e-17, /* laminar_leak [kg/s/Pa2] */ \
-      (pneu_real)1.4434486230563779e-16, /* porous_leak [kg/s/Pa2] */ \
-      (pneu_real)375511.09186721838, /* crossover_pressure [Pa] */ \
+      (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
+      (pneu_real)1.601708995572026e-16, /* porous_leak [kg/s/Pa2] */ \
+      (pneu_real)671842.17759376601, /* crossover_pressure [Pa] */ \
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \

@@ -6,11 +6,11 @@
     (pneu_real)4.000000000000001e-05, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0.040000000000000001, /* stroke [m] */ \
-    (pneu_real)1497.2866366843821, /* spring_rate [N/m] */ \
+    (pneu_real)1506.1905768779272, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.0332, /* moving_mass [kg] */ \
-    (pneu_real)1.9412993330865166e-07, /* dry_friction [N] */ \
-    (pneu_real)0.051256297832911218, /* viscous_friction [N.s/m] */ \
+    (pneu_real)0, /* dry_friction [N] */ \
+    (pneu_real)0.10755023528775495, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
@@ -26,7 +26,7 @@
     (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
-      (pneu_real)0.88559079297172472, /* area_loss [1] */ \
+      (pneu_real)0.88621785921711937, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
@@ -47,12 +47,12 @@
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
-      (pneu_real)3610.540176481933, /* pressure_bias [Pa] */ \
+      (pneu_real)3525.598159849977, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
-      (pneu_real)9.7096780781195466, /* hysteresis_force [N] */ \
-      (pneu_real)0.015119525156187207, /* hysteresis_length [m] */ \
+      (pneu_real)8.9981615014074006, /* hysteresis_force [N] */ \
+      (pneu_real)0.013915355717447831, /* hysteresis_length [m] */ \
       (pneu_real)0, /* stop_compliance [m/N] */ \
       (pneu_real)10000, /* stop_damping [N.s/m] */ \
       (pneu_real)0, /* stribeck_excess [1] */ \
