@@ -186,7 +186,7 @@ static void why_not_named(const blind_trial *t, const blind_answer *a, const bli
   const char *own = t->missing[0].effect->name;
   const double as_good = 1.05, passing = 25;
   if (is_listed(a, own))
-    append(why, "listed as significant, but under --min-gain and beside something else");
+    append(why, "listed as significant but too small; the rest of the answer is not right");
   else if (hits(t, a) == t->n_missing && a->n_found > t->n_missing)
     append(why, "right and another one besides");
   else if (hits(t, a) > 0 && hits(t, a) < t->n_missing)
