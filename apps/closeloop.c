@@ -132,13 +132,15 @@ static int add_held_out(const lab_rig *rig, const char *list, lab_error *error)
 /* A model that cannot follow the held-out log has no error on it; that is said, and the rest is written. */
 static int hold_out(lab_story *story, lab_error *error)
 {
-  int status;
+  int i, status;
   if (held.n == 0)
     return LAB_OK;
   lab_progress_say(&progress, "judging on the held-out log");
   status = judge(&story->declared->rig, &held, &story->holdout_before, error);
   if (status == LAB_OK)
     status = judge(&story->completed->rig, &held, &story->holdout_after, error);
+  for (i = 0; i < story->result->n_path && status == LAB_OK; i++)
+    status = judge(&story->result->path[i].rig, &held, &story->holdout_path[i], error);
   story->has_holdout = status == LAB_OK;
   if (status != LAB_NUMERIC)
     return status;

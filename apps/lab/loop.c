@@ -140,6 +140,18 @@ static void note_step(lab_loop_result *result, const attempt *a, int kept)
   step->kept = kept;
 }
 
+static void note_way(lab_loop_result *result, const attempt *a)
+{
+  lab_waypoint *way;
+  if (result->n_path == LAB_LOOP_PATH)
+    return;
+  way = &result->path[result->n_path++];
+  name_of(a, way->name, sizeof way->name);
+  way->chi2 = a->chi2;
+  way->bic = a->bic;
+  way->rig = a->u.rig;
+}
+
 static int fit_attempt(attempt *a, int steps, lab_error *error)
 {
   const int status = lab_unknowns_fit(&a->u, steps, &a->chi2, error);
@@ -620,6 +632,7 @@ static int last_resort(search *s, lab_error *error)
   if (gain(best, longer, &before, &after) < s->options->min_gain)
     return LAB_OK;
   *best = *longer;
+  note_way(s->result, best);
   remove_needless(best);
   return LAB_OK;
 }
@@ -628,22 +641,30 @@ static int search_all(search *s, lab_error *error)
 {
   attempt *best = &s->beam[0];
   int rounds, better = 1;
+  note_way(s->result, best);
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
     if (advance(s, &better, error))
       return error->status;
+    if (better)
+      note_way(s->result, best);
     if (any_is_noise(s->nameless, 1) && !any_is_noise(best, 1))
       break;
     if (best->u.window && any_is_noise(best, 1))
       return LAB_OK; /* a coarse view does not see fine differences */
     if (better && best->n_found > 1) {
+      const double before = best->chi2;
       remove_needless(best);
       if (exchange(s, error))
         return error->status;
+      if (best->chi2 != before)
+        note_way(s->result, best);
     }
   }
   if (s->nameless->fitted && !any_is_noise(best, 1) && is_convincing(s->nameless, best)) {
     *best = *s->nameless;
     note_step(s->result, best, 1);
+    s->result->n_path = 1;
+    note_way(s->result, best);
   }
   if (best->u.rig.n_terms == 0 && leaves_something(best) && best->n_found < LAB_LOOP_EFFECTS)
     return last_resort(s, error);
@@ -691,7 +712,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_loop_options *option
   *done = best->n_found > 0 && is_noise(best->chi2, best->u.n_data);
   if (!*done) {
     lab_trace_close(&result->trace);
-    result->n_steps = result->n_listed = 0;
+    result->n_steps = result->n_listed = result->n_path = 0;
     result->window = 0;
   }
   return LAB_OK;

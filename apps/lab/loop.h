@@ -5,7 +5,7 @@
 
 #include "trace.h"
 
-enum { LAB_LOOP_EFFECTS = 3, LAB_LOOP_LEADERS = 7, LAB_LOOP_STEPS = 24 };
+enum { LAB_LOOP_EFFECTS = 3, LAB_LOOP_LEADERS = 7, LAB_LOOP_STEPS = 48, LAB_LOOP_PATH = 8 };
 
 enum lab_verdict { LAB_VERDICT_NONE, LAB_VERDICT_EFFECT, LAB_VERDICT_UNLISTED, LAB_VERDICT_UNDECIDED };
 
@@ -46,6 +46,13 @@ typedef struct lab_step {
   int kept;         /* the search went on from it */
 } lab_step;
 
+/* A model that the search went on from, fitted. */
+typedef struct lab_waypoint {
+  char name[LAB_FIT_TEXT];
+  double chi2, bic;
+  lab_rig rig;
+} lab_waypoint;
+
 typedef struct lab_loop_result {
   int verdict; /* enum lab_verdict */
   int n_found;
@@ -58,6 +65,8 @@ typedef struct lab_loop_result {
   int listed[LAB_TRACE_MAX];
   int n_steps;
   lab_step step[LAB_LOOP_STEPS];
+  int n_path; /* models from the declared one to the final one */
+  lab_waypoint path[LAB_LOOP_PATH];
   size_t window; /* rows of a window if the log is rough and was seen coarsely (coarse.h); else 0 */
   double level;  /* p-value that a single candidate has to pass */
 } lab_loop_result;

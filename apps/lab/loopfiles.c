@@ -135,18 +135,30 @@ static void add_candidates(cJSON *to, const lab_trace_result *trace)
   }
 }
 
-/* Every model that was tried. */
-static void add_steps(cJSON *root, const lab_loop_result *result)
+static cJSON *add_model(cJSON *list, const char *name, double chi2, double bic)
 {
-  cJSON *list = cJSON_AddArrayToObject(root, "steps");
+  cJSON *o = cJSON_CreateObject();
+  cJSON_AddItemToArray(list, o);
+  cJSON_AddStringToObject(o, "model", name);
+  add_number(o, "chi2", chi2);
+  add_number(o, "bic", bic);
+  return o;
+}
+
+/* The way from the declared model to the final one, with the held-out error of each; and every model that was tried. */
+static void add_steps(cJSON *root, const lab_story *story)
+{
+  const lab_loop_result *r = story->result;
+  cJSON *list = cJSON_AddArrayToObject(root, "path");
   int i;
-  for (i = 0; i < result->n_steps; i++) {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddItemToArray(list, o);
-    cJSON_AddStringToObject(o, "model", result->step[i].name);
-    add_number(o, "chi2", result->step[i].chi2);
-    add_number(o, "bic", result->step[i].bic);
+  for (i = 0; i < r->n_path; i++) {
+    cJSON *o = add_model(list, r->path[i].name, r->path[i].chi2, r->path[i].bic);
+    if (story->has_holdout)
+      add_errors(o, "holdout", &story->holdout_path[i]);
   }
+  list = cJSON_AddArrayToObject(root, "steps");
+  for (i = 0; i < r->n_steps; i++)
+    add_model(list, r->step[i].name, r->step[i].chi2, r->step[i].bic);
 }
 
 static void add_limitations(cJSON *to, const lab_remarks *remarks)
@@ -189,7 +201,7 @@ static cJSON *json_of(const lab_story *story)
     cJSON_AddItemToArray(o, cJSON_CreateString(pneu_effect_at(result->listed[i])->name));
   if (story->next.kind == LAB_ADVICE_TRIAL)
     cJSON_AddStringToObject(root, "record_next", story->next.text);
-  add_steps(root, result);
+  add_steps(root, story);
   add_limitations(root, story->remarks);
   o = cJSON_AddObjectToObject(root, "timing");
   add_number(o, "fit_s", story->fit_s);

@@ -15,10 +15,11 @@ typedef struct lab_story {
   const lab_loop_result *result;
   int has_holdout;
   lab_errors holdout_before, holdout_after;
-  lab_advice separate[LAB_LOOP_EFFECTS]; /* of each found effect from the first that looks like it */
-  lab_advice next;                       /* the test that would tell most, where no effects are alike */
-  double fit_s, trace_s, total_s;        /* [s] on the clock; trace_s: the scan of all effects */
-  const lab_remarks *remarks;            /* what limits the conclusions; NULL: nothing */
+  lab_errors holdout_path[LAB_LOOP_PATH]; /* of result->path */
+  lab_advice separate[LAB_LOOP_EFFECTS];  /* of each found effect from the first that looks like it */
+  lab_advice next;                        /* the test that would tell most, where no effects are alike */
+  double fit_s, trace_s, total_s;         /* [s] on the clock; trace_s: the scan of all effects */
+  const lab_remarks *remarks;             /* what limits the conclusions; NULL: nothing */
 } lab_story;
 
 /* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */
