@@ -307,6 +307,16 @@ static void test_closeloop__pressure_in_bar_called_kPa__is_refused(void **state)
   assert_spoiled_is_refused(&b, "bad.csv", "bar and kPa mixed up");
 }
 
+static void test_closeloop__position_in_cm_called_mm__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = sound.x[i] / 10;
+  assert_spoiled_is_refused(&b, "bad.csv", "mm and cm mixed up");
+}
+
 static void test_closeloop__absolute_called_gauge__is_undecided(void **state)
 {
   bad_log b = sound;
@@ -528,6 +538,39 @@ static void test_closeloop__command_recorded_too_late__is_refused(void **state)
   assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
 }
 
+static void test_closeloop__one_stroke_before_its_command__is_refused(void **state)
+{
+  bad_log b = shifted(30);
+  (void)state;
+  b.n = 350;
+  assert_spoiled_is_refused(&b, "bad.csv", "before u says so");
+}
+
+/* The same changes at other instants, some before and some after those of the test. */
+static void test_closeloop__commands_at_other_instants__are_refused(void **state)
+{
+  static const double at[] = {0.402, 2.1, 4.4, 5.1, 7.6}, to[] = {1, 0, -1, 0.5, -0.5};
+  bad_log b = sound;
+  size_t i;
+  int k;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    for (k = 0; k < 5; k++)
+      if (b.t[i] >= at[k])
+        b.u[i] = to[k];
+  assert_spoiled_is_refused(&b, "bad.csv:", "p moves against it or before it");
+}
+
+static void test_closeloop__quick_commands_of_another_test__are_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = i / 5 % 2 ? 1 : -0.8;
+  assert_spoiled_is_refused(&b, "bad.csv", "is not what the declared model makes of u");
+}
+
 static void test_closeloop__command_seconds_too_early__is_no_dead_time(void **state)
 {
   bad_log b = sound;
@@ -612,6 +655,7 @@ int main(void)
       cmocka_unit_test(test_closeloop__jump_in_time__is_a_limitation),
       cmocka_unit_test(test_closeloop__units_that_disagree__are_refused),
       cmocka_unit_test(test_closeloop__pressure_in_bar_called_kPa__is_refused),
+      cmocka_unit_test(test_closeloop__position_in_cm_called_mm__is_refused),
       cmocka_unit_test(test_closeloop__absolute_called_gauge__is_undecided),
       cmocka_unit_test(test_closeloop__command_in_per_cent__is_refused),
       cmocka_unit_test(test_closeloop__dead_pressure__is_refused),
@@ -630,6 +674,9 @@ int main(void)
       cmocka_unit_test(test_closeloop__no_command__is_refused),
       cmocka_unit_test(test_closeloop__command_of_another_test__is_refused),
       cmocka_unit_test(test_closeloop__command_recorded_too_late__is_refused),
+      cmocka_unit_test(test_closeloop__one_stroke_before_its_command__is_refused),
+      cmocka_unit_test(test_closeloop__commands_at_other_instants__are_refused),
+      cmocka_unit_test(test_closeloop__quick_commands_of_another_test__are_refused),
       cmocka_unit_test(test_closeloop__command_seconds_too_early__is_no_dead_time),
       cmocka_unit_test(test_closeloop__command_from_0_to_1__is_undecided),
       cmocka_unit_test(test_closeloop__position_only_and_wrong_sign__is_refused),

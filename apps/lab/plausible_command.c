@@ -12,7 +12,8 @@ static const double thermal = 0.5;         /* of absolute pressure: a shut chamb
 static const double pace_factor = 20;      /* between what is measured and declared, in time */
 static const double alike = 0.4;           /* correlation of rates, measured and expected, below which they differ */
 static const double alike_shifted = 0.8;   /* and above which a shift in time is the reason */
-static const double obedient = 0.75;       /* share of movement the way of the command, above which it is right */
+static const double obedient = 0.75;       /* share of movement the way of the command, above which all is right */
+static const double disobedient = 0.55;    /* and below which it is wrong, however alike */
 static const double early_rate = 0.3;      /* of the usual rate with an open orifice */
 static const double longest_dead_time = 1; /* [s]: sound travels 340 m */
 
@@ -375,6 +376,9 @@ static int starts_early(const lab_scene *s, const struct follower *f, const lab_
   for (k = turn = first; k <= last; k++)
     if (next_sign * f->mean[k] < next_sign * f->mean[turn])
       turn = k;
+  for (k = last; next_sign * (f->mean[k] - f->mean[turn]) > f->least / 2; k--)
+    ;
+  turn = k; /* where it leaves the extreme for good */
   moved = next_sign * (f->mean[last] - f->mean[turn]);
   return turn > first + 2 && moved > f->least && moved > early_rate * f->rate * (last - turn) * s->cell;
 }
@@ -457,18 +461,21 @@ static double obedience(const lab_scene *s)
 
 int lab_check_alike(const lab_scene *s, lab_finding *f)
 {
-  double best, now = -1;
+  double best, now = -1, obeys;
   int k, lag = lag_of(s, &best);
   if (best >= 1 || (best > alike_shifted && lag != 0))
     return 0;
   for (k = 0; k < s->n_cells / 3 && k * s->cell < longest_dead_time; k++)
     now = fmax(now, likeness(s, k));
-  if (now > alike || obedience(s) > obedient)
+  obeys = obedience(s);
+  if (obeys > (now > alike ? disobedient : obedient))
     return 0;
-  return lab_find(f,
-                  "the command does not match: what %s does is not what the declared model makes of u (correlation of "
-                  "rates %.2f, expected above %.1f); is u from another test, or the rig file of another rig?",
-                  lab_channels[s->main].key, now, alike);
+  return lab_find(
+      f,
+      "the command does not match: what %s does is not what the declared model makes of u (correlation of "
+      "rates %.2f, %.0f %% of the movement the way of u); is u from another test, or the rig file of another "
+      "rig?",
+      lab_channels[s->main].key, now, 100 * obeys);
 }
 
 int lab_check_late(const lab_scene *s, lab_finding *f)
@@ -503,7 +510,7 @@ int lab_check_one_sided(const lab_scene *s, lab_finding *f)
     if (stretch.sign > 0 && change > 0)
       rise = fmin(rise, s->u[stretch.first] * time_of(s, s->y[s->main], &stretch, change));
   }
-  if (!isfinite(fall) || !isfinite(rise) || fall > 4 * rise)
+  if (!isfinite(fall) || !isfinite(rise) || fall > 2 * rise)
     return 0;
   return lab_find(f,
                   "u is never negative, and %s falls while it is 0, in %.3g s: as fast as through an orifice; if "

@@ -203,12 +203,13 @@ static int ascending(const void *a, const void *b)
 static int forces(const lab_scene *s, double *air, double *spring)
 {
   const pneu_params *q = &s->rig->params;
-  const double stroke = (double)q->stroke;
+  const double stroke = (double)q->stroke, span = lab_scene_span(s, LAB_CHANNEL_X);
+  const double top = fmin(0.85 * stroke, s->cells[LAB_CHANNEL_X].low + 0.85 * span); /* it may end before its stroke */
   double a[LAB_SCENE_CELLS], b[LAB_SCENE_CELLS];
   int k, n = 0;
   for (k = 0; k < s->n_cells; k++) {
     const double x = s->cells[LAB_CHANNEL_X].mean[k];
-    if (!(x > 0.15 * stroke && x < 0.85 * stroke))
+    if (!(x > 0.15 * stroke && x < top))
       continue;
     a[n] = (double)q->area * s->cells[LAB_CHANNEL_P].mean[k];
     b[n++] = (double)q->spring_rate * (x + (double)q->spring_preload) + (double)q->external_force;

@@ -119,6 +119,8 @@ const blind_effect blind_effects[] = {
     /* mass */
     {"chamber_leak", "mass", "leak", "m2", 1e-4, 0.05, fill_area, .field = AT(leak_area)},
     {"laminar_leak", "mass", "leak", "kg/s/Pa2", 1e-4, 0.05, laminar, .field = AT(laminar_leak)},
+    {"porous_leak", "mass", "leak", "kg/s/Pa2", 1e-4, 0.05, laminar, .field = AT(porous_leak),
+     .shape = {{"crossover", AT(crossover), 0.5, 2, supply}}},
     {"choked_flow", "mass", "flow law", "1", 1, 1, .apply = choke, .setting = BLIND_PAPER_FLOW},
     {"supply_droop", "mass", "fill", "Pa.s/kg", 1e-4, 0.2, resistance, .field = AT(supply_droop)},
     {"exhaust_back_pressure", "mass", "vent", "Pa.s/kg", 2e-4, 0.2, resistance, .field = AT(back_pressure)},
