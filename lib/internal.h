@@ -52,6 +52,7 @@ struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
   pneu_real p, T, x, v;                /* p [Pa] abs */
+  pneu_real time;                      /* [s] by the model's clock, 0 without one */
   pneu_real volume, area, swept_area;  /* [m3], [m2] that pressure acts on, [m2] dV/dx */
   pneu_real opening;                   /* [1] */
   pneu_real supply, exhaust;           /* [Pa] abs, behind the orifices */

@@ -109,9 +109,10 @@ extern "C" {
 /* What a free term is added to. Friction is added to the level that the effects have made, in both directions and at
  * break-away, and is not below 0 with it; LuGre friction, whose force is a share of dry_friction, needs that above 0.
  * Flow comes in at ambient temperature and leaves at that of the gas. Heat counts where the chamber law is an energy
- * balance; flow and heat, where pressure is no input; sensors show the term as it is, behind their lags and gains.
+ * balance; supply, flow and heat, where pressure is no input; sensors show the term as it is, behind their lags and gains.
  *    name            key in files      unit */
 #define PNEU_TERM_EQUATION_LIST(X) \
+  X(SUPPLY,         "supply",         "Pa",   "supply pressure at the transducer") \
   X(FORCE,          "force",          "N",    "force on the stem, positive against the air") \
   X(FRICTION,       "friction",       "N",    "level of dry friction") \
   X(FLOW,           "flow",           "kg/s", "mass flow into the chamber") \
@@ -119,13 +120,16 @@ extern "C" {
   X(SHOWN_PRESSURE, "shown_pressure", "Pa",   "what the pressure sensor shows too much") \
   X(SHOWN_POSITION, "shown_position", "m",    "what the position sensor shows too much")
 
-/* What a free term depends on: always the true value, never a sensor's.
+/* What a free term depends on: always the true value, never a sensor's. Over a cycle its values are no knots but the
+ * amplitudes of cosine and sine of the period to - from, of its half, its third ..., by the model's clock; `to` and
+ * `from` mean no more than that, and the clock is a state of the model: see pneu_model.clock.
  *    name      key   unit */
 #define PNEU_TERM_ARGUMENT_LIST(X) \
   X(POSITION, "x", "m",   "position of the stem") \
   X(VELOCITY, "v", "m/s", "velocity of the stem, signed") \
   X(PRESSURE, "p", "Pa",  "gauge pressure in the chamber") \
-  X(OPENING,  "u", "1",   "opening of the transducer after its own dynamics; 0 where pressure is an input")
+  X(OPENING,  "u", "1",   "opening of the transducer after its own dynamics; 0 where pressure is an input") \
+  X(CYCLE,    "t", "s",   "time, in cycles that repeat")
 
 enum pneu_status {
 #define X(name, code, text) name = code,
@@ -196,8 +200,8 @@ enum pneu_effect_sizes {
 #undef PNEU_EFFECT
   ,
   PNEU_PARAM_COUNT = PNEU_PARAM_BASE_COUNT + PNEU_EFFECT_PARAM_COUNT,
-  PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* never 0: C has no empty array */
-  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT, /* p, T, effects, x, v */
+  PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1,                       /* effects, clock; never 0: C has no empty array */
+  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT + (PNEU_TERM_KNOTS > 0), /* p, T, effects, clock, x, v */
   PNEU_STAGE_COUNT = 8,                         /* of the Rosenbrock method */
   PNEU_TERM_ROOM = PNEU_TERM_KNOTS > 0 ? PNEU_TERM_KNOTS : 1
 };
@@ -235,7 +239,7 @@ typedef struct pneu_state {
   pneu_real T;                     /* [K] gas temperature */
   pneu_real x;                     /* [m] stem position, 0..stroke */
   pneu_real v;                     /* [m/s] stem velocity */
-  pneu_real extra[PNEU_EXTRA_MAX]; /* states of the active effects, see pneu_model.state_of */
+  pneu_real extra[PNEU_EXTRA_MAX]; /* states of the active effects, see pneu_model.state_of; the clock */
   int mode;                        /* enum pneu_mode */
 } pneu_state;
 
@@ -250,13 +254,14 @@ typedef struct pneu_param_info {
 } pneu_param_info;
 
 /* A free term: something that acts, measured but not named. Its value lies on straight lines between knots at equal
- * distances, the first at `from` and the last at `to`, and is constant beyond them. */
+ * distances, the first at `from` and the last at `to`, and is constant beyond them; over a cycle it is a Fourier
+ * series. */
 typedef struct pneu_term {
   int equation;                    /* enum pneu_term_equation */
   int argument;                    /* enum pneu_term_argument */
   int n;                           /* knots, 2..PNEU_TERM_KNOTS */
   pneu_real from, to;              /* argument at the first and at the last knot, from < to */
-  pneu_real value[PNEU_TERM_ROOM]; /* at the knots, in the unit of the equation */
+  pneu_real value[PNEU_TERM_ROOM]; /* at the knots, in the unit of the equation; over a cycle cos, sin, cos, sin ... */
 } pneu_term;
 
 typedef struct pneu_model pneu_model;
@@ -304,7 +309,7 @@ struct pneu_model {
   pneu_real scale[4];               /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
   int thermal;                      /* gas temperature is a state */
   int bristle;                      /* friction has its own state: no stick mode */
-  int n_extra;                      /* states of active effects */
+  int n_extra;                      /* states of active effects, and the clock */
   int n_gas;                        /* states before x in the packed vector: p, [T], effects */
   int n_active;
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
@@ -312,6 +317,8 @@ struct pneu_model {
   unsigned char state_of[PNEU_EFFECT_COUNT + 1]; /* first state in pneu_state.extra */
   int n_terms;
   const pneu_term *term; /* free terms, the caller's */
+  int clock;             /* place in pneu_state.extra of the time [s], 0 after pneu_state_rest; -1: there is none */
+  pneu_real term_step;   /* [s] longest step of pneu_run that does not miss a cycle of a free term; 0: any */
 };
 
 /* What can be read off a state, by pneu_observe. */
@@ -416,7 +423,8 @@ int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *la
  *          n     >= 0
  * Out:     model
  * Returns: PNEU_OK; PNEU_E_LAW for an unknown equation or argument; PNEU_E_PARAM for a number that is not finite, for
- *          from >= to, for knots fewer than 2 or more than PNEU_TERM_KNOTS. On error the model keeps what it has. */
+ *          from >= to, for knots fewer than 2 or more than PNEU_TERM_KNOTS, over a cycle an odd number of values. On
+ *          error the model keeps what it has. */
 int pneu_model_terms(pneu_model *model, const pneu_term *term, int n);
 
 /* Words for a status, a mode, a gas law, a flow law.  Returns: a constant string, "unknown" out of range. */

@@ -49,6 +49,7 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->T = model->thermal ? y[1] : p->ambient_temperature;
   t->x = n > i_x ? y[i_x] : state->x;
   t->v = n > i_x + 1 ? y[i_x + 1] : state->mode == PNEU_MODE_DRIVEN ? input->position_rate : 0;
+  t->time = model->clock >= 0 ? y[1 + model->thermal + model->clock] : 0;
   t->area = p->area * (1 - model->area_slope * t->x);
   t->swept_area = t->area * p->swept_ratio;
   t->volume = pneu_volume(model, t->x);
@@ -95,6 +96,7 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   if (!model->law.pressure_input) {
     t->opening = pneu_command_opening(t);
     add_effects(t, y, PNEU_STAGE_BOUNDARY, &next, rate);
+    add_terms(t, PNEU_TERM_SUPPLY, PNEU_TERM_SUPPLY);
     pneu_transducer_flow(t);
   }
   add_effects(t, y, PNEU_STAGE_WALL, &next, rate);
@@ -118,6 +120,8 @@ int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input 
   if (pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal) != PNEU_OK)
     return PNEU_RETRY_STATE;
   pneu_chamber_rates(&t, dydt);
+  if (model->clock >= 0)
+    dydt[1 + model->thermal + model->clock] = 1;
   if (n > i_x)
     dydt[i_x] = t.v;
   if (n > i_x + 1)

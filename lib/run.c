@@ -187,6 +187,8 @@ static int advance(run *r)
     int which = -1;
     if (r->options->h_max > 0)
       h = PNEU_M(fmin)(h, r->options->h_max);
+    if (r->model->term_step > 0)
+      h = PNEU_M(fmin)(h, r->model->term_step);
     if (h > left * PNEU_C(0.999))
       h = left;
     if (!(h > PNEU_SHORTEST))

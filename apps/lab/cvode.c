@@ -173,7 +173,8 @@ static solver *solver_start(lab_cvode *c, double t, double end)
   if (!s->memory && solver_create(c, s, n))
     return NULL;
   pneu_pack(c->model, c->state, N_VGetArrayPointer(s->y));
-  if (CVodeReInit(s->memory, t, s->y) || CVodeSetStopTime(s->memory, end))
+  if (CVodeReInit(s->memory, t, s->y) || CVodeSetStopTime(s->memory, end) ||
+      CVodeSetMaxStep(s->memory, c->model->term_step))
     return NULL;
   return s;
 }

@@ -16,7 +16,7 @@ static const double alone = 3;        /* a slot is tried at once if it explains 
 static const double mostly = 0.5;     /* and so much of all there is */
 enum {
   BEAM = 2,
-  SLOTS = 2,
+  SLOTS = 3,
   ALL_LEADERS = 40,
   POOL = ALL_LEADERS + SLOTS,
   BRIEF = 8,
@@ -462,7 +462,7 @@ static int extend(search *s, const attempt *base, lab_error *error)
       s->result->level = s->options->alpha / trace.tests;
     n = choose_leaders(&trace, s->result->level, leader);
     if (nameless)
-      n_slots = lab_trace_slots(&scan, slot);
+      n_slots = lab_slots_try(&scan, slot);
     if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
         slot[0].statistic > alone * trace.candidate[0].statistic)
       best_slot(s, base, slot, n_slots, s->nameless);
@@ -621,7 +621,7 @@ static int last_resort(search *s, lab_error *error)
   lab_scan scan;
   int n, status = lab_scan_open(&best->u, &scan, error);
   longer->fitted = 0;
-  if (status == LAB_OK && (n = lab_trace_slots(&scan, slot)) > 0)
+  if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0)
     best_slot(s, best, slot, n, longer);
   lab_scan_close(&scan);
   if (status != LAB_OK || !is_convincing(longer, best))

@@ -3,6 +3,7 @@
 #ifndef LAB_LOOP_H
 #define LAB_LOOP_H
 
+#include "slots.h"
 #include "trace.h"
 
 enum { LAB_LOOP_EFFECTS = 3, LAB_LOOP_LEADERS = 7, LAB_LOOP_STEPS = 48, LAB_LOOP_PATH = 8 };

@@ -135,6 +135,8 @@ static int run_schedule(engine *e, const pneu_model *model, const pneu_state *st
   const size_t n = sampler->n;
   size_t i;
   int status = LAB_OK;
+  if (model->clock >= 0)
+    state.extra[model->clock] = (pneu_real)schedule->t[0];
   for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
     const double to = i + 1 < schedule->n && schedule->t[i + 1] < t_end ? schedule->t[i + 1] : t_end;
     sampler->origin = schedule->t[i];

@@ -5,17 +5,13 @@
  * freedom when nothing is missing (Rao 1948). Where a small size says little about a large one, the slope is a secant
  * to the effect's usual size as well, and effects with a shape are tried with several; the largest T counts, and the
  * number of all that were tried goes into the level of the test (Bonferroni).
- *
- * What has no name is looked for in the same way: a slot is an equation and an argument in which a free term (pneu.h)
- * may act; its slopes are those in the heights of the term's knots, and T is chi-square with as many degrees of freedom
- * as of them the log sees.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_TRACE_H
 #define LAB_TRACE_H
 
-#include "unknowns.h"
+#include "scan.h"
 
-enum { LAB_TRACE_MAX = 64, LAB_SLOT_MAX = 16 };
+enum { LAB_TRACE_MAX = 64 };
 
 /* One way in which something may be missing. */
 typedef struct lab_candidate {
@@ -31,24 +27,6 @@ typedef struct lab_candidate {
   double *direction; /* s' of unit length, m entries; NULL where nothing is visible */
 } lab_candidate;
 
-/* An equation and an argument in which something without a name may act. */
-typedef struct lab_slot {
-  pneu_term term;   /* its knots; values 0 */
-  double scale;     /* a value of it that matters, in its unit */
-  double statistic; /* T */
-  int degrees;      /* of freedom: directions of the knots that the log sees */
-} lab_slot;
-
-/* A fitted model and what a statistic needs of it. */
-typedef struct lab_scan {
-  lab_unknowns *u;
-  size_t m;
-  double *r;     /* residual */
-  double *basis; /* n_basis orthonormal columns that span the slopes */
-  int n_basis;
-  double chi2, excess; /* of the data; what is beyond its expectation */
-} lab_scan;
-
 typedef struct lab_trace_result {
   int n; /* candidates, largest statistic first */
   lab_candidate candidate[LAB_TRACE_MAX];
@@ -56,22 +34,10 @@ typedef struct lab_trace_result {
   double chi2, excess;
 } lab_trace_result;
 
-/* Residual and slopes of a fitted model.
- * In:      u     fitted; used until the scan is closed
- * Out:     scan  to be closed, also after an error
- * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
-int lab_scan_open(lab_unknowns *u, lab_scan *scan, lab_error *error);
-void lab_scan_close(lab_scan *scan);
-
 /* Try every effect that the model does not have.
  * Out:     result  to be closed */
 void lab_trace_effects(const lab_scan *scan, lab_trace_result *result);
 void lab_trace_close(lab_trace_result *result);
-
-/* Try every slot.
- * Out:     slot  largest statistic over degrees first
- * Returns: their number. */
-int lab_trace_slots(const lab_scan *scan, lab_slot slot[LAB_SLOT_MAX]);
 
 /* |cosine| between the directions of two candidates; 0 where one is invisible. */
 double lab_trace_likeness(const lab_trace_result *result, size_t m, int a, int b);

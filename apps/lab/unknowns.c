@@ -9,6 +9,7 @@
 #include "descent.h"
 #include "noise.h"
 
+static const double two_pi = 6.283185307179586;
 static const double uniform_spread = 0.28867513459481287; /* standard deviation of a uniform distribution of width 1 */
 static const double slope_step = 1e-3;                    /* of a slope's difference, over what matters; */
 static const double rough_share = 0.3;  /* of the windows with motion: that many rough ones are no accident */
@@ -65,10 +66,38 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
   return LAB_OK;
 }
 
+static double longest_log(const lab_unknowns *u)
+{
+  double longest = 0;
+  int e;
+  for (e = 0; e < u->n_experiments; e++) {
+    const double *t = u->experiment[e].log->value[LAB_CHANNEL_TIME] + u->experiment[e].first;
+    longest = fmax(longest, t[u->experiment[e].n - 1] - t[0]);
+  }
+  return longest;
+}
+
+/* The period of the last free term. What matters is what turns the phase at the end of the longest log by a radian. */
+static void add_period(lab_unknowns *u)
+{
+  const pneu_term *term = &u->rig.term[u->rig.n_terms];
+  const double period = (double)(term->to - term->from);
+  lab_unknown *x = append(u);
+  x->kind = LAB_UNKNOWN_PERIOD;
+  x->term = u->rig.n_terms;
+  snprintf(x->name, sizeof x->name, "unlisted_%d.period", x->term + 1);
+  snprintf(x->unit, sizeof x->unit, "s");
+  x->value = x->first = period;
+  x->lower = period / 2;
+  x->upper = period * 2;
+  x->scale = period * period / (two_pi * fmax(longest_log(u), period));
+}
+
 int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, int held, lab_error *error)
 {
+  const int cycles = term->argument == PNEU_TERM_OVER_CYCLE;
   int i;
-  if (u->rig.n_terms == LAB_TERM_MAX || u->n + term->n > LAB_FIT_MAX)
+  if (u->rig.n_terms == LAB_TERM_MAX || u->n + term->n + cycles > LAB_FIT_MAX)
     return no_room(error);
   u->rig.term[u->rig.n_terms] = *term;
   for (i = held; i < term->n - held; i++) {
@@ -82,6 +111,8 @@ int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, 
     x->upper = 1e3 * scale;
     x->scale = scale;
   }
+  if (cycles)
+    add_period(u);
   u->rig.n_terms++;
   return LAB_OK;
 }
@@ -98,12 +129,17 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
   *pneu_param_at(&u->rig.params, param) = info.shape ? info.value : info.neutral;
 }
 
+static int is_of_term(const lab_unknown *x, int term)
+{
+  return (x->kind == LAB_UNKNOWN_KNOT || x->kind == LAB_UNKNOWN_PERIOD) && x->term == term;
+}
+
 void lab_unknowns_drop_term(lab_unknowns *u)
 {
   int j, k;
   u->rig.n_terms--;
   for (j = k = 0; j < u->n; j++)
-    if (u->unknown[j].kind != LAB_UNKNOWN_KNOT || u->unknown[j].term != u->rig.n_terms)
+    if (!is_of_term(&u->unknown[j], u->rig.n_terms))
       u->unknown[k++] = u->unknown[j];
   u->n = k;
 }
@@ -191,6 +227,8 @@ static void apply_one(const lab_unknown *x, double value, const pneu_params *dec
 {
   if (x->kind == LAB_UNKNOWN_KNOT) {
     rig->term[x->term].value[x->index] = (pneu_real)value;
+  } else if (x->kind == LAB_UNKNOWN_PERIOD) {
+    rig->term[x->term].to = rig->term[x->term].from + (pneu_real)value;
   } else if (x->kind == LAB_UNKNOWN_PARAM && x->index == LAB_FIT_ORIFICE_AREA) {
     rig->params.fill_area = declared->fill_area * (pneu_real)value;
     rig->params.vent_area = declared->vent_area * (pneu_real)value;
@@ -424,6 +462,13 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
 
 /* ---- Fits ---- */
 
+/* Whether the slopes in an unknown hardly change while the others move. */
+static int lasts(const lab_unknowns *u, const lab_unknown *x)
+{
+  return x->kind == LAB_UNKNOWN_SWITCH ||
+         (x->kind == LAB_UNKNOWN_KNOT && u->rig.term[x->term].argument != PNEU_TERM_OVER_CYCLE);
+}
+
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
   double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], own;
@@ -434,7 +479,7 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
   for (j = 0; j < u->n; j++) {
     lower[j] = u->unknown[j].lower;
     upper[j] = u->unknown[j].upper;
-    lasting[j] = u->unknown[j].kind != LAB_UNKNOWN_PARAM;
+    lasting[j] = lasts(u, &u->unknown[j]);
   }
   present(u, theta);
   if (lab_descend(&problem, theta, chi2 ? chi2 : &own, error))

@@ -8,9 +8,10 @@
 #include "fit.h"
 
 enum lab_unknown_kind {
-  LAB_UNKNOWN_PARAM, /* index: as in pneu_param_describe, or LAB_FIT_ORIFICE_AREA (a factor) */
-  LAB_UNKNOWN_KNOT,  /* index: knot of free term `term` */
-  LAB_UNKNOWN_SWITCH /* index: which change of command, counted over all experiments */
+  LAB_UNKNOWN_PARAM,  /* index: as in pneu_param_describe, or LAB_FIT_ORIFICE_AREA (a factor) */
+  LAB_UNKNOWN_KNOT,   /* index: knot of free term `term` */
+  LAB_UNKNOWN_PERIOD, /* of free term `term` over a cycle */
+  LAB_UNKNOWN_SWITCH  /* index: which change of command, counted over all experiments */
 };
 
 enum { LAB_ALL_EXPERIMENTS = -1 };
@@ -48,7 +49,7 @@ int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int 
  * room. */
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error);
 
-/* Take up a free term, whose values in `term` are the start.
+/* Take up a free term, whose values in `term` are the start; over a cycle, with its period.
  * In:      scale  a value of it that matters, in its unit
  *          held   knots at either end that keep their values
  * Returns: LAB_OK; LAB_DATA if there is no room. */

@@ -11,7 +11,8 @@ static const double active_share = 0.15; /* of the largest departure: knots belo
 
 static const struct {
   const char *equation, *what, *both;
-} kinds[PNEU_TERM_EQUATION_COUNT] = {{"force", "a force on the stem", ""},
+} kinds[PNEU_TERM_EQUATION_COUNT] = {{"mass", "a change of the supply pressure", ""},
+                                     {"force", "a force on the stem", ""},
                                      {"force", "dry friction", ", both directions"},
                                      {"mass", "a flow into or out of the chamber", ""},
                                      {"energy", "heat into the gas", ""},
@@ -64,14 +65,38 @@ int lab_unlisted_stretch(const pneu_term *term, double *from, double *to, double
   return last - first < term->n / 2;
 }
 
+/* Largest amplitude of a cycle. */
+static double amplitude(const pneu_term *term)
+{
+  double most = 0;
+  int i;
+  for (i = 0; i + 1 < term->n; i += 2)
+    most = fmax(most, hypot((double)term->value[i], (double)term->value[i + 1]));
+  return most;
+}
+
+static void say_cycle(const pneu_term *term, char text[LAB_WHERE_TEXT])
+{
+  const double period = (double)(term->to - term->from);
+  char seconds[LAB_SHOWN_TEXT], hertz[LAB_SHOWN_TEXT], most[LAB_SHOWN_TEXT];
+  snprintf(text, LAB_WHERE_TEXT, "again and again, every %s (%s); amplitude %s",
+           lab_shown_quantity(period, "s", 4, seconds), lab_shown_quantity(1 / period, "Hz", 4, hertz),
+           lab_shown_quantity(amplitude(term), lab_term_equations[term->equation].unit, 3, most));
+}
+
 const char *lab_unlisted_where(const pneu_term *term, char text[LAB_WHERE_TEXT])
 {
   const lab_term_word *argument = &lab_term_arguments[term->argument], *equation = &lab_term_equations[term->equation];
   const lab_shown how = lab_shown_as(argument->unit);
   char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT], most[LAB_SHOWN_TEXT];
   double from, to, level, peak;
-  const int is_short = lab_unlisted_stretch(term, &from, &to, &level, &peak);
-  const int is_local = is_short || (term->value[0] == 0 && term->value[term->n - 1] == 0);
+  int is_short, is_local;
+  if (term->argument == PNEU_TERM_OVER_CYCLE) {
+    say_cycle(term, text);
+    return text;
+  }
+  is_short = lab_unlisted_stretch(term, &from, &to, &level, &peak);
+  is_local = is_short || (term->value[0] == 0 && term->value[term->n - 1] == 0);
   snprintf(text, LAB_WHERE_TEXT, "%s%s = %s .. %s %s%s; largest value %s", is_local ? "" : "nearly everywhere, ",
            argument->key, lab_shown_number(how.scale * from, 3, low), lab_shown_number(how.scale * to, 3, high),
            how.unit, kinds[term->equation].both, lab_shown_quantity(peak, equation->unit, 3, most));
