@@ -21,7 +21,7 @@
 #define PNEU_EPS         2.220446049250313e-16
 #define PNEU_EVENT_TIME  1e-9
 #define PNEU_FORCE_NOISE 1.5e-14
-#define PNEU_FORCE_RESOLVED 1e-8
+#define PNEU_FORCE_RESOLVED 1e-7
 #endif
 
 /* PNEU_EVENT_TIME [s]: exactness of an event. Shares of the largest force: PNEU_FORCE_NOISE, rounding, which break-away

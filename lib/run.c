@@ -19,7 +19,7 @@ typedef struct run {
   pneu_real event_t;                /* of the last event */
   pneu_real h;                      /* to try next; 0: choose */
   pneu_real h_before, error_before; /* of the last accepted step; 0: none */
-  int steps, events_here;           /* events without progress in time */
+  int steps, events_here;           /* events without progress in time beyond their exactness */
 } run;
 
 /* Time to go, and time that passes: single precision would lose short steps late in a long run. */
@@ -84,7 +84,7 @@ static int accept(run *r, pneu_real h, int which)
   r->work->stats.steps++;
   if (which < 0)
     return PNEU_OK;
-  r->events_here = r->t - r->event_t > PNEU_EVENT_TIME ? 0 : r->events_here + 1;
+  r->events_here = r->t - r->event_t > 8 * PNEU_EVENT_TIME ? 0 : r->events_here + 1;
   r->event_t = r->t;
   if (r->events_here > EVENTS_AT_ONE_TIME)
     return PNEU_E_EVENTS;

@@ -9,14 +9,15 @@
 
 static const double alike_bic = 9.2;  /* refits that differ by less are alike: odds of a hundred to one */
 static const double name_bonus = 20;  /* by which a free term must be better than an effect */
-static const double convincing = 0.1; /* of the excess of the best named model: a free term leaves at most so much */
+static const double convincing = 0.5; /* of the excess of the best named model: a free term leaves at most so much, */
+static const double compelling = 0.1; /* and with so little there is no need to look on */
 static const double rival = 3;        /* times the best chi-square: a poorer model is not extended */
 static const double worth = 0.05;     /* of the best statistic: leaders have at least so much */
 static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
 static const double mostly = 0.5;     /* and so much of all there is */
 enum {
   BEAM = 2,
-  SLOTS = 3,
+  SLOTS = 8,
   ALL_LEADERS = 40,
   POOL = ALL_LEADERS + SLOTS,
   BRIEF = 8,
@@ -186,6 +187,16 @@ static double gain(const attempt *a, const attempt *b, const lab_errors *before,
  * before any fit, with the effect at its usual size, are nearer to the truth. */
 enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, STARTS };
 
+/* The values that the unknowns had before any fit. */
+static void undo_fit(attempt *a)
+{
+  double theta[LAB_FIT_MAX];
+  int j;
+  for (j = 0; j < a->u.n; j++)
+    theta[j] = a->u.unknown[j].value = a->u.unknown[j].first;
+  lab_unknowns_apply(&a->u, theta, LAB_ALL_EXPERIMENTS, &a->u.rig);
+}
+
 /* The model with one candidate of some size, before it is fitted.  Returns: 0, or -1 if there is no room. */
 static int take_up(const attempt *base, const lab_candidate *c, double size, int as_declared, attempt *a)
 {
@@ -196,8 +207,8 @@ static int take_up(const attempt *base, const lab_candidate *c, double size, int
   *a = *base;
   a->fitted = 0;
   pneu_param_describe(c->param, &info);
-  for (j = 0; as_declared && j < a->u.n; j++)
-    a->u.unknown[j].value = a->u.unknown[j].first;
+  if (as_declared)
+    undo_fit(a);
   if (lab_unknowns_add(&a->u, c->param, (double)info.neutral + size, &ignored) ||
       (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)))
     return -1;
@@ -362,22 +373,30 @@ static void explain(attempt *a, double chi2_before)
   found->explained = (chi2_before - a->chi2) / fmax(chi2_before - (double)a->u.n_data, 1);
 }
 
-/* The best slots, refitted. */
-static int refit_slots(const attempt *base, const lab_slot *slot, int n, attempt *a)
+/* The best slots, refitted: briefly, then the best few of them to the end.  Out: best, fitted or not */
+static void refit_slots(const attempt *base, const lab_slot *slot, int n, attempt *best)
 {
+  attempt *a = malloc(SLOTS * sizeof *a);
   int i;
-  n = n < SLOTS ? n : SLOTS;
+  best->fitted = 0;
+  n = !a ? 0 : n < SLOTS ? n : SLOTS;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)
     refit_slot(base, &slot[i], &a[i]);
   qsort(a, (size_t)n, sizeof *a, by_bic);
-  if (n > 0 && a[0].fitted) {
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++) {
     lab_error ignored;
-    fit_attempt(&a[0], LAB_FIT_WHOLE, &ignored);
-    refine(&a[0]);
-    explain(&a[0], base->chi2);
+    if (i < FINALISTS && a[i].fitted)
+      fit_attempt(&a[i], LAB_FIT_WHOLE, &ignored);
   }
-  return n;
+  for (i = 0; i < n && i < FINALISTS; i++)
+    keep_better(best, &a[i]);
+  free(a);
+  if (best->fitted) {
+    refine(best);
+    explain(best, base->chi2);
+  }
 }
 
 /* ---- Search ---- */
@@ -431,14 +450,10 @@ static int leaves_something(const attempt *a)
   return a->chi2 > n + 2 * sqrt(2 * n);
 }
 
-/* The best free term beside what a model has.  Out: best, fitted or not */
-static void best_slot(const search *s, const attempt *base, const lab_slot *slot, int n, attempt *best)
+static void try_slots(const search *s, const attempt *base, const lab_slot *slot, int n, attempt *best)
 {
-  attempt a[SLOTS];
   tell(s, "looking for what has no name");
-  best->fitted = 0;
-  if (refit_slots(base, slot, n, a) > 0)
-    *best = a[0];
+  refit_slots(base, slot, n, best);
 }
 
 /* Try every extension of one model by one effect; and of the declared model by a free term, before the effects where
@@ -465,14 +480,14 @@ static int extend(search *s, const attempt *base, lab_error *error)
       n_slots = lab_slots_try(&scan, slot);
     if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
         slot[0].statistic > alone * trace.candidate[0].statistic)
-      best_slot(s, base, slot, n_slots, s->nameless);
+      try_slots(s, base, slot, n_slots, s->nameless);
     tell(s, "fitting the leaders");
     if (!any_is_noise(s->nameless, 1)) {
       refit_leaders(base, leader, n, s->pool + s->n_pool);
       s->n_pool += n;
     }
     if (n_slots > 0 && !s->nameless->fitted && !any_is_noise(s->pool, s->n_pool))
-      best_slot(s, base, slot, n_slots, s->nameless);
+      try_slots(s, base, slot, n_slots, s->nameless);
     if (s->result->trace.n == 0)
       s->result->trace = trace;
     else
@@ -605,11 +620,11 @@ static int verdict_of(const attempt *a)
 
 /* A free term can bend to nearly anything, and says nothing beyond what it has seen: it must leave only noise, or far
  * less than what has a name does. */
-static int is_convincing(const attempt *nameless, const attempt *named)
+static int is_better(const attempt *nameless, const attempt *named, double share)
 {
   const double n = (double)named->u.n_data;
   return nameless->fitted && nameless->bic < named->bic &&
-         (any_is_noise(nameless, 1) || nameless->chi2 - n < convincing * (named->chi2 - n));
+         (any_is_noise(nameless, 1) || nameless->chi2 - n < share * (named->chi2 - n));
 }
 
 /* Nothing that has a name would do: a free term beside what was found, which may then be needless. */
@@ -622,9 +637,9 @@ static int last_resort(search *s, lab_error *error)
   int n, status = lab_scan_open(&best->u, &scan, error);
   longer->fitted = 0;
   if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0)
-    best_slot(s, best, slot, n, longer);
+    try_slots(s, best, slot, n, longer);
   lab_scan_close(&scan);
-  if (status != LAB_OK || !is_convincing(longer, best))
+  if (status != LAB_OK || !is_better(longer, best, convincing))
     return status;
   note_step(s->result, longer, 1);
   if (lab_loop_errors(&best->u, &before, error) || lab_loop_errors(&longer->u, &after, error))
@@ -647,7 +662,8 @@ static int search_all(search *s, lab_error *error)
       return error->status;
     if (better)
       note_way(s->result, best);
-    if (any_is_noise(s->nameless, 1) && !any_is_noise(best, 1))
+    if (!any_is_noise(best, 1) &&
+        (any_is_noise(s->nameless, 1) || (best->n_found > 1 && is_better(s->nameless, best, compelling))))
       break;
     if (best->u.window && any_is_noise(best, 1))
       return LAB_OK; /* a coarse view does not see fine differences */
@@ -660,7 +676,7 @@ static int search_all(search *s, lab_error *error)
         note_way(s->result, best);
     }
   }
-  if (s->nameless->fitted && !any_is_noise(best, 1) && is_convincing(s->nameless, best)) {
+  if (s->nameless->fitted && !any_is_noise(best, 1) && is_better(s->nameless, best, convincing)) {
     *best = *s->nameless;
     note_step(s->result, best, 1);
     s->result->n_path = 1;

@@ -12,6 +12,7 @@
 static const double two_pi = 6.283185307179586;
 static const double uniform_spread = 0.28867513459481287; /* standard deviation of a uniform distribution of width 1 */
 static const double slope_step = 1e-3;                    /* of a slope's difference, over what matters; */
+static const double knot_spread = 20;                     /* of a knot about 0: it must not run away unseen */
 static const double rough_share = 0.3;  /* of the windows with motion: that many rough ones are no accident */
 static const double coarse_step = 0.05; /* so long a step where slips come and go on shorter ones */
 
@@ -110,6 +111,7 @@ int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, 
     x->lower = -1e3 * scale;
     x->upper = 1e3 * scale;
     x->scale = scale;
+    x->spread = knot_spread * scale;
   }
   if (cycles)
     add_period(u);
@@ -462,13 +464,6 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
 
 /* ---- Fits ---- */
 
-/* Whether the slopes in an unknown hardly change while the others move. */
-static int lasts(const lab_unknowns *u, const lab_unknown *x)
-{
-  return x->kind == LAB_UNKNOWN_SWITCH ||
-         (x->kind == LAB_UNKNOWN_KNOT && u->rig.term[x->term].argument != PNEU_TERM_OVER_CYCLE);
-}
-
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
   double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], own;
@@ -479,7 +474,7 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
   for (j = 0; j < u->n; j++) {
     lower[j] = u->unknown[j].lower;
     upper[j] = u->unknown[j].upper;
-    lasting[j] = lasts(u, &u->unknown[j]);
+    lasting[j] = u->unknown[j].kind == LAB_UNKNOWN_SWITCH;
   }
   present(u, theta);
   if (lab_descend(&problem, theta, chi2 ? chi2 : &own, error))
