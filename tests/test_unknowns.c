@@ -269,7 +269,7 @@ static void test_lab_unknowns_drop__one_between_others__leaves_these_in_order(vo
   assert_int_equal(lab_unknowns_find(&u, excess), USUAL);
   assert_int_equal(lab_unknowns_find(&u, velocity), USUAL + 1);
   assert_close(param_of(&u.rig, "pressure_bias.pressure_bias"), 0, 0, 0);
-  lab_unknowns_drop(&u, velocity); /* a shape has no neutral value: its usual one */
+  lab_unknowns_drop(&u, velocity); /* a shape goes back to its usual value */
   assert_close(param_of(&u.rig, "stribeck_friction.stribeck_velocity"), info.value, 0, 0);
   assert_close(param_of(&u.rig, "stribeck_friction.stribeck_excess"), 0.3, 0, 1e-12);
 }
