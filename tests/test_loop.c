@@ -6,7 +6,6 @@
 #include "second/rig.h"
 
 #include "../apps/lab/loop.h"
-#include "../apps/lab/noise.h"
 #include "../apps/lab/unlisted.h"
 
 enum { ROWS = 1001 };
@@ -191,33 +190,6 @@ static void test_lab_loop_run__stick_slip__is_seen_coarsely_and_named(void **sta
   lab_loop_close(&result);
 }
 
-/* ---- noise ---- */
-
-static void test_lab_noise_estimate__noise_on_a_ramp__is_its_deviation(void **state)
-{
-  enum { N = 4000 };
-  static double y[N];
-  unsigned seed = 5;
-  int i, k;
-  (void)state;
-  for (i = 0; i < N; i++) {
-    double sum = -6;
-    for (k = 0; k < 12; k++) { /* twelve uniform numbers: variance 1 */
-      seed = seed * 1664525u + 1013904223u;
-      sum += (seed >> 8) / 16777216.0;
-    }
-    y[i] = 0.01 * i + 0.5 * sum + (i > N / 2 ? 100 : 0);
-  }
-  assert_close(lab_noise_estimate(y, N), 0.5, 0, 0.05);
-}
-
-static void test_lab_noise_estimate__few_values__says_nothing(void **state)
-{
-  const double y[] = {1, 2, 4, 8, 16, 32};
-  (void)state;
-  assert_true(isnan(lab_noise_estimate(y, 6)));
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -225,8 +197,6 @@ int main(void)
       cmocka_unit_test(test_lab_loop_run__leak__is_named_and_sized),
       cmocka_unit_test(test_lab_loop_run__friction_bump__is_a_force_at_its_place),
       cmocka_unit_test(test_lab_loop_run__stick_slip__is_seen_coarsely_and_named),
-      cmocka_unit_test(test_lab_noise_estimate__noise_on_a_ramp__is_its_deviation),
-      cmocka_unit_test(test_lab_noise_estimate__few_values__says_nothing),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

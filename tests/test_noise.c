@@ -47,6 +47,16 @@ static void test_lab_noise_estimate__white_noise__is_its_deviation(void **state)
   }
 }
 
+static void test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviation(void **state)
+{
+  int i;
+  (void)state;
+  fill_white(0.5, 8);
+  for (i = 0; i < N; i++)
+    y[i] += 0.01 * i + (i > N / 2 ? 100 : 0);
+  assert_close(lab_noise_estimate(y, N), 0.5, 0, 0.05);
+}
+
 static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it(void **state)
 {
   int i;
@@ -264,6 +274,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_noise_estimate__white_noise__is_its_deviation),
+      cmocka_unit_test(test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviation),
       cmocka_unit_test(test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it),
       cmocka_unit_test(test_lab_noise_estimate__alternating_values__are_the_closed_form),
       cmocka_unit_test(test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step),
