@@ -160,13 +160,137 @@ static void test_effects_def__each_effect_on_a_sensor__has_a_footprint_test(void
   footprint_complete(footprints, COUNT(footprints), "sensor");
 }
 
+/* ---- pneu_show: the sensors alone ---- */
+
+/* Set an effect to its usual size. */
+static void switch_on(int effect, pneu_params *p)
+{
+  int i, count, first = pneu_effect_params(effect, &count);
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    *pneu_param_at(p, i) = info.value;
+  }
+}
+
+/* What pneu_show and pneu_observe say of a state is the same, to a rounding of absolute pressure.
+ * Returns: whether the sensors show something else than the truth. */
+static int show_as_observed(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  pneu_output out;
+  pneu_shown seen;
+  assert_int_equal(pneu_observe(m, s, input, &out), PNEU_OK);
+  assert_int_equal(pneu_show(m, s, input, &seen), PNEU_OK);
+  assert_close(seen.pressure, out.shown_pressure, TOL(1e-10, 0.1), 0);
+  assert_close(seen.temperature, out.shown_temperature, 0, 0);
+  assert_close(seen.position, out.shown_position, 0, 0);
+  assert_close(seen.force, m->law.position_input ? out.holding_force : 0, 0, 0);
+  return fabs((double)(out.shown_pressure - out.pressure)) > 1 || out.shown_temperature != out.temperature ||
+         out.shown_position != out.position;
+}
+
+/* In the middle of a fill, where all moves. */
+static pneu_state filling(const pneu_model *m, pneu_input *input)
+{
+  pneu_state s;
+  *input = fixture_input(m, 1);
+  if (m->law.position_input)
+    input->position_rate = (pneu_real)1e-3;
+  s = fixture_rest(m, 1.2e5, 0.002, input);
+  fixture_run(m, &s, input, 0.4, TOL(1e-8, 1e-4), NULL);
+  return s;
+}
+
+/* Alone, in every gas law, as a free stem and as a driven one. */
+static void test_pneu_show__every_effect__is_as_observed(void **state)
+{
+  int e, gas, driven;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const pneu_effect *effect = pneu_effect_at(e);
+    int other = 0;
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+      for (driven = 0; driven < 2; driven++) {
+        pneu_params p = fixture_params(FIXTURE_R1_400);
+        pneu_model m;
+        pneu_input input;
+        pneu_state s;
+        switch_on(e, &p);
+        m = fixture_model_roles(&p, gas, PNEU_FLOW_CHOKED, 0, driven);
+        s = filling(&m, &input);
+        check_note("%s, %s%s", effect->name, pneu_gas_key(gas), driven ? ", driven" : "");
+        other |= show_as_observed(&m, &s, &input);
+      }
+    assert_int_equal(other, !strcmp(effect->equation, "sensor") && effect->add);
+  }
+}
+
+static void test_pneu_show__no_effect__is_the_truth(void **state)
+{
+  int gas;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
+    const pneu_params p = fixture_params(FIXTURE_R1_400);
+    const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_PAPER);
+    pneu_input input;
+    pneu_state s = filling(&m, &input);
+    check_note("%s", pneu_gas_key(gas));
+    assert_int_equal(show_as_observed(&m, &s, &input), 0);
+    s.T += 50; /* says nothing where temperature is no state */
+    assert_int_equal(show_as_observed(&m, &s, &input), 0);
+  }
+}
+
+static void test_pneu_show__all_sensors_at_once__are_as_observed(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  int e, any = 0;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    if (!strcmp(pneu_effect_at(e)->equation, "sensor")) {
+      switch_on(e, &p);
+      any |= pneu_effect_at(e)->add != NULL;
+    }
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  s = filling(&m, &input);
+  assert_int_equal(show_as_observed(&m, &s, &input), any);
+}
+
+/* A free term that a sensor shows, and one that only acts. */
+static void test_pneu_show__free_terms__are_as_observed(void **state)
+{
+  static const pneu_term term[] = {
+      {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {3e3, 5e3}},
+      {PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_PRESSURE, 2, 0, (pneu_real)4e5, {(pneu_real)1e-3, (pneu_real)2e-3}},
+      {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {30, 60}}};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(term); i++) {
+    const pneu_params p = fixture_params(FIXTURE_R1_400);
+    pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    pneu_input input;
+    pneu_state s;
+    assert_int_equal(pneu_model_terms(&m, &term[i], 1), PNEU_OK);
+    s = filling(&m, &input);
+    check_note("term %d", i);
+    assert_int_equal(show_as_observed(&m, &s, &input), i < 2);
+  }
+}
+
 int main(void)
 {
-  enum { OTHERS = 2 };
+  enum { OTHERS = 6 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test),
       cmocka_unit_test(test_gain_and_bias__together__are_affine),
+      cmocka_unit_test(test_pneu_show__every_effect__is_as_observed),
+      cmocka_unit_test(test_pneu_show__no_effect__is_the_truth),
+      cmocka_unit_test(test_pneu_show__all_sensors_at_once__are_as_observed),
+      cmocka_unit_test(test_pneu_show__free_terms__are_as_observed),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -128,6 +128,21 @@ static void test_lab_rig_read__fit_and_noise__are_listed(void **state)
   assert_true(isnan(rig.noise[LAB_CHANNEL_FORCE]));
 }
 
+/* Shared ones first, in whatever order the lists stand. */
+static void test_lab_rig_read__fit_per_log__is_marked(void **state)
+{
+  const lab_rig rig = read_rig("fit_per_log = ( \"damping\", \"orifice_area\" );\n"
+                               "fit = ( \"moving_mass\", \"dry_friction\" );\n");
+  static const int want[] = {PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction, PNEU_PARAM_damping, LAB_FIT_ORIFICE_AREA};
+  int i;
+  (void)state;
+  assert_int_equal(rig.n_fit, 4);
+  for (i = 0; i < 4; i++) {
+    assert_int_equal(rig.fit[i], want[i]);
+    assert_int_equal(rig.fit_per_log[i], i >= 2);
+  }
+}
+
 static void test_lab_rig_read__nothing_declared__takes_the_defaults(void **state)
 {
   lab_rig rig = read_rig("// all by default\n");
@@ -451,6 +466,10 @@ static void test_lab_rig_read__bad_fit__is_refused(void **state)
   assert_refused("fit = ( \"fill_area\", \"orifice_area\" );\n", "fit[1]", "orifice_area scales");
   assert_refused("fit = ( 5 );\n", "fit[0]", "expected a word");
   assert_refused("fit = \"area\";\n", "fit", "expected a list");
+  assert_refused("fit_per_log = ( \"dry_frction\" );\n", "fit_per_log[0]", "nearest known one is \"dry_friction\"");
+  assert_refused("fit = ( \"area\" );\nfit_per_log = ( \"area\" );\n", "rig.cfg:2: fit_per_log[0]:", "twice");
+  assert_refused("fit = ( \"fill_area\" ); fit_per_log = ( \"orifice_area\" );\n", "fit_per_log[0]",
+                 "orifice_area scales");
 }
 
 static void test_lab_rig_read__bad_noise__is_refused(void **state)
@@ -536,6 +555,9 @@ static void assert_same(const lab_rig *a, const lab_rig *b)
   assert_int_equal(a->friction, b->friction);
   assert_int_equal(a->n_fit, b->n_fit);
   assert_memory_equal(a->fit, b->fit, (size_t)a->n_fit * sizeof a->fit[0]);
+  assert_memory_equal(a->fit_per_log, b->fit_per_log, (size_t)a->n_fit * sizeof a->fit_per_log[0]);
+  assert_int_equal(a->n_terms, b->n_terms);
+  assert_memory_equal(a->term, b->term, (size_t)a->n_terms * sizeof a->term[0]);
   assert_memory_equal(a->noise, b->noise, sizeof a->noise);
   assert_memory_equal(a->input, b->input, sizeof a->input);
   assert_memory_equal(&a->log, &b->log, sizeof a->log);
@@ -661,6 +683,24 @@ static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
   assert_same(&rig, &again);
 }
 
+static void test_lab_rig_write__each_its_own__comes_back(void **state)
+{
+  lab_rig rig = read_rig("fit_per_log = ( \"supply_pressure\", \"orifice_area\" ); fit = ( \"spring_rate\" );\n"
+                         "unlisted = ( { equation = \"friction\"; argument = \"x\"; from = 0; to = \"20 mm\";\n"
+                         "  values = [ 0.0, 0.1, 0.0 ]; } );\n"),
+          again = write_and_read(&rig);
+  (void)state;
+  assert_int_equal(again.fit_per_log[0], 0);
+  assert_int_equal(again.fit_per_log[1], 1);
+  assert_int_equal(again.n_terms, 1);
+  assert_same(&rig, &again);
+  rig = read_rig("fit_per_log = ( \"damping\" );\n"); /* and none is shared */
+  again = write_and_read(&rig);
+  assert_int_equal(again.n_fit, 1);
+  assert_int_equal(again.fit_per_log[0], 1);
+  assert_same(&rig, &again);
+}
+
 static void test_lab_rig_model__good_rig__is_accepted(void **state)
 {
   lab_rig rig = read_rig(declared);
@@ -686,6 +726,7 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__every_parameter__lands_in_si),
       cmocka_unit_test(test_lab_rig_read__words__become_laws),
       cmocka_unit_test(test_lab_rig_read__fit_and_noise__are_listed),
+      cmocka_unit_test(test_lab_rig_read__fit_per_log__is_marked),
       cmocka_unit_test(test_lab_rig_read__nothing_declared__takes_the_defaults),
       cmocka_unit_test(test_lab_rig_read__inputs__set_the_roles),
       cmocka_unit_test(test_lab_rig_read__zero_stroke__is_a_vessel),
@@ -731,6 +772,7 @@ int main(void)
       cmocka_unit_test(test_lab_rig_write__log_group__comes_back),
       cmocka_unit_test(test_lab_rig_write__long_log__comes_back),
       cmocka_unit_test(test_lab_rig_write__all_can_be_fitted__comes_back),
+      cmocka_unit_test(test_lab_rig_write__each_its_own__comes_back),
       cmocka_unit_test(test_lab_rig_model__good_rig__is_accepted),
       cmocka_unit_test(test_lab_rig_model__bad_parameter__is_named),
   };
