@@ -134,7 +134,7 @@ static int has_part(const char *model, const char *part, size_t length)
   }
 }
 
-static int within(const char *a, const char *b)
+int sets_within(const char *a, const char *b)
 {
   for (;;) {
     const size_t n = part_length(a);
@@ -148,5 +148,5 @@ static int within(const char *a, const char *b)
 
 int sets_same_model(const char *a, const char *b)
 {
-  return within(a, b) && within(b, a);
+  return sets_within(a, b) && sets_within(b, a);
 }

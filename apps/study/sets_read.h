@@ -48,7 +48,10 @@ const char *sets_names(char *names, const cJSON *json);
 /* Why no effect may be named, whatever is left: a sentence of closeloop.  Returns: NULL if there is no such reason */
 const char *sets_doubt(const cJSON *json);
 
-/* Whether two models ("a + b") have the same parts, in whatever order. */
+/* Whether every part of model `a` ("x + y") is one of model `b`, in whatever order. */
+int sets_within(const char *a, const char *b);
+
+/* Whether they have the same parts. */
 int sets_same_model(const char *a, const char *b);
 
 #endif

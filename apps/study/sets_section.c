@@ -100,6 +100,11 @@ static void write_alike(FILE *file, const cJSON *json)
 
 /* ---- Why: the way there, and the next best ---- */
 
+static const char *name_of(const cJSON *model)
+{
+  return cJSON_GetStringValue(sets_member(model, "model"));
+}
+
 static double misfit(const story *s, const cJSON *model)
 {
   const cJSON *declared = cJSON_GetArrayItem(sets_member(s->json, "path"), 0);
@@ -114,17 +119,21 @@ static sets_error held_error(const story *s, const cJSON *model)
 static void write_path(FILE *file, const story *s)
 {
   const cJSON *model, *path = sets_member(s->json, "path");
-  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT];
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT], d[SETS_CELL_TEXT];
   if (cJSON_GetArraySize(path) < 2)
     return;
   fprintf(file,
-          "\nThe way there:\n\n| model | misfit left [%%] | held out [%s] | held out [noise] |\n|---|---|---|---|\n",
-          s->unit);
+          "\nThe way there:\n\n| model | fitted [%s] | fitted [noise] | held out [%s] | held out [noise] "
+          "|\n|---|---|---|---|---|\n",
+          s->unit, s->unit);
   cJSON_ArrayForEach(model, path)
   {
+    const sets_error fitted = sets_error_of(sets_member(model, "error"), s->channel, s->unit);
     const sets_error held = held_error(s, model);
-    fprintf(file, "| %s | %s | %s | %s |\n", cJSON_GetStringValue(sets_member(model, "model")),
-            sets_digits(a, misfit(s, model)), sets_digits(b, held.value), sets_digits(c, held.in_noise));
+    if (model->next && sets_same_model(name_of(model), name_of(model->next)))
+      continue; /* the same effects refitted in another order */
+    fprintf(file, "| %s | %s | %s | %s | %s |\n", name_of(model), sets_digits(a, fitted.value),
+            sets_digits(b, fitted.in_noise), sets_digits(c, held.value), sets_digits(d, held.in_noise));
   }
   fputs("\n", file);
 }
@@ -143,17 +152,16 @@ static void write_overfit(FILE *file, const story *s)
   fprintf(file,
           "- Held out, the error is lowest on the way, with %s: %s %s against %s at the end. What was added after that "
           "does not carry over to other runs.\n",
-          cJSON_GetStringValue(sets_member(best, "model")), a, s->unit, b);
+          name_of(best), a, s->unit, b);
 }
 
-/* Of the models tried the one of lowest criterion that has other parts than the final one. */
+/* Of the models tried the one of lowest criterion that does without a part of the final one. */
 static const cJSON *runner_up(const cJSON *json, const char *final)
 {
   const cJSON *model, *best = NULL;
   cJSON_ArrayForEach(model, sets_member(json, "steps"))
   {
-    if (!sets_same_model(cJSON_GetStringValue(sets_member(model, "model")), final) &&
-        (!best || sets_number(model, "bic") < sets_number(best, "bic")))
+    if (!sets_within(final, name_of(model)) && (!best || sets_number(model, "bic") < sets_number(best, "bic")))
       best = model;
   }
   return best;
@@ -162,17 +170,54 @@ static const cJSON *runner_up(const cJSON *json, const char *final)
 static void write_rival(FILE *file, const story *s)
 {
   const cJSON *path = sets_member(s->json, "path"), *last = cJSON_GetArrayItem(path, cJSON_GetArraySize(path) - 1);
-  const char *final = cJSON_GetStringValue(sets_member(last, "model"));
-  const cJSON *next = final ? runner_up(s->json, final) : NULL;
-  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT];
-  if (!next || cJSON_GetArraySize(path) < 2)
+  const cJSON *next = cJSON_GetArraySize(path) > 1 ? runner_up(s->json, name_of(last)) : NULL;
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT], d[SETS_CELL_TEXT];
+  if (!next)
     return;
   fprintf(file,
-          "- Of %d models tried, the next best with other effects: %s; it leaves %s %% of the misfit, this one %s %% "
-          "(criterion of Schwarz, lower is better: %s against %s).\n",
-          cJSON_GetArraySize(sets_member(s->json, "steps")), cJSON_GetStringValue(sets_member(next, "model")),
-          sets_digits(a, misfit(s, next)), sets_digits(b, misfit(s, last)), sets_digits(c, sets_number(next, "bic")),
-          sets_digits((char[SETS_CELL_TEXT]){0}, sets_number(last, "bic")));
+          "- Of %d models tried, the next best with other effects is %s: it leaves %s %% of the misfit, this one %s %% "
+          "(Schwarz's criterion, which counts parameters too, lower is better: %s against %s).\n",
+          cJSON_GetArraySize(sets_member(s->json, "steps")), name_of(next), sets_digits(a, misfit(s, next)),
+          sets_digits(b, misfit(s, last)), sets_digits(c, sets_number(next, "bic")),
+          sets_digits(d, sets_number(last, "bic")));
+}
+
+static int is_single(const cJSON *json, const cJSON *model)
+{
+  return !strstr(name_of(model), " + ") && model != cJSON_GetArrayItem(sets_member(json, "steps"), 0);
+}
+
+/* Whether a model of the same name, tried under another law of the effect, leaves less; or as much and came first. */
+static int is_beaten(const cJSON *json, const cJSON *model)
+{
+  const double chi2 = sets_number(model, "chi2");
+  const cJSON *other;
+  int before = 1;
+  cJSON_ArrayForEach(other, sets_member(json, "steps"))
+  {
+    if (other == model)
+      before = 0;
+    else if (!strcmp(name_of(other), name_of(model)) &&
+             (sets_number(other, "chi2") < chi2 || (before && sets_number(other, "chi2") <= chi2)))
+      return 1;
+  }
+  return 0;
+}
+
+/* What each effect does alone. */
+static void write_singles(FILE *file, const story *s)
+{
+  const cJSON *model;
+  char a[SETS_CELL_TEXT];
+  int any = 0;
+  cJSON_ArrayForEach(model, sets_member(s->json, "steps"))
+  {
+    if (is_single(s->json, model) && !is_beaten(s->json, model))
+      fprintf(file, "%s%s %s %%", any++ ? ", " : "- Each alone leaves of the misfit: ", name_of(model),
+              sets_digits(a, misfit(s, model)));
+  }
+  if (any)
+    fputs(".\n", file);
 }
 
 /* ---- Parameters ---- */
@@ -297,7 +342,7 @@ static int write_residual(FILE *file, const story *s, const char *out_dir, lab_e
   snprintf(path, sizeof path, "%s/%s/residual.csv", out_dir, sets_text(s->set, "name"));
   status = table_load_file(path, &residual, error);
   if (status == LAB_OK) {
-    fputs("- Where what is left is (measured less predicted, runs fitted):\n\n"
+    fputs("\nWhere what is left is (measured less predicted, runs fitted):\n\n"
           "| run | channel | root mean square | in noise | mean | largest | at t [s] | next to next |\n"
           "|---|---|---|---|---|---|---|---|\n",
           file);
@@ -308,6 +353,29 @@ static int write_residual(FILE *file, const story *s, const char *out_dir, lab_e
   fputs("\n", file);
   table_close(&residual);
   return status;
+}
+
+/* ---- The logs held out, one by one ---- */
+
+static void write_held(FILE *file, const story *s)
+{
+  const cJSON *log, *logs = sets_member(sets_member(sets_member(s->json, "error"), "holdout"), "logs");
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT], d[SETS_CELL_TEXT];
+  if (cJSON_GetArraySize(logs) < 2)
+    return;
+  fprintf(file,
+          "Log by log of those held out:\n\n| log | before [%s] | before [noise] | after [%s] | after [noise] "
+          "|\n|---|---|---|---|---|\n",
+          s->unit, s->unit);
+  cJSON_ArrayForEach(log, logs)
+  {
+    const sets_error before = sets_error_of(sets_member(log, "before"), s->channel, s->unit);
+    const sets_error after = sets_error_of(sets_member(log, "after"), s->channel, s->unit);
+    fprintf(file, "| %s | %s | %s | %s | %s |\n", cJSON_GetStringValue(sets_member(log, "log")),
+            sets_digits(a, before.value), sets_digits(b, before.in_noise), sets_digits(c, after.value),
+            sets_digits(d, after.in_noise));
+  }
+  fputs("\n", file);
 }
 
 /* ---- The section ---- */
@@ -324,13 +392,17 @@ static int write_found(FILE *file, const story *s, const char *out_dir, lab_erro
   write_errors(file, s, "Error after, of the completed model", &s->errors.after, &s->errors.held_after);
   write_as_pressure(file, s, &rig);
   write_path(file, s);
+  write_singles(file, s);
   write_rival(file, s);
   write_overfit(file, s);
   write_alike(file, s->json);
   write_parameters(file, s->json);
   if (write_given(file, s, &rig, error))
     return error->status;
-  return write_residual(file, s, out_dir, error);
+  if (write_residual(file, s, out_dir, error))
+    return error->status;
+  write_held(file, s);
+  return LAB_OK;
 }
 
 int sets_section(FILE *file, const sets_result *r, const cJSON *json, const char *out_dir, lab_error *error)
