@@ -101,6 +101,23 @@ const char *sets_names(char *names, const cJSON *json)
   return names;
 }
 
+int sets_held_logs(const cJSON *json, const char *channel, int *better, char *worse)
+{
+  const cJSON *log, *logs = sets_member(sets_member(sets_member(json, "error"), "holdout"), "logs");
+  *better = 0;
+  worse[0] = 0;
+  cJSON_ArrayForEach(log, logs)
+  {
+    const double before = sets_number(sets_member(sets_member(log, "before"), channel), "rmse");
+    const double after = sets_number(sets_member(sets_member(log, "after"), channel), "rmse");
+    if (after < before)
+      ++*better;
+    else
+      join(worse, cJSON_GetStringValue(sets_member(log, "log")));
+  }
+  return cJSON_GetArraySize(logs);
+}
+
 const char *sets_doubt(const cJSON *json)
 {
   static const char start[] = "Undecided: ";

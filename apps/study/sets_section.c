@@ -360,8 +360,10 @@ static int write_residual(FILE *file, const story *s, const char *out_dir, lab_e
 static void write_held(FILE *file, const story *s)
 {
   const cJSON *log, *logs = sets_member(sets_member(sets_member(s->json, "error"), "holdout"), "logs");
-  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT], d[SETS_CELL_TEXT];
-  if (cJSON_GetArraySize(logs) < 2)
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT], c[SETS_CELL_TEXT], d[SETS_CELL_TEXT], worse[SETS_NAMES_TEXT];
+  int better;
+  const int n = sets_held_logs(s->json, s->channel, &better, worse);
+  if (n < 2)
     return;
   fprintf(file,
           "Log by log of those held out:\n\n| log | before [%s] | before [noise] | after [%s] | after [noise] "
@@ -375,7 +377,10 @@ static void write_held(FILE *file, const story *s)
             sets_digits(a, before.value), sets_digits(b, before.in_noise), sets_digits(c, after.value),
             sets_digits(d, after.in_noise));
   }
-  fputs("\n", file);
+  fprintf(file, "\n- Of these %d the completed model is nearer in %d", n, better);
+  if (*worse)
+    fprintf(file, "; it is farther off than the declared one in: %s", worse);
+  fputs(".\n", file);
 }
 
 /* ---- The section ---- */
