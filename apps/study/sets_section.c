@@ -21,12 +21,24 @@ typedef struct story {
 
 /* ---- What was asked ---- */
 
+static int is_fitted(const config_setting_t *set, const char *log)
+{
+  const config_setting_t *logs = config_setting_get_member((config_setting_t *)set, "fit");
+  int i;
+  for (i = 0; i < config_setting_length(logs); i++)
+    if (!strcmp(config_setting_get_string_elem(logs, i), log))
+      return 1;
+  return 0;
+}
+
 static void write_logs(FILE *file, const config_setting_t *set, const char *list, const char *words)
 {
+  const int held = !strcmp(list, "holdout");
   const config_setting_t *logs = config_setting_get_member((config_setting_t *)set, list);
   int i;
   for (i = 0; i < config_setting_length(logs); i++)
-    fprintf(file, "%s%s", i ? ", " : words, config_setting_get_string_elem(logs, i));
+    fprintf(file, "%s%s%s", i ? ", " : words, config_setting_get_string_elem(logs, i),
+            held && is_fitted(set, config_setting_get_string_elem(logs, i)) ? " (rows that were not fitted)" : "");
   if (i > 0)
     fputs(".\n", file);
 }
@@ -146,8 +158,7 @@ static void write_overfit(FILE *file, const story *s)
   char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
   cJSON_ArrayForEach(model, sets_member(s->json, "path")) if (!best || held_error(s, model).value <
                                                                            held_error(s, best).value) best = model;
-  if (!best || !(held_error(s, best).value < s->errors.held_after.value) ||
-      !strcmp(sets_digits(a, held_error(s, best).value), sets_digits(b, s->errors.held_after.value)))
+  if (!best || !strcmp(sets_digits(a, held_error(s, best).value), sets_digits(b, s->errors.held_after.value)))
     return;
   fprintf(file,
           "- Held out, the error is lowest on the way, with %s: %s %s against %s at the end. What was added after that "
@@ -227,7 +238,7 @@ static void write_parameters(FILE *file, const cJSON *json)
 {
   const char *remark = cJSON_GetStringValue(sets_member(json, "undetermined"));
   const cJSON *p;
-  fputs("- Parameters of the completed model (95 % intervals, as if what is left were noise):\n", file);
+  fputs("- Parameters of the completed model (95 % intervals, which hold if nothing but noise is left):\n", file);
   cJSON_ArrayForEach(p, sets_member(json, "parameters"))
   {
     const cJSON *ci = sets_member(p, "ci95"), *low = cJSON_GetArrayItem(ci, 0), *high = cJSON_GetArrayItem(ci, 1);
