@@ -18,7 +18,7 @@
 #include "lab/plausible.h"
 #include "lab/thin.h"
 
-enum { LOG_MAX = 32, RUN_MAX = 256 };
+enum { LOG_MAX = LAB_STORY_HELD, RUN_MAX = 256 };
 
 static const char *holdout, *out;
 static double alpha = 0.01, min_gain = 0.02;
@@ -92,9 +92,9 @@ static int add_log(const lab_rig *rig, const char *path, bench *b, lab_error *er
   return LAB_OK;
 }
 
-/* Error of a model on the log that was held out. Nothing that the logs share is fitted; what each log has for itself
- * is, and so are the instants at which the command changed, within the row that shows each. */
-static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *error)
+/* Error of a model on runs. Nothing that the logs share is fitted; what each log has for itself is, and so are the
+ * instants at which the command changed, within the row that shows each. */
+static int judge(const lab_rig *model, lab_experiment *run, int n, lab_errors *errors, lab_error *error)
 {
   static lab_unknowns u;
   lab_rig own = *model;
@@ -104,7 +104,7 @@ static int judge(const lab_rig *model, bench *b, lab_errors *errors, lab_error *
       own.fit_per_log[own.n_fit] = 1;
       own.fit[own.n_fit++] = model->fit[j];
     }
-  if (lab_unknowns_open(&own, b->experiment, b->n, &u, error))
+  if (lab_unknowns_open(&own, run, n, &u, error))
     return error->status;
   if (u.n > 0 && lab_unknowns_fit(&u, LAB_FIT_WHOLE, NULL, error))
     return error->status;
@@ -129,6 +129,35 @@ static int add_held_out(const lab_rig *rig, const char *list, lab_error *error)
   return status;
 }
 
+/* Errors on each log held out, by itself. */
+static int judge_logs(lab_story *story, lab_error *error)
+{
+  int i, first = 0;
+  for (i = 0; i < held.n_logs; i++) {
+    lab_held *log = &story->held[i];
+    int n = 0;
+    while (first + n < held.n && held.experiment[first + n].log == &held.log[i])
+      n++;
+    log->path = held.log[i].path;
+    if (judge(&story->declared->rig, &held.experiment[first], n, &log->before, error) ||
+        judge(&story->completed->rig, &held.experiment[first], n, &log->after, error))
+      return error->status;
+    first += n;
+  }
+  story->n_held = held.n_logs;
+  return LAB_OK;
+}
+
+/* Errors of the models on the way there, on the logs that they were fitted to. */
+static int retrace(lab_story *story, lab_error *error)
+{
+  int i;
+  for (i = 0; i < story->result->n_path; i++)
+    if (judge(&story->result->path[i].rig, fitted.experiment, fitted.n, &story->fitted_path[i], error))
+      return error->status;
+  return LAB_OK;
+}
+
 /* A model that cannot follow the held-out log has no error on it; that is said, and the rest is written. */
 static int hold_out(lab_story *story, lab_error *error)
 {
@@ -136,11 +165,13 @@ static int hold_out(lab_story *story, lab_error *error)
   if (held.n == 0)
     return LAB_OK;
   lab_progress_say(&progress, "judging on the held-out log");
-  status = judge(&story->declared->rig, &held, &story->holdout_before, error);
+  status = judge(&story->declared->rig, held.experiment, held.n, &story->holdout_before, error);
   if (status == LAB_OK)
-    status = judge(&story->completed->rig, &held, &story->holdout_after, error);
+    status = judge(&story->completed->rig, held.experiment, held.n, &story->holdout_after, error);
   for (i = 0; i < story->result->n_path && status == LAB_OK; i++)
-    status = judge(&story->result->path[i].rig, &held, &story->holdout_path[i], error);
+    status = judge(&story->result->path[i].rig, held.experiment, held.n, &story->holdout_path[i], error);
+  if (status == LAB_OK)
+    status = judge_logs(story, error);
   story->has_holdout = status == LAB_OK;
   if (status != LAB_NUMERIC)
     return status;
@@ -238,7 +269,7 @@ static int close_loop(const lab_rig *rig, lab_error *error)
   if (fitted.remarks.doubt ? decline(&completed, &result, error) : lab_loop_run(&completed, &how, &result, error))
     return error->status;
   story.trace_s = result.trace_s;
-  if (hold_out(&story, error))
+  if (retrace(&story, error) || hold_out(&story, error))
     return error->status;
   lab_progress_say(&progress, "looking for the test to record next");
   if (lab_advise(&story, error))

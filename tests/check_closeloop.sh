@@ -44,6 +44,25 @@ fi
 expect 0 "model.cfg" ./closeloop "$folder/whole/model.cfg" "$folder/log.csv" --out "$folder/model" --no-figures
 [ -e "$folder/model/response.svg" ] && complain "--no-figures drew a figure"
 
+# held-out logs have an error each: that of the log fitted is the error after, as near as its fit is, and that of a
+# coarser log another
+awk 'NR == 1 || NR % 3 == 0' "$folder/log.csv" >"$folder/third.csv"
+expect 0 "held out" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --holdout "$folder/log.csv,$folder/third.csv" \
+  --out "$folder/held" --no-figures
+awk -F'[:,]' '/"(before|after|log|error|path)":/ { gsub(/[\t "]/, ""); where = $1 == "log" ? $2 : where "/" $1 }
+  /"rmse":/ && where { print where, $2; where = "" }' "$folder/held/report.json" >"$folder/errors"
+# same LINE LINE: whether the errors of two lines agree within a twentieth
+same() {
+  awk -v a="$1" -v b="$2" 'NR == a { x = $2 }  NR == b { y = $2 }  END { exit !(x > 0.95 * y && x < 1.05 * y) }' \
+    "$folder/errors"
+}
+sed 's/ .*//' "$folder/errors" | tr '\n' ' ' >"$folder/order"
+[ "$(cat "$folder/order")" = "/error/before /after /before /after log.csv/before /after third.csv/before /after /path/error " ] ||
+  complain "errors in report.json are of: $(cat "$folder/order")"
+same 2 6 || complain "held out, log.csv has another error than fitted"
+same 2 8 && complain "third.csv has the error of log.csv"
+same 2 9 || complain "the model on the way there is the final one and has another error"
+
 # without gnuplot the rest is there, and the message names the way out
 expect 4 "no gnuplot" env PATH="$folder/empty" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/without"
 grep -q -- "--no-figures" "$folder/err" || complain "no way out without gnuplot: $(cat "$folder/err")"

@@ -103,6 +103,24 @@ static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
   }
 }
 
+/* Errors before and after on what was held out, and on each of its logs. */
+static void add_holdout(cJSON *to, const lab_story *story)
+{
+  cJSON *o = cJSON_AddObjectToObject(to, "holdout"), *list;
+  int i;
+  add_errors(o, "before", &story->holdout_before);
+  add_errors(o, "after", &story->holdout_after);
+  list = cJSON_AddArrayToObject(o, "logs");
+  for (i = 0; i < story->n_held; i++) {
+    const char *slash = strrchr(story->held[i].path, '/');
+    cJSON *log = cJSON_CreateObject();
+    cJSON_AddItemToArray(list, log);
+    cJSON_AddStringToObject(log, "log", slash ? slash + 1 : story->held[i].path);
+    add_errors(log, "before", &story->held[i].before);
+    add_errors(log, "after", &story->held[i].after);
+  }
+}
+
 static void add_parameters(cJSON *to, const lab_story *story)
 {
   const lab_unknowns *u = story->completed;
@@ -153,6 +171,7 @@ static void add_steps(cJSON *root, const lab_story *story)
   int i;
   for (i = 0; i < r->n_path; i++) {
     cJSON *o = add_model(list, r->path[i].name, r->path[i].chi2, r->path[i].bic);
+    add_errors(o, "error", &story->fitted_path[i]);
     if (story->has_holdout)
       add_errors(o, "holdout", &story->holdout_path[i]);
   }
@@ -190,11 +209,8 @@ static cJSON *json_of(const lab_story *story)
   o = cJSON_AddObjectToObject(root, "error");
   add_errors(o, "before", &result->before);
   add_errors(o, "after", &result->after);
-  if (story->has_holdout) {
-    o = cJSON_AddObjectToObject(o, "holdout");
-    add_errors(o, "before", &story->holdout_before);
-    add_errors(o, "after", &story->holdout_after);
-  }
+  if (story->has_holdout)
+    add_holdout(o, story);
   add_candidates(root, &result->trace);
   o = cJSON_AddArrayToObject(root, "significant_but_small");
   for (i = 0; i < result->n_listed; i++)

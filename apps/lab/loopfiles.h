@@ -7,6 +7,14 @@
 #include "remarks.h"
 #include "separate.h"
 
+enum { LAB_STORY_HELD = 32 };
+
+/* A log that was held out. */
+typedef struct lab_held {
+  const char *path;
+  lab_errors before, after; /* of the declared and of the completed model */
+} lab_held;
+
 /* Everything that there is to say about a run. */
 typedef struct lab_story {
   const lab_rig *rig;            /* as declared */
@@ -15,11 +23,13 @@ typedef struct lab_story {
   const lab_loop_result *result;
   int has_holdout;
   lab_errors holdout_before, holdout_after;
-  lab_errors holdout_path[LAB_LOOP_PATH]; /* of result->path */
-  lab_advice separate[LAB_LOOP_EFFECTS];  /* of each found effect from the first that looks like it */
-  lab_advice next;                        /* the test that would tell most, where no effects are alike */
-  double fit_s, trace_s, total_s;         /* [s] on the clock; trace_s: the scan of all effects */
-  const lab_remarks *remarks;             /* what limits the conclusions; NULL: nothing */
+  lab_errors fitted_path[LAB_LOOP_PATH], holdout_path[LAB_LOOP_PATH]; /* of result->path */
+  int n_held;                                                         /* logs held out */
+  lab_held held[LAB_STORY_HELD];                                      /* each by itself */
+  lab_advice separate[LAB_LOOP_EFFECTS]; /* of each found effect from the first that looks like it */
+  lab_advice next;                       /* the test that would tell most, where no effects are alike */
+  double fit_s, trace_s, total_s;        /* [s] on the clock; trace_s: the scan of all effects */
+  const lab_remarks *remarks;            /* what limits the conclusions; NULL: nothing */
 } lab_story;
 
 /* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */

@@ -1,216 +1,204 @@
-#include "sets.h"
-
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
-#include <cjson/cJSON.h>
-
 #include "../lab/outfile.h"
-#include "../lab/text.h"
-#include "../lab/units.h"
+#include "sets_read.h"
+#include "sets_section.h"
 
-enum { PATH_BYTES = 1024, CELL = 96 };
+/* ---- The table ---- */
 
-static const char *text_of(const config_setting_t *set, const char *key)
+/* " 115 Pa (16.5) |" */
+static void write_cell(FILE *file, const sets_error *e, const char *unit)
 {
-  const char *text = "";
-  config_setting_lookup_string(set, key, &text);
-  return text;
-}
-
-static cJSON *read_json(const char *out_dir, const config_setting_t *set)
-{
-  char path[PATH_BYTES];
-  lab_error ignored;
-  lab_text text;
-  cJSON *json;
-  snprintf(path, sizeof path, "%s/%s/report.json", out_dir, text_of(set, "name"));
-  if (lab_text_read(path, &text, &ignored))
-    return NULL;
-  json = cJSON_ParseWithLength(text.data, text.size);
-  lab_text_free(&text);
-  return json;
-}
-
-static const cJSON *member(const cJSON *at, const char *key)
-{
-  return cJSON_GetObjectItemCaseSensitive(at, key);
-}
-
-/* One error of a report. */
-typedef struct reading {
-  double value, in_noise; /* NaN where the report has none */
-} reading;
-
-/* In:  when  "before", "after"; held  of the logs held out;  unit  to convert to */
-static reading read_error(const cJSON *json, int held, const char *when, const char *channel, const char *unit)
-{
-  const cJSON *error = member(json, "error"), *at = member(held ? member(error, "holdout") : error, when);
-  const cJSON *found = member(at, channel), *rmse = member(found, "rmse"), *noise = member(found, "in_noise");
-  const char *own = cJSON_GetStringValue(member(found, "unit"));
-  reading r = {(double)NAN, cJSON_IsNumber(noise) ? noise->valuedouble : (double)NAN};
-  double scale, offset;
-  lab_error ignored;
-  if (cJSON_IsNumber(rmse) && own && lab_unit_factor(own, unit, &scale, &offset, &ignored) == LAB_OK)
-    r.value = scale * rmse->valuedouble;
-  return r;
-}
-
-static const char *number(char *cell, double value)
-{
-  if (isnan(value))
-    strcpy(cell, "-");
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
+  if (isnan(e->value))
+    fputs(" - |", file);
+  else if (isnan(e->in_noise))
+    fprintf(file, " %s %s |", sets_digits(a, e->value), unit);
   else
-    snprintf(cell, CELL, value < 1000 ? "%.3g" : "%.0f", value);
-  return cell;
+    fprintf(file, " %s %s (%s) |", sets_digits(a, e->value), unit, sets_digits(b, e->in_noise));
 }
 
-/* "before | after | before in noise | after in noise" of a channel. */
-static void write_pair(FILE *file, const cJSON *json, int held, const char *channel, const char *unit)
+static void write_alike(FILE *file, const cJSON *found)
 {
-  const reading before = read_error(json, held, "before", channel, unit);
-  const reading after = read_error(json, held, "after", channel, unit);
-  char a[CELL], b[CELL], c[CELL], d[CELL];
-  fprintf(file, " %s | %s | %s | %s |", number(a, before.value), number(b, after.value), number(c, before.in_noise),
-          number(d, after.in_noise));
-}
-
-static void write_names(FILE *file, const cJSON *json)
-{
-  const cJSON *found, *list = member(json, "found");
+  const cJSON *other;
   int any = 0;
-  cJSON_ArrayForEach(found, list)
-      fprintf(file, "%s%s", any++ ? ", " : " ", cJSON_GetStringValue(member(found, "effect")));
-  if (cJSON_GetArraySize(member(json, "unlisted")) > 0)
+  cJSON_ArrayForEach(other, sets_member(found, "indistinguishable_from"))
+      fprintf(file, "%s%s", any++ ? ", " : " (or ", cJSON_GetStringValue(other));
+  if (any)
+    fputs(")", file);
+}
+
+static void write_found(FILE *file, const cJSON *json)
+{
+  const cJSON *found;
+  int any = 0;
+  cJSON_ArrayForEach(found, sets_member(json, "found"))
+  {
+    fprintf(file, "%s%s", any++ ? ", " : " ", cJSON_GetStringValue(sets_member(found, "effect")));
+    write_alike(file, found);
+  }
+  if (cJSON_GetArraySize(sets_member(json, "unlisted")) > 0)
     fprintf(file, "%sa term without a name", any++ ? ", " : " ");
   fputs(any ? " |\n" : " none |\n", file);
 }
 
+/* Verdicts of closeloop in words of the table. */
+static const char *verdict_words(const cJSON *json)
+{
+  static const char *const words[][2] = {{"effect", "explained"},
+                                         {"unlisted", "explained, without a name"},
+                                         {"none", "nothing missing"},
+                                         {"undecided", "undecided"}};
+  const char *verdict = cJSON_GetStringValue(sets_member(json, "verdict"));
+  size_t i;
+  for (i = 0; verdict && i < sizeof words / sizeof *words; i++)
+    if (!strcmp(verdict, words[i][0]))
+      return words[i][1];
+  return "-";
+}
+
+/* A channel that is predicted and not fitted: its errors are those of a hold-out. */
+static void write_check(FILE *file, const config_setting_t *set, const cJSON *json)
+{
+  const char *check = sets_text(set, "check"), *unit = sets_text(set, "check_unit");
+  sets_errors e = sets_errors_of(json, check, unit);
+  if (!*check)
+    return;
+  e.before.in_noise = e.after.in_noise = (double)NAN;
+  fprintf(file, "| - the same, not fitted | %s | - | - | - |", check);
+  write_cell(file, &e.before, unit);
+  write_cell(file, &e.after, unit);
+  fputs(" | |\n", file);
+}
+
 static void write_row(FILE *file, const sets_result *r, const cJSON *json)
 {
-  const char *judged = text_of(r->set, "judged"), *check = text_of(r->set, "check");
-  fprintf(file, "| [%s](%s/report.json) | %s [%s] |", text_of(r->set, "title"), text_of(r->set, "name"), judged,
-          text_of(r->set, "unit"));
+  const char *unit = sets_text(r->set, "unit");
+  const sets_errors e = sets_errors_of(json, sets_text(r->set, "judged"), unit);
+  char a[SETS_CELL_TEXT];
+  fprintf(file, "| [%s](%s/report.json) | %s |", sets_text(r->set, "title"), sets_text(r->set, "name"),
+          sets_text(r->set, "judged"));
   if (!json) {
-    fputs(r->state == SETS_ABSENT ? " data absent | | | | | | | | |\n" : " closeloop failed | | | | | | | | |\n", file);
+    fprintf(file, " - | - | - | - | - | %s | |\n", r->state == SETS_ABSENT ? "data absent" : "closeloop failed");
     return;
   }
-  write_pair(file, json, 0, judged, text_of(r->set, "unit"));
-  write_pair(file, json, 1, judged, text_of(r->set, "unit"));
-  write_names(file, json);
-  if (*check) {
-    const char *unit = text_of(r->set, "check_unit");
-    char a[CELL], b[CELL];
-    fprintf(file, "| - held out: | %s [%s] | | | | | %s | %s | | | |\n", check, unit,
-            number(a, read_error(json, 0, "before", check, unit).value),
-            number(b, read_error(json, 0, "after", check, unit).value));
-  }
+  fprintf(file, " %s %s |", sets_digits(a, sets_noise(&e)), unit);
+  write_cell(file, &e.before, unit);
+  write_cell(file, &e.after, unit);
+  write_cell(file, &e.held_before, unit);
+  write_cell(file, &e.held_after, unit);
+  fprintf(file, " %s |", verdict_words(json));
+  write_found(file, json);
+  write_check(file, r->set, json);
 }
 
-/* "value +- half width unit" of each parameter in a group. */
-static void write_parameters(FILE *file, const cJSON *group)
+/* ---- What the table says ---- */
+
+/* What is counted over the sets, and what breaks it. */
+typedef struct tally {
+  int ran, held, lower;
+  int logs, logs_lower;            /* the same over the logs held out */
+  char not_lower[SETS_NAMES_TEXT]; /* titles of the sets whose error held out does not fall */
+} tally;
+
+/* The error on what took no part: of the runs held out, or of the channel that was not fitted. */
+static void independent_error(const config_setting_t *set, const cJSON *json, double *before, double *after)
 {
-  const cJSON *p;
-  cJSON_ArrayForEach(p, group)
-  {
-    const cJSON *value = member(p, "value"), *ci = member(p, "ci95");
-    const cJSON *low = cJSON_GetArrayItem(ci, 0), *high = cJSON_GetArrayItem(ci, 1);
-    if (!cJSON_IsNumber(value))
-      continue;
-    fprintf(file, "  - %s = %.4g", p->string, value->valuedouble);
-    if (cJSON_IsNumber(low) && cJSON_IsNumber(high))
-      fprintf(file, " (%.4g to %.4g)", low->valuedouble, high->valuedouble);
-    fprintf(file, " %s\n", cJSON_GetStringValue(member(p, "unit")));
-  }
+  const char *check = sets_text(set, "check");
+  const sets_errors held = sets_errors_of(json, sets_text(set, "judged"), sets_text(set, "unit"));
+  const sets_errors other = sets_errors_of(json, check, sets_text(set, "check_unit"));
+  *before = *check ? other.before.value : held.held_before.value;
+  *after = *check ? other.after.value : held.held_after.value;
 }
 
-static void write_alike(FILE *file, const cJSON *json)
+static void count(tally *t, const sets_result *r, const cJSON *json)
 {
-  const cJSON *found, *other;
-  cJSON_ArrayForEach(found, member(json, "found"))
-  {
-    const cJSON *list = member(found, "indistinguishable_from");
-    int any = 0;
-    cJSON_ArrayForEach(other, list)
-        fprintf(file, "%s%s", any++ ? ", " : "- The log fitted cannot tell it from: ", cJSON_GetStringValue(other));
-    if (any)
-      fprintf(file, " (for %s).\n", cJSON_GetStringValue(member(found, "effect")));
-  }
-}
-
-static void write_logs(FILE *file, const config_setting_t *set, const char *list, const char *words)
-{
-  const config_setting_t *logs = config_setting_get_member((config_setting_t *)set, list);
-  int i;
-  for (i = 0; i < config_setting_length(logs); i++)
-    fprintf(file, "%s%s", i ? ", " : words, config_setting_get_string_elem(logs, i));
-  if (i > 0)
-    fputs(".\n", file);
-}
-
-/* An error in another quantity, by a factor that the set declares: 2.1 kPa per mm of a spring. */
-static void write_converted(FILE *file, const sets_result *r, const cJSON *json)
-{
-  double factor = 0;
-  char a[CELL], b[CELL], c[CELL], d[CELL];
-  const char *judged = text_of(r->set, "judged"), *unit = text_of(r->set, "unit");
-  if (!config_setting_lookup_float(r->set, "per_unit", &factor))
+  const size_t used = strlen(t->not_lower);
+  char worse[SETS_NAMES_TEXT];
+  double before, after;
+  int better;
+  if (!json)
     return;
-  fprintf(file, "- In %s, at %.4g a %s: %s before, %s after; held out %s and %s.\n", text_of(r->set, "per_name"),
-          factor, unit, number(a, factor * read_error(json, 0, "before", judged, unit).value),
-          number(b, factor * read_error(json, 0, "after", judged, unit).value),
-          number(c, factor * read_error(json, 1, "before", judged, unit).value),
-          number(d, factor * read_error(json, 1, "after", judged, unit).value));
+  t->ran++;
+  t->logs += sets_held_logs(json, sets_text(r->set, "judged"), &better, worse);
+  t->logs_lower += better;
+  independent_error(r->set, json, &before, &after);
+  if (isnan(before) || isnan(after))
+    return;
+  t->held++;
+  t->lower += after < before;
+  if (after >= before)
+    snprintf(t->not_lower + used, sizeof t->not_lower - used, "%s%s", used ? "; " : "", sets_text(r->set, "title"));
 }
 
-static void write_section(FILE *file, const sets_result *r, const cJSON *json)
+static void write_tally(FILE *file, const tally *t, int n)
 {
-  const char *sentence = cJSON_GetStringValue(member(json, "sentence"));
-  fprintf(file, "\n## %s\n\n", text_of(r->set, "title"));
-  fprintf(file, "- Declared ([rig file](../../study/measured/%s)): %s.\n", text_of(r->set, "rig"),
-          text_of(r->set, "declared"));
-  write_logs(file, r->set, "fit", "- Fitted: ");
-  write_logs(file, r->set, "holdout", "- Held out: ");
-  fprintf(file, "- Independent check: %s\n", text_of(r->set, "independent"));
-  if (json) {
-    fprintf(file,
-            "- closeloop says: %s\n- Parameters of the completed model (95 %% intervals, noise taken as white):\n",
-            sentence ? sentence : "");
-    write_parameters(file, member(json, "parameters"));
-    write_alike(file, json);
-    write_converted(file, r, json);
-  }
-  fprintf(file, "- What is left: %s\n", text_of(r->set, "remains"));
+  fprintf(file,
+          "\nOf %d sets %d ran. On what took no part in the fit the completed model is nearer than the declared one "
+          "in %d of %d",
+          n, t->ran, t->lower, t->held);
+  if (*t->not_lower)
+    fprintf(file, "; not in: %s", t->not_lower);
+  fprintf(file, ". Of %d logs held out, each taken by itself, it is nearer in %d; the sections name the others.\n",
+          t->logs, t->logs_lower);
 }
+
+/* ---- The report ---- */
 
 static const char head[] =
     "# Measured sets\n\n"
-    "Made by `make measured`; every number below is read from a report.json that closeloop wrote. Each set is one rig "
-    "file and some raw logs of other people ([where they are from](../../study/measured/fetch.sh)), read as they are: "
-    "what is left out or put in before a fit is in the group `log` of the rig file. The declared model is fitted "
-    "(`before`), what it lacks is traced and added (`after`), and both are tried on runs that took no part. Errors are "
-    "root mean squares, in the unit of the row and in standard deviations of the sensor's noise (1 = nothing left).\n\n"
-    "| set | channel | before | after | in noise | in noise | held out before | held out after | in noise | in noise | "
-    "found |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    "Made by `make measured`; every number below is read from the files that closeloop wrote, but for what a rig file "
+    "declares. Each set is one rig file and some raw logs of other people ([where they are "
+    "from](../../study/measured/fetch.sh)), read as they are: what is left out or put in before a fit is in the group "
+    "`log` of the rig file.\n\n"
+    "- Before: the declared model, its unknowns fitted. After: what it lacks traced, added and fitted.\n"
+    "- Held out: other runs, or where there is one record other rows of it, which took no part in the fit or in the "
+    "choice of what to add.\n"
+    "- Errors are root mean squares over all values of the channel. In brackets: the same over the sensor's noise, "
+    "which the rig file declares with where it is from. At 1 nothing but noise is left.\n"
+    "- Explained: what is left passes for noise. Undecided: it does not, so that the effects found come nearest but "
+    "may stand in for others.\n"
+    "- Misfit: what the fit makes small, the root of the sum of squares over the noise, as a share of that of the "
+    "declared model. It takes into account that noise has a memory, which root mean squares do not.\n"
+    "- Next to next: correlation of what is left from one value to the next. At 0 it is noise, near 1 a slow wave.\n\n"
+    "| set | channel | noise | before | after | held out, before | held out, after | verdict | effects found |\n"
+    "|---|---|---|---|---|---|---|---|---|\n";
+
+static int write_all(FILE *file, const sets_result *result, int n, cJSON *const *json, const char *out_dir,
+                     lab_error *error)
+{
+  tally t = {0};
+  int i, status = LAB_OK;
+  fputs(head, file);
+  for (i = 0; i < n; i++) {
+    write_row(file, &result[i], json[i]);
+    count(&t, &result[i], json[i]);
+  }
+  write_tally(file, &t, n);
+  for (i = 0; i < n && status == LAB_OK; i++)
+    status = sets_section(file, &result[i], json[i], out_dir, error);
+  return status;
+}
 
 int sets_report(const sets_result *result, int n, const char *out_dir, lab_error *error)
 {
   cJSON *json[SETS_MAX];
-  char path[PATH_BYTES];
+  char path[SETS_PATH_TEXT];
   lab_outfile out;
-  int i;
+  int i, status;
   snprintf(path, sizeof path, "%s/REPORT.md", out_dir);
   if (lab_out_open(&out, path, error))
     return error->status;
-  fputs(head, out.file);
-  for (i = 0; i < n; i++) {
-    json[i] = result[i].state == SETS_DONE ? read_json(out_dir, result[i].set) : NULL;
-    write_row(out.file, &result[i], json[i]);
-  }
-  for (i = 0; i < n; i++) {
-    write_section(out.file, &result[i], json[i]);
+  for (i = 0; i < n; i++)
+    json[i] = result[i].state == SETS_DONE ? sets_json(out_dir, result[i].set) : NULL;
+  status = write_all(out.file, result, n, json, out_dir, error);
+  for (i = 0; i < n; i++)
     cJSON_Delete(json[i]);
+  if (status != LAB_OK) {
+    lab_out_abandon(&out);
+    return status;
   }
   return lab_out_close(&out, error);
 }

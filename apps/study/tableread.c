@@ -48,14 +48,13 @@ static int add_line(table *t, const char *begin, const char *end)
   return 0;
 }
 
-int table_load(const study *s, const char *name, table *t, lab_error *error)
+int table_load_file(const char *path, table *t, lab_error *error)
 {
-  char path[STUDY_PATH_TEXT + 64], header[FIELD_TEXT];
+  char header[FIELD_TEXT];
   const char *begin, *end;
   lab_lines lines;
   lab_text text;
   int status = LAB_OK;
-  snprintf(path, sizeof path, "%s/%s", s->results, name);
   table_open(t, "");
   if (lab_text_read(path, &text, error))
     return error->status;
@@ -70,6 +69,13 @@ int table_load(const study *s, const char *name, table *t, lab_error *error)
           lab_fail(error, LAB_DATA, "%s:%d: expected %d fields, as in the header", path, lines.number, (int)t->columns);
   lab_text_free(&text);
   return status;
+}
+
+int table_load(const study *s, const char *name, table *t, lab_error *error)
+{
+  char path[STUDY_PATH_TEXT + 64];
+  snprintf(path, sizeof path, "%s/%s", s->results, name);
+  return table_load_file(path, t, error);
 }
 
 int table_column(const table *t, const char *name)

@@ -6,9 +6,12 @@
 #include "study.h"
 #include "table.h"
 
-/* Read a CSV file of the results folder; every cell is text, empty ones too.
+/* Read a CSV file; every cell is text, empty ones too.
  * Out:     t  to be closed with table_close, also after an error
  * Returns: LAB_OK; LAB_DATA if it is missing or ragged; LAB_WORLD. */
+int table_load_file(const char *path, table *t, lab_error *error);
+
+/* The same for a file of the results folder. */
 int table_load(const study *s, const char *name, table *t, lab_error *error);
 
 /* Column of a name in the header, its unit in brackets left out.  Returns: -1 if there is none. */

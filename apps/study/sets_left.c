@@ -1,0 +1,54 @@
+#include "sets_left.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../lab/whiteness.h"
+#include "tableread.h"
+
+int sets_left_runs(const table *residual)
+{
+  const size_t n = table_rows(residual);
+  const double last = n ? table_number(residual, n - 1, "run") : 0;
+  return isnan(last) ? 0 : (int)last;
+}
+
+static void add_value(sets_left *left, double t, double value)
+{
+  left->n++;
+  left->mean += value;
+  left->rms += value * value;
+  if (left->n == 1 || fabs(value) > fabs(left->worst)) {
+    left->worst = value;
+    left->worst_t = t;
+  }
+}
+
+int sets_left_of(const table *residual, int run, const char *key, sets_left *left, lab_error *error)
+{
+  const size_t rows = table_rows(residual);
+  double *value = malloc((rows + 1) * sizeof *value);
+  char after[32];
+  lab_stretch all = {value, 0};
+  lab_whiteness white;
+  size_t i;
+  if (!value)
+    return lab_fail_memory(error, "residuals");
+  snprintf(after, sizeof after, "%s_after", key);
+  *left = (sets_left){0, 0, 0, (double)NAN, (double)NAN, (double)NAN};
+  for (i = 0; i < rows; i++) {
+    const double r = table_number(residual, i, key) - table_number(residual, i, after);
+    if ((int)table_number(residual, i, "run") != run || isnan(r))
+      continue;
+    add_value(left, table_number(residual, i, "t"), r);
+    value[all.n++] = r;
+  }
+  left->mean /= (double)left->n;
+  left->rms = sqrt(left->rms / (double)left->n);
+  lab_whiteness_test(&all, 1, &white);
+  if (white.lags > 0)
+    left->neighbours = white.correlation[1];
+  free(value);
+  return LAB_OK;
+}
