@@ -13,6 +13,7 @@ static const double convincing = 0.5; /* of the excess of the best named model: 
 static const double compelling = 0.1; /* and with so little there is no need to look on */
 static const double rival = 3;        /* times the best chi-square: a poorer model is not extended */
 static const double worth = 0.05;     /* of the best statistic: leaders have at least so much */
+static const double much = 0.5;       /* of what the declared model leaves: a good effect takes so much */
 static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
 static const double mostly = 0.5;     /* and so much of all there is */
 enum {
@@ -246,15 +247,22 @@ static void keep_better(attempt *a, const attempt *other)
     *a = *other;
 }
 
-/* The candidates worth a refit: those that pass, best first. */
-static int choose_leaders(const lab_trace_result *trace, double level, const lab_candidate **leader)
+/* The candidates worth a refit: the first of those that pass. */
+static int count_leaders(const lab_trace_result *trace, double level)
 {
-  int n;
-  for (n = 0; n < trace->n && n < LAB_LOOP_LEADERS; n++) {
-    leader[n] = &trace->candidate[n];
-    if (!(leader[n]->p_value < level) || leader[n]->statistic < worth * trace->candidate[0].statistic)
-      break;
-  }
+  int n = 0;
+  while (n < trace->n && n < LAB_LOOP_LEADERS && trace->candidate[n].p_value < level &&
+         trace->candidate[n].statistic >= worth * trace->candidate[0].statistic)
+    n++;
+  return n;
+}
+
+/* All that pass. */
+static int count_passing(const lab_trace_result *trace, double level)
+{
+  int n = 0;
+  while (n < trace->n && n < ALL_LEADERS && trace->candidate[n].p_value < level)
+    n++;
   return n;
 }
 
@@ -289,7 +297,7 @@ static void fit_finalists(attempt *a, int n)
 
 /* Refit the leaders, in parallel: all from the first start, and from the others for as long as none leaves only noise.
  */
-static void refit_leaders(const attempt *base, const lab_candidate *const *leader, int n, attempt *a)
+static void refit_leaders(const attempt *base, const lab_candidate *leader, int n, attempt *a)
 {
   const int starts = base->n_found == 0 ? STARTS : STARTS - 1;
   int i, start;
@@ -300,13 +308,35 @@ static void refit_leaders(const attempt *base, const lab_candidate *const *leade
     for (i = 0; i < n; i++) {
       attempt *mine = malloc(sizeof *mine);
       if (mine) {
-        refit_from(base, leader[i], start, mine);
+        refit_from(base, &leader[i], start, mine);
         keep_better(&a[i], mine);
       }
       free(mine);
     }
   }
   fit_finalists(a, n);
+}
+
+/* Whether none of them explains much of what the declared model leaves. */
+static int all_poor(const attempt *base, const attempt *a, int n)
+{
+  const double excess = base->chi2 - (double)base->u.n_data;
+  int i, poor = 1;
+  for (i = 0; i < n; i++)
+    poor &= !a[i].fitted || a[i].chi2 - (double)a[i].u.n_data > much * excess;
+  return poor;
+}
+
+/* Refit the leaders; where none of them is any good beside the declared model, which what is missing may have bent
+ * beyond the reach of slopes, all that pass.  Returns: how many. */
+static int refit_candidates(const attempt *base, const lab_trace_result *trace, double level, attempt *a)
+{
+  const int leaders = count_leaders(trace, level), all = count_passing(trace, level);
+  refit_leaders(base, trace->candidate, leaders, a);
+  if (base->n_found > 0 || all <= leaders || is_noise(base->chi2, base->u.n_data) || !all_poor(base, a, leaders))
+    return leaders;
+  refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders);
+  return all;
 }
 
 /* ---- What has no name ---- */
@@ -462,12 +492,11 @@ static int extend(search *s, const attempt *base, lab_error *error)
 {
   const double start = seconds();
   const int nameless = base->n_found == 0 && !is_noise(base->chi2, base->u.n_data);
-  const lab_candidate *leader[LAB_LOOP_LEADERS];
   lab_slot slot[LAB_SLOT_MAX];
   lab_trace_result trace;
   lab_scan scan;
   attempt copy = *base;
-  int n, n_slots = 0, status = lab_scan_open(&copy.u, &scan, error);
+  int n_slots = 0, status = lab_scan_open(&copy.u, &scan, error);
   if (status == LAB_OK) {
     tell(s, "tracing the residual");
     lab_trace_effects(&scan, &trace);
@@ -475,17 +504,14 @@ static int extend(search *s, const attempt *base, lab_error *error)
       s->result->trace_s = seconds() - start;
     if (trace.tests > 0)
       s->result->level = s->options->alpha / trace.tests;
-    n = choose_leaders(&trace, s->result->level, leader);
     if (nameless)
       n_slots = lab_slots_try(&scan, slot);
     if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
         slot[0].statistic > alone * trace.candidate[0].statistic)
       try_slots(s, base, slot, n_slots, s->nameless);
     tell(s, "fitting the leaders");
-    if (!any_is_noise(s->nameless, 1)) {
-      refit_leaders(base, leader, n, s->pool + s->n_pool);
-      s->n_pool += n;
-    }
+    if (!any_is_noise(s->nameless, 1))
+      s->n_pool += refit_candidates(base, &trace, s->result->level, s->pool + s->n_pool);
     if (n_slots > 0 && !s->nameless->fitted && !any_is_noise(s->pool, s->n_pool))
       try_slots(s, base, slot, n_slots, s->nameless);
     if (s->result->trace.n == 0)
@@ -670,7 +696,7 @@ static int search_all(search *s, lab_error *error)
     if (better && best->n_found > 1) {
       const double before = best->chi2;
       remove_needless(best);
-      if (exchange(s, error))
+      if ((best->n_found == 2 || any_is_noise(best, 1)) && exchange(s, error))
         return error->status;
       if (best->chi2 != before)
         note_way(s->result, best);
