@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sizes at which a slope is taken, over the usual size; shapes over the usual shape. */
+/* Sizes at which a slope is taken, over the usual size; shapes over the usual shape. Where the first changes the
+ * residual by far more than can just be seen, it is taken at one that changes it by so much. */
 static const double sizes[] = {0.02, 1.0};
+static const double far_more = 100, just_seen = 20;
 static const double shapes[] = {0.3, 1.0, 3.0};
 enum { SIZES = sizeof sizes / sizeof *sizes, SHAPES = sizeof shapes / sizeof *shapes };
 
@@ -51,6 +53,17 @@ static int slope_of(const lab_scan *s, const lab_candidate *c, double value, dou
   return lab_scan_difference(s, &model, slope);
 }
 
+/* A shorter step where the first one goes far.  In/out: step, slope */
+static int shorten(const lab_scan *s, const lab_candidate *c, double neutral, double shape_value, double *step,
+                   double *slope)
+{
+  const double length = sqrt(lab_scan_dot(slope, slope, s->m));
+  if (!(length > far_more))
+    return 0;
+  *step *= just_seen / length;
+  return slope_of(s, c, neutral + *step, shape_value, slope);
+}
+
 static int try_candidate(const lab_scan *s, lab_candidate *c)
 {
   double *slope = malloc(s->m * sizeof *slope);
@@ -65,8 +78,9 @@ static int try_candidate(const lab_scan *s, lab_candidate *c)
     for (i = 0; i < SIZES; i++) {
       const double shape_value =
           c->shape >= 0 ? fmin(fmax(shapes[k] * (double)shape.value, (double)shape.lower), (double)shape.upper) : 0;
-      const double step = sizes[i] * (double)(info.value - info.neutral);
-      if (slope_of(s, c, (double)info.neutral + step, shape_value, slope))
+      double step = sizes[i] * (double)(info.value - info.neutral);
+      if (slope_of(s, c, (double)info.neutral + step, shape_value, slope) ||
+          (i == 0 && shorten(s, c, (double)info.neutral, shape_value, &step, slope)))
         continue;
       judge(s, slope, step, (double)(info.upper - info.neutral), (double)(info.neutral - info.lower), c, shape_value);
       tests++;
