@@ -8,6 +8,8 @@
 #include "response.h"
 #include "start.h"
 
+static const double off = 6; /* times the noise: a value so far off is no noise */
+
 static int is_predicted(int channel)
 {
   return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T ||
@@ -24,6 +26,23 @@ static size_t rows_at_rest(const lab_experiment *e)
   return u ? n : 0;
 }
 
+/* Of these, those before the channel moves all the same: a sensor may be ahead of the command.
+ * In:      n  rows before the command first changes */
+static size_t rows_still(const double *value, size_t n, double sigma)
+{
+  double mean = 0;
+  size_t i, count = 0;
+  for (i = 0; i < n / 2; i++)
+    if (!isnan(value[i])) {
+      mean += value[i];
+      count++;
+    }
+  mean /= count ? (double)count : 1;
+  for (i = 0; i < n && !(fabs(value[i] - mean) > off * sigma); i++)
+    ;
+  return i;
+}
+
 static int add_channel(lab_experiment *e, int channel, lab_error *error)
 {
   const double *value = e->log->value[channel] + e->first;
@@ -36,7 +55,7 @@ static int add_channel(lab_experiment *e, int channel, lab_error *error)
                     "noise of the rig file",
                     e->log->path, lab_channels[channel].key);
   e->channel[e->n_channels] = channel;
-  e->memory[e->n_channels] = lab_noise_memory(value, rows_at_rest(e));
+  e->memory[e->n_channels] = lab_noise_memory(value, rows_still(value, rows_at_rest(e), sigma));
   e->sigma[e->n_channels++] = sigma;
   return LAB_OK;
 }

@@ -21,6 +21,7 @@ enum {
   SLOTS = 8,
   ALL_LEADERS = 40,
   POOL = ALL_LEADERS + SLOTS,
+  FIRST = 3,
   BRIEF = 8,
   FINALISTS = 3,
   REFINED = 21,
@@ -230,7 +231,7 @@ static void refit_from(const attempt *base, const lab_candidate *c, int start, a
   usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
   if (start == FROM_SLOPE && c->size != 0)
     usual = c->size;
-  if (take_up(base, c, usual, start == FROM_DECLARED, a) || fit_attempt(a, BRIEF, &ignored))
+  if (take_up(base, c, usual, start == FROM_DECLARED, a) || fit_attempt(a, FIRST, &ignored))
     return;
   found = append_found(a);
   found->effect = c->effect;
@@ -295,25 +296,47 @@ static void fit_finalists(attempt *a, int n)
   }
 }
 
-/* Refit the leaders, in parallel: all from the first start, and from the others for as long as none leaves only noise.
- */
+static double least_chi2(const attempt *a, int n)
+{
+  double least = INFINITY;
+  int i;
+  for (i = 0; i < n; i++)
+    if (a[i].fitted)
+      least = fmin(least, a[i].chi2);
+  return least;
+}
+
+/* Refit the leaders from one start, in parallel: a few steps, and more for those that keep up with the best. */
+static void refit_race(const attempt *base, const lab_candidate *leader, int n, int start, attempt *a)
+{
+  double least;
+  int i;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    refit_from(base, &leader[i], start, &a[i]);
+  least = least_chi2(a, n);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++) {
+    lab_error ignored;
+    if (a[i].fitted && a[i].chi2 < rival * least)
+      fit_attempt(&a[i], BRIEF, &ignored);
+  }
+}
+
+/* Refit the leaders: all from the first start, and from the others for as long as none leaves only noise. */
 static void refit_leaders(const attempt *base, const lab_candidate *leader, int n, attempt *a)
 {
   const int starts = base->n_found == 0 ? STARTS : STARTS - 1;
+  attempt *mine = malloc(((size_t)n + 1) * sizeof *mine);
   int i, start;
   for (i = 0; i < n; i++)
     a[i].fitted = 0;
-  for (start = 0; start < starts && !any_is_noise(a, n); start++) {
-#pragma omp parallel for schedule(dynamic)
-    for (i = 0; i < n; i++) {
-      attempt *mine = malloc(sizeof *mine);
-      if (mine) {
-        refit_from(base, &leader[i], start, mine);
-        keep_better(&a[i], mine);
-      }
-      free(mine);
-    }
+  for (start = 0; mine && start < starts && !any_is_noise(a, n); start++) {
+    refit_race(base, leader, n, start, mine);
+    for (i = 0; i < n; i++)
+      keep_better(&a[i], &mine[i]);
   }
+  free(mine);
   fit_finalists(a, n);
 }
 
@@ -464,6 +487,7 @@ typedef struct search {
   int n_beam;
   attempt *pool; /* POOL extensions of them */
   int n_pool;
+  attempt *declared; /* the declared model, fitted */
   attempt *nameless; /* the declared model with the best free term; not fitted: not tried yet, or none */
 } search;
 
@@ -486,12 +510,11 @@ static void try_slots(const search *s, const attempt *base, const lab_slot *slot
   refit_slots(base, slot, n, best);
 }
 
-/* Try every extension of one model by one effect; and of the declared model by a free term, before the effects where
- * that explains most of what there is and far more than any of them, after them where none leaves only noise. */
+/* Try every extension of one model by one effect; and before these, of the declared model by a free term, where that
+ * explains most of what there is and far more than any of them. */
 static int extend(search *s, const attempt *base, lab_error *error)
 {
   const double start = seconds();
-  const int nameless = base->n_found == 0 && !is_noise(base->chi2, base->u.n_data);
   lab_slot slot[LAB_SLOT_MAX];
   lab_trace_result trace;
   lab_scan scan;
@@ -504,7 +527,7 @@ static int extend(search *s, const attempt *base, lab_error *error)
       s->result->trace_s = seconds() - start;
     if (trace.tests > 0)
       s->result->level = s->options->alpha / trace.tests;
-    if (nameless)
+    if (base->n_found == 0 && !any_is_noise(base, 1) && alone * trace.candidate[0].statistic < scan.excess)
       n_slots = lab_slots_try(&scan, slot);
     if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
         slot[0].statistic > alone * trace.candidate[0].statistic)
@@ -512,8 +535,6 @@ static int extend(search *s, const attempt *base, lab_error *error)
     tell(s, "fitting the leaders");
     if (!any_is_noise(s->nameless, 1))
       s->n_pool += refit_candidates(base, &trace, s->result->level, s->pool + s->n_pool);
-    if (n_slots > 0 && !s->nameless->fitted && !any_is_noise(s->pool, s->n_pool))
-      try_slots(s, base, slot, n_slots, s->nameless);
     if (s->result->trace.n == 0)
       s->result->trace = trace;
     else
@@ -653,20 +674,29 @@ static int is_better(const attempt *nameless, const attempt *named, double share
          (any_is_noise(nameless, 1) || nameless->chi2 - n < share * (named->chi2 - n));
 }
 
+/* The best free term beside a model.  Out: best, fitted or not */
+static int find_slot(const search *s, const attempt *base, attempt *best, lab_error *error)
+{
+  attempt copy = *base;
+  lab_slot slot[LAB_SLOT_MAX];
+  lab_scan scan;
+  int n, status = lab_scan_open(&copy.u, &scan, error);
+  best->fitted = 0;
+  if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0)
+    try_slots(s, base, slot, n, best);
+  lab_scan_close(&scan);
+  return status;
+}
+
 /* Nothing that has a name would do: a free term beside what was found, which may then be needless. */
 static int last_resort(search *s, lab_error *error)
 {
   attempt *best = &s->beam[0], *longer = &s->pool[0];
-  lab_slot slot[LAB_SLOT_MAX];
   lab_errors before, after;
-  lab_scan scan;
-  int n, status = lab_scan_open(&best->u, &scan, error);
-  longer->fitted = 0;
-  if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0)
-    try_slots(s, best, slot, n, longer);
-  lab_scan_close(&scan);
-  if (status != LAB_OK || !is_better(longer, best, convincing))
-    return status;
+  if (find_slot(s, best, longer, error))
+    return error->status;
+  if (!is_better(longer, best, convincing))
+    return LAB_OK;
   note_step(s->result, longer, 1);
   if (lab_loop_errors(&best->u, &before, error) || lab_loop_errors(&longer->u, &after, error))
     return error->status;
@@ -676,6 +706,14 @@ static int last_resort(search *s, lab_error *error)
   note_way(s->result, best);
   remove_needless(best);
   return LAB_OK;
+}
+
+/* Whether it is time for a free term beside the declared model: when no single effect explains much, or when two leave
+ * more than noise. */
+static int wants_nameless(const search *s, int rounds)
+{
+  const attempt *best = &s->beam[0];
+  return !s->nameless->fitted && !any_is_noise(best, 1) && (rounds > 0 || all_poor(s->declared, best, 1));
 }
 
 static int search_all(search *s, lab_error *error)
@@ -688,9 +726,6 @@ static int search_all(search *s, lab_error *error)
       return error->status;
     if (better)
       note_way(s->result, best);
-    if (!any_is_noise(best, 1) &&
-        (any_is_noise(s->nameless, 1) || (best->n_found > 1 && is_better(s->nameless, best, compelling))))
-      break;
     if (best->u.window && any_is_noise(best, 1))
       return LAB_OK; /* a coarse view does not see fine differences */
     if (better && best->n_found > 1) {
@@ -701,6 +736,11 @@ static int search_all(search *s, lab_error *error)
       if (best->chi2 != before)
         note_way(s->result, best);
     }
+    if (wants_nameless(s, rounds) && find_slot(s, s->declared, s->nameless, error))
+      return error->status;
+    if (!any_is_noise(best, 1) &&
+        (any_is_noise(s->nameless, 1) || (best->n_found > 1 && is_better(s->nameless, best, compelling))))
+      break;
   }
   if (s->nameless->fitted && !any_is_noise(best, 1) && is_better(s->nameless, best, convincing)) {
     *best = *s->nameless;
@@ -717,22 +757,25 @@ static int search_all(search *s, lab_error *error)
 static int search_from(const lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, attempt *best,
                        lab_error *error)
 {
-  search s = {options, result, NULL, 1, NULL, 0, NULL};
+  search s = {options, result, NULL, 1, NULL, 0, NULL, NULL};
   int status = LAB_OK;
+  s.declared = calloc(1, sizeof *s.declared);
   s.nameless = calloc(1, sizeof *s.nameless);
   s.beam = calloc(BEAM, sizeof *s.beam);
   s.pool = malloc((size_t)BEAM * POOL * sizeof *s.pool);
-  if (!s.beam || !s.pool || !s.nameless)
+  if (!s.beam || !s.pool || !s.declared || !s.nameless)
     status = lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
-    s.beam[0].u = *u;
-    status = fit_attempt(&s.beam[0], LAB_FIT_WHOLE, error);
+    s.declared->u = *u;
+    status = fit_attempt(s.declared, LAB_FIT_WHOLE, error);
+    s.beam[0] = *s.declared;
   }
   if (status == LAB_OK) {
     note_step(result, &s.beam[0], 1);
     status = search_all(&s, error);
     *best = s.beam[0];
   }
+  free(s.declared);
   free(s.nameless);
   free(s.beam);
   free(s.pool);
