@@ -75,7 +75,7 @@ suites() {
   done
 }
 
-# closeloop against 40 rigs without its answer; the bars are in tests/blind/bars.c.
+# closeloop against 40 rigs without its answer; fails where the counts speak against a bar of tests/blind/bars.c.
 blind_trials() {
   rm -rf "$BUILD/blind-sample"
   "$BUILD/tests/blind/blind" --trials 40 --seed 2 --check --quiet --work "$BUILD/blind-sample" --out "$BUILD/blind-sample"

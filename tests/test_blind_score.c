@@ -337,6 +337,17 @@ static void test_blind_bars__counts__meet_or_miss(void **state)
   assert_true(blind_bar_met(&figure, bad));
 }
 
+static void test_blind_bar_refuted__counts__interval_beyond_the_bar(void **state)
+{
+  const blind_bar least = {"", NULL, NULL, 1, 0.95}, most = {"", NULL, NULL, 0, 0.01}, figure = {"", NULL, NULL, -1, 0};
+  const blind_count few = {11, 12}, too_few = {9, 12}, none = {0, 6}, one = {1, 6}, empty = {0, 0};
+  (void)state;
+  assert_true(!blind_bar_refuted(&least, few) && blind_bar_refuted(&least, too_few));
+  assert_true(!blind_bar_refuted(&most, none) && blind_bar_refuted(&most, one));
+  assert_true(!blind_bar_refuted(&least, empty) && !blind_bar_refuted(&most, empty));
+  assert_true(!blind_bar_refuted(&figure, too_few));
+}
+
 static blind_count first_bar(const blind_record *r, int n)
 {
   return blind_bar_counts(&blind_bars[0], r, n);
@@ -388,6 +399,7 @@ int main(void)
       cmocka_unit_test(test_blind_quantile__few_values__between_by_lines),
       cmocka_unit_test(test_blind_nine_in_ten__one_of_ten_missed__is_still_nine),
       cmocka_unit_test(test_blind_bars__counts__meet_or_miss),
+      cmocka_unit_test(test_blind_bar_refuted__counts__interval_beyond_the_bar),
       cmocka_unit_test(test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit),
       cmocka_unit_test(test_blind_summary_write__misses__are_listed_one_by_one),
   };

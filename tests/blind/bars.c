@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "stats.h"
 #include "summary.h"
 
 static int is(const char *text, const char *word)
@@ -134,4 +135,11 @@ int blind_bar_met(const blind_bar *bar, blind_count count)
 {
   const double allowed = bar->share * count.n;
   return bar->at_least < 0 || (bar->at_least ? count.k >= allowed : count.k <= allowed);
+}
+
+int blind_bar_refuted(const blind_bar *bar, blind_count count)
+{
+  double low, high;
+  blind_wilson(count, &low, &high);
+  return bar->at_least > 0 ? high < bar->share : bar->at_least == 0 && low > bar->share;
 }

@@ -38,7 +38,7 @@ static const lab_option options[] = {
     {"keep", LAB_OPTION_TEXT, &keep, "DIR", "leave the files of every trial there", 0, 0},
     {"timeout", LAB_OPTION_REAL, &timeout, "S", "time that closeloop has for one trial (120)", 1, 1e6},
     {"jobs", LAB_OPTION_COUNT, &jobs, "N", "trials at once; default: one a core", 1, 1024},
-    {"check", LAB_OPTION_FLAG, &check, NULL, "exit status 1 unless every bar is met", 0, 0},
+    {"check", LAB_OPTION_FLAG, &check, NULL, "exit status 1 if a count speaks against a bar", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
@@ -176,21 +176,21 @@ static int write_md(const blind_journal *j, lab_error *error)
   return lab_out_close(&file, error);
 }
 
-/* A line for each bar.  Returns: how many are missed */
+/* A line for each bar.  Returns: how many are refuted */
 static int say_bars(const blind_journal *j)
 {
-  int i, missed = 0;
+  int i, refuted = 0;
   for (i = 0; i < blind_bar_count; i++) {
     const blind_bar *bar = &blind_bars[i];
     const blind_count c = blind_bar_counts(bar, j->record, j->n);
     const int met = blind_bar_met(bar, c);
-    missed += !met;
+    refuted += blind_bar_refuted(bar, c);
     printf("%-70s %3d of %3d", bar->what, c.k, c.n);
     if (bar->at_least >= 0)
       printf("  (%s %g %%)%s", bar->at_least ? "at least" : "at most", 100 * bar->share, met ? "" : "  MISSED");
     printf("\n");
   }
-  return missed;
+  return refuted;
 }
 
 static int run(const lab_cli *cli, const char *self, lab_error *error)
@@ -213,7 +213,7 @@ static int run(const lab_cli *cli, const char *self, lab_error *error)
   if (status == LAB_OK)
     status = write_md(&journal, error);
   if (status == LAB_OK && say_bars(&journal) && check)
-    status = lab_fail(error, LAB_DATA, "a bar is missed; %s/blind.md lists the trials", out);
+    status = lab_fail(error, LAB_DATA, "the trials speak against a bar; %s/blind.md lists them", out);
   blind_journal_close(&journal);
   return status;
 }

@@ -24,6 +24,10 @@ blind_count blind_bar_counts(const blind_bar *bar, const blind_record *record, i
 /* Whether a count meets a bar; one over nothing does. */
 int blind_bar_met(const blind_bar *bar, blind_count count);
 
+/* Whether a count speaks against a bar: its 95 % interval lies wholly on the wrong side. A sample too small to tell a
+ * share of 0.95 from one of 0.92 still fails where something has broken. */
+int blind_bar_refuted(const blind_bar *bar, blind_count count);
+
 /* Records in the order of trials.  Returns: 0, not 0 without memory. */
 int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t seed);
 
