@@ -3,6 +3,7 @@
 #ifndef LAB_LOOP_H
 #define LAB_LOOP_H
 
+#include "errors.h"
 #include "slots.h"
 #include "trace.h"
 
@@ -17,14 +18,6 @@ typedef struct lab_loop_options {
   void (*tell)(void *context, const char *what); /* told what is being done; may be NULL */
   void *context;
 } lab_loop_options;
-
-/* Error of a model on the experiments it was given: root mean square per channel. */
-typedef struct lab_errors {
-  double rmse[LAB_CHANNEL_COUNT];     /* SI; NaN where not measured */
-  double in_noise[LAB_CHANNEL_COUNT]; /* over the noise */
-  double chi2;
-  size_t n;
-} lab_errors;
 
 /* What was added: an effect, or a free term where nothing that has a name would do. */
 typedef struct lab_found {
@@ -81,9 +74,6 @@ void lab_loop_options_default(lab_loop_options *options);
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error);
 void lab_loop_close(lab_loop_result *result);
-
-/* Error of the present model of `u` on its experiments. */
-int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
 
 /* "none", "effect", "unlisted", "undecided" */
 const char *lab_verdict_text(int verdict);

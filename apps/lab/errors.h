@@ -1,0 +1,19 @@
+/* Errors of a model on its experiments.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_ERRORS_H
+#define LAB_ERRORS_H
+
+#include "unknowns.h"
+
+/* Root mean square per channel. */
+typedef struct lab_errors {
+  double rmse[LAB_CHANNEL_COUNT];     /* SI; NaN where not measured */
+  double in_noise[LAB_CHANNEL_COUNT]; /* over the noise */
+  double chi2;
+  size_t n;
+} lab_errors;
+
+/* Error of the present model of `u` on its experiments, row by row. */
+int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
+
+#endif

@@ -1,0 +1,87 @@
+#include "nameless.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "unlisted.h"
+
+enum { SLOTS = 8, BRIEF = 8, FINALISTS = 3, REFINED = 21, MARGIN = 2 };
+
+static void refit_slot(const lab_attempt *base, const lab_slot *slot, lab_attempt *a)
+{
+  lab_error ignored;
+  lab_found *found;
+  *a = *base;
+  a->fitted = 0;
+  if (lab_unknowns_add_term(&a->u, &slot->term, slot->scale, 0, &ignored) || lab_attempt_fit(a, BRIEF, &ignored))
+    return;
+  found = lab_attempt_add_found(a);
+  found->term = a->u.rig.n_terms - 1;
+  found->statistic = slot->statistic;
+  found->degrees = slot->degrees;
+  found->scale = slot->scale;
+}
+
+/* Values of one term, less a level, at the knots of another; 0 at its ends. */
+static void resample(const pneu_term *from, double level, pneu_term *to)
+{
+  int i;
+  for (i = 0; i < to->n; i++) {
+    const double at = (double)(to->from + (to->to - to->from) * (pneu_real)i / (pneu_real)(to->n - 1));
+    const double place = (at - (double)from->from) / (double)(from->to - from->from) * (from->n - 1);
+    const int k = place < from->n - 2 ? (int)fmax(place, 0) : from->n - 2;
+    const double share = fmin(fmax(place - k, 0), 1);
+    to->value[i] = (pneu_real)((1 - share) * (double)from->value[k] + share * (double)from->value[k + 1] - level);
+  }
+  to->value[0] = to->value[to->n - 1] = 0;
+}
+
+/* A free term that acts on a short stretch only: knots there, close together, and none elsewhere. */
+static void refine(lab_attempt *a)
+{
+  const lab_found *found = &a->found[a->n_found - 1];
+  const pneu_term coarse = a->u.rig.term[found->term];
+  const double margin = MARGIN * (double)(coarse.to - coarse.from) / (coarse.n - 1);
+  lab_attempt *fine = malloc(sizeof *fine);
+  double from, to, level, peak;
+  pneu_term term = coarse;
+  lab_error ignored;
+  if (fine && lab_unlisted_stretch(&coarse, &from, &to, &level, &peak)) {
+    *fine = *a;
+    lab_unknowns_drop_term(&fine->u);
+    term.n = REFINED;
+    term.from = (pneu_real)fmax(from - margin, (double)coarse.from);
+    term.to = (pneu_real)fmin(to + margin, (double)coarse.to);
+    resample(&coarse, level, &term);
+    if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &ignored) == LAB_OK &&
+        lab_attempt_fit(fine, LAB_FIT_WHOLE, &ignored) == LAB_OK && fine->bic < a->bic)
+      *a = *fine;
+  }
+  free(fine);
+}
+
+/* The best slots, refitted: briefly, then the best few of them to the end.  Out: best, fitted or not */
+void lab_refit_slots(const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best)
+{
+  lab_attempt *a = malloc(SLOTS * sizeof *a);
+  int i;
+  best->fitted = 0;
+  n = !a ? 0 : n < SLOTS ? n : SLOTS;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    refit_slot(base, &slot[i], &a[i]);
+  qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++) {
+    lab_error ignored;
+    if (i < FINALISTS && a[i].fitted)
+      lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &ignored);
+  }
+  for (i = 0; i < n && i < FINALISTS; i++)
+    lab_attempt_keep_better(best, &a[i]);
+  free(a);
+  if (best->fitted) {
+    refine(best);
+    lab_attempt_explain(best, base->chi2);
+  }
+}
