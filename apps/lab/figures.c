@@ -10,7 +10,9 @@
 #include "outfile.h"
 #include "quantile.h"
 #include "reduce.h"
+#include "rigterm.h"
 #include "shown.h"
+#include "unlisted.h"
 
 enum { COLUMNS = 360, BINS = 30, BIN_LEAST = 10, CANDIDATES = 14 };
 static const double two_sided_99 = 2.5758293035489004; /* standard deviations */
@@ -36,6 +38,9 @@ static const char *const autocorrelation_gp[] = {
     NULL};
 static const char *const candidates_gp[] = {
 #include "apps/lab/report/candidates.gp.inc"
+    NULL};
+static const char *const unlisted_gp[] = {
+#include "apps/lab/report/unlisted.gp.inc"
     NULL};
 static const char *const parameters_gp[] = {
 #include "apps/lab/report/parameters.gp.inc"
@@ -423,6 +428,58 @@ static int draw_candidates(const drawing *d)
   return 1;
 }
 
+/* ---- What has no name ---- */
+
+enum { CYCLE_POINTS = 73 };
+
+/* A cycle at a time: its Fourier series. */
+static double cycle_at(const pneu_term *term, double t)
+{
+  const double angle = 6.283185307179586 * t / (double)(term->to - term->from);
+  double sum = 0;
+  int i;
+  for (i = 0; i + 1 < term->n; i += 2) {
+    const double harmonic = angle * (i / 2 + 1);
+    sum += (double)term->value[i] * cos(harmonic) + (double)term->value[i + 1] * sin(harmonic);
+  }
+  return sum;
+}
+
+/* The curve of a term: its knots, or one cycle of it. */
+static void put_term(const drawing *d, const pneu_term *term, double argument_scale, double value_scale)
+{
+  const int is_cycle = term->argument == PNEU_TERM_OVER_CYCLE, n = is_cycle ? CYCLE_POINTS : term->n;
+  int i;
+  fputs("$term << EOD\nat,value\n", d->file);
+  for (i = 0; i < n; i++) {
+    const double at = (double)term->from + i * (double)(term->to - term->from) / (n - 1);
+    fprintf(d->file, "%.5g,%.5g\n", argument_scale * at,
+            value_scale * (is_cycle ? cycle_at(term, at) : (double)term->value[i]));
+  }
+  fputs("EOD\n", d->file);
+}
+
+static int draw_unlisted(const drawing *d)
+{
+  const lab_rig *rig = &d->story->completed->rig;
+  const pneu_term *term = rig->term;
+  char where[LAB_WHERE_TEXT], name[LAB_SHOWN_TEXT];
+  lab_shown argument, value;
+  if (rig->n_terms == 0)
+    return 0;
+  argument = lab_shown_as(lab_term_arguments[term->argument].unit);
+  value = lab_shown_as(lab_term_equations[term->equation].unit);
+  entitle(d, "What has no name");
+  tell(d, "It acts like %s: %s.", lab_unlisted_what(term), lab_unlisted_where(term, where));
+  put_head(d, 380, "The free term that was added, fitted with everything else");
+  put_term(d, term, argument.scale, value.scale);
+  fprintf(d->file, "IS_TABLE = %d\nARGUMENT_LABEL = \"%s [%s]\"\nVALUE_LABEL = \"%s [%s]\"\n",
+          term->argument != PNEU_TERM_OVER_CYCLE, lab_term_arguments[term->argument].key, unit_or_1(argument.unit),
+          plain(lab_term_equations[term->equation].key, name), unit_or_1(value.unit));
+  put_lines(d->file, unlisted_gp);
+  return 1;
+}
+
 /* ---- Parameters ---- */
 
 /* What was declared for an unknown of the base model.  Returns: NaN for any other. */
@@ -507,6 +564,10 @@ static const struct {
      "Many effects pass where one is missing, because their footprints overlap. Those that pass best are taken "
      "up in turn, everything is fitted again, and the best fit decides.",
      draw_candidates},
+    {"unlisted",
+     "Knots where the model hardly ever is are loosely known. Over a cycle, time is that of the log: its zero is the "
+     "zero of t.",
+     draw_unlisted},
     {"parameters", "Bars are 95 % intervals, often narrower than the point.", draw_parameters}};
 
 /* The script of all figures, and the list of those that it draws. */

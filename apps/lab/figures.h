@@ -5,7 +5,7 @@
 
 #include "evidence.h"
 
-enum { LAB_FIGURE_COUNT = 6, LAB_FIGURE_TEXT = 512 };
+enum { LAB_FIGURE_COUNT = 7, LAB_FIGURE_TEXT = 512 };
 
 typedef struct lab_figure {
   const char *name;              /* of its file, without the ending; also of what is inside the SVG */

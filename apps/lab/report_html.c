@@ -226,7 +226,7 @@ static void put_unlisted(const telling *t, const lab_found *found, cJSON *list)
   put(item, "name", "Not in the catalogue");
   put(item, "what", "Something acts like %s: %s.", lab_unlisted_what(term), lab_unlisted_where(term, where));
   put(item, "footprint", "%s", lab_unlisted_where(term, where));
-  put(item, "source", "a free term, piecewise linear; its knots are in model.cfg");
+  put(item, "source", "a free term; its values are in model.cfg");
   put(item, "equation", "%s", lab_unlisted_equation(term));
   cJSON_AddArrayToObject(item, "sizes");
   put_share(item, "explained", found->explained);
