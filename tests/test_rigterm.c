@@ -105,7 +105,7 @@ static void test_lab_rig_read__bad_words__name_the_nearest(void **state)
 {
   (void)state;
   assert_refused("force", "farce", "rig.cfg:2: unlisted[0].equation:", "nearest known one is \"force\"");
-  assert_refused("\"x\"", "\"t\"", "rig.cfg:2: unlisted[0].argument:", "unknown word \"t\"");
+  assert_refused("\"x\"", "\"y\"", "rig.cfg:2: unlisted[0].argument:", "unknown word \"y\"");
   assert_refused("to =", "too =", "rig.cfg:4: unlisted[0].too:", "nearest known one is \"to\"");
 }
 
@@ -201,13 +201,17 @@ static lab_rig write_and_read(const lab_rig *rig)
 /* Terms of every size, with numbers that no short text gives. */
 static lab_rig odd_rig(void)
 {
+  static const int equation[LAB_TERM_MAX] = {PNEU_TERM_SUPPLY, PNEU_TERM_FRICTION, PNEU_TERM_HEAT,
+                                             PNEU_TERM_SHOWN_POSITION},
+                   argument[LAB_TERM_MAX] = {PNEU_TERM_OVER_CYCLE, PNEU_TERM_OVER_VELOCITY, PNEU_TERM_OVER_PRESSURE,
+                                             PNEU_TERM_OVER_OPENING};
   lab_rig rig = read_rig("laws = { gas = \"energy\"; };");
   int i, k;
   rig.n_terms = LAB_TERM_MAX;
   for (i = 0; i < LAB_TERM_MAX; i++) {
     pneu_term *t = &rig.term[i];
-    t->equation = i + 1;
-    t->argument = i;
+    t->equation = equation[i];
+    t->argument = argument[i];
     t->n = i ? 11 * i : 2;
     t->from = (pneu_real)(-1.0 / 3);
     t->to = (pneu_real)(1e5 / 7);
@@ -239,7 +243,7 @@ static void test_lab_rig_write__declared_terms__come_back_bit_for_bit(void **sta
 #define SHOW                                                                                                           \
   "for (i = 0; i < n; i++) {\n"                                                                                        \
   "  printf(\"%d %d %d %.17g %.17g\", term[i].equation, term[i].argument, term[i].n, term[i].from, term[i].to);\n"     \
-  "  for (k = 0; k < PNEU_TERM_KNOTS; k++) printf(\" %.17g\", term[i].value[k]);\n"                                                 \
+  "  for (k = 0; k < PNEU_TERM_KNOTS; k++) printf(\" %.17g\", term[i].value[k]);\n"                                    \
   "}\n"
 
 static void show(const pneu_term *term, int n, char *text, size_t size)
