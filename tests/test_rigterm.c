@@ -82,6 +82,20 @@ static void test_lab_rig_read__every_word__is_known(void **state)
     }
 }
 
+static void test_lab_rig_read__cycle__becomes_a_term_over_time(void **state)
+{
+  const lab_rig rig = read_rig("unlisted = ( { equation = \"supply\"; argument = \"t\"; from = 0; to = \"250 ms\";\n"
+                               "  unit = \"kPa\"; values = ( 0, -3.5, \"20 mbar\", 0.1 ); } );\n");
+  pneu_model model;
+  (void)state;
+  assert_int_equal(rig.n_terms, 1);
+  assert_term(&rig.term[0], PNEU_TERM_SUPPLY, PNEU_TERM_OVER_CYCLE, 0, 0.25, 4);
+  assert_close(rig.term[0].value[1], -3500, 0, 1e-14);
+  assert_close(rig.term[0].value[2], 2000, 0, 1e-14);
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_int_equal(model.clock, 0);
+}
+
 /* ---- Bad terms ---- */
 
 /* A term of which one part is replaced must be refused, with LAB_DATA, the key in its place, and some words. */
@@ -141,7 +155,22 @@ static void test_lab_rig_read__bad_values__are_refused(void **state)
   assert_refused("[ 1, 2 ]", "3", "unlisted[0].values:", "entries");
   assert_refused("[ 1, 2 ]", "[ 1.0, 1e999 ]", "unlisted[0].values[1]:", "finite");
   assert_refused("[ 1, 2 ]", "[ \"1 N\", \"2 kg\" ]", "unlisted[0].values[1]:", "kg");
+  assert_refused("[ 1, 2 ]", "[ 0, 0.1, 0 ]", "rig.cfg:5: mismatched element type in array:", "0.0 beside 0.1");
   assert_refused("[ 1, 2 ]", "( 1, (2) )", "unlisted[0].values[1]:", "found a list");
+}
+
+/* A cosine goes with its sine. */
+static void test_lab_rig_read__odd_number_over_a_cycle__is_refused(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  assert_int_equal(
+      lab_rig_read(scratch_text("rig.cfg", "unlisted = ( { equation = \"force\"; argument = \"t\"; from = 0;\n"
+                                           "  to = 2; values = [ 1, 2, 3 ]; } );\n"),
+                   &rig, &error),
+      LAB_DATA);
+  assert_contains(error.text, "rig.cfg:2: unlisted[0].values: expected an even number of values");
+  assert_contains(error.text, "a list of 3 entries");
 }
 
 static void test_lab_rig_read__bad_unit__is_refused(void **state)
@@ -353,10 +382,12 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__unlisted__becomes_terms_in_si),
       cmocka_unit_test(test_lab_rig_read__no_terms__are_none),
       cmocka_unit_test(test_lab_rig_read__every_word__is_known),
+      cmocka_unit_test(test_lab_rig_read__cycle__becomes_a_term_over_time),
       cmocka_unit_test(test_lab_rig_read__bad_words__name_the_nearest),
       cmocka_unit_test(test_lab_rig_read__missing_keys__are_named),
       cmocka_unit_test(test_lab_rig_read__bad_ends__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_values__are_refused),
+      cmocka_unit_test(test_lab_rig_read__odd_number_over_a_cycle__is_refused),
       cmocka_unit_test(test_lab_rig_read__bad_unit__is_refused),
       cmocka_unit_test(test_lab_rig_read__no_list_of_groups_or_too_many__is_refused),
       cmocka_unit_test(test_lab_rig_read__heat_that_cannot_act__is_refused),
