@@ -284,7 +284,8 @@ static void test_pneu_run__periodic_force_on_a_stuck_stem__breaks_it_away_in_tim
       }
 }
 
-/* Wherever in between the run begins: at the next instant, which is of the other sign. */
+/* Wherever in between the run begins: at the next instant, which is of the other sign. In single precision a push is
+ * resolved from 3 N on, which this force has gained after 7 ms. */
 static void test_pneu_run__periodic_force_from_another_phase__breaks_away_in_time(void **state)
 {
   const double period = 2, angle = asin(480.0 / 505), half = two_pi / 2;
@@ -294,7 +295,7 @@ static void test_pneu_run__periodic_force_from_another_phase__breaks_away_in_tim
     const double phase = half - angle + 2 * angle * (i + 0.5) / 40, begin = phase * period / two_pi;
     const double to_next = half + angle - phase;
     check_note("from %g rad on", phase);
-    assert_close(break_away(505, period, begin, 3, &mode), to_next * period / two_pi, TOL(1e-8, 1e-3), 0);
+    assert_close(break_away(505, period, begin, 3, &mode), to_next * period / two_pi, TOL(1e-8, 7e-3), 0);
     assert_int_equal(mode, PNEU_MODE_UP);
   }
 }
