@@ -171,6 +171,25 @@ static void test_lab_cycles_find__drift__does_not_hide_it(void **state)
   assert_period(period[0], 0.9, N * spacing);
 }
 
+/* A single row, however far off, says nothing of cycles. */
+static void test_lab_cycles_find__log_of_one_row__does_not_count(void **state)
+{
+  enum { N = 2000 };
+  double alone[LAB_CYCLES_MAX];
+  int n, i;
+  (void)state;
+  open_log(0, N);
+  fill_with_noise(11);
+  add_sine(r, 0, N, 0.3, 1.87, 0);
+  n = lab_cycles_find(&u, r, alone);
+  assert_true(n > 1);
+  open_log(1, 1);
+  r[2 * N] = r[2 * N + 1] = 1e3;
+  assert_int_equal(lab_cycles_find(&u, r, period), n);
+  for (i = 0; i < n; i++)
+    assert_close(period[i], alone[i], 0, 0);
+}
+
 /* The first of 400 noises may lie on any line: 40 to a tenth of them, give or take four standard deviations. */
 static void test_lab_cycles_find__white_noise__prefers_no_period(void **state)
 {
@@ -222,6 +241,7 @@ int main(void)
       cmocka_unit_test(test_lab_cycles_find__two_logs_out_of_phase__add_up),
       cmocka_unit_test(test_lab_cycles_find__two_sines__are_found_in_the_order_of_their_size),
       cmocka_unit_test(test_lab_cycles_find__drift__does_not_hide_it),
+      cmocka_unit_test(test_lab_cycles_find__log_of_one_row__does_not_count),
       cmocka_unit_test(test_lab_cycles_find__white_noise__prefers_no_period),
       cmocka_unit_test(test_lab_cycles_find__too_short_a_log__has_none),
   };
