@@ -189,6 +189,20 @@ static void test_lab_unlisted_stretch__mostly_zero__has_the_level_zero(void **st
   assert_stretch(&t, want);
 }
 
+/* Amplitudes are no knots: where one is larger than the other is no place. */
+static void test_lab_unlisted_stretch__cycle__is_all_of_it(void **state)
+{
+  static const double amplitudes[] = {50, -120, 3, 4};
+  pneu_term t = flat(PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 0, 1.87, 0);
+  const stretch want = {0, 1.87, 0, 130, 0};
+  (void)state;
+  put(&t, 0, 4, amplitudes);
+  t.n = 4;
+  assert_stretch(&t, want);
+  t.n = 2;
+  assert_stretch(&t, want);
+}
+
 /* ---- Where ---- */
 
 static void assert_where(const pneu_term *t, const char *want)
@@ -305,6 +319,7 @@ int main(void)
       cmocka_unit_test(test_lab_unlisted_stretch__nothing__has_no_peak),
       cmocka_unit_test(test_lab_unlisted_stretch__knots_that_no_log_has_reached__do_not_count),
       cmocka_unit_test(test_lab_unlisted_stretch__mostly_zero__has_the_level_zero),
+      cmocka_unit_test(test_lab_unlisted_stretch__cycle__is_all_of_it),
       cmocka_unit_test(test_lab_unlisted_where__short_stretch__is_named_with_its_units),
       cmocka_unit_test(test_lab_unlisted_where__long_stretch__is_nearly_everywhere),
       cmocka_unit_test(test_lab_unlisted_where__long_stretch_with_ends_at_zero__is_a_stretch),

@@ -68,10 +68,31 @@ static double median(const pneu_real *from, int n)
   return value[n / 2];
 }
 
+/* Largest amplitude of a cycle. */
+static double amplitude(const pneu_term *term)
+{
+  double most = 0;
+  int i;
+  for (i = 0; i + 1 < term->n; i += 2)
+    most = fmax(most, hypot((double)term->value[i], (double)term->value[i + 1]));
+  return most;
+}
+
+static int all_of_cycle(const pneu_term *term, double *from, double *to, double *level, double *peak)
+{
+  *from = (double)term->from;
+  *to = (double)term->to;
+  *level = 0;
+  *peak = amplitude(term);
+  return 0;
+}
+
 int lab_unlisted_stretch(const pneu_term *term, double *from, double *to, double *level, double *peak)
 {
   const double knot = (double)(term->to - term->from) / (term->n - 1);
   int i, begin, end, first = -1, last = -1;
+  if (term->argument == PNEU_TERM_OVER_CYCLE)
+    return all_of_cycle(term, from, to, level, peak);
   knots_reached(term, &begin, &end);
   *level = ends_at_zero(term) ? 0 : median(term->value + begin, end - begin);
   *peak = 0;
@@ -86,16 +107,6 @@ int lab_unlisted_stretch(const pneu_term *term, double *from, double *to, double
   *from = (double)term->from + knot * fmax(first, 0);
   *to = (double)term->from + knot * fmax(last, 0);
   return last - first < (end - begin) / 2;
-}
-
-/* Largest amplitude of a cycle. */
-static double amplitude(const pneu_term *term)
-{
-  double most = 0;
-  int i;
-  for (i = 0; i + 1 < term->n; i += 2)
-    most = fmax(most, hypot((double)term->value[i], (double)term->value[i + 1]));
-  return most;
 }
 
 /* In seconds however short: beside a frequency, a factor of 1000 would only disturb. */
