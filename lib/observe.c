@@ -40,18 +40,28 @@ static int has_sensors(const pneu_model *model)
          (model->n_active > 0 && pneu_effect_at(model->active[model->n_active - 1])->stage >= PNEU_STAGE_LAG);
 }
 
+/* As pneu_evaluate judges a state; no effect adds to the volume but by the model's constants. */
+static int is_physical(const pneu_model *model, const pneu_state *state)
+{
+  return state->p + model->p.ambient_pressure > 0 && (!model->thermal || state->T > 0) &&
+         (model->law.pressure_input || pneu_volume(model, state->x) > 0);
+}
+
 int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)
 {
   pneu_output out;
-  int status;
   if (has_sensors(model)) {
-    status = pneu_observe(model, state, input, &out);
+    const int status = pneu_observe(model, state, input, &out);
+    if (status != PNEU_OK)
+      return status;
     shown->pressure = out.shown_pressure;
     shown->temperature = out.shown_temperature;
     shown->position = out.shown_position;
     shown->force = model->law.position_input ? out.holding_force : 0;
-    return status;
+    return PNEU_OK;
   }
+  if (!is_physical(model, state))
+    return PNEU_RETRY_STATE;
   shown->pressure = state->p;
   shown->temperature = model->thermal ? state->T : model->p.ambient_temperature;
   shown->position = state->x;

@@ -453,7 +453,7 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out);
 
 /* What the sensors show of a state: the same as the last three of pneu_observe, without an evaluation where no effect
- * of a sensor is active.  Returns: as pneu_observe. */
+ * of a sensor is active.  Returns: as pneu_observe; `shown` is set only with PNEU_OK. */
 int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown);
 
 /* Packed vector for an external integrator: p, [T], states of effects, x, v. At rest x and v are

@@ -94,7 +94,7 @@ study_agrees() {
   return $wrong
 }
 
-core="test_params test_terms test_flow test_chamber test_stem test_stepper test_jacobian test_audit \
+core="test_params test_terms test_clock test_flow test_chamber test_stem test_stepper test_jacobian test_audit \
 test_effects test_effects_gas test_effects_stem test_effects_sensor"
 
 suites double "$BUILD" all

@@ -280,9 +280,54 @@ static void test_pneu_show__free_terms__are_as_observed(void **state)
   }
 }
 
+static int same_status(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  pneu_output out;
+  pneu_shown seen, before;
+  int status;
+  memset(&seen, 0x55, sizeof seen);
+  before = seen;
+  status = pneu_show(m, s, input, &seen);
+  assert_int_equal(status, pneu_observe(m, s, input, &out));
+  if (status != PNEU_OK)
+    assert_memory_equal(&seen, &before, sizeof seen);
+  return status;
+}
+
+/* No pressure, no temperature, no volume, or no number: refused by both, and nothing is written; with and without a
+ * sensor between. */
+static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void **state)
+{
+  static const pneu_term bias = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, 1, {3e3, 3e3}};
+  int gas, n, role;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+    for (role = 0; role < 3; role++)
+      for (n = 0; n < 2; n++) {
+        const pneu_params p = fixture_params(FIXTURE_R1_400);
+        pneu_model m = fixture_model_roles(&p, gas, PNEU_FLOW_PAPER, role == 1, role == 2);
+        const pneu_input input = fixture_input(&m, 1);
+        const pneu_state good = fixture_rest(&m, 1e5, 0.01, &input);
+        pneu_state s = good;
+        assert_int_equal(pneu_model_terms(&m, &bias, n), PNEU_OK);
+        check_note("%s, role %d, %d terms", pneu_gas_key(gas), role, n);
+        assert_int_equal(same_status(&m, &s, &input), PNEU_OK);
+        s.p = -m.p.ambient_pressure;
+        assert_int_equal(same_status(&m, &s, &input), PNEU_RETRY_STATE);
+        s.p = (pneu_real)NAN;
+        assert_int_equal(same_status(&m, &s, &input), PNEU_RETRY_STATE);
+        s = good;
+        s.T = 0;
+        assert_int_equal(same_status(&m, &s, &input), m.thermal ? PNEU_RETRY_STATE : PNEU_OK);
+        s = good;
+        s.x = -1;
+        assert_int_equal(same_status(&m, &s, &input), m.law.pressure_input ? PNEU_OK : PNEU_RETRY_STATE);
+      }
+}
+
 int main(void)
 {
-  enum { OTHERS = 6 };
+  enum { OTHERS = 7 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test),
@@ -291,6 +336,7 @@ int main(void)
       cmocka_unit_test(test_pneu_show__no_effect__is_the_truth),
       cmocka_unit_test(test_pneu_show__all_sensors_at_once__are_as_observed),
       cmocka_unit_test(test_pneu_show__free_terms__are_as_observed),
+      cmocka_unit_test(test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -243,6 +243,52 @@ static void test_lab_noise_memory__one_long_gap__changes_nothing(void **state)
   assert_close(lab_noise_memory(y, N), 0.6, 4 * sqrt((1 - 0.36) / (0.9 * N)), 0);
 }
 
+/* Every third value is missing, and with it two pairs of three; or values at random. Four standard errors of the pairs
+ * that are left. */
+static void test_lab_noise_memory__scattered_gaps__change_nothing(void **state)
+{
+  static const double memory[] = {-0.6, 0.6};
+  uint64_t seed = 5;
+  int i, k;
+  (void)state;
+  for (k = 0; k < COUNT(memory); k++) {
+    const double error = 4 * sqrt((1 - memory[k] * memory[k]) / N);
+    check_note("memory %g", memory[k]);
+    fill_with_memory(memory[k], (uint64_t)k + 17);
+    for (i = 0; i < N; i += 3)
+      y[i] = NAN;
+    assert_close(lab_noise_memory(y, N), memory[k], error * sqrt(3), 0);
+    fill_with_memory(memory[k], (uint64_t)k + 19);
+    for (i = 0; i < N; i++)
+      if (fixture_random(&seed, 0, 1) < 0.5)
+        y[i] = NAN;
+    assert_close(lab_noise_memory(y, N), memory[k], error * 2, 0);
+  }
+}
+
+/* Fewer pairs, larger standard error: of 2000 values with 400 pairs, 0.15 is no longer told from 0. */
+static void test_lab_noise_memory__scattered_gaps__need_more_of_it(void **state)
+{
+  int i;
+  (void)state;
+  fill_with_memory(0.15, 21);
+  assert_true(lab_noise_memory(y, N) > 0.08);
+  for (i = 0; i < N; i++)
+    if (i % 2 && i % 10 != 1)
+      y[i] = NAN;
+  assert_close(lab_noise_memory(y, N), 0, 0, 0);
+}
+
+static void test_lab_noise_memory__no_two_neighbours__says_nothing(void **state)
+{
+  int i;
+  (void)state;
+  fill_with_memory(0.9, 22);
+  for (i = 0; i < N; i += 2)
+    y[i] = NAN;
+  assert_close(lab_noise_memory(y, N), 0, 0, 0);
+}
+
 /* ---- Smallest step ---- */
 
 static void test_lab_smallest_step__values_on_a_grid__is_its_step(void **state)
@@ -291,6 +337,9 @@ int main(void)
       cmocka_unit_test(test_lab_noise_memory__next_to_one__is_held_at_nine_tenths),
       cmocka_unit_test(test_lab_noise_memory__one_value_for_ever__is_none),
       cmocka_unit_test(test_lab_noise_memory__one_long_gap__changes_nothing),
+      cmocka_unit_test(test_lab_noise_memory__scattered_gaps__change_nothing),
+      cmocka_unit_test(test_lab_noise_memory__scattered_gaps__need_more_of_it),
+      cmocka_unit_test(test_lab_noise_memory__no_two_neighbours__says_nothing),
       cmocka_unit_test(test_lab_smallest_step__values_on_a_grid__is_its_step),
       cmocka_unit_test(test_lab_smallest_step__gaps__are_no_steps),
       cmocka_unit_test(test_lab_smallest_step__nothing_changes__is_none),

@@ -1,4 +1,5 @@
-/* Responses to schedules: delays of command and of position, which the library leaves to the owner of the clock. */
+/* Responses to schedules: delays of command and of position, which the library leaves to the owner of the clock, and
+ * the clock of what comes in cycles. */
 #include "fixture.h"
 
 #include "../apps/lab/response.h"
@@ -186,6 +187,96 @@ static void test_lab_respond__statistics_only__needs_no_trace(void **state)
   assert_true(stats.steps > 10);
 }
 
+/* ---- Cycles ---- */
+
+static pneu_term cycle(int equation, double period, double size)
+{
+  pneu_term term;
+  memset(&term, 0, sizeof term);
+  term.equation = equation;
+  term.argument = PNEU_TERM_OVER_CYCLE;
+  term.n = 2;
+  term.to = (pneu_real)period;
+  term.value[0] = (pneu_real)(0.3 * size);
+  term.value[1] = (pneu_real)size;
+  return term;
+}
+
+static double cycle_at(const pneu_term *term, double t)
+{
+  const double angle = 6.283185307179586 * t / (double)term->to;
+  return (double)term->value[0] * cos(angle) + (double)term->value[1] * sin(angle);
+}
+
+/* The strokes of the rows under what comes in cycles: both integrators carry the clock. */
+static void test_lab_respond__cycles__are_the_same_by_stepper_and_cvode(void **state)
+{
+  const pneu_term term[] = {cycle(PNEU_TERM_FORCE, 0.31, 700), cycle(PNEU_TERM_SUPPLY, 0.9, 4e4),
+                            cycle(PNEU_TERM_FLOW, 0.2, 5e-4), cycle(PNEU_TERM_FRICTION, 1.3, 200)};
+  const pneu_model plain = model_with(NULL, 0);
+  lab_trace without = respond_to_rows(&plain, 0, LAB_STEPPER);
+  int k, i;
+  (void)state;
+  for (k = 0; k < COUNT(term); k++) {
+    pneu_model m = plain;
+    lab_trace a, b;
+    double apart = 0;
+    assert_int_equal(pneu_model_terms(&m, &term[k], 1), PNEU_OK);
+    a = respond_to_rows(&m, 0, LAB_STEPPER);
+    b = respond_to_rows(&m, 0, LAB_CVODE);
+    assert_same(a.p, b.p, 2, "p");
+    assert_same(a.x, b.x, 2e-7, "x");
+    for (i = 0; i < SAMPLES; i++)
+      apart = fmax(apart, fabs(a.x[i] - without.x[i]));
+    assert_true(apart > 1e-4);
+    lab_trace_free(&a);
+    lab_trace_free(&b);
+  }
+  lab_trace_free(&without);
+}
+
+/* A schedule that begins late, and whose changes do not matter: cycles go by its own time. Position is shown as it was
+ * a skew ago, and so is what its sensor adds. */
+static void check_own_time(double skew, int integrator)
+{
+  static const double t_row[] = {5.3, 6.1, 7.4};
+  const pneu_term term[] = {cycle(PNEU_TERM_SHOWN_PRESSURE, 0.77, 1e3), cycle(PNEU_TERM_SHOWN_POSITION, 0.9, 1e-3)};
+  pneu_model m = model_with(NULL, 0);
+  const lab_response_options options = {integrator, 1e-9, 8, 0, 0};
+  double t[28];
+  pneu_input input[3];
+  lab_schedule schedule = {3, t_row, input};
+  pneu_state start;
+  lab_trace trace;
+  lab_error error;
+  int i;
+  for (i = 0; i < 3; i++) {
+    input[i] = fixture_input(&m, 0);
+    input[i].force = (pneu_real)i;
+  }
+  for (i = 0; i < COUNT(t); i++)
+    t[i] = 5.3 + 0.1 * i;
+  assert_int_equal(pneu_model_terms(&m, term, 2), PNEU_OK);
+  m.position_skew = (pneu_real)skew;
+  start = fixture_rest(&m, 2e5, 0.01, &input[0]);
+  if (lab_respond(&m, &start, &schedule, t, COUNT(t), &options, &trace, NULL, &error))
+    fail_msg("%s", error.text);
+  for (i = 0; i < COUNT(t); i++) {
+    check_note("integrator %d, skew %g s, t = %g s", integrator, skew, t[i]);
+    assert_close(trace.p[i] - 2e5, cycle_at(&term[0], t[i]), 1e-5, 0);
+    assert_close(trace.x[i] - 0.01, cycle_at(&term[1], fmax(t[i] - skew, 5.3)), 1e-11, 0);
+  }
+  lab_trace_free(&trace);
+}
+
+static void test_lab_respond__cycles__go_by_the_time_of_the_schedule(void **state)
+{
+  (void)state;
+  check_own_time(0, LAB_STEPPER);
+  check_own_time(0, LAB_CVODE);
+  check_own_time(0.25, LAB_STEPPER);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -194,6 +285,8 @@ int main(void)
       cmocka_unit_test(test_lab_respond__channel_skew__shifts_position_alone),
       cmocka_unit_test(test_lab_respond__negative_skew__looks_beyond_the_end),
       cmocka_unit_test(test_lab_respond__statistics_only__needs_no_trace),
+      cmocka_unit_test(test_lab_respond__cycles__are_the_same_by_stepper_and_cvode),
+      cmocka_unit_test(test_lab_respond__cycles__go_by_the_time_of_the_schedule),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -82,6 +82,20 @@ static void test_lab_rig_read__every_word__is_known(void **state)
     }
 }
 
+static void test_lab_rig_read__cycle__becomes_a_term_over_time(void **state)
+{
+  const lab_rig rig = read_rig("unlisted = ( { equation = \"supply\"; argument = \"t\"; from = 0; to = \"250 ms\";\n"
+                               "  unit = \"kPa\"; values = ( 0, -3.5, \"20 mbar\", 0.1 ); } );\n");
+  pneu_model model;
+  (void)state;
+  assert_int_equal(rig.n_terms, 1);
+  assert_term(&rig.term[0], PNEU_TERM_SUPPLY, PNEU_TERM_OVER_CYCLE, 0, 0.25, 4);
+  assert_close(rig.term[0].value[1], -3500, 0, 1e-14);
+  assert_close(rig.term[0].value[2], 2000, 0, 1e-14);
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_int_equal(model.clock, 0);
+}
+
 /* ---- Bad terms ---- */
 
 /* A term of which one part is replaced must be refused, with LAB_DATA, the key in its place, and some words. */
@@ -105,7 +119,7 @@ static void test_lab_rig_read__bad_words__name_the_nearest(void **state)
 {
   (void)state;
   assert_refused("force", "farce", "rig.cfg:2: unlisted[0].equation:", "nearest known one is \"force\"");
-  assert_refused("\"x\"", "\"t\"", "rig.cfg:2: unlisted[0].argument:", "unknown word \"t\"");
+  assert_refused("\"x\"", "\"y\"", "rig.cfg:2: unlisted[0].argument:", "unknown word \"y\"");
   assert_refused("to =", "too =", "rig.cfg:4: unlisted[0].too:", "nearest known one is \"to\"");
 }
 
@@ -141,7 +155,22 @@ static void test_lab_rig_read__bad_values__are_refused(void **state)
   assert_refused("[ 1, 2 ]", "3", "unlisted[0].values:", "entries");
   assert_refused("[ 1, 2 ]", "[ 1.0, 1e999 ]", "unlisted[0].values[1]:", "finite");
   assert_refused("[ 1, 2 ]", "[ \"1 N\", \"2 kg\" ]", "unlisted[0].values[1]:", "kg");
+  assert_refused("[ 1, 2 ]", "[ 0, 0.1, 0 ]", "rig.cfg:5: mismatched element type in array:", "0.0 beside 0.1");
   assert_refused("[ 1, 2 ]", "( 1, (2) )", "unlisted[0].values[1]:", "found a list");
+}
+
+/* A cosine goes with its sine. */
+static void test_lab_rig_read__odd_number_over_a_cycle__is_refused(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  assert_int_equal(
+      lab_rig_read(scratch_text("rig.cfg", "unlisted = ( { equation = \"force\"; argument = \"t\"; from = 0;\n"
+                                           "  to = 2; values = [ 1, 2, 3 ]; } );\n"),
+                   &rig, &error),
+      LAB_DATA);
+  assert_contains(error.text, "rig.cfg:2: unlisted[0].values: expected an even number of values");
+  assert_contains(error.text, "a list of 3 entries");
 }
 
 static void test_lab_rig_read__bad_unit__is_refused(void **state)
@@ -201,13 +230,17 @@ static lab_rig write_and_read(const lab_rig *rig)
 /* Terms of every size, with numbers that no short text gives. */
 static lab_rig odd_rig(void)
 {
+  static const int equation[LAB_TERM_MAX] = {PNEU_TERM_SUPPLY, PNEU_TERM_FRICTION, PNEU_TERM_HEAT,
+                                             PNEU_TERM_SHOWN_POSITION},
+                   argument[LAB_TERM_MAX] = {PNEU_TERM_OVER_CYCLE, PNEU_TERM_OVER_VELOCITY, PNEU_TERM_OVER_PRESSURE,
+                                             PNEU_TERM_OVER_OPENING};
   lab_rig rig = read_rig("laws = { gas = \"energy\"; };");
   int i, k;
   rig.n_terms = LAB_TERM_MAX;
   for (i = 0; i < LAB_TERM_MAX; i++) {
     pneu_term *t = &rig.term[i];
-    t->equation = i + 1;
-    t->argument = i;
+    t->equation = equation[i];
+    t->argument = argument[i];
     t->n = i ? 11 * i : 2;
     t->from = (pneu_real)(-1.0 / 3);
     t->to = (pneu_real)(1e5 / 7);
@@ -239,7 +272,7 @@ static void test_lab_rig_write__declared_terms__come_back_bit_for_bit(void **sta
 #define SHOW                                                                                                           \
   "for (i = 0; i < n; i++) {\n"                                                                                        \
   "  printf(\"%d %d %d %.17g %.17g\", term[i].equation, term[i].argument, term[i].n, term[i].from, term[i].to);\n"     \
-  "  for (k = 0; k < PNEU_TERM_KNOTS; k++) printf(\" %.17g\", term[i].value[k]);\n"                                                 \
+  "  for (k = 0; k < PNEU_TERM_KNOTS; k++) printf(\" %.17g\", term[i].value[k]);\n"                                    \
   "}\n"
 
 static void show(const pneu_term *term, int n, char *text, size_t size)
@@ -349,10 +382,12 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__unlisted__becomes_terms_in_si),
       cmocka_unit_test(test_lab_rig_read__no_terms__are_none),
       cmocka_unit_test(test_lab_rig_read__every_word__is_known),
+      cmocka_unit_test(test_lab_rig_read__cycle__becomes_a_term_over_time),
       cmocka_unit_test(test_lab_rig_read__bad_words__name_the_nearest),
       cmocka_unit_test(test_lab_rig_read__missing_keys__are_named),
       cmocka_unit_test(test_lab_rig_read__bad_ends__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_values__are_refused),
+      cmocka_unit_test(test_lab_rig_read__odd_number_over_a_cycle__is_refused),
       cmocka_unit_test(test_lab_rig_read__bad_unit__is_refused),
       cmocka_unit_test(test_lab_rig_read__no_list_of_groups_or_too_many__is_refused),
       cmocka_unit_test(test_lab_rig_read__heat_that_cannot_act__is_refused),

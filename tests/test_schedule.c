@@ -221,6 +221,19 @@ static void test_lab_start_from_log__vessel_seen_late__is_full_while_it_fills(vo
   assert_close(start_of("t [s],u [1],p [kPa]\n0,0,\n1,1,150\n", 0).p, 0, 0, 0);
 }
 
+/* A sensor that swings by 2 kPa every 10 s: the log begins at its highest, a quarter of a cycle after a zero of time.
+ */
+static void test_lab_start_from_log__sensor_in_cycles__is_corrected_by_the_time_of_the_log(void **state)
+{
+  static const pneu_term swing = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_CYCLE, 2, 0, 10, {0, 2000}};
+  pneu_state start;
+  (void)state;
+  assert_int_equal(pneu_model_terms(&model, &swing, 1), PNEU_OK);
+  start = start_of("t [s],u [1],p [kPa],x [mm]\n42.5,0,202,10\n43,1,202,10\n", 0);
+  assert_close(start.p, 200e3, 1e-6, 0);
+  assert_close(start.extra[model.clock], 42.5, 0, 0);
+}
+
 static void test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it(void **state)
 {
   pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
@@ -385,6 +398,7 @@ int main(void)
       CASE(test_lab_start_from_log__curve_with_halves_alike__is_no_level),
       CASE(test_lab_start_from_log__pressure_that_drives_and_changes__leaves_the_first_position),
       CASE(test_lab_start_from_log__vessel_seen_late__is_full_while_it_fills),
+      CASE(test_lab_start_from_log__sensor_in_cycles__is_corrected_by_the_time_of_the_log),
       CASE(test_lab_start_from_log__near_a_stop_and_pushed__stands_on_it),
       CASE(test_lab_start_from_log__held_by_friction__stays_where_it_is_seen),
       CASE(test_lab_start_from_log__sensors_in_error__starts_from_what_is_there),

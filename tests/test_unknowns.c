@@ -369,6 +369,89 @@ static void test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it
   assert_int_equal(u.n, LAB_FIT_MAX - 4);
 }
 
+/* ---- Free terms over cycles ---- */
+
+/* Begins at 0.25 s, which means nothing, and comes every 0.5 s. */
+static const pneu_term wave = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 4,
+                               (pneu_real)0.25, (pneu_real)0.75,      {80, -60, 10, 5}};
+
+/* Of the period matters what turns the phase at the end, after 4 s, by a radian. */
+static void test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period(void **state)
+{
+  const lab_unknown *period = &u.unknown[USUAL + 4];
+  int i;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(u.n, USUAL + 5);
+  assert_int_equal(u.rig.n_terms, 1);
+  for (i = 0; i < 4; i++) {
+    assert_int_equal(u.unknown[USUAL + i].kind, LAB_UNKNOWN_KNOT);
+    assert_close(u.unknown[USUAL + i].value, wave.value[i], 0, 0);
+  }
+  assert_int_equal(period->kind, LAB_UNKNOWN_PERIOD);
+  assert_int_equal(period->term, 0);
+  assert_int_equal(period->experiment, LAB_ALL_EXPERIMENTS);
+  assert_string_equal(period->name, "unlisted_1.period");
+  assert_string_equal(period->unit, "s");
+  assert_close(period->value, 0.5, 0, 1e-12);
+  assert_close(period->first, 0.5, 0, 1e-12);
+  assert_close(period->lower, 0.25, 0, 1e-12);
+  assert_close(period->upper, 1, 0, 1e-12);
+  assert_close(period->scale, 0.25 / (6.283185307179586 * 4), 0, 1e-12);
+  assert_close(period->spread, 0, 0, 0);
+}
+
+static void test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone(void **state)
+{
+  double theta[LAB_FIT_MAX];
+  lab_rig model;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  values(theta);
+  theta[USUAL + 9] = 0.6;
+  model = u.rig;
+  lab_unknowns_apply(&u, theta, LAB_ALL_EXPERIMENTS, &model);
+  assert_memory_equal(&model.term[0], &wave, sizeof wave);
+  assert_close(model.term[1].from, 0.25, 0, 0);
+  assert_close(model.term[1].to, 0.85, 0, 1e-12);
+  assert_memory_equal(model.term[1].value, wave.value, sizeof wave.value);
+}
+
+static void test_lab_unknowns_drop_term__cycle__takes_its_period_along(void **state)
+{
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  lab_unknowns_drop_term(&u);
+  assert_int_equal(u.rig.n_terms, 1);
+  assert_int_equal(u.n, USUAL + 5 + 1);
+  assert_string_equal(u.unknown[USUAL + 4].name, "unlisted_1.period");
+  assert_string_equal(u.unknown[USUAL + 5].name, "moving_mass");
+  assert_int_equal(lab_unknowns_find(&u, index_of("moving_mass")), USUAL + 5);
+}
+
+/* Four amplitudes would have room, their period has not. */
+static void test_lab_unknowns_add_term__no_room_for_the_period__is_refused(void **state)
+{
+  (void)state;
+  open_usual();
+  while (u.n < LAB_FIT_MAX - 4)
+    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_DATA);
+  assert_int_equal(u.rig.n_terms, 0);
+  assert_int_equal(u.n, LAB_FIT_MAX - 4);
+  lab_unknowns_drop(&u, index_of("moving_mass"));
+  while (u.n < LAB_FIT_MAX - 5)
+    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(u.n, LAB_FIT_MAX);
+}
+
 /* ---- Into a model ---- */
 
 static void test_lab_unknowns_apply__all_experiments__has_shared_values_only(void **state)
@@ -783,6 +866,31 @@ static void test_lab_unknowns_fit__knots__find_the_term_that_made_the_log(void *
   assert_close(u.rig.term[0].value[4], 0, 0, 0);
 }
 
+/* A force that comes every 0.7 s, from a start that is off by 3 % in the period, a sixth of a turn after 4 s, and by a
+ * third or more in size and phase. */
+static void test_lab_unknowns_fit__cycle__finds_period_and_amplitudes(void **state)
+{
+  const pneu_term truth_term = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2, 0, (pneu_real)0.7, {80, -60}},
+                  start = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2, 0, (pneu_real)0.721, {50, -10}};
+  const int first = RUNS * SWITCHES;
+  lab_rig truth;
+  double chi2;
+  (void)state;
+  declare();
+  open_empty();
+  truth = rig;
+  truth.n_terms = 1;
+  truth.term[0] = truth_term;
+  measure(&truth);
+  assert_int_equal(lab_unknowns_add_term(&u, &start, 100, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_FIT_WHOLE, &chi2, &error), LAB_OK);
+  assert_between(chi2, 0, 0.1);
+  assert_close(u.unknown[first].value, 80, 1, 0);
+  assert_close(u.unknown[first + 1].value, -60, 1, 0);
+  assert_close(u.unknown[first + 2].value, 0.7, 1e-3, 0);
+  assert_close(u.rig.term[0].to, u.unknown[first + 2].value, 0, 1e-12);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -799,6 +907,10 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_add_term__held_ends__keep_their_values),
       cmocka_unit_test(test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone),
       cmocka_unit_test(test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is),
+      cmocka_unit_test(test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period),
+      cmocka_unit_test(test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone),
+      cmocka_unit_test(test_lab_unknowns_drop_term__cycle__takes_its_period_along),
+      cmocka_unit_test(test_lab_unknowns_add_term__no_room_for_the_period__is_refused),
       cmocka_unit_test(test_lab_unknowns_apply__all_experiments__has_shared_values_only),
       cmocka_unit_test(test_lab_unknowns_apply__one_experiment__has_its_own_values_too),
       cmocka_unit_test(test_lab_unknowns_residuals__log_of_the_model_itself__are_zero),
@@ -817,6 +929,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals),
       cmocka_unit_test(test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says),
       cmocka_unit_test(test_lab_unknowns_fit__knots__find_the_term_that_made_the_log),
+      cmocka_unit_test(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   close_all();

@@ -35,7 +35,8 @@ static void test_lab_unlisted_equation__every_one__is_that_of_the_report(void **
   static const struct {
     int equation;
     const char *name, *what;
-  } cases[] = {{PNEU_TERM_FORCE, "force", "a force on the stem"},
+  } cases[] = {{PNEU_TERM_SUPPLY, "mass", "a change of the supply pressure"},
+               {PNEU_TERM_FORCE, "force", "a force on the stem"},
                {PNEU_TERM_FRICTION, "force", "dry friction"},
                {PNEU_TERM_FLOW, "mass", "a flow into or out of the chamber"},
                {PNEU_TERM_HEAT, "energy", "heat into the gas"},
@@ -43,6 +44,7 @@ static void test_lab_unlisted_equation__every_one__is_that_of_the_report(void **
                {PNEU_TERM_SHOWN_POSITION, "sensor", "an error of the position sensor"}};
   int i;
   (void)state;
+  assert_int_equal(COUNT(cases), PNEU_TERM_EQUATION_COUNT);
   for (i = 0; i < COUNT(cases); i++) {
     const pneu_term t = flat(cases[i].equation, AT_X, 0, 1, 0);
     assert_string_equal(lab_unlisted_equation(&t), cases[i].name);
@@ -160,6 +162,47 @@ static void test_lab_unlisted_stretch__nothing__has_no_peak(void **state)
   assert_close(stretch_of(&level).peak, 0, 0, 0);
 }
 
+/* A log that has been from 0 to 12 of 20, or from 8 on, and found 100 nearly all along: what it has not reached is no
+ * departure from that. */
+static void test_lab_unlisted_stretch__knots_that_no_log_has_reached__do_not_count(void **state)
+{
+  static const double found[] = {101, 99, 100, 130, 100, 98, 102}, line[] = {10, 30, 50, 70, 90, 110, 140};
+  pneu_term low = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0), high = low, rising = low;
+  const stretch bump = {6, 6, 100, 30, 1}, late_bump = {14, 14, 100, 30, 1}, everywhere = {0, 12, 70, 70, 0};
+  (void)state;
+  put(&low, 0, 7, found);
+  put(&high, KNOTS - 7, 7, found);
+  put(&rising, 0, 7, line);
+  assert_stretch(&low, bump);
+  assert_stretch(&high, late_bump);
+  assert_stretch(&rising, everywhere);
+}
+
+/* Zeros on more than half of the stretch are the level from which the others depart. */
+static void test_lab_unlisted_stretch__mostly_zero__has_the_level_zero(void **state)
+{
+  static const double end[] = {60, 50, 40, 30, 20};
+  pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0);
+  const stretch want = {0, 8, 0, 60, 1};
+  (void)state;
+  put(&t, 0, 5, end);
+  assert_stretch(&t, want);
+}
+
+/* Amplitudes are no knots: where one is larger than the other is no place. */
+static void test_lab_unlisted_stretch__cycle__is_all_of_it(void **state)
+{
+  static const double amplitudes[] = {50, -120, 3, 4};
+  pneu_term t = flat(PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 0, 1.87, 0);
+  const stretch want = {0, 1.87, 0, 130, 0};
+  (void)state;
+  put(&t, 0, 4, amplitudes);
+  t.n = 4;
+  assert_stretch(&t, want);
+  t.n = 2;
+  assert_stretch(&t, want);
+}
+
 /* ---- Where ---- */
 
 static void assert_where(const pneu_term *t, const char *want)
@@ -187,6 +230,8 @@ static void test_lab_unlisted_where__short_stretch__is_named_with_its_units(void
       {PNEU_TERM_FORCE, AT_X, 20e-3, -62, "x = 6.00 .. 10.0 mm; largest value -62.0 N"},
       {PNEU_TERM_FRICTION, AT_X, 40e-3, 1234, "x = 12.0 .. 20.0 mm, both directions; largest value 1230 N"},
       {PNEU_TERM_FRICTION, AT_V, 0.1, 33.3, "v = 30.0 .. 50.0 mm/s, both directions; largest value 33.3 N"},
+      {PNEU_TERM_SUPPLY, AT_P, 4e5, -2460, "p = 120 .. 200 kPa; largest value -2.46 kPa"},
+      {PNEU_TERM_FLOW, PNEU_TERM_OVER_OPENING, 1, 1e-3, "u = 0.300 .. 0.500; largest value 0.00100 kg/s"},
       {PNEU_TERM_FLOW, AT_P, 4e5, -2.46e-6, "p = 120 .. 200 kPa; largest value -2.46e-6 kg/s"},
       {PNEU_TERM_HEAT, AT_P, 1e3, 7.5, "p = 0.300 .. 0.500 kPa; largest value 7.50 W"},
       {PNEU_TERM_SHOWN_PRESSURE, AT_P, 1e6, 5591, "p = 300 .. 500 kPa; largest value 5.59 kPa"},
@@ -229,9 +274,36 @@ static void test_lab_unlisted_where__long_numbers__fit(void **state)
   int i;
   (void)state;
   for (i = 0; i < KNOTS; i++)
-    t.value[i] = (pneu_real)(-1.58e-98 * i);
+    t.value[i] = (pneu_real)(-1.58e-98 * (i + 1));
+  t.value[KNOTS - 1] = (pneu_real)-1.9e-97;
   assert_string_equal(lab_unlisted_where(&t, text), "nearly everywhere, v = -1.23e255 .. 4.56e255 mm/s, both "
-                                                    "directions; largest value 7.9e-98 N");
+                                                    "directions; largest value -9.52e-98 N");
+}
+
+/* Every 1.87 s, by its largest amplitude: hypot(147, 198.5) = 247, and hypot(30, 40) of the half period. */
+static void test_lab_unlisted_where__cycle__is_told_by_period_frequency_and_amplitude(void **state)
+{
+  static const struct {
+    int equation;
+    double from, to;
+    const char *want;
+  } cases[] = {
+      {PNEU_TERM_FORCE, 0, 1.87, "again and again, every 1.87 s (0.535 Hz); amplitude 247 N"},
+      {PNEU_TERM_FORCE, -1, 0.87, "again and again, every 1.87 s (0.535 Hz); amplitude 247 N"},
+      {PNEU_TERM_SUPPLY, 0, 0.02, "again and again, every 0.0200 s (50.0 Hz); amplitude 0.247 kPa"},
+      {PNEU_TERM_SUPPLY, 0, 90, "again and again, every 90.0 s (0.0111 Hz); amplitude 0.247 kPa"},
+  };
+  static const double first[] = {147, -198.5, 30, 40}, second[] = {30, 40, 147, -198.5};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(cases); i++) {
+    pneu_term t = flat(cases[i].equation, PNEU_TERM_OVER_CYCLE, cases[i].from, cases[i].to, 0);
+    t.n = 4;
+    put(&t, 0, 4, first);
+    assert_where(&t, cases[i].want);
+    put(&t, 0, 4, second);
+    assert_where(&t, cases[i].want);
+  }
 }
 
 int main(void)
@@ -245,10 +317,14 @@ int main(void)
       cmocka_unit_test(test_lab_unlisted_stretch__straight_line__is_everywhere),
       cmocka_unit_test(test_lab_unlisted_stretch__half_of_the_knots__is_no_longer_short),
       cmocka_unit_test(test_lab_unlisted_stretch__nothing__has_no_peak),
+      cmocka_unit_test(test_lab_unlisted_stretch__knots_that_no_log_has_reached__do_not_count),
+      cmocka_unit_test(test_lab_unlisted_stretch__mostly_zero__has_the_level_zero),
+      cmocka_unit_test(test_lab_unlisted_stretch__cycle__is_all_of_it),
       cmocka_unit_test(test_lab_unlisted_where__short_stretch__is_named_with_its_units),
       cmocka_unit_test(test_lab_unlisted_where__long_stretch__is_nearly_everywhere),
       cmocka_unit_test(test_lab_unlisted_where__long_stretch_with_ends_at_zero__is_a_stretch),
       cmocka_unit_test(test_lab_unlisted_where__long_numbers__fit),
+      cmocka_unit_test(test_lab_unlisted_where__cycle__is_told_by_period_frequency_and_amplitude),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

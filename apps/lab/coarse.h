@@ -3,7 +3,8 @@
  * Where the stem sticks and slips, the instants of the slips depend on everything that came before, and no model keeps
  * in step for long: row by row a right model may be further from the log than one without stick-slip at all. Its mean
  * over a window and its scatter about a straight line there do not depend on the phase, and a fit to these finds its
- * way. SPDX-License-Identifier: MIT */
+ * way.
+ * SPDX-License-Identifier: MIT */
 #ifndef LAB_COARSE_H
 #define LAB_COARSE_H
 
@@ -14,8 +15,10 @@ size_t lab_coarse_count(size_t n, size_t w);
 
 /* Residuals of a prediction: differences of mean and of scatter over what they are known to. A window is known to its
  * share of the noise, and to a share of the roughness of the whole: it need not hold whole cycles, and a stem at rest
- * may have stopped anywhere within a slip. In:      measured, predicted  n values; NaN is a gap sigma  noise Out:     r
- * 2 lab_coarse_count(n, w) values; 0 where a window has fewer than eight values */
+ * may have stopped anywhere within a slip.
+ * In:      measured, predicted  n values; NaN is a gap
+ *          sigma                noise
+ * Out:     r                    2 lab_coarse_count(n, w) values; 0 where a window has fewer than eight */
 void lab_coarse_residuals(const double *measured, const double *predicted, size_t n, size_t w, double sigma, double *r);
 
 /* Share of the windows in which a channel moves rougher than predicted: its scatter about a straight line is beyond

@@ -11,6 +11,16 @@
 
 enum { KEY_TEXT = 256, FOUND_TEXT = 96 };
 
+/* The parser's words, and what to write where they do not say it. */
+static int parse_failed(const config_t *config, const char *path, lab_error *error)
+{
+  const char *text = config_error_text(config);
+  const char *advice = strstr(text, "mismatched element type")
+                           ? ": between [ and ] write all numbers alike, 0.0 beside 0.1, or use ( and )"
+                           : "";
+  return lab_fail(error, LAB_DATA, "%s:%d: %s%s", path, config_error_line(config), text, advice);
+}
+
 int lab_config_read(config_t *config, const char *path, lab_error *error)
 {
   lab_text text;
@@ -20,7 +30,7 @@ int lab_config_read(config_t *config, const char *path, lab_error *error)
   if (status != LAB_OK)
     return status;
   if (!config_read_string(config, text.data))
-    status = lab_fail(error, LAB_DATA, "%s:%d: %s", path, config_error_line(config), config_error_text(config));
+    status = parse_failed(config, path, error);
   else
     config_setting_set_hook(config_root_setting(config), (void *)path);
   lab_text_free(&text);

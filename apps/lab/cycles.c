@@ -123,7 +123,7 @@ static void look_at_channel(const lab_unknowns *u, const double *r, int channel,
   for (e = 0; e < u->n_experiments; e++) {
     const lab_experiment *x = &u->experiment[e];
     for (c = 0; c < x->n_channels; c++, r += x->n)
-      if (x->channel[c] == channel)
+      if (x->channel[c] == channel && length_of(x) > 0)
         add_power(s, x, r);
   }
   for (i = 0; i < s->n; i++)

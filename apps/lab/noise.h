@@ -14,7 +14,8 @@ double lab_noise_estimate(const double *value, size_t n);
 
 /* Correlation of the noise from one row to the next, from a stretch in which nothing moves.
  * In:      value  n values; NaN is a gap
- * Returns: -0.9 .. 0.9; 0 for fewer than 50 values, or where it is not told from 0 (four standard errors). */
+ * Returns: -0.9 .. 0.9; 0 for fewer than 50 values, or where it is not told from 0 (four standard errors). A pair of
+ * which either is a gap does not count. */
 double lab_noise_memory(const double *value, size_t n);
 
 /* Smallest difference between neighbouring values that is not zero: the step of the converter or of the digits

@@ -47,7 +47,7 @@ typedef struct lab_response_options {
 
 /* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run). Commands act
  * model->command_delay after they are given, but for the first, which has been acting; positions are those of
- * model->position_skew before.
+ * model->position_skew before. The model's clock, where it has one, begins at schedule->t[0].
  * Out:     trace  allocated; free with lab_trace_free
  *          stats  may be NULL
  * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */

@@ -9,8 +9,10 @@
  *
  * A parameter of an effect that is not given keeps its neutral value; friction = "stribeck" or "lugre"
  * first sets that effect to its usual size. A free term has 2 to PNEU_TERM_KNOTS values at equal distances;
- * its equation is force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p or u,
- * and numbers are in SI where no unit is given. The group log is described in logformat.h.
+ * its equation is supply, force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p, u
+ * or t, and numbers are in SI where no unit is given. Over t the values are the amplitudes of cosine and sine of the
+ * period to - from, of its half and so on. Between [ and ] libconfig wants all numbers with a point or none; ( and )
+ * take both. The group log is described in logformat.h.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_RIG_H
 #define LAB_RIG_H

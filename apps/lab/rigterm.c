@@ -63,6 +63,9 @@ static int read_values(config_setting_t *const member[KEYS], pneu_term *term, la
   if (lab_unit_factor(unit, si, &scale, &offset, error))
     return lab_config_fail_in(member[UNIT], error);
   term->n = config_setting_length(member[VALUES]);
+  if (term->argument == PNEU_TERM_OVER_CYCLE && term->n % 2)
+    return lab_config_expected(
+        member[VALUES], "an even number of values, cosine and sine of the period, of its half and so on,", error);
   for (i = 0; i < term->n; i++) {
     double value;
     if (lab_config_difference(config_setting_get_elem(member[VALUES], (unsigned)i), unit, &value, error))

@@ -144,7 +144,8 @@ static double on_stop(const pneu_model *model, const pneu_input *input, double p
   return fmin(fmax(x, 0), travel);
 }
 
-static int rest(const pneu_model *model, const pneu_input *input, const struct seen *seen, pneu_state *state)
+/* At rest at time t [s]. */
+static int rest(const pneu_model *model, const pneu_input *input, const struct seen *seen, double t, pneu_state *state)
 {
   double T = isnan(seen->T) ? (double)model->p.ambient_temperature : seen->T;
   double p = isnan(seen->p) ? unseen_pressure(model, input, seen->x) : seen->p;
@@ -152,6 +153,8 @@ static int rest(const pneu_model *model, const pneu_input *input, const struct s
   int status = pneu_state_rest(model, (pneu_real)p, (pneu_real)T, (pneu_real)x, input, state);
   if (status == PNEU_OK && model->law.position_input && !isnan(seen->x))
     state->x = (pneu_real)fmin(fmax(seen->x, 0), (double)model->travel); /* as measured: its slopes start from there */
+  if (status == PNEU_OK && model->clock >= 0)
+    state->extra[model->clock] = (pneu_real)t;
   return status;
 }
 
@@ -166,7 +169,8 @@ int lab_start_from_log(const pneu_model *model, const pneu_input *input, const l
   pneu_output out;
   int i;
   for (i = 0; i < rounds; i++) {
-    if (rest(model, input, &seen, state) != PNEU_OK || pneu_observe(model, state, input, &out) != PNEU_OK)
+    if (rest(model, input, &seen, log->value[LAB_CHANNEL_TIME][log->run[run]], state) != PNEU_OK ||
+        pneu_observe(model, state, input, &out) != PNEU_OK)
       return lab_fail(error, LAB_DATA, "%s:%d: the run begins with p = %g Pa gauge, x = %g m: no state of this rig",
                       log->path, log->line[log->run[run]], seen.p, seen.x);
     seen.p = read.p - (double)(out.shown_pressure - state->p);

@@ -35,34 +35,37 @@ static int ascending(const void *x, const void *y)
   return (a > b) - (a < b);
 }
 
-/* The median of the knots. */
-static double base_level(const pneu_term *term)
+static int ends_at_zero(const pneu_term *term)
+{
+  return term->value[0] == 0 && term->value[term->n - 1] == 0;
+}
+
+/* Knots first..end-1 that count. A fit that finds anything leaves no knot at exactly 0: at one end alone, such knots
+ * lie where no log has been. At both ends they are held there; and more than half of them are the level. */
+static void knots_reached(const pneu_term *term, int *first, int *end)
+{
+  int low = 0, high = term->n;
+  while (low < high && term->value[low] == 0)
+    low++;
+  while (high > low && term->value[high - 1] == 0)
+    high--;
+  if (ends_at_zero(term) || high - low < term->n / 2 + 1) {
+    low = 0;
+    high = term->n;
+  }
+  *first = low;
+  *end = high;
+}
+
+/* The median of n values. */
+static double median(const pneu_real *from, int n)
 {
   double value[PNEU_TERM_ROOM];
   int i;
-  for (i = 0; i < term->n; i++)
-    value[i] = (double)term->value[i];
-  qsort(value, (size_t)term->n, sizeof *value, ascending);
-  return value[term->n / 2];
-}
-
-int lab_unlisted_stretch(const pneu_term *term, double *from, double *to, double *level, double *peak)
-{
-  const double knot = (double)(term->to - term->from) / (term->n - 1);
-  int i, first = -1, last = -1;
-  *level = term->value[0] == 0 && term->value[term->n - 1] == 0 ? 0 : base_level(term);
-  *peak = 0;
-  for (i = 0; i < term->n; i++)
-    if (fabs((double)term->value[i] - *level) > fabs(*peak))
-      *peak = (double)term->value[i] - *level;
-  for (i = 0; i < term->n; i++)
-    if (fabs((double)term->value[i] - *level) > active_share * fabs(*peak)) {
-      first = first < 0 ? i : first;
-      last = i;
-    }
-  *from = (double)term->from + knot * fmax(first, 0);
-  *to = (double)term->from + knot * fmax(last, 0);
-  return last - first < term->n / 2;
+  for (i = 0; i < n; i++)
+    value[i] = (double)from[i];
+  qsort(value, (size_t)n, sizeof *value, ascending);
+  return value[n / 2];
 }
 
 /* Largest amplitude of a cycle. */
@@ -75,12 +78,44 @@ static double amplitude(const pneu_term *term)
   return most;
 }
 
+static int all_of_cycle(const pneu_term *term, double *from, double *to, double *level, double *peak)
+{
+  *from = (double)term->from;
+  *to = (double)term->to;
+  *level = 0;
+  *peak = amplitude(term);
+  return 0;
+}
+
+int lab_unlisted_stretch(const pneu_term *term, double *from, double *to, double *level, double *peak)
+{
+  const double knot = (double)(term->to - term->from) / (term->n - 1);
+  int i, begin, end, first = -1, last = -1;
+  if (term->argument == PNEU_TERM_OVER_CYCLE)
+    return all_of_cycle(term, from, to, level, peak);
+  knots_reached(term, &begin, &end);
+  *level = ends_at_zero(term) ? 0 : median(term->value + begin, end - begin);
+  *peak = 0;
+  for (i = begin; i < end; i++)
+    if (fabs((double)term->value[i] - *level) > fabs(*peak))
+      *peak = (double)term->value[i] - *level;
+  for (i = begin; i < end; i++)
+    if (fabs((double)term->value[i] - *level) > active_share * fabs(*peak)) {
+      first = first < 0 ? i : first;
+      last = i;
+    }
+  *from = (double)term->from + knot * fmax(first, 0);
+  *to = (double)term->from + knot * fmax(last, 0);
+  return last - first < (end - begin) / 2;
+}
+
+/* In seconds however short: beside a frequency, a factor of 1000 would only disturb. */
 static void say_cycle(const pneu_term *term, char text[LAB_WHERE_TEXT])
 {
   const double period = (double)(term->to - term->from);
   char seconds[LAB_SHOWN_TEXT], hertz[LAB_SHOWN_TEXT], most[LAB_SHOWN_TEXT];
-  snprintf(text, LAB_WHERE_TEXT, "again and again, every %s (%s); amplitude %s",
-           lab_shown_quantity(period, "s", 4, seconds), lab_shown_quantity(1 / period, "Hz", 4, hertz),
+  snprintf(text, LAB_WHERE_TEXT, "again and again, every %s s (%s Hz); amplitude %s",
+           lab_shown_number(period, 3, seconds), lab_shown_number(1 / period, 3, hertz),
            lab_shown_quantity(amplitude(term), lab_term_equations[term->equation].unit, 3, most));
 }
 
@@ -96,9 +131,10 @@ const char *lab_unlisted_where(const pneu_term *term, char text[LAB_WHERE_TEXT])
     return text;
   }
   is_short = lab_unlisted_stretch(term, &from, &to, &level, &peak);
-  is_local = is_short || (term->value[0] == 0 && term->value[term->n - 1] == 0);
-  snprintf(text, LAB_WHERE_TEXT, "%s%s = %s .. %s %s%s; largest value %s", is_local ? "" : "nearly everywhere, ",
+  is_local = is_short || ends_at_zero(term);
+  snprintf(text, LAB_WHERE_TEXT, "%s%s = %s .. %s%s%s%s; largest value %s", is_local ? "" : "nearly everywhere, ",
            argument->key, lab_shown_number(how.scale * from, 3, low), lab_shown_number(how.scale * to, 3, high),
-           how.unit, kinds[term->equation].both, lab_shown_quantity(peak, equation->unit, 3, most));
+           *how.unit ? " " : "", how.unit, kinds[term->equation].both,
+           lab_shown_quantity(peak, equation->unit, 3, most));
   return text;
 }
