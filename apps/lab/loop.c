@@ -8,6 +8,7 @@
 
 #include "attempt.h"
 #include "nameless.h"
+#include "quantile.h"
 #include "refit.h"
 
 static const double alike_bic = 9.2;  /* refits that differ by less are alike: odds of a hundred to one */
@@ -15,6 +16,7 @@ static const double convincing = 0.5; /* of the excess of the best named model: 
 static const double compelling = 0.1; /* and with so little there is no need to look on */
 static const double rival = 3;        /* times the best chi-square: a poorer model is not extended */
 static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
+static const double lines = 1000;     /* cycles looked at, about */
 static const double mostly = 0.5;     /* and so much of all there is */
 enum { BEAM = 2 };
 
@@ -289,7 +291,14 @@ static int is_better(const lab_attempt *nameless, const lab_attempt *named, doub
          (lab_any_is_noise(nameless, 1) || nameless->chi2 - n < share * (named->chi2 - n));
 }
 
-/* The best free term beside a model.  Out: best, fitted or not */
+/* Whether a slot passes: a cycle is the best of many lines. */
+static int slot_passes(const search *s, const lab_slot *slot)
+{
+  const double tests = slot->term.argument == PNEU_TERM_OVER_CYCLE ? lines : 1;
+  return slot->degrees > 0 && tests * lab_chi2_tail(slot->statistic, slot->degrees) < s->result->level;
+}
+
+/* The best free term beside a model, if the best slot passes.  Out: best, fitted or not */
 static int find_slot(const search *s, const lab_attempt *base, lab_attempt *best, lab_error *error)
 {
   lab_attempt copy = *base;
@@ -297,7 +306,7 @@ static int find_slot(const search *s, const lab_attempt *base, lab_attempt *best
   lab_scan scan;
   int n, status = lab_scan_open(&copy.u, &scan, error);
   best->fitted = 0;
-  if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0)
+  if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0 && slot_passes(s, slot))
     try_slots(s, base, slot, n, best);
   lab_scan_close(&scan);
   return status;
@@ -363,7 +372,7 @@ static int search_all(search *s, lab_error *error)
     s->result->n_path = 1;
     note_way(s->result, best);
   }
-  if (best->u.rig.n_terms == 0 && leaves_something(best) && best->n_found < LAB_LOOP_EFFECTS)
+  if (best->u.rig.n_terms == 0 && best->n_found < LAB_LOOP_EFFECTS && (best->n_found == 0 || leaves_something(best)))
     return last_resort(s, error);
   return LAB_OK;
 }

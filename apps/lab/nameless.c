@@ -5,7 +5,9 @@
 
 #include "unlisted.h"
 
-enum { SLOTS = 8, BRIEF = 8, FINALISTS = 3, REFINED = 21, MARGIN = 2 };
+enum { SLOTS = 8, BRIEF = 8, FINALISTS = 3, REFINED = 21, MARGIN = 2, ROUNDS = 4 };
+
+static const double moving = 0.9; /* of the chi-square before: a fit that still gets there is not at its end */
 
 static void refit_slot(const lab_attempt *base, const lab_slot *slot, lab_attempt *a)
 {
@@ -60,7 +62,18 @@ static void refine(lab_attempt *a)
   free(fine);
 }
 
-/* The best slots, refitted: briefly, then the best few of them to the end.  Out: best, fitted or not */
+/* Fit to the end, and on where the end is still moving: knots near which the log hardly ever is make a long valley. */
+static void fit_on(lab_attempt *a)
+{
+  double before = INFINITY;
+  lab_error ignored;
+  int i;
+  for (i = 0; i < ROUNDS && a->fitted && !lab_any_is_noise(a, 1) && a->chi2 < moving * before; i++) {
+    before = a->chi2;
+    lab_attempt_fit(a, LAB_FIT_WHOLE, &ignored);
+  }
+}
+
 void lab_refit_slots(const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best)
 {
   lab_attempt *a = malloc(SLOTS * sizeof *a);
@@ -71,14 +84,13 @@ void lab_refit_slots(const lab_attempt *base, const lab_slot *slot, int n, lab_a
   for (i = 0; i < n; i++)
     refit_slot(base, &slot[i], &a[i]);
   qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
+  n = n < FINALISTS ? n : FINALISTS;
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++) {
-    lab_error ignored;
-    if (i < FINALISTS && a[i].fitted)
-      lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &ignored);
-  }
-  for (i = 0; i < n && i < FINALISTS; i++)
-    lab_attempt_keep_better(best, &a[i]);
+  for (i = 0; i < n; i++)
+    fit_on(&a[i]);
+  qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
+  if (n > 0)
+    *best = a[0];
   free(a);
   if (best->fitted) {
     refine(best);
