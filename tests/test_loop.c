@@ -104,7 +104,6 @@ static void test_lab_loop_run__nothing_missing__says_none_and_finds_the_paramete
   assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
   assert_close(u.rig.params.spring_rate, 4e5, 0, 2e-3);
   assert_close(u.rig.params.dry_friction, 480, 0, 2e-2);
-  lab_loop_close(&result);
 }
 
 static void test_lab_loop_run__leak__is_named_and_sized(void **state)
@@ -126,7 +125,6 @@ static void test_lab_loop_run__leak__is_named_and_sized(void **state)
   assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 1.5e-8, 0, 0.05);
   assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
-  lab_loop_close(&result);
 }
 
 /* Friction of a place, which the catalogue does not have, under commands that go through the whole stroke. The bump
@@ -161,7 +159,6 @@ static void test_lab_loop_run__friction_bump__is_a_force_at_its_place(void **sta
   assert_true(result.before.in_noise[LAB_CHANNEL_X] > 2 * result.after.in_noise[LAB_CHANNEL_X]);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
-  lab_loop_close(&result);
 }
 
 /* A stem that sticks and slips under slow commands: no model keeps in step with it row by row. */
@@ -187,7 +184,6 @@ static void test_lab_loop_run__stick_slip__is_seen_coarsely_and_named(void **sta
   assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "stribeck_friction");
   assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 0.5, 0, 0.2);
   assert_int_equal(u.window, 0); /* and handed back as it came */
-  lab_loop_close(&result);
 }
 
 int main(void)

@@ -88,7 +88,6 @@ static int tell_story(void **state)
 static int forget_story(void **state)
 {
   free(page);
-  lab_loop_close(&result);
   lab_experiment_close(&experiment[0]);
   lab_log_free(&logged);
   return scratch_close(state);

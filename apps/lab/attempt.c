@@ -17,7 +17,7 @@ static int is_noise(double chi2, size_t values)
 /* Schwarz 1978: what a fit costs, with what it fits counted, and what has no name against what has. */
 static double bic(const lab_unknowns *u, double chi2)
 {
-  return chi2 + (double)u->n * log((double)u->n_data) + name_bonus * u->rig.n_terms;
+  return chi2 + (double)u->n * log((double)u->n_values) + name_bonus * u->rig.n_terms;
 }
 
 int lab_attempt_fit(lab_attempt *a, int steps, lab_error *error)
@@ -32,7 +32,7 @@ int lab_any_is_noise(const lab_attempt *a, int n)
 {
   int i, any = 0;
   for (i = 0; i < n; i++)
-    any |= a[i].fitted && is_noise(a[i].chi2, a[i].u.n_data);
+    any |= a[i].fitted && is_noise(a[i].chi2, a[i].u.n_values);
   return any;
 }
 
@@ -74,9 +74,7 @@ void lab_attempt_undo_fit(lab_attempt *a)
 void lab_attempt_explain(lab_attempt *a, double chi2_before)
 {
   lab_found *found = &a->found[a->n_found - 1];
-  found->chi2_before = chi2_before;
-  found->chi2_after = a->chi2;
-  found->explained = (chi2_before - a->chi2) / fmax(chi2_before - (double)a->u.n_data, 1);
+  found->explained = (chi2_before - a->chi2) / fmax(chi2_before - (double)a->u.n_values, 1);
 }
 
 void lab_attempt_name(const lab_attempt *a, char *text, size_t size)

@@ -1,7 +1,9 @@
 /* Least squares within bounds, for models whose every evaluation is a simulation: Levenberg's method on the normal
  * equations, with two savings that a general package does not have. Slopes in what hardly bends the model (the instants
  * of commands) are kept from step to step for as long as they predict well, and a step that runs into bounds is
- * finished inside them instead of being started again. SPDX-License-Identifier: MIT */
+ * finished inside them instead of being started again.
+ *
+ * SPDX-License-Identifier: MIT */
 #ifndef LAB_DESCENT_H
 #define LAB_DESCENT_H
 

@@ -8,7 +8,7 @@
 #include "response.h"
 #include "start.h"
 
-static const double off = 6; /* times the noise: a value so far off is no noise */
+static const double off = 6; /* times the scatter at rest: a value so far off is no noise */
 
 static int is_predicted(int channel)
 {
@@ -26,36 +26,50 @@ static size_t rows_at_rest(const lab_experiment *e)
   return u ? n : 0;
 }
 
-/* Of these, those before the channel moves all the same: a sensor may be ahead of the command.
+/* Of these, those before the channel moves all the same: a sensor may be ahead of the command. Moving is what is far
+ * beyond the scatter of the first half.
  * In:      n  rows before the command first changes */
-static size_t rows_still(const double *value, size_t n, double sigma)
+static size_t rows_still(const double *value, size_t n)
 {
-  double mean = 0;
-  size_t i, count = 0;
+  double sum = 0, sum2 = 0, count = 0, mean, scatter;
+  size_t i;
   for (i = 0; i < n / 2; i++)
     if (!isnan(value[i])) {
-      mean += value[i];
+      const double v = value[i] - value[0];
+      sum += v;
+      sum2 += v * v;
       count++;
     }
-  mean /= count ? (double)count : 1;
-  for (i = 0; i < n && !(fabs(value[i] - mean) > off * sigma); i++)
+  if (!(count > 1))
+    return 0;
+  mean = sum / count;
+  scatter = sqrt(fmax(sum2 / count - mean * mean, 0));
+  for (i = 0; i < n && !(fabs(value[i] - value[0] - mean) > off * scatter); i++)
     ;
   return i;
+}
+
+/* Second differences of noise with memory r have the variance of white noise times 1 - 4 r/3 + r^2/3, and so has what
+ * was estimated from them. */
+static double for_memory(double sigma, double r)
+{
+  return sigma / sqrt(1 - 4 * r / 3 + r * r / 3);
 }
 
 static int add_channel(lab_experiment *e, int channel, lab_error *error)
 {
   const double *value = e->log->value[channel] + e->first;
+  const double memory = lab_noise_memory(value, rows_still(value, rows_at_rest(e)));
   double sigma = e->rig->noise[channel];
   if (isnan(sigma))
-    sigma = lab_noise_estimate(value, e->n);
+    sigma = for_memory(lab_noise_estimate(value, e->n), memory);
   if (!(sigma > 0))
     return lab_fail(error, LAB_DATA,
                     "%s: channel %s does not change, or has too few values to tell its noise; declare it in the group "
                     "noise of the rig file",
                     e->log->path, lab_channels[channel].key);
   e->channel[e->n_channels] = channel;
-  e->memory[e->n_channels] = lab_noise_memory(value, rows_still(value, rows_at_rest(e), sigma));
+  e->memory[e->n_channels] = memory;
   e->sigma[e->n_channels++] = sigma;
   return LAB_OK;
 }

@@ -6,8 +6,11 @@
 #include "log.h"
 
 /* Reverse the way back of a loop, keep every so many-th row, take the mean over runs, put the lead before each run; in
- * this order, and each only if the format has it. In/out:  log  its rows and runs Returns: LAB_OK; LAB_DATA with the
- * line; LAB_WORLD. */
+ * this order, and each only if the format has it.
+ *
+ * In/out:  log  its rows and runs
+ *
+ * Returns: LAB_OK; LAB_DATA with the line; LAB_WORLD. */
 int lab_log_shape(lab_log *log, const lab_log_format *format, lab_error *error);
 
 #endif

@@ -34,16 +34,14 @@ const char *lab_verdict_text(int verdict)
   return text[verdict];
 }
 
-static void note_step(lab_loop_result *result, const lab_attempt *a, int kept)
+static void note_step(lab_loop_result *result, const lab_attempt *a)
 {
   lab_step *step = result->n_steps < LAB_LOOP_STEPS ? &result->step[result->n_steps++] : NULL;
   if (!step)
     return;
   lab_attempt_name(a, step->name, sizeof step->name);
-  step->n_added = a->n_found;
   step->chi2 = a->chi2;
   step->bic = a->bic;
-  step->kept = kept;
 }
 
 static void note_way(lab_loop_result *result, const lab_attempt *a)
@@ -71,14 +69,50 @@ static double gain(const lab_attempt *a, const lab_attempt *b, const lab_errors 
 
 /* ---- Search ---- */
 
-/* Effects whose refits are as good as the winner's. */
-static void note_alike(lab_attempt *pool, int n)
+/* Whether the first n things found by a are among those found by b. */
+static int has_found(const lab_attempt *b, const lab_attempt *a, int n)
 {
-  lab_found *found = &pool[0].found[pool[0].n_found - 1];
+  int i, k, all = 1;
+  for (i = 0; i < n; i++) {
+    int any = 0;
+    for (k = 0; k < b->n_found; k++)
+      any |= a->found[i].param == b->found[k].param && a->found[i].term == b->found[k].term;
+    all &= any;
+  }
+  return all;
+}
+
+/* The same model, whatever was added first. */
+static int is_same(const lab_attempt *a, const lab_attempt *b)
+{
+  return a->n_found == b->n_found && has_found(b, a, a->n_found);
+}
+
+/* Whether two models have the same beside one thing found of each. */
+static int is_alike_but(const lab_attempt *a, int i, const lab_attempt *b, int k)
+{
+  lab_attempt *rest = malloc(2 * sizeof *rest);
+  int alike = 0;
+  if (rest) {
+    rest[0] = *a;
+    rest[1] = *b;
+    rest[0].found[i] = rest[0].found[--rest[0].n_found];
+    rest[1].found[k] = rest[1].found[--rest[1].n_found];
+    alike = is_same(&rest[0], &rest[1]);
+  }
+  free(rest);
+  return alike;
+}
+
+/* Effects of a pool, each added last, that are as good as one of a model's in its place. */
+static void note_alike(lab_attempt *model, int which, const lab_attempt *pool, int n)
+{
+  lab_found *found = &model->found[which];
   int i, k;
-  for (i = 1; found->effect >= 0 && i < n && pool[i].bic - pool[0].bic < alike_bic; i++) {
-    const int effect = pool[i].found[pool[i].n_found - 1].effect;
-    int known = effect < 0 || effect == found->effect || pool[i].n_found != pool[0].n_found;
+  found->n_alike = 0;
+  for (i = 0; found->effect >= 0 && i < n && pool[i].bic - model->bic < alike_bic; i++) {
+    const int last = pool[i].n_found - 1, effect = pool[i].found[last].effect;
+    int known = effect < 0 || effect == found->effect || !is_alike_but(model, which, &pool[i], last);
     for (k = 0; k < found->n_alike; k++)
       known |= found->alike[k] == effect;
     if (known)
@@ -87,6 +121,12 @@ static void note_alike(lab_attempt *pool, int n)
       found->alike_params[found->n_alike] = pool[i].u.rig.params;
     found->alike[found->n_alike++] = effect;
   }
+}
+
+/* The same for the best of a pool. */
+static void note_alike_best(lab_attempt *pool, int n)
+{
+  note_alike(&pool[0], pool[0].n_found - 1, pool + 1, n - 1);
 }
 
 static double seconds(void)
@@ -117,7 +157,7 @@ static void tell(const search *s, const char *what)
 /* More than noise, if only a little. */
 static int leaves_something(const lab_attempt *a)
 {
-  const double n = (double)a->u.n_data;
+  const double n = (double)a->u.n_values;
   return a->chi2 > n + 2 * sqrt(2 * n);
 }
 
@@ -132,6 +172,7 @@ static void try_slots(const search *s, const lab_attempt *base, const lab_slot *
 static int extend(search *s, const lab_attempt *base, lab_error *error)
 {
   const double start = seconds();
+  double level;
   lab_slot slot[LAB_SLOT_MAX];
   lab_trace_result trace;
   lab_scan scan;
@@ -142,8 +183,7 @@ static int extend(search *s, const lab_attempt *base, lab_error *error)
     lab_trace_effects(&scan, &trace);
     if (s->result->trace.n == 0)
       s->result->trace_s = seconds() - start;
-    if (trace.tests > 0)
-      s->result->level = s->options->alpha / trace.tests;
+    level = trace.tests > 0 ? s->options->alpha / trace.tests : 0;
     if (base->n_found == 0 && !lab_any_is_noise(base, 1) && alone * trace.candidate[0].statistic < scan.excess)
       n_slots = lab_slots_try(&scan, slot);
     if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
@@ -151,25 +191,33 @@ static int extend(search *s, const lab_attempt *base, lab_error *error)
       try_slots(s, base, slot, n_slots, s->nameless);
     tell(s, "fitting the leaders");
     if (!lab_any_is_noise(s->nameless, 1))
-      s->n_pool += lab_refit_effects(base, &trace, s->result->level, s->pool + s->n_pool);
-    if (s->result->trace.n == 0)
+      s->n_pool += lab_refit_effects(base, &trace, level, s->pool + s->n_pool);
+    if (s->result->trace.n == 0) {
       s->result->trace = trace;
-    else
-      lab_trace_close(&trace);
+      s->result->level = level;
+    }
   }
   lab_scan_close(&scan);
   return status;
 }
 
-/* The pool, best first, without what could not be fitted. */
+/* The pool, best first, without what could not be fitted, and each model once. */
 static void rank(search *s)
 {
-  int i;
+  int i, k, n = 0;
   qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, lab_attempt_by_bic);
-  while (s->n_pool > 0 && !s->pool[s->n_pool - 1].fitted)
-    s->n_pool--;
-  for (i = 0; i < s->n_pool; i++)
-    note_step(s->result, &s->pool[i], i < BEAM);
+  for (i = 0; i < s->n_pool && s->pool[i].fitted; i++) {
+    int again = 0;
+    for (k = 0; k < n; k++)
+      again |= is_same(&s->pool[k], &s->pool[i]);
+    if (again)
+      continue;
+    if (n != i)
+      s->pool[n] = s->pool[i];
+    note_step(s->result, &s->pool[n]);
+    n++;
+  }
+  s->n_pool = n;
 }
 
 /* Significant, but not worth adding: the best one, and what cannot be told from it. */
@@ -178,7 +226,7 @@ static void list_small(search *s)
   lab_loop_result *r = s->result;
   const lab_found *found = &s->pool[0].found[s->pool[0].n_found - 1];
   int i;
-  note_alike(s->pool, s->n_pool);
+  note_alike_best(s->pool, s->n_pool);
   r->listed[r->n_listed++] = found->effect;
   for (i = 0; i < found->n_alike && r->n_listed < LAB_TRACE_MAX; i++)
     r->listed[r->n_listed++] = found->alike[i];
@@ -211,7 +259,7 @@ static int advance(search *s, int *better, lab_error *error)
     list_small(s);
     return LAB_OK;
   }
-  note_alike(s->pool, s->n_pool);
+  note_alike_best(s->pool, s->n_pool);
   for (i = 0; i < s->n_pool && i < BEAM; i++) {
     lab_attempt_explain(&s->pool[i], declared);
     s->beam[i] = s->pool[i];
@@ -262,9 +310,11 @@ static int exchange(search *s, lab_error *error)
     status = extend(s, without, error);
     rank(s);
     if (s->n_pool > 0 && s->pool[0].bic < s->beam[0].bic) {
-      note_alike(s->pool, s->n_pool);
+      lab_attempt_explain(&s->pool[0], without->chi2);
+      note_alike_best(s->pool, s->n_pool);
       s->beam[0] = s->pool[0];
-    }
+    } else
+      note_alike(&s->beam[0], i, s->pool, s->n_pool);
   }
   free(without);
   return status;
@@ -286,7 +336,7 @@ static int verdict_of(const lab_attempt *a)
  * less than what has a name does. */
 static int is_better(const lab_attempt *nameless, const lab_attempt *named, double share)
 {
-  const double n = (double)named->u.n_data;
+  const double n = (double)named->u.n_values;
   return nameless->fitted && nameless->bic < named->bic &&
          (lab_any_is_noise(nameless, 1) || nameless->chi2 - n < share * (named->chi2 - n));
 }
@@ -321,14 +371,14 @@ static int last_resort(search *s, lab_error *error)
     return error->status;
   if (!is_better(longer, best, convincing))
     return LAB_OK;
-  note_step(s->result, longer, 1);
+  note_step(s->result, longer);
   if (lab_loop_errors(&best->u, &before, error) || lab_loop_errors(&longer->u, &after, error))
     return error->status;
   if (gain(best, longer, &before, &after) < s->options->min_gain)
     return LAB_OK;
   *best = *longer;
-  note_way(s->result, best);
   remove_needless(best);
+  note_way(s->result, best);
   return LAB_OK;
 }
 
@@ -368,7 +418,7 @@ static int search_all(search *s, lab_error *error)
   }
   if (s->nameless->fitted && !lab_any_is_noise(best, 1) && is_better(s->nameless, best, convincing)) {
     *best = *s->nameless;
-    note_step(s->result, best, 1);
+    note_step(s->result, best);
     s->result->n_path = 1;
     note_way(s->result, best);
   }
@@ -395,7 +445,7 @@ static int search_from(const lab_unknowns *u, const lab_loop_options *options, l
     s.beam[0] = *s.declared;
   }
   if (status == LAB_OK) {
-    note_step(result, &s.beam[0], 1);
+    note_step(result, &s.beam[0]);
     status = search_all(&s, error);
     *best = s.beam[0];
   }
@@ -420,7 +470,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_loop_options *option
     return error->status;
   *done = best->n_found > 0 && lab_any_is_noise(best, 1);
   if (!*done) {
-    lab_trace_close(&result->trace);
+    result->trace.n = 0;
     result->n_steps = result->n_listed = result->n_path = 0;
     result->window = 0;
   }
@@ -449,9 +499,4 @@ int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_resu
     status = lab_loop_errors(u, &result->after, error);
   free(best);
   return status;
-}
-
-void lab_loop_close(lab_loop_result *result)
-{
-  lab_trace_close(&result->trace);
 }

@@ -24,10 +24,9 @@ typedef struct lab_found {
   int effect, param, shape; /* effect: -1 for a free term; shape: -1 if none */
   int term;                 /* of the model's free terms; -1 for an effect */
   double statistic, p_value, explained;
-  int degrees;                    /* of freedom of the statistic */
-  double scale;                   /* free term: a value of it that matters */
-  double chi2_before, chi2_after; /* of the data */
-  int n_alike;                    /* effects that the log cannot tell from it */
+  int degrees;  /* of freedom of the statistic */
+  double scale; /* free term: a value of it that matters */
+  int n_alike;  /* effects that the log cannot tell from it */
   int alike[LAB_TRACE_MAX];
   pneu_params alike_params[LAB_LOOP_LEADERS]; /* models with the first of them in its place, fitted */
 } lab_found;
@@ -35,9 +34,7 @@ typedef struct lab_found {
 /* A model that was tried: the declared one first. */
 typedef struct lab_step {
   char name[LAB_FIT_TEXT]; /* of what it has beyond the declared model, joined by " + " */
-  int n_added;
-  double chi2, bic; /* of the residuals; Schwarz 1978 */
-  int kept;         /* the search went on from it */
+  double chi2, bic;        /* of the residuals; Schwarz 1978 */
 } lab_step;
 
 /* A model that the search went on from, fitted. */
@@ -53,7 +50,7 @@ typedef struct lab_loop_result {
   lab_found found[LAB_LOOP_EFFECTS];
   lab_errors before, after;
   lab_fit_result fit;     /* of the final model */
-  lab_trace_result trace; /* of the declared model: what was tried; to be closed */
+  lab_trace_result trace; /* of the declared model: what was tried */
   double trace_s;         /* [s] that this scan took */
   int n_listed;           /* effects that are significant but gain less than min_gain */
   int listed[LAB_TRACE_MAX];
@@ -70,10 +67,9 @@ void lab_loop_options_default(lab_loop_options *options);
 
 /* Run the loop.
  * In/out:  u       declared model, fitted; then the completed one
- * Out:     result  to be closed with lab_loop_close, also after an error
+ * Out:     result
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
 int lab_loop_run(lab_unknowns *u, const lab_loop_options *options, lab_loop_result *result, lab_error *error);
-void lab_loop_close(lab_loop_result *result);
 
 /* "none", "effect", "unlisted", "undecided" */
 const char *lab_verdict_text(int verdict);

@@ -5,6 +5,7 @@
 
 static const double rival = 3;                /* times the best chi-square: what leaves more falls behind */
 static const double worth = 0.05;             /* of the best statistic: leaders have at least so much */
+static const double nearly = 1.2;             /* times the best BIC: still in the running after a brief fit */
 static const double much = 0.5;               /* of what the declared model leaves: a good effect takes so much */
 enum { FIRST = 3, BRIEF = 8, FINALISTS = 3 }; /* steps of a fit; models fitted to the end */
 
@@ -76,12 +77,14 @@ static int count_passing(const lab_trace_result *trace, double level)
 /* Fit those to the end that are in the running after a brief fit: the best few, and whatever is nearly as good. */
 static void fit_finalists(lab_attempt *a, int n)
 {
+  double bar;
   int i;
   qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
+  bar = n > 0 ? nearly * a[0].bic : 0;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     lab_error ignored;
-    if (a[i].fitted && (i < FINALISTS || a[i].bic < 1.2 * a[0].bic))
+    if (a[i].fitted && (i < FINALISTS || a[i].bic < bar))
       lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &ignored);
   }
 }
@@ -133,10 +136,10 @@ static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, 
 /* Whether none of them explains much of what the declared model leaves. */
 int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
 {
-  const double excess = base->chi2 - (double)base->u.n_data;
+  const double excess = base->chi2 - (double)base->u.n_values;
   int i, poor = 1;
   for (i = 0; i < n; i++)
-    poor &= !a[i].fitted || a[i].chi2 - (double)a[i].u.n_data > much * excess;
+    poor &= !a[i].fitted || a[i].chi2 - (double)a[i].u.n_values > much * excess;
   return poor;
 }
 

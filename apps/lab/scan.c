@@ -88,7 +88,7 @@ int lab_scan_open(lab_unknowns *u, lab_scan *s, lab_error *error)
     s->n_basis++;
   }
   s->chi2 = lab_scan_dot(s->r, s->r, u->n_data);
-  s->excess = s->chi2 - (double)u->n_data;
+  s->excess = s->chi2 - (double)u->n_values;
   return status;
 }
 

@@ -20,7 +20,7 @@ typedef struct lab_slot {
 } lab_slot;
 
 /* Try every slot.
- * Out:     slot  largest statistic over degrees first
+ * Out:     slot  largest statistic less degrees first
  * Returns: their number. */
 int lab_slots_try(const lab_scan *scan, lab_slot slot[LAB_SLOT_MAX]);
 

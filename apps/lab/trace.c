@@ -29,14 +29,8 @@ static void judge(const lab_scan *s, double *slope, double step, double room_up,
   statistic = score * score;
   if ((size > 0 && !(room_up > 0)) || (size < 0 && !(room_down > 0)))
     statistic = 0;
-  if (c->direction && statistic <= c->statistic)
+  if (c->visible > 0 && statistic <= c->statistic)
     return;
-  if (!c->direction)
-    c->direction = malloc(s->m * sizeof *c->direction);
-  if (!c->direction)
-    return;
-  lab_scan_normalise(slope, left, s->m);
-  memcpy(c->direction, slope, s->m * sizeof *slope);
   c->statistic = statistic;
   c->size = fmax(fmin(size, room_up), -room_down);
   c->shape_value = shape_value;
@@ -104,6 +98,15 @@ static int is_neutral(const pneu_params *params, int effect)
   return 1;
 }
 
+/* Whether one of these parameters is fitted already. */
+static int is_unknown(const lab_unknowns *u, int first, int count)
+{
+  int i, any = 0;
+  for (i = 0; i < count; i++)
+    any |= lab_unknowns_find(u, first + i) >= 0;
+  return any;
+}
+
 /* Every parameter that switches on an effect which the model does not have. */
 static void list_candidates(const lab_unknowns *u, lab_trace_result *result)
 {
@@ -112,7 +115,7 @@ static void list_candidates(const lab_unknowns *u, lab_trace_result *result)
     const int first = pneu_effect_params(e, &count);
     int shape = -1;
     pneu_param_info info;
-    if (!is_neutral(&u->rig.params, e))
+    if (!is_neutral(&u->rig.params, e) || is_unknown(u, first, count))
       continue;
     for (i = count - 1; i >= 0; i--) {
       pneu_param_describe(first + i, &info);
@@ -142,26 +145,10 @@ void lab_trace_effects(const lab_scan *s, lab_trace_result *result)
 {
   int i, tests = 0;
   memset(result, 0, sizeof *result);
-  result->chi2 = s->chi2;
-  result->excess = s->excess;
   list_candidates(s->u, result);
 #pragma omp parallel for schedule(dynamic) reduction(+ : tests)
   for (i = 0; i < result->n; i++)
     tests += try_candidate(s, &result->candidate[i]);
   result->tests = tests;
   qsort(result->candidate, (size_t)result->n, sizeof *result->candidate, by_statistic);
-}
-
-void lab_trace_close(lab_trace_result *result)
-{
-  int i;
-  for (i = 0; i < result->n; i++)
-    free(result->candidate[i].direction);
-  result->n = 0;
-}
-
-double lab_trace_likeness(const lab_trace_result *result, size_t m, int a, int b)
-{
-  const double *x = result->candidate[a].direction, *y = result->candidate[b].direction;
-  return x && y ? fabs(lab_scan_dot(x, y, m)) : 0;
 }

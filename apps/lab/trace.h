@@ -19,28 +19,21 @@ typedef struct lab_candidate {
   int param;  /* its parameter that is not neutral, as in pneu_param_describe */
   int shape;  /* its shape parameter, -1 if none */
   double shape_value;
-  double size;       /* by which the parameter would have to leave neutral, by the slope */
-  double statistic;  /* T; 0 where the sign is impossible or the log does not see it */
-  double p_value;    /* of T alone */
-  double explained;  /* share of the chi-square excess that the slope explains */
-  double visible;    /* [1] length of s' over length of s: what fitting has left of it; 0: invisible */
-  double *direction; /* s' of unit length, m entries; NULL where nothing is visible */
+  double size;      /* by which the parameter would have to leave neutral, by the slope */
+  double statistic; /* T; 0 where the sign is impossible or the log does not see it */
+  double p_value;   /* of T alone */
+  double explained; /* share of the chi-square excess that the slope explains */
+  double visible;   /* [1] length of s' over length of s: what fitting has left of it; 0: invisible */
 } lab_candidate;
 
 typedef struct lab_trace_result {
   int n; /* candidates, largest statistic first */
   lab_candidate candidate[LAB_TRACE_MAX];
   int tests; /* slopes tried in all */
-  double chi2, excess;
 } lab_trace_result;
 
-/* Try every effect that the model does not have.
- * Out:     result  to be closed */
+/* Try every effect that the model does not have. */
 void lab_trace_effects(const lab_scan *scan, lab_trace_result *result);
-void lab_trace_close(lab_trace_result *result);
-
-/* |cosine| between the directions of two candidates; 0 where one is invisible. */
-double lab_trace_likeness(const lab_trace_result *result, size_t m, int a, int b);
 
 /* Two-sided p-value of a chi-square statistic with one degree of freedom. */
 double lab_chi2_p(double statistic);

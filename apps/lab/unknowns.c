@@ -155,8 +155,11 @@ int lab_unknowns_find(const lab_unknowns *u, int param)
   return -1;
 }
 
+/* Room for three effects with their shapes, or a free term. */
+enum { SWITCHES_END = LAB_FIT_MAX - 40 };
+
 /* A change of command happened between the row before and the row that shows it: half the bracket, give or take what a
- * uniform distribution has. */
+ * uniform distribution has. Those for which there is no room stay at half. */
 static void add_switches(lab_unknowns *u)
 {
   int e, index = 0;
@@ -164,7 +167,7 @@ static void add_switches(lab_unknowns *u)
     size_t k;
     for (k = 0; k < u->experiment[e].n_switches; k++, index++) {
       const double bracket = u->experiment[e].bracket[k];
-      lab_unknown *x = bracket > 0 ? append(u) : NULL;
+      lab_unknown *x = bracket > 0 && u->n < SWITCHES_END ? append(u) : NULL;
       if (!x)
         continue;
       x->kind = LAB_UNKNOWN_SWITCH;
@@ -201,6 +204,17 @@ static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, lab_error
   return LAB_OK;
 }
 
+static size_t count_values(const lab_unknowns *u)
+{
+  size_t i, count = 0;
+  int e, c;
+  for (e = 0; e < u->n_experiments; e++)
+    for (c = 0; c < u->experiment[e].n_channels; c++)
+      for (i = 0; i < u->experiment[e].n; i++)
+        count += !isnan(lab_experiment_measured(&u->experiment[e], c, i));
+  return count;
+}
+
 int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int n_experiments, lab_unknowns *u,
                       lab_error *error)
 {
@@ -214,6 +228,7 @@ int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int 
   for (e = 0; e < n_experiments; e++)
     u->n_rows += experiment[e].n * (size_t)experiment[e].n_channels;
   u->n_data = u->n_rows;
+  u->n_values = count_values(u);
   for (j = 0; j < rig->n_fit; j++)
     if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], error)
                             : lab_unknowns_add(u, rig->fit[j], declared_value(rig, rig->fit[j]), error))
@@ -251,7 +266,9 @@ void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int experime
 static void early_of(const lab_unknowns *u, const double *theta, int first, const lab_experiment *e, double *early)
 {
   int j;
-  memset(early, 0, e->n_switches * sizeof *early);
+  size_t i;
+  for (i = 0; i < e->n_switches; i++)
+    early[i] = e->bracket[i] / 2;
   for (j = 0; j < u->n; j++) {
     const int k = u->unknown[j].index - first;
     if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH && k >= 0 && k < (int)e->n_switches)
@@ -356,6 +373,7 @@ void lab_unknowns_view(lab_unknowns *u, size_t window)
   u->n_data = window ? 0 : u->n_rows;
   for (e = 0; window && e < u->n_experiments; e++)
     u->n_data += 2 * lab_coarse_count(u->experiment[e].n, window) * (size_t)u->experiment[e].n_channels;
+  u->n_values = window ? u->n_data : count_values(u);
   u->m = u->n_data + (size_t)u->n;
 }
 
@@ -485,7 +503,7 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
   return LAB_OK;
 }
 
-/* All columns of the slopes, in parallel. Signature of fit.h. */
+/* All columns of the slopes, in parallel; 0 where the model fails. Signature of fit.h. */
 static int slopes(void *context, const double *theta, const double *r, double *slope, lab_error *error)
 {
   lab_unknowns *u = context;
@@ -493,8 +511,11 @@ static int slopes(void *context, const double *theta, const double *r, double *s
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < u->n; j++) {
     lab_error mine;
-    const int at = lab_unknowns_slope(u, theta, r, j, slope + (size_t)j * u->m, &mine);
-    if (at != LAB_OK) {
+    double *column = slope + (size_t)j * u->m;
+    const int at = lab_unknowns_slope(u, theta, r, j, column, &mine);
+    if (at == LAB_NUMERIC)
+      memset(column, 0, u->m * sizeof *column);
+    else if (at != LAB_OK) {
 #pragma omp critical(slope_error)
       *error = mine, status = at;
     }
@@ -508,6 +529,9 @@ int lab_unknowns_spread(lab_unknowns *u, lab_fit_result *result, lab_error *erro
   lab_fit_problem problem = {u->n, param, 0, lab_unknowns_residuals, slopes, u, NULL, 1};
   lab_fit_options options;
   int j;
+  memset(result, 0, sizeof *result);
+  if (u->n == 0)
+    return LAB_OK;
   u->m = problem.m = u->n_data + (size_t)u->n;
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];

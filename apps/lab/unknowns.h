@@ -35,8 +35,9 @@ typedef struct lab_unknowns {
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
   double tol;       /* of the stepper */
-  size_t n_rows;    /* measured values */
+  size_t n_rows;    /* rows times channels, gaps among them */
   size_t window;    /* rows of a window where the residuals are those of coarse.h; 0: row by row */
+  size_t n_values;  /* residuals of the data that are not of gaps */
   size_t n_data, m; /* residuals of the data; all residuals: those, and one for each unknown */
 } lab_unknowns;
 
