@@ -249,7 +249,7 @@ static int close_loop(const lab_rig *rig, lab_error *error)
   lab_loop_options how;
   static lab_story story;
   const double start = seconds();
-  char sentence[LAB_REMARK_TEXT + 64];
+  char sentence[LAB_SENTENCE_TEXT];
   int status;
   story.rig = rig;
   story.declared = &declared;

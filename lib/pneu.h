@@ -200,8 +200,8 @@ enum pneu_effect_sizes {
 #undef PNEU_EFFECT
   ,
   PNEU_PARAM_COUNT = PNEU_PARAM_BASE_COUNT + PNEU_EFFECT_PARAM_COUNT,
-  PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1,                       /* effects, clock; never 0: C has no empty array */
-  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT + (PNEU_TERM_KNOTS > 0), /* p, T, effects, clock, x, v */
+  PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* effects, clock; never 0: C has no empty array */
+  PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT + (PNEU_TERM_KNOTS > 0), /* and p, T, clock, x, v */
   PNEU_STAGE_COUNT = 8,                         /* of the Rosenbrock method */
   PNEU_TERM_ROOM = PNEU_TERM_KNOTS > 0 ? PNEU_TERM_KNOTS : 1
 };

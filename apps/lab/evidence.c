@@ -109,7 +109,8 @@ static int respond(const lab_unknowns *u, const lab_experiment *x, lab_evidence 
   pneu_state start;
   lab_trace trace;
   int i;
-  if (lab_rig_model(&u->rig, &model, error) || lab_start_from_log(&model, x->drive.input, x->log, x->run, &start, error) ||
+  if (lab_rig_model(&u->rig, &model, error) ||
+      lab_start_from_log(&model, x->drive.input, x->log, x->run, &start, error) ||
       lab_respond(&model, &start, &x->drive.schedule, t, x->n, &options, &trace, NULL, error))
     return error->status;
   column[LAB_ARGUMENT_P] = trace.p;

@@ -16,7 +16,6 @@ static const double convincing = 0.5; /* of the excess of the best named model: 
 static const double compelling = 0.1; /* and with so little there is no need to look on */
 static const double rival = 3;        /* times the best chi-square: a poorer model is not extended */
 static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
-static const double lines = 1000;     /* cycles looked at, about */
 static const double mostly = 0.5;     /* and so much of all there is */
 enum { BEAM = 2 };
 
@@ -341,11 +340,10 @@ static int is_better(const lab_attempt *nameless, const lab_attempt *named, doub
          (lab_any_is_noise(nameless, 1) || nameless->chi2 - n < share * (named->chi2 - n));
 }
 
-/* Whether a slot passes: a cycle is the best of many lines. */
 static int slot_passes(const search *s, const lab_slot *slot)
 {
-  const double tests = slot->term.argument == PNEU_TERM_OVER_CYCLE ? lines : 1;
-  return slot->degrees > 0 && tests * lab_chi2_tail(slot->statistic, slot->degrees) < s->result->level;
+  return slot->degrees > 0 &&
+         lab_slot_tests(&slot->term) * lab_chi2_tail(slot->statistic, slot->degrees) < s->result->level;
 }
 
 /* The best free term beside a model, if the best slot passes.  Out: best, fitted or not */

@@ -84,7 +84,7 @@ static void add_unlisted(cJSON *to, const lab_story *story, const lab_found *fou
   cJSON_AddStringToObject(o, "where", lab_unlisted_where(term, where));
   add_number(o, "statistic", found->statistic);
   add_number(o, "degrees", found->degrees);
-  add_number(o, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+  add_number(o, "p_value", fmin(1, lab_slot_tests(term) * lab_chi2_tail(found->statistic, found->degrees)));
   add_number(o, "explained", found->explained);
 }
 
@@ -192,7 +192,7 @@ static cJSON *json_of(const lab_story *story)
 {
   const lab_loop_result *result = story->result;
   cJSON *root = cJSON_CreateObject(), *o;
-  char sentence[512];
+  char sentence[LAB_SENTENCE_TEXT];
   int i;
   lab_story_sentence(story, sentence, sizeof sentence);
   cJSON_AddStringToObject(root, "verdict", lab_verdict_text(result->verdict));
@@ -288,6 +288,47 @@ int lab_story_header(const lab_story *story, const char *folder, lab_error *erro
 
 /* ---- residual.csv ---- */
 
+/* Whether any experiment measures a channel. */
+static int is_measured(const lab_unknowns *u, int channel)
+{
+  int e, c, any = 0;
+  for (e = 0; e < u->n_experiments; e++)
+    for (c = 0; c < u->experiment[e].n_channels; c++)
+      any |= u->experiment[e].channel[c] == channel;
+  return any;
+}
+
+static void residual_head(FILE *file, const lab_unknowns *u)
+{
+  int c;
+  fputs("run [1],t [s]", file);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    const lab_channel_info *info = &lab_channels[c];
+    if (is_measured(u, c))
+      fprintf(file, ",%s [%s],%s_before [%s],%s_after [%s],%s_residual_before [1],%s_residual_after [1]", info->key,
+              info->unit, info->key, info->unit, info->key, info->unit, info->key, info->key);
+  }
+  fputc('\n', file);
+}
+
+/* One row of one channel; empty where the experiment does not have it, and in a gap. */
+static void residual_cell(FILE *file, const lab_experiment *x, int channel, size_t i, const double *before,
+                          const double *after)
+{
+  int c = 0;
+  size_t at;
+  double y;
+  while (c < x->n_channels && x->channel[c] != channel)
+    c++;
+  y = c < x->n_channels ? lab_experiment_measured(x, c, i) : (double)NAN;
+  at = (size_t)c * x->n + i;
+  if (isnan(y))
+    fputs(",,,,,", file);
+  else
+    fprintf(file, ",%.9g,%.9g,%.9g,%.5g,%.5g", y, y - before[at] * x->sigma[c], y - after[at] * x->sigma[c], before[at],
+            after[at]);
+}
+
 static void residual_rows(FILE *file, const lab_unknowns *u, const double *before, const double *after)
 {
   int e, c;
@@ -296,15 +337,9 @@ static void residual_rows(FILE *file, const lab_unknowns *u, const double *befor
     size_t i;
     for (i = 0; i < x->n; i++) {
       fprintf(file, "%d,%.9g", e + 1, x->log->value[LAB_CHANNEL_TIME][x->first + i]);
-      for (c = 0; c < x->n_channels; c++) {
-        const size_t at = (size_t)c * x->n + i;
-        const double y = lab_experiment_measured(x, c, i);
-        if (isnan(y))
-          fputs(",,,,,", file);
-        else
-          fprintf(file, ",%.9g,%.9g,%.9g,%.5g,%.5g", y, y - before[at] * x->sigma[c], y - after[at] * x->sigma[c],
-                  before[at], after[at]);
-      }
+      for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+        if (is_measured(u, c))
+          residual_cell(file, x, c, i, before, after);
       fputc('\n', file);
     }
     before += x->n * (size_t)x->n_channels;
@@ -318,7 +353,7 @@ int lab_story_residual(const lab_story *story, const char *folder, lab_error *er
   double *before = malloc((u->n_rows + 1) * sizeof *before);
   double *after = malloc((u->n_rows + 1) * sizeof *after);
   lab_outfile out;
-  int c, status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
+  int status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
     status = lab_unknowns_errors(story->declared, before, error);
   if (status == LAB_OK)
@@ -326,13 +361,7 @@ int lab_story_residual(const lab_story *story, const char *folder, lab_error *er
   if (status == LAB_OK)
     status = open_in(folder, "residual.csv", &out, error);
   if (status == LAB_OK) {
-    fputs("run [1],t [s]", out.file);
-    for (c = 0; c < u->experiment[0].n_channels; c++) {
-      const lab_channel_info *info = &lab_channels[u->experiment[0].channel[c]];
-      fprintf(out.file, ",%s [%s],%s_before [%s],%s_after [%s],%s_residual_before [1],%s_residual_after [1]", info->key,
-              info->unit, info->key, info->unit, info->key, info->unit, info->key, info->key);
-    }
-    fputc('\n', out.file);
+    residual_head(out.file, u);
     residual_rows(out.file, u, before, after);
     status = lab_out_close(&out, error);
   }

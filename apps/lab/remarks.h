@@ -5,7 +5,7 @@
 
 #include "message.h"
 
-enum { LAB_REMARK_MAX = 32, LAB_REMARK_TEXT = 512 };
+enum { LAB_REMARK_MAX = 32, LAB_REMARK_TEXT = 512, LAB_SENTENCE_TEXT = LAB_REMARK_TEXT + 64 };
 
 typedef struct lab_remarks {
   int n; /* texts */

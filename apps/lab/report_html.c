@@ -101,7 +101,7 @@ static void put_head(const telling *t, cJSON *page)
   static const char *const badge[] = {"nothing missing", "effect found", "something unlisted", "undecided"};
   const lab_story *story = t->story;
   const int verdict = story->result->verdict;
-  char sentence[512];
+  char sentence[LAB_SENTENCE_TEXT];
   lab_story_sentence(story, sentence, sizeof sentence);
   put(page, "sentence", "%s", sentence);
   put(page, "verdict", "%s", lab_verdict_text(verdict));

@@ -7,6 +7,7 @@
 #include "cycles.h"
 #include "descent.h"
 
+static const double lines = 1000;    /* cycles looked at, about */
 static const double absorbed = 0.02; /* share of a knot's slope for which its neighbours may stand in */
 
 /* Where something without a name may act, and how finely it is looked at. */
@@ -180,6 +181,11 @@ static int try_cycles(const lab_scan *s, lab_slot *slot)
   }
   free(all);
   return kept;
+}
+
+double lab_slot_tests(const pneu_term *term)
+{
+  return term->argument == PNEU_TERM_OVER_CYCLE ? lines : 1;
 }
 
 int lab_slots_try(const lab_scan *s, lab_slot slot[LAB_SLOT_MAX])

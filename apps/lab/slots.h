@@ -24,4 +24,7 @@ typedef struct lab_slot {
  * Returns: their number. */
 int lab_slots_try(const lab_scan *scan, lab_slot slot[LAB_SLOT_MAX]);
 
+/* Tests that the statistic of a term is the best of: a cycle is the best of many lines. */
+double lab_slot_tests(const pneu_term *term);
+
 #endif
