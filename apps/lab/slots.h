@@ -3,7 +3,9 @@
  * A slot is an equation and an argument in which a free term (pneu.h) may act; its slopes are those in the heights of
  * the term's knots, and T is chi-square with as many degrees of freedom as of them the log sees. What comes in cycles
  * of time has the two amplitudes of a sine, with the period that the residual shows (cycles.h); its phase is that of
- * the logs' own times, and the same for all of them. SPDX-License-Identifier: MIT */
+ * the logs' own times, and the same for all of them.
+ *
+ * SPDX-License-Identifier: MIT */
 #ifndef LAB_SLOTS_H
 #define LAB_SLOTS_H
 
