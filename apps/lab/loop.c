@@ -12,7 +12,7 @@
 #include "refit.h"
 
 static const double alike_bic = 9.2;  /* refits that differ by less are alike: odds of a hundred to one */
-static const double convincing = 0.5; /* of the excess of the best named model: a free term leaves at most so much, */
+static const double convincing = 0.5; /* of the excess of one effect, or of none: a free term leaves at most so much, */
 static const double compelling = 0.1; /* and with so little there is no need to look on */
 static const double rival = 3;        /* times the best chi-square: a poorer model is not extended */
 static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
@@ -103,15 +103,17 @@ static int is_alike_but(const lab_attempt *a, int i, const lab_attempt *b, int k
   return alike;
 }
 
-/* Effects of a pool, each added last, that are as good as one of a model's in its place. */
+/* Effects of a pool, each added last, that are as good as one of a model's in its place: a better fit by one unknown
+ * more is no reason to choose it, but nor does the log speak against it. */
 static void note_alike(lab_attempt *model, int which, const lab_attempt *pool, int n)
 {
   lab_found *found = &model->found[which];
   int i, k;
   found->n_alike = 0;
-  for (i = 0; found->effect >= 0 && i < n && pool[i].bic - model->bic < alike_bic; i++) {
+  for (i = 0; found->effect >= 0 && i < n; i++) {
     const int last = pool[i].n_found - 1, effect = pool[i].found[last].effect;
-    int known = effect < 0 || effect == found->effect || !is_alike_but(model, which, &pool[i], last);
+    int known = fmin(pool[i].bic - model->bic, pool[i].chi2 - model->chi2) > alike_bic || effect < 0 ||
+                effect == found->effect || !is_alike_but(model, which, &pool[i], last);
     for (k = 0; k < found->n_alike; k++)
       known |= found->alike[k] == effect;
     if (known)
@@ -372,8 +374,11 @@ static int last_resort(search *s, lab_error *error)
   note_step(s->result, longer);
   if (lab_loop_errors(&best->u, &before, error) || lab_loop_errors(&longer->u, &after, error))
     return error->status;
-  if (gain(best, longer, &before, &after) < s->options->min_gain)
+  if (gain(best, longer, &before, &after) < s->options->min_gain) {
+    s->result->small = longer->u.rig.term[longer->u.rig.n_terms - 1];
+    s->result->has_small = 1;
     return LAB_OK;
+  }
   *best = *longer;
   remove_needless(best);
   note_way(s->result, best);
@@ -414,7 +419,8 @@ static int search_all(search *s, lab_error *error)
         (lab_any_is_noise(s->nameless, 1) || (best->n_found > 1 && is_better(s->nameless, best, compelling))))
       break;
   }
-  if (s->nameless->fitted && !lab_any_is_noise(best, 1) && is_better(s->nameless, best, convincing)) {
+  if (s->nameless->fitted && !lab_any_is_noise(best, 1) &&
+      is_better(s->nameless, best, best->n_found > 1 ? 1 : convincing)) {
     *best = *s->nameless;
     note_step(s->result, best);
     s->result->n_path = 1;

@@ -54,6 +54,8 @@ typedef struct lab_loop_result {
   double trace_s;         /* [s] that this scan took */
   int n_listed;           /* effects that are significant but gain less than min_gain */
   int listed[LAB_TRACE_MAX];
+  int has_small;   /* not 0: a free term is significant but gains less than min_gain */
+  pneu_term small; /* that term */
   int n_steps;
   lab_step step[LAB_LOOP_STEPS];
   int n_path; /* models from the declared one to the final one */

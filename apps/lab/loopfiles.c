@@ -88,6 +88,14 @@ static void add_unlisted(cJSON *to, const lab_story *story, const lab_found *fou
   add_number(o, "explained", found->explained);
 }
 
+/* "unlisted:force" */
+static void add_small_term(cJSON *list, const pneu_term *term)
+{
+  char text[40];
+  snprintf(text, sizeof text, "unlisted:%s", lab_unlisted_equation(term));
+  cJSON_AddItemToArray(list, cJSON_CreateString(text));
+}
+
 static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
 {
   cJSON *o = cJSON_AddObjectToObject(to, name);
@@ -215,6 +223,8 @@ static cJSON *json_of(const lab_story *story)
   o = cJSON_AddArrayToObject(root, "significant_but_small");
   for (i = 0; i < result->n_listed; i++)
     cJSON_AddItemToArray(o, cJSON_CreateString(pneu_effect_at(result->listed[i])->name));
+  if (result->has_small)
+    add_small_term(o, &result->small);
   if (story->next.kind == LAB_ADVICE_TRIAL)
     cJSON_AddStringToObject(root, "record_next", story->next.text);
   add_steps(root, story);
@@ -425,5 +435,5 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
              found_names(story, names, sizeof names), before, after);
   else
     snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise%s.",
-             before, r->n_listed ? ", and what is significant would not change that" : "");
+             before, r->n_listed || r->has_small ? ", and what is significant would not change that" : "");
 }

@@ -265,7 +265,7 @@ static void put_found(const telling *t, const lab_found *found, cJSON *list)
 static void put_reasons(const telling *t, cJSON *list)
 {
   const lab_loop_result *r = t->story->result;
-  char statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT];
+  char statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT], where[LAB_WHERE_TEXT];
   int i;
   if (r->n_found == 0 && r->n_listed == 0 && r->trace.n > 0 && r->level > 0)
     say(list, "Of all effects %s comes nearest, with a statistic of %s; it would take %s to be more than chance.",
@@ -274,6 +274,11 @@ static void put_reasons(const telling *t, cJSON *list)
   for (i = 0; i < r->n_listed; i++)
     say(list, "%s is more than chance, but would lower the error by less than --min-gain asks for, and was not added.",
         effect_name(r->listed[i]));
+  if (r->has_small)
+    say(list,
+        "Something without a name, like %s (%s), is more than chance, but would lower the error by less than "
+        "--min-gain asks for, and was not added.",
+        lab_unlisted_what(&r->small), lab_unlisted_where(&r->small, where));
   if (r->verdict == LAB_VERDICT_UNDECIDED)
     say(list, "What is left is not noise, and no effect of the catalogue explains it. The figures below show when and "
               "where it arises.");

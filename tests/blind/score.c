@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- Right or not ---- */
@@ -69,11 +70,21 @@ static int equation_right(const blind_trial *t, const blind_answer *a)
   return same(a->verdict, "unlisted") && a->n_unlisted > 0 && same(a->unlisted[0], t->missing[0].effect->equation);
 }
 
+/* Whether something without a name, in the right equation, is listed as significant but too small to be added. */
+static int equation_listed(const blind_trial *t, const blind_answer *a)
+{
+  blind_word word;
+  snprintf(word, sizeof word, "unlisted:%s", t->missing[0].effect->equation);
+  return same(a->verdict, "none") && is_listed(a, word);
+}
+
 static int right(const blind_trial *t, const blind_answer *a, enum level level)
 {
   if (t->kind == BLIND_NOTHING)
     return same(a->verdict, "none");
-  return t->kind == BLIND_UNLISTED ? equation_right(t, a) : names_right(t, a, level);
+  if (t->kind == BLIND_UNLISTED)
+    return equation_right(t, a) || (level >= STATED && equation_listed(t, a));
+  return names_right(t, a, level);
 }
 
 /* ---- Texts ---- */
