@@ -137,6 +137,25 @@ static void test_blind_score__each_kind_of_answer__has_its_score(void **state)
   }
 }
 
+static void test_blind_score__listed_free_term__is_stated_in_its_equation(void **state)
+{
+  const double limit[] = {1};
+  const blind_trial t = trial_with(BLIND_UNLISTED, "unlisted:friction_bump");
+  (void)state;
+  set_answer("none", "", "");
+  strcpy(answer.small[answer.n_small++], "unlisted:mass");
+  blind_score(&t, limit, &answer, &record);
+  assert_close(record.stated, 0, 0, 0);
+  strcpy(answer.small[answer.n_small++], "unlisted:force");
+  blind_score(&t, limit, &answer, &record);
+  assert_close(record.stated, 1, 0, 0);
+  assert_close(record.name, 0, 0, 0);
+  set_answer("undecided", "", "");
+  strcpy(answer.small[answer.n_small++], "unlisted:force");
+  blind_score(&t, limit, &answer, &record);
+  assert_close(record.stated, 0, 0, 0);
+}
+
 static void test_blind_score__size_over_limit__is_the_least_of_a_pair(void **state)
 {
   const double limit[] = {1, 2};
@@ -389,6 +408,7 @@ int main(void)
       cmocka_unit_test(test_blind_answer_read__whole_report__every_field_is_taken),
       cmocka_unit_test(test_blind_answer_read__no_verdict__is_refused),
       cmocka_unit_test(test_blind_score__each_kind_of_answer__has_its_score),
+      cmocka_unit_test(test_blind_score__listed_free_term__is_stated_in_its_equation),
       cmocka_unit_test(test_blind_score__size_over_limit__is_the_least_of_a_pair),
       cmocka_unit_test(test_blind_score__own_candidate__has_its_rank_among_effects),
       cmocka_unit_test(test_blind_ask__report_failure_and_sleep__are_answers),
