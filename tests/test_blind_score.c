@@ -150,6 +150,7 @@ static void test_blind_score__listed_free_term__is_stated_in_its_equation(void *
   blind_score(&t, limit, &answer, &record);
   assert_close(record.stated, 1, 0, 0);
   assert_close(record.name, 0, 0, 0);
+  assert_contains(record.why, "listed as significant but too small");
   set_answer("undecided", "", "");
   strcpy(answer.small[answer.n_small++], "unlisted:force");
   blind_score(&t, limit, &answer, &record);

@@ -234,6 +234,8 @@ static void explain(const blind_trial *t, const blind_answer *a, blind_record *r
     append(r->why, "below %sthe information limit; ", r->ratio < 1 ? "" : "twice ");
   if (same(a->verdict, "unlisted") && t->kind == BLIND_UNLISTED)
     append(r->why, "wrong equation");
+  else if (r->stated && t->kind == BLIND_UNLISTED)
+    append(r->why, "listed as significant but too small to be added");
   else if (r->stated)
     append(r->why, "stated as indistinguishable from what was named");
   else
