@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 static const double two_pi = 6.283185307179586;
+static const double clear = 3; /* times its surroundings: a line that stands out less is no cycle */
 enum { CELLS = 2048, FEWEST_CYCLES = 3, ROWS_PER_CYCLE = 8, OVERSAMPLED = 4, AROUND = 48 };
 
 /* Lines at equal distances in frequency, f = (first + i) step. */
@@ -140,7 +141,7 @@ int lab_cycles_find(const lab_unknowns *u, const double *r, double *period)
     for (channel = 0; channel < LAB_CHANNEL_COUNT; channel++)
       look_at_channel(u, r, channel, &s);
     for (i = 1; i + 1 < s.n; i++)
-      if (s.height[i] > s.height[i - 1] && s.height[i] >= s.height[i + 1])
+      if (s.height[i] > clear && s.height[i] > s.height[i - 1] && s.height[i] >= s.height[i + 1])
         keep(period, rank, &n, 1 / ((double)(s.first + i) * s.step), s.height[i]);
   }
   free(s.power);

@@ -8,7 +8,8 @@
 enum { LAB_CYCLES_MAX = 24 };
 
 /* Peaks of the periodograms of all channels, each over all logs; the highest over its surroundings first. Phases of the
- * logs do not count. Looked at are three cycles to a log at least, and eight rows to a cycle.
+ * logs do not count. Looked at are three cycles to a log at least, and eight rows to a cycle;
+ * a peak counts where it is three times its surroundings at least.
  * In:      r       errors over noise, as from lab_unknowns_errors
  * Out:     period  [s] LAB_CYCLES_MAX at most
  * Returns: their number; 0 also where memory is short. */

@@ -12,9 +12,10 @@
 /* Singular value decomposition of the slopes of k parameters, columns scaled to unit length. */
 typedef struct spectrum {
   int k;
-  int of[LAB_FIT_MAX];         /* their places */
-  double length[LAB_FIT_MAX];  /* of the column before scaling */
-  double *column[LAB_FIT_MAX]; /* m entries each; orthogonal afterwards, lengths are singular values */
+  int of[LAB_FIT_MAX];                /* their places */
+  double length[LAB_FIT_MAX];         /* of the column before scaling */
+  double *column[LAB_FIT_MAX];        /* m entries each */
+  double R[LAB_FIT_MAX][LAB_FIT_MAX]; /* rows: columns of R; orthogonal afterwards, lengths are singular values */
   double V[LAB_FIT_MAX][LAB_FIT_MAX];
   double singular[LAB_FIT_MAX];
   double floor; /* singular values below it are no more than errors of the differences */
@@ -24,33 +25,56 @@ static double dot(const double *a, const double *b, size_t m)
 {
   double sum = 0;
   size_t i;
+#pragma omp simd reduction(+ : sum)
   for (i = 0; i < m; i++)
     sum += a[i] * b[i];
   return sum;
 }
 
-static void rotate(double *a, double *b, size_t m, double c, double s)
+/* R of the columns (modified Gram-Schmidt; Bjorck 1967: as exact as by reflections), which has their singular values.
+ * The columns become orthonormal. */
+static void factorise(spectrum *s, size_t m)
 {
+  int j, l;
   size_t i;
-  for (i = 0; i < m; i++) {
+  memset(s->R, 0, sizeof s->R);
+  for (j = 0; j < s->k; j++) {
+    double *q = s->column[j];
+    const double length = s->R[j][j] = sqrt(dot(q, q, m));
+    for (i = 0; i < m && length > 0; i++)
+      q[i] /= length;
+    for (l = j + 1; l < s->k; l++) {
+      double *other = s->column[l];
+      const double along = s->R[l][j] = dot(q, other, m);
+      for (i = 0; i < m; i++)
+        other[i] -= along * q[i];
+    }
+  }
+}
+
+static void rotate(double *a, double *b, int n, double c, double s)
+{
+  int i;
+  for (i = 0; i < n; i++) {
     const double x = a[i], y = b[i];
     a[i] = c * x - s * y;
     b[i] = s * x + c * y;
   }
 }
 
-/* Make columns p and q orthogonal (Hestenes 1958).  Returns: whether they were not. */
-static int orthogonalise(spectrum *s, int p, int q, size_t m)
+/* Make columns p and q of R orthogonal (Hestenes 1958).  Returns: whether they were not. */
+static int orthogonalise(spectrum *s, int p, int q)
 {
-  const double a = dot(s->column[p], s->column[p], m), b = dot(s->column[q], s->column[q], m);
-  const double d = dot(s->column[p], s->column[q], m), zeta = (b - a) / (2 * d);
+  const size_t k = (size_t)s->k;
+  const double a = dot(s->R[p], s->R[p], k), b = dot(s->R[q], s->R[q], k);
+  const double d = dot(s->R[p], s->R[q], k), zeta = (b - a) / (2 * d);
   double t, c;
   int i;
   if (fabs(d) <= 1e-15 * sqrt(a * b) || d == 0)
     return 0;
   t = (zeta < 0 ? -1 : 1) / (fabs(zeta) + sqrt(1 + zeta * zeta));
   c = 1 / sqrt(1 + t * t);
-  rotate(s->column[p], s->column[q], m, c, c * t);
+  rotate(s->R[p], s->R[q], s->k, c, c * t);
   for (i = 0; i < s->k; i++) {
     const double x = s->V[i][p], y = s->V[i][q];
     s->V[i][p] = c * x - c * t * y;
@@ -63,15 +87,16 @@ static void decompose(spectrum *s, size_t m)
 {
   enum { SWEEPS = 60 };
   int sweep, p, q, turned = 1;
+  factorise(s, m);
   memset(s->V, 0, sizeof s->V);
   for (p = 0; p < s->k; p++)
     s->V[p][p] = 1;
   for (sweep = 0; sweep < SWEEPS && turned; sweep++)
     for (turned = 0, p = 0; p < s->k; p++)
       for (q = p + 1; q < s->k; q++)
-        turned |= orthogonalise(s, p, q, m);
+        turned |= orthogonalise(s, p, q);
   for (p = 0; p < s->k; p++)
-    s->singular[p] = sqrt(dot(s->column[p], s->column[p], m));
+    s->singular[p] = sqrt(dot(s->R[p], s->R[p], (size_t)s->k));
 }
 
 /* ---- Words ---- */

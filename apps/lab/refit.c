@@ -4,7 +4,8 @@
 #include <stdlib.h>
 
 static const double rival = 3;                /* times the best chi-square: what leaves more falls behind */
-static const double worth = 0.05;             /* of the best statistic: leaders have at least so much */
+static const double worth = 0.05;             /* of the best statistic: leaders have at least so much, */
+static const double foremost = 0.2;           /* and those that are refitted first so much */
 static const double nearly = 1.2;             /* times the best BIC: still in the running after a brief fit */
 static const double much = 0.5;               /* of what the declared model leaves: a good effect takes so much */
 enum { FIRST = 3, BRIEF = 8, FINALISTS = 3 }; /* steps of a fit; models fitted to the end */
@@ -55,16 +56,6 @@ static void refit_from(const lab_attempt *base, const lab_candidate *c, int star
   found->p_value = c->p_value;
 }
 
-/* The candidates worth a refit: the first of those that pass. */
-static int count_leaders(const lab_trace_result *trace, double level)
-{
-  int n = 0;
-  while (n < trace->n && n < LAB_LOOP_LEADERS && trace->candidate[n].p_value < level &&
-         trace->candidate[n].statistic >= worth * trace->candidate[0].statistic)
-    n++;
-  return n;
-}
-
 /* All that pass. */
 static int count_passing(const lab_trace_result *trace, double level)
 {
@@ -74,19 +65,13 @@ static int count_passing(const lab_trace_result *trace, double level)
   return n;
 }
 
-/* Fit those to the end that are in the running after a brief fit: the best few, and whatever is nearly as good. */
-static void fit_finalists(lab_attempt *a, int n)
+/* Those of the first n whose statistic is not below a share of the best. */
+static int count_near(const lab_candidate *candidate, int n, double share)
 {
-  double bar;
-  int i;
-  qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
-  bar = n > 0 ? nearly * a[0].bic : 0;
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++) {
-    lab_error ignored;
-    if (a[i].fitted && (i < FINALISTS || a[i].bic < bar))
-      lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &ignored);
-  }
+  int i = 0;
+  while (i < n && candidate[i].statistic >= share * candidate[0].statistic)
+    i++;
+  return i;
 }
 
 static double least_chi2(const lab_attempt *a, int n)
@@ -99,37 +84,57 @@ static double least_chi2(const lab_attempt *a, int n)
   return least;
 }
 
-/* Refit the leaders from one start, in parallel: a few steps, and more for those that keep up with the best. */
-static void refit_race(const lab_attempt *base, const lab_candidate *leader, int n, int start, lab_attempt *a)
+/* Fit those to the end that are in the running after a brief fit: whatever is nearly as good as the best, and the best
+ * few; of these only rivals where the best leaves no more than noise. */
+static void fit_finalists(lab_attempt *a, int n)
 {
-  double least;
+  double bar, reach;
   int i;
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++)
-    refit_from(base, &leader[i], start, &a[i]);
-  least = least_chi2(a, n);
+  qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
+  bar = n > 0 ? nearly * a[0].bic : 0;
+  reach = lab_any_is_noise(a, n) ? rival * least_chi2(a, n) : (double)INFINITY;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     lab_error ignored;
-    if (a[i].fitted && a[i].chi2 < rival * least)
-      lab_attempt_fit(&a[i], BRIEF, &ignored);
+    if (a[i].fitted && (a[i].bic < bar || (i < FINALISTS && a[i].chi2 < reach)))
+      lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &ignored);
   }
 }
 
-/* Refit the leaders: all from the first start, and from the others for as long as none leaves only noise. */
+/* Refit leaders from one start, in parallel: a few steps, and more for those that keep up with the best.
+ * In/out:  a  the best attempt of each so far */
+static void refit_race(const lab_attempt *base, const lab_candidate *leader, int n, int start, lab_attempt *a)
+{
+  lab_attempt *mine = malloc(((size_t)n + 1) * sizeof *mine);
+  double least;
+  int i;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < (mine ? n : 0); i++)
+    refit_from(base, &leader[i], start, &mine[i]);
+  least = mine ? least_chi2(mine, n) : 0;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < (mine ? n : 0); i++) {
+    lab_error ignored;
+    if (mine[i].fitted && mine[i].chi2 < rival * least)
+      lab_attempt_fit(&mine[i], BRIEF, &ignored);
+    lab_attempt_keep_better(&a[i], &mine[i]);
+  }
+  free(mine);
+}
+
+/* Refit the leaders: the foremost from the first start, and while none leaves only noise, the rest, and all from the
+ * other starts. */
 static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, int n, lab_attempt *a)
 {
-  const int starts = base->n_found == 0 ? STARTS : STARTS - 1;
-  lab_attempt *mine = malloc(((size_t)n + 1) * sizeof *mine);
+  const int starts = base->n_found == 0 ? STARTS : STARTS - 1, first = count_near(leader, n, foremost);
   int i, start;
   for (i = 0; i < n; i++)
     a[i].fitted = 0;
-  for (start = 0; mine && start < starts && !lab_any_is_noise(a, n); start++) {
-    refit_race(base, leader, n, start, mine);
-    for (i = 0; i < n; i++)
-      lab_attempt_keep_better(&a[i], &mine[i]);
-  }
-  free(mine);
+  refit_race(base, leader, first, FROM_SLOPE, a);
+  if (!lab_any_is_noise(a, n))
+    refit_race(base, leader + first, n - first, FROM_SLOPE, a + first);
+  for (start = FROM_SLOPE + 1; start < starts && !lab_any_is_noise(a, n); start++)
+    refit_race(base, leader, n, start, a);
   fit_finalists(a, n);
 }
 
@@ -147,7 +152,8 @@ int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
  * beyond the reach of slopes, all that pass.  Returns: how many. */
 int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a)
 {
-  const int leaders = count_leaders(trace, level), all = count_passing(trace, level);
+  const int all = count_passing(trace, level);
+  const int leaders = count_near(trace->candidate, all < LAB_LOOP_LEADERS ? all : LAB_LOOP_LEADERS, worth);
   refit_leaders(base, trace->candidate, leaders, a);
   if (base->n_found > 0 || all <= leaders || lab_any_is_noise(base, 1) || !lab_refit_all_poor(base, a, leaders))
     return leaders;

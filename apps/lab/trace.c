@@ -4,12 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sizes at which a slope is taken, over the usual size; shapes over the usual shape. Where the first changes the
- * residual by far more than can just be seen, it is taken at one that changes it by so much. */
-static const double sizes[] = {0.02, 1.0};
-static const double far_more = 100, just_seen = 20;
-static const double shapes[] = {0.3, 1.0, 3.0};
-enum { SIZES = sizeof sizes / sizeof *sizes, SHAPES = sizeof shapes / sizeof *shapes };
+/* A slope is taken at the usual size of a parameter and, where that changes the residual by far more than can just be
+ * seen, at shorter ones until it does not; at a small one where the usual one fails. */
+static const double far_more = 100, just_seen = 20, small = 0.02;
+static const double shapes[] = {0.3, 1.0, 3.0}; /* over the usual shape */
+enum { SHAPES = sizeof shapes / sizeof *shapes, SIZES = 3 };
 
 double lab_chi2_p(double statistic)
 {
@@ -47,38 +46,43 @@ static int slope_of(const lab_scan *s, const lab_candidate *c, double value, dou
   return lab_scan_difference(s, &model, slope);
 }
 
-/* A shorter step where the first one goes far.  In/out: step, slope */
-static int shorten(const lab_scan *s, const lab_candidate *c, double neutral, double shape_value, double *step,
-                   double *slope)
+/* One shape of a candidate.  Returns: the number of slopes that were judged */
+static int try_shape(const lab_scan *s, lab_candidate *c, double shape_value, double *slope)
 {
-  const double length = sqrt(lab_scan_dot(slope, slope, s->m));
-  if (!(length > far_more))
-    return 0;
-  *step *= just_seen / length;
-  return slope_of(s, c, neutral + *step, shape_value, slope);
+  pneu_param_info info;
+  double neutral, step;
+  int i, tests = 0;
+  pneu_param_describe(c->param, &info);
+  neutral = (double)info.neutral;
+  step = (double)info.value - neutral;
+  for (i = 0; i < SIZES; i++) {
+    double length;
+    if (slope_of(s, c, neutral + step, shape_value, slope)) {
+      step *= small;
+      continue;
+    }
+    length = sqrt(lab_scan_dot(slope, slope, s->m));
+    judge(s, slope, step, (double)info.upper - neutral, neutral - (double)info.lower, c, shape_value);
+    tests++;
+    if (!(length > far_more))
+      break;
+    step *= just_seen / length;
+  }
+  return tests;
 }
 
 static int try_candidate(const lab_scan *s, lab_candidate *c)
 {
   double *slope = malloc(s->m * sizeof *slope);
-  pneu_param_info info, shape = {0};
-  int i, k, tests = 0;
+  pneu_param_info shape = {0};
+  int k, tests = 0;
   if (!slope)
     return 0;
-  pneu_param_describe(c->param, &info);
   if (c->shape >= 0)
     pneu_param_describe(c->shape, &shape);
   for (k = 0; k < (c->shape >= 0 ? SHAPES : 1); k++)
-    for (i = 0; i < SIZES; i++) {
-      const double shape_value =
-          c->shape >= 0 ? fmin(fmax(shapes[k] * (double)shape.value, (double)shape.lower), (double)shape.upper) : 0;
-      double step = sizes[i] * (double)(info.value - info.neutral);
-      if (slope_of(s, c, (double)info.neutral + step, shape_value, slope) ||
-          (i == 0 && shorten(s, c, (double)info.neutral, shape_value, &step, slope)))
-        continue;
-      judge(s, slope, step, (double)(info.upper - info.neutral), (double)(info.neutral - info.lower), c, shape_value);
-      tests++;
-    }
+    tests +=
+        try_shape(s, c, fmin(fmax(shapes[k] * (double)shape.value, (double)shape.lower), (double)shape.upper), slope);
   c->p_value = lab_chi2_p(c->statistic);
   c->explained = s->excess > 0 ? c->statistic / s->excess : 0;
   free(slope);
