@@ -72,6 +72,12 @@ measured: $(STATIC) closeloop $(BUILD)/measured
 $(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
 
+## Build the core for Cortex-M4F and M0+, 32-bit x86 and a big-endian machine and run it there, emulated; installs the tools
+firmware-check: $(STATIC)
+	@CC='$(CC)' sh tests/firmware/install.sh
+	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' sh tests/firmware/check.sh full
+.PHONY: firmware-check
+
 ## Time one fill-and-vent beside CVODE, in one run; writes results/bench.csv and work_precision.csv
 bench: $(BUILD)/tests/bench/fill_and_vent
 	$< results

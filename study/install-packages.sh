@@ -1,10 +1,12 @@
 #!/bin/sh
 # Install what is missing, on Debian and Ubuntu; name it for other systems.
 # Exits 0 where everything is there.
+#   install-packages.sh [PACKAGE ...]    default: what `make all` and `make check` need
 set -eu
 
 apt_packages="gcc g++ make pkg-config libsundials-dev libnlopt-dev libconfig-dev libudunits2-dev libcjson-dev
 libcminpack-dev libcmocka-dev gnuplot-nox"
+[ $# -eq 0 ] || apt_packages=$*
 
 missing() {
   for package in $apt_packages; do
@@ -14,7 +16,8 @@ missing() {
 
 name_others() {
   cat <<WORDS
-This system has no apt-get. Install the same libraries by its own package manager, then run make all:
+This system has no apt-get. Install by its own package manager: $apt_packages
+Libraries for make all elsewhere:
   dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot
   brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp
 WORDS

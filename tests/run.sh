@@ -3,6 +3,7 @@
 # headers, the README's commands, and the study against results/. Ends with one line of totals.
 set -u
 : "${MAKE:=make}" "${CC:=cc}" "${CXX:=c++}" "${BUILD:=build}"
+export MAKE CC CXX BUILD
 passed=0
 failed=0
 skipped=0
@@ -75,6 +76,19 @@ suites() {
   done
 }
 
+# The core on other processors; each line of the script counts.
+firmware() {
+  CC="$CC" sh tests/firmware/install.sh >"$log" 2>&1
+  firmware_log="$BUILD/firmware.log"
+  if ! sh tests/firmware/check.sh short >"$firmware_log" 2>&1 && ! grep -q '^FAILED' "$firmware_log"; then
+    echo "FAILED  firmware: its script ended early" >>"$firmware_log"
+  fi
+  cat "$firmware_log"
+  passed=$((passed + $(grep -c '^ok ' "$firmware_log")))
+  failed=$((failed + $(grep -c '^FAILED' "$firmware_log")))
+  skipped=$((skipped + $(grep -c '^skipped' "$firmware_log")))
+}
+
 # closeloop against 40 rigs without its answer; fails where the counts speak against a bar of tests/blind/bars.c.
 blind_trials() {
   rm -rf "$BUILD/blind-sample"
@@ -101,6 +115,7 @@ suites double "$BUILD" all
 suites single "$BUILD/single" "$core" SINGLE=1
 suites sanitized "$BUILD/sanitized" all SANITIZE=address,undefined OPT=-O1
 pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a" lib
+firmware
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh

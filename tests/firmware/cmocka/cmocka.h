@@ -1,0 +1,84 @@
+/* As much of cmocka as the core's tests use, for targets that have none: the same names and the same lines of output.
+ * A test that fails leaves by longjmp.
+ * SPDX-License-Identifier: MIT */
+#ifndef FIRMWARE_CMOCKA_H
+#define FIRMWARE_CMOCKA_H
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+struct CMUnitTest {
+  const char *name;
+  void (*test_func)(void **state);
+  void *setup_func, *teardown_func; /* of no use here */
+  void *initial_state;
+};
+
+enum { CMOCKA_PASSED, CMOCKA_FAILED, CMOCKA_SKIPPED, CMOCKA_OUTCOMES };
+
+static jmp_buf cmocka_end;
+
+static inline void cmocka_leave(int outcome, const char *what, const char *file, int line)
+{
+  if (outcome == CMOCKA_FAILED)
+    fprintf(stderr, "%s:%d: %s\n", file, line, what);
+  longjmp(cmocka_end, outcome);
+}
+
+static inline void print_error(const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  vfprintf(stderr, format, list);
+  va_end(list);
+}
+
+#define _fail(file, line) cmocka_leave(CMOCKA_FAILED, "failed", file, line)
+#define skip()            cmocka_leave(CMOCKA_SKIPPED, "", __FILE__, __LINE__)
+#define fail_msg(...)     (print_error(__VA_ARGS__), _fail(__FILE__, __LINE__))
+
+#define assert_true(c)                    ((c) ? (void)0 : cmocka_leave(CMOCKA_FAILED, #c, __FILE__, __LINE__))
+#define assert_false(c)                   assert_true(!(c))
+#define assert_null(p)                    assert_true((p) == NULL)
+#define assert_non_null(p)                assert_true((p) != NULL)
+#define assert_ptr_equal(a, b)            assert_true((const void *)(a) == (const void *)(b))
+#define assert_int_equal(a, b)            assert_true((long long)(a) == (long long)(b))
+#define assert_int_not_equal(a, b)        assert_true((long long)(a) != (long long)(b))
+#define assert_in_range(value, low, high) assert_true((value) >= (low) && (value) <= (high))
+#define assert_string_equal(a, b)         assert_true(strcmp(a, b) == 0)
+#define assert_string_not_equal(a, b)     assert_true(strcmp(a, b) != 0)
+#define assert_memory_equal(a, b, n)      assert_true(memcmp(a, b, n) == 0)
+
+#define cmocka_unit_test(function)                                                                                     \
+  {                                                                                                                    \
+#function, function, NULL, NULL, NULL                                                                              \
+  }
+#define cmocka_run_group_tests(tests, setup, teardown)                                                                 \
+  cmocka_run(tests, (int)(sizeof(tests) / sizeof *(tests)), (setup) == (teardown))
+
+static inline int cmocka_run_one(const struct CMUnitTest *test)
+{
+  static const char *const words[CMOCKA_OUTCOMES] = {"      OK", " FAILED ", " SKIPPED"};
+  void *state = test->initial_state;
+  const int outcome = setjmp(cmocka_end);
+  if (outcome == CMOCKA_PASSED)
+    test->test_func(&state);
+  printf("[ %s ] %s\n", words[outcome], test->name);
+  return outcome;
+}
+
+static inline int cmocka_run(const struct CMUnitTest *test, int n, int plain)
+{
+  int count[CMOCKA_OUTCOMES] = {0}, i;
+  for (i = 0; plain && i < n; i++)
+    count[cmocka_run_one(&test[i])]++;
+  printf("[  PASSED  ] %d test(s).\n", count[CMOCKA_PASSED]);
+  if (count[CMOCKA_SKIPPED])
+    printf("[  SKIPPED ] %d test(s).\n", count[CMOCKA_SKIPPED]);
+  if (count[CMOCKA_FAILED])
+    printf("[  FAILED  ] %d test(s).\n", count[CMOCKA_FAILED]);
+  return count[CMOCKA_FAILED] + (count[CMOCKA_PASSED] == 0);
+}
+
+#endif
