@@ -5,18 +5,20 @@
 typedef struct shape {
   pneu_real psi, dpsi; /* value and slope in r */
   int choked;
+  int slopes; /* not 0: the slope is asked for */
 } shape;
 
 /* w^m of w = 1 - r; within PNEU_BLEND of equal pressures the odd polynomial w_b^m z (a + b z^2 + c z^4),
  * z = w/w_b, which meets value, slope and curvature of the power at z = 1 and is linear at 0:
- * c = (m - 1)(m - 3)/8, b = (m - 1)(5 - m)/4, a = 1 - b - c.  Out: slope in w. */
+ * c = (m - 1)(m - 3)/8, b = (m - 1)(5 - m)/4, a = 1 - b - c.  Out: slope in w (may be NULL). */
 static pneu_real power(pneu_real w, pneu_real m, pneu_real *slope)
 {
   const int root = m == PNEU_C(0.5);
   const pneu_real at = w >= PNEU_BLEND ? w : PNEU_BLEND, value = root ? PNEU_M(sqrt)(at) : PNEU_M(pow)(at, m);
   pneu_real a, b, c, z, z2;
   if (w >= PNEU_BLEND) {
-    *slope = m * value / w;
+    if (slope)
+      *slope = m * value / w;
     return value;
   }
   c = (m - 1) * (m - 3) / 8;
@@ -24,7 +26,8 @@ static pneu_real power(pneu_real w, pneu_real m, pneu_real *slope)
   a = 1 - b - c;
   z = w * (1 / PNEU_BLEND);
   z2 = z * z;
-  *slope = value * (a + z2 * (3 * b + z2 * 5 * c)) * (1 / PNEU_BLEND);
+  if (slope)
+    *slope = value * (a + z2 * (3 * b + z2 * 5 * c)) * (1 / PNEU_BLEND);
   return value * z * (a + z2 * (b + z2 * c));
 }
 
@@ -33,9 +36,10 @@ static void paper(const pneu_model *model, pneu_real w, shape *s)
 {
   pneu_real slope;
   (void)model;
-  s->psi = power(w, PNEU_C(0.5), &slope);
-  s->dpsi = -slope;
+  s->psi = power(w, PNEU_C(0.5), s->slopes ? &slope : NULL);
   s->choked = 0;
+  if (s->slopes)
+    s->dpsi = -slope;
 }
 
 /* psi = sqrt(r^a - r^b), a = 2/gamma, b = (gamma+1)/gamma, held below the critical ratio. Written as
@@ -54,12 +58,14 @@ static void nozzle(const pneu_model *model, pneu_real w, shape *s)
   ra = PNEU_M(exp)(a * lr);
   g2 = w > 0 ? -ra * PNEU_M(expm1)(d * lr) / w : d;
   g = PNEU_M(sqrt)(g2);
-  s0 = power(w, PNEU_C(0.5), &slope);
+  s0 = power(w, PNEU_C(0.5), s->slopes ? &slope : NULL);
+  s->psi = s0 * g;
+  if (!s->slopes)
+    return;
   if (w < PNEU_BLEND) /* d(G^2)/dw at w = 0 is -d (a + (d - 1)/2) */
     dg = d * (a + (d - 1) / 2) / (2 * g);
   else
     dg = ((a * ra - (a + d) * (ra - g2 * w)) / r + g2) / (2 * g * w);
-  s->psi = s0 * g;
   s->dpsi = s0 * dg - slope * g;
 }
 
@@ -76,9 +82,10 @@ static void iso6358(const pneu_model *model, pneu_real w, shape *s)
   }
   c = (2 - 2 * b - w) / ((1 - b) * (1 - b)); /* (1 + z)/(1 - b) */
   cm = m == PNEU_C(0.5) ? PNEU_M(sqrt)(c) : PNEU_M(pow)(c, m);
-  s0 = power(w, m, &slope);
+  s0 = power(w, m, s->slopes ? &slope : NULL);
   s->psi = s0 * cm;
-  s->dpsi = cm * (s0 * m / (c * (1 - b) * (1 - b)) - slope);
+  if (s->slopes)
+    s->dpsi = cm * (s0 * m / (c * (1 - b) * (1 - b)) - slope);
 }
 
 /* Flow in proportion to the pressure difference: psi = 1 - r. */
@@ -103,21 +110,36 @@ static void linear_choked(const pneu_model *model, pneu_real w, shape *s)
 typedef void shape_function(const pneu_model *, pneu_real, shape *);
 static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, linear, linear_choked};
 
-void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                  pneu_flow *flow)
+static pneu_real gain_of(const pneu_model *model, int law)
 {
-  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain, model->paper_gain,
-                                           model->paper_gain};
+  return law == PNEU_FLOW_CHOKED    ? model->nozzle_gain
+         : law == PNEU_FLOW_ISO6358 ? model->choked_gain
+                                    : model->paper_gain;
+}
+
+/* pneu_orifice, the slopes where they are asked for. */
+static void orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                    int slopes, pneu_flow *flow)
+{
   const pneu_real T = law < PNEU_FLOW_LINEAR ? T_up : model->p.ambient_temperature;
-  const pneu_real k = area * gain[law] / PNEU_M(sqrt)(T);
+  const pneu_real k = area * gain_of(model, law) / PNEU_M(sqrt)(T);
   const pneu_real r = p_down / p_up;
   shape s;
+  s.slopes = slopes;
   shapes[law](model, 1 - r, &s);
   flow->q = k * p_up * s.psi;
+  flow->choked = s.choked;
+  if (!slopes)
+    return;
   flow->dq_dup = k * (s.psi - r * s.dpsi);
   flow->dq_ddown = k * s.dpsi;
   flow->dq_dT = law < PNEU_FLOW_LINEAR ? -flow->q / (2 * T_up) : 0;
-  flow->choked = s.choked;
+}
+
+void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                  pneu_flow *flow)
+{
+  orifice(model, law, area, p_up, T_up, p_down, 1, flow);
 }
 
 pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
@@ -126,21 +148,24 @@ pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
   return area * model->choked_gain * model->p.gas_constant * PNEU_M(sqrt)(PNEU_C(293.15)) / PNEU_C(1e5);
 }
 
-/* The declared law, mixed with the nozzle's as far as choked_flow says. */
+/* The declared law, mixed with the nozzle's as far as choked_flow says. Here and below: only effects ask for that and
+ * for a resistance, and a build without effects need not link it. */
 static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                       pneu_flow *flow)
+                       int slopes, pneu_flow *flow)
 {
   const pneu_real c = t->choked_share;
   pneu_flow nozzle_flow;
-  pneu_orifice(t->model, t->model->law.flow, area, p_up, T_up, p_down, flow);
-  if (c == 0)
+  orifice(t->model, t->model->law.flow, area, p_up, T_up, p_down, slopes, flow);
+  if (PNEU_EFFECT_COUNT == 0 || c == 0)
     return;
-  pneu_orifice(t->model, PNEU_FLOW_CHOKED, area, p_up, T_up, p_down, &nozzle_flow);
+  orifice(t->model, PNEU_FLOW_CHOKED, area, p_up, T_up, p_down, slopes, &nozzle_flow);
   flow->q += c * (nozzle_flow.q - flow->q);
+  flow->choked = nozzle_flow.choked;
+  if (!slopes)
+    return;
   flow->dq_dup += c * (nozzle_flow.dq_dup - flow->dq_dup);
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
   flow->dq_dT += c * (nozzle_flow.dq_dT - flow->dq_dT);
-  flow->choked = nozzle_flow.choked;
 }
 
 /* An orifice in series with a linear resistance, between p_up and p_down: which pressure lies between them. */
@@ -157,11 +182,11 @@ static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_
 {
   const pneu_real conductance = 1 / s->resistance;
   if (s->before) {
-    mixed_flow(s->t, s->area, p, s->T_up, s->p_down, flow);
+    mixed_flow(s->t, s->area, p, s->T_up, s->p_down, 1, flow);
     *slope = flow->dq_dup + conductance;
     return flow->q - (s->p_up - p) * conductance;
   }
-  mixed_flow(s->t, s->area, s->p_up, s->T_up, p, flow);
+  mixed_flow(s->t, s->area, s->p_up, s->T_up, p, 1, flow);
   *slope = flow->dq_ddown - conductance;
   return flow->q - (p - s->p_down) * conductance;
 }
@@ -188,28 +213,31 @@ static void series_flow(const series *s, pneu_flow *flow)
 static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                          pneu_real resistance, int before, pneu_flow *flow)
 {
-  const series s = {t, area, T_up, p_up, p_down, resistance, before};
-  if (resistance > 0 && p_up > p_down)
+  if (PNEU_EFFECT_COUNT > 0 && resistance > 0 && p_up > p_down) {
+    const series s = {t, area, T_up, p_up, p_down, resistance, before};
     series_flow(&s, flow);
-  else
-    mixed_flow(t, area, p_up, T_up, p_down, flow);
+  } else
+    mixed_flow(t, area, p_up, T_up, p_down, t->slopes, flow);
 }
 
 void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
 {
+  const int out = p_other < t->p;
   pneu_flow flow;
   if (area <= 0)
     return;
-  if (p_other < t->p) {
+  if (out) {
     flow_between(t, area, t->p, t->T, p_other, resistance, 0, &flow);
     t->mass_out += flow.q;
-    t->dout_dp += flow.dq_dup;
-    t->dout_dT += flow.dq_dT;
   } else {
     flow_between(t, area, p_other, T_other, t->p, resistance, 1, &flow);
     t->mass_in += flow.q;
     t->mass_in_T += flow.q * T_other;
-    t->din_dp += flow.dq_ddown;
   }
   t->choked |= flow.choked;
+  if (t->slopes && out) {
+    t->dout_dp += flow.dq_dup;
+    t->dout_dT += flow.dq_dT;
+  } else if (t->slopes)
+    t->din_dp += flow.dq_ddown;
 }

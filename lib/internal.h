@@ -9,18 +9,18 @@
 #include "pneu.h"
 
 #ifdef PNEU_SINGLE
-#define PNEU_C(literal)  literal##f
-#define PNEU_M(function) function##f
-#define PNEU_EPS         PNEU_C(1.1920929e-7)
-#define PNEU_EVENT_TIME  PNEU_C(1e-6)
-#define PNEU_FORCE_NOISE PNEU_C(7.6e-6)
+#define PNEU_C(literal)     literal##f
+#define PNEU_M(function)    function##f
+#define PNEU_EPS            PNEU_C(1.1920929e-7)
+#define PNEU_EVENT_TIME     PNEU_C(1e-6)
+#define PNEU_FORCE_NOISE    PNEU_C(7.6e-6)
 #define PNEU_FORCE_RESOLVED PNEU_C(1e-4)
 #else
-#define PNEU_C(literal)  literal
-#define PNEU_M(function) function
-#define PNEU_EPS         2.220446049250313e-16
-#define PNEU_EVENT_TIME  1e-9
-#define PNEU_FORCE_NOISE 1.5e-14
+#define PNEU_C(literal)     literal
+#define PNEU_M(function)    function
+#define PNEU_EPS            2.220446049250313e-16
+#define PNEU_EVENT_TIME     1e-9
+#define PNEU_FORCE_NOISE    1.5e-14
 #define PNEU_FORCE_RESOLVED 1e-7
 #endif
 
@@ -71,13 +71,21 @@ struct pneu_terms {
   pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
   pneu_real din_dp, dout_dp, dout_dT;  /* slopes of the flows, base model only */
   int choked;
+  int slopes; /* not 0: they are asked for */
 };
 typedef struct pneu_terms pneu_terms;
 
-/* Evaluate all terms at a packed vector.  Out: terms; rate: of the effects' states (may be NULL).
- * Returns: PNEU_OK or PNEU_RETRY_STATE. */
+/* Evaluate all terms at a packed vector.  Out: terms, the slopes of the flows left at 0; rate: of the effects' states
+ * (may be NULL).  Returns: PNEU_OK or PNEU_RETRY_STATE. */
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *terms, pneu_real *rate);
+
+/* The same with the slopes of the flows. */
+int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                         pneu_terms *terms);
+
+/* Rates of the packed vector but for the effects' states, from the sums. */
+void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
 
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);

@@ -81,17 +81,41 @@ static void base_jacobian(const pneu_terms *t, int i_x, int n, const pneu_real *
     stem_rows(t, i_x, jac);
 }
 
+static int is_analytic(const pneu_model *model)
+{
+  return model->n_active == 0 && model->n_terms == 0 && model->p.proportional_band <= 0 && !model->law.pressure_input;
+}
+
 int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   const pneu_real *f0, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
   pneu_terms t;
   const int n = pneu_dimension(model, state->mode);
-  if (model->n_active > 0 || model->n_terms > 0 || model->p.proportional_band > 0 || model->law.pressure_input) {
+  if (!is_analytic(model)) {
     differences(model, state, input, y, f0, n, jac);
     return PNEU_OK;
   }
-  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+  if (pneu_evaluate_slopes(model, state, input, y, &t) != PNEU_OK)
     return PNEU_RETRY_STATE;
   base_jacobian(&t, model->n_gas, n, f0, jac);
+  return PNEU_OK;
+}
+
+int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work)
+{
+  pneu_terms t;
+  const int n = pneu_dimension(model, state->mode);
+  work->stats.rhs++;
+  work->stats.jacobians++;
+  if (!is_analytic(model)) {
+    if (pneu_rhs(model, state, input, work->y0, work->f0) != PNEU_OK)
+      return PNEU_RETRY_STATE;
+    differences(model, state, input, work->y0, work->f0, n, work->jac);
+    return PNEU_OK;
+  }
+  if (pneu_evaluate_slopes(model, state, input, work->y0, &t) != PNEU_OK)
+    return PNEU_RETRY_STATE;
+  pneu_rates(&t, state->mode, work->f0);
+  base_jacobian(&t, model->n_gas, n, work->f0, work->jac);
   return PNEU_OK;
 }

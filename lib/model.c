@@ -39,7 +39,7 @@ static int state_count(int e)
 {
   static const unsigned char counts[PNEU_EFFECT_COUNT + 1] = {
 #define PNEU_EFFECT(name, n_param, n_state) n_state,
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
       0};
   return counts[e];

@@ -4,18 +4,18 @@
 #include "internal.h"
 
 #define PNEU_EFFECT(name, n_param, n_state) extern const pneu_effect pneu_effect_record_##name;
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
 
 static const pneu_effect *const records[PNEU_EFFECT_COUNT + 1] = {
 #define PNEU_EFFECT(name, n_param, n_state) &pneu_effect_record_##name,
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
     NULL};
 
 static const unsigned char param_counts[PNEU_EFFECT_COUNT + 1] = {
 #define PNEU_EFFECT(name, n_param, n_state) n_param,
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
     0};
 

@@ -11,9 +11,12 @@
  *   Results    functions that can fail return PNEU_OK (0), a value > 0 to ask an integrator for a
  *              smaller step, or a value < 0 to stop; pneu_status_text() has the words.
  *   Precision  pneu_real is double, or float where everything is compiled with PNEU_SINGLE.
- *   Effects    compile the library and its user with the same effects.def: it sets array sizes.
+ *   Effects    the catalogue is effects.def, or the file that PNEU_EFFECTS_FILE names: a copy with fewer lines makes a
+ *              smaller library. Compile the library and its user with the same one: it sets array sizes.
  *   Free terms the same holds for PNEU_TERM_KNOTS, room for the knots of a free term. 0 leaves free
  *              terms out of the code.
+ *   Method     PNEU_ORDER 5 (in double) is exact to many digits; 4 (in single) needs half the memory and less than half
+ *              the work, and its error is below the rounding of single precision. The same holds for it.
  *
  * The equations are derived in DESIGN.md; [B] stands for M. Bartys, "Dynamics of single-action
  * pneumatic actuators", whose model this library extends.
@@ -33,6 +36,18 @@ typedef double pneu_real;
 
 #ifndef PNEU_TERM_KNOTS
 #define PNEU_TERM_KNOTS 33
+#endif
+
+#ifndef PNEU_EFFECTS_FILE
+#define PNEU_EFFECTS_FILE "effects.def"
+#endif
+
+#ifndef PNEU_ORDER
+#ifdef PNEU_SINGLE
+#define PNEU_ORDER 4
+#else
+#define PNEU_ORDER 5
+#endif
 #endif
 
 #ifdef __cplusplus
@@ -183,7 +198,7 @@ enum pneu_term_argument {
 /* Effects, the places of their parameters in pneu_params.effect, and their number of states. */
 enum pneu_effect_id {
 #define PNEU_EFFECT(name, n_param, n_state) PNEU_EFFECT_##name,
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
   PNEU_EFFECT_COUNT
 };
@@ -191,18 +206,19 @@ enum pneu_effect_id {
 enum pneu_effect_sizes {
   PNEU_EFFECT_PARAM_COUNT = 0
 #define PNEU_EFFECT(name, n_param, n_state) + n_param
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
   ,
   PNEU_EFFECT_STATE_COUNT = 0
 #define PNEU_EFFECT(name, n_param, n_state) + n_state
-#include "effects.def"
+#include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
   ,
   PNEU_PARAM_COUNT = PNEU_PARAM_BASE_COUNT + PNEU_EFFECT_PARAM_COUNT,
   PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* effects, clock; never 0: C has no empty array */
   PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT + (PNEU_TERM_KNOTS > 0), /* and p, T, clock, x, v */
-  PNEU_STAGE_COUNT = 8,                         /* of the Rosenbrock method */
+  PNEU_STAGE_COUNT = PNEU_ORDER == 5 ? 8 : 4,   /* of the Rosenbrock method */
+  PNEU_DENSE_COUNT = PNEU_ORDER == 5 ? 3 : 2,   /* powers of its dense output */
   PNEU_TERM_ROOM = PNEU_TERM_KNOTS > 0 ? PNEU_TERM_KNOTS : 1
 };
 
@@ -364,10 +380,10 @@ typedef struct pneu_stats {
 typedef struct pneu_workspace {
   pneu_real h;
   pneu_real y0[PNEU_STATE_MAX], y1[PNEU_STATE_MAX], f0[PNEU_STATE_MAX];
-  pneu_real k[PNEU_STAGE_COUNT][PNEU_STATE_MAX];
+  pneu_real k[PNEU_STATE_MAX][PNEU_STAGE_COUNT];
   pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
   pneu_real inverse[PNEU_STATE_MAX][PNEU_STATE_MAX]; /* of I/(h gamma) - J */
-  pneu_real dense[3][PNEU_STATE_MAX];                /* coefficients of the dense output */
+  pneu_real dense[PNEU_DENSE_COUNT][PNEU_STATE_MAX]; /* coefficients of the dense output */
   pneu_stats stats;
 } pneu_workspace;
 

@@ -1,6 +1,4 @@
 /* From a packed state to its time derivative: every term is added once, in the order of the stages. */
-#include <string.h>
-
 #include "internal.h"
 #include "chamber.h"
 #include "stem.h"
@@ -42,7 +40,6 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   const int i_x = model->n_gas, n = pneu_dimension(model, state->mode);
   const pneu_params *p = &model->p;
-  memset(t, 0, sizeof *t);
   t->model = model;
   t->input = input;
   t->p = y[0] + p->ambient_pressure;
@@ -57,11 +54,16 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->exhaust = p->ambient_pressure;
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
+  t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = t->heat = t->film = 0;
+  t->force = t->friction = t->bristle_force = 0;
+  t->din_dp = t->dout_dp = t->dout_dT = 0;
+  t->choked = 0;
 }
 
 /* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
  * the model's constants by `prepare`. */
-static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
+static void call_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
 {
   const pneu_model *model = t->model;
   pneu_real unused[PNEU_EXTRA_MAX];
@@ -78,6 +80,13 @@ static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next,
   }
 }
 
+/* A build without effects need not link the call. */
+static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
+{
+  if (PNEU_EFFECT_COUNT > 0 && *next < t->model->n_active)
+    call_effects(t, y, stage, next, rate);
+}
+
 /* A build without free terms need not link them. */
 static void add_terms(pneu_terms *t, int first, int last)
 {
@@ -85,11 +94,12 @@ static void add_terms(pneu_terms *t, int first, int last)
     pneu_add_terms(t, first, last);
 }
 
-int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                  pneu_terms *t, pneu_real *rate)
+static int evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                    int slopes, pneu_terms *t, pneu_real *rate)
 {
   int next = 0;
   begin(model, state, input, y, t);
+  t->slopes = slopes;
   add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
   if (!pneu_chamber_ok(t))
     return PNEU_RETRY_STATE;
@@ -112,19 +122,37 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   return PNEU_OK;
 }
 
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  pneu_terms *t, pneu_real *rate)
+{
+  return evaluate(model, state, input, y, 0, t, rate);
+}
+
+int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                         pneu_terms *t)
+{
+  return evaluate(model, state, input, y, 1, t, NULL);
+}
+
+void pneu_rates(const pneu_terms *t, int mode, pneu_real *dydt)
+{
+  const pneu_model *model = t->model;
+  const int n = pneu_dimension(model, mode), i_x = model->n_gas;
+  pneu_chamber_rates(t, dydt);
+  if (model->clock >= 0)
+    dydt[1 + model->thermal + model->clock] = 1;
+  if (n > i_x)
+    dydt[i_x] = t->v;
+  if (n > i_x + 1)
+    dydt[i_x + 1] = pneu_stem_acceleration(t, mode);
+}
+
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
              pneu_real *dydt)
 {
   pneu_terms t;
-  const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
   if (pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal) != PNEU_OK)
     return PNEU_RETRY_STATE;
-  pneu_chamber_rates(&t, dydt);
-  if (model->clock >= 0)
-    dydt[1 + model->thermal + model->clock] = 1;
-  if (n > i_x)
-    dydt[i_x] = t.v;
-  if (n > i_x + 1)
-    dydt[i_x + 1] = pneu_stem_acceleration(&t, state->mode);
+  pneu_rates(&t, state->mode, dydt);
   return PNEU_OK;
 }

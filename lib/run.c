@@ -3,8 +3,9 @@
 
 enum { EVENTS_AT_ONE_TIME = 16 };
 
-#define PNEU_SHORTEST PNEU_C(1e-14) /* [s] step */
-#define PNEU_STEP_TOL PNEU_C(1e-4)  /* local error at which a fixed step is split */
+#define PNEU_SHORTEST PNEU_C(1e-14)              /* [s] step */
+#define PNEU_STEP_TOL PNEU_C(1e-4)               /* local error at which a fixed step is split */
+#define PNEU_POWER    (PNEU_C(1.0) / PNEU_ORDER) /* of the tolerance, that a step's length goes with */
 
 /* One run in progress. */
 typedef struct run {
@@ -36,12 +37,12 @@ static void pass_time(run *r, pneu_real h)
 }
 
 /* First step in a mode: with mu the rate at which the slope changes along the solution,
- * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale. */
+ * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale; of order 4, |f| mu^3 h^4 / 100. */
 static pneu_real first_step(const run *r)
 {
   const pneu_workspace *w = r->work;
   const int n = pneu_dimension(r->model, r->state->mode);
-  pneu_real scale[PNEU_STATE_MAX], f = 0, jf = 0, mu, h;
+  pneu_real scale[PNEU_STATE_MAX], f = 0, jf = 0, mu;
   int i, j;
   pneu_scales(r->model, scale);
   for (i = 0; i < n; i++) {
@@ -54,8 +55,9 @@ static pneu_real first_step(const run *r)
   if (!(f > 0))
     return left_of(r);
   mu = jf / f + PNEU_EPS;
-  h = PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_C(0.2));
-  return h;
+  if (PNEU_ORDER == 4)
+    return PNEU_M(pow)(100 * r->options->tol / (f * mu * mu * mu), PNEU_POWER);
+  return PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_POWER);
 }
 
 static int notify_step(run *r, pneu_real h)
@@ -134,10 +136,10 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
   const pneu_real tol = r->options->tol;
   pneu_real factor, trend;
   error = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
-  factor = PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2));
+  factor = PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_POWER);
   if (!(r->h_before > 0))
     return factor;
-  trend = factor * h / r->h_before * PNEU_M(pow)(r->error_before / error, PNEU_C(0.2));
+  trend = factor * h / r->h_before * PNEU_M(pow)(r->error_before / error, PNEU_POWER);
   return PNEU_M(fmin)(factor, trend);
 }
 
@@ -198,7 +200,7 @@ static int advance(run *r)
       return status;
     if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, r->input, w)) {
       factor = status == PNEU_OK && error > tol && error < PNEU_C(1e30)
-                   ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_C(0.2)), PNEU_C(0.1), PNEU_C(0.8))
+                   ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_POWER), PNEU_C(0.1), PNEU_C(0.8))
                    : PNEU_C(0.2);
       r->h = h * factor;
       w->stats.rejected++;
