@@ -217,7 +217,7 @@ static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pn
     const series s = {t, area, T_up, p_up, p_down, resistance, before};
     series_flow(&s, flow);
   } else
-    mixed_flow(t, area, p_up, T_up, p_down, t->slopes, flow);
+    mixed_flow(t, area, p_up, T_up, p_down, t->extent == PNEU_EXTENT_SLOPES, flow);
 }
 
 void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
@@ -235,9 +235,11 @@ void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T
     t->mass_in_T += flow.q * T_other;
   }
   t->choked |= flow.choked;
-  if (t->slopes && out) {
+  if (t->extent < PNEU_EXTENT_SLOPES)
+    return;
+  if (out) {
     t->dout_dp += flow.dq_dup;
     t->dout_dT += flow.dq_dT;
-  } else if (t->slopes)
+  } else
     t->din_dp += flow.dq_ddown;
 }

@@ -71,18 +71,21 @@ struct pneu_terms {
   pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
   pneu_real din_dp, dout_dp, dout_dT;  /* slopes of the flows, base model only */
   int choked;
-  int slopes; /* not 0: they are asked for */
+  int extent; /* enum pneu_extent */
 };
 typedef struct pneu_terms pneu_terms;
 
-/* Evaluate all terms at a packed vector.  Out: terms, the slopes of the flows left at 0; rate: of the effects' states
- * (may be NULL).  Returns: PNEU_OK or PNEU_RETRY_STATE. */
-int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                  pneu_terms *terms, pneu_real *rate);
+/* How far an evaluation goes; what is left out stays 0. */
+enum pneu_extent {
+  PNEU_EXTENT_FORCES, /* without flow through the transducer */
+  PNEU_EXTENT_FLOWS,
+  PNEU_EXTENT_SLOPES /* with the slopes of the flows, for the Jacobian */
+};
 
-/* The same with the slopes of the flows. */
-int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                         pneu_terms *terms);
+/* Evaluate the terms at a packed vector.  Out: terms; rate: of the effects' states (may be NULL).
+ * Returns: PNEU_OK or PNEU_RETRY_STATE. */
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  int extent, pneu_terms *terms, pneu_real *rate);
 
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
@@ -109,6 +112,9 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
 
 /* Coefficients of the dense output of the last step, for pneu_dense_packed. */
 void pneu_dense_prepare(int n, pneu_workspace *work);
+
+/* The same for a step of length h in a mode of the stem. */
+void pneu_dense_step(const pneu_model *model, int mode, pneu_real h, pneu_workspace *work);
 
 /* Packed vector inside the last step. */
 void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y);

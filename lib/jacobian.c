@@ -95,7 +95,7 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
     differences(model, state, input, y, f0, n, jac);
     return PNEU_OK;
   }
-  if (pneu_evaluate_slopes(model, state, input, y, &t) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_SLOPES, &t, NULL) != PNEU_OK)
     return PNEU_RETRY_STATE;
   base_jacobian(&t, model->n_gas, n, f0, jac);
   return PNEU_OK;
@@ -113,7 +113,7 @@ int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pn
     differences(model, state, input, work->y0, work->f0, n, work->jac);
     return PNEU_OK;
   }
-  if (pneu_evaluate_slopes(model, state, input, work->y0, &t) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, work->y0, PNEU_EXTENT_SLOPES, &t, NULL) != PNEU_OK)
     return PNEU_RETRY_STATE;
   pneu_rates(&t, state->mode, work->f0);
   base_jacobian(&t, model->n_gas, n, work->f0, work->jac);

@@ -53,6 +53,30 @@ static int is_masked(const pneu_model *model, const pneu_state *state, pneu_real
   return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved;
 }
 
+/* By how much an entry may leave the line from start to end of the step: theta (1 - theta) <= 1/4, with room for
+ * rounding. */
+static pneu_real bulge(const pneu_workspace *work, int l)
+{
+  pneu_real sum = 0;
+  int i;
+  for (i = 0; i < PNEU_DENSE_COUNT; i++)
+    sum += PNEU_M(fabs)(work->dense[i][l]);
+  return PNEU_C(0.26) * sum;
+}
+
+/* Whether the stem moves all through the step and touches no stop: most steps, told without looking inside. */
+static int only_moves(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                      const pneu_workspace *work)
+{
+  const int i_x = model->n_gas, i_v = i_x + 1;
+  pneu_real start[PNEU_EVENT_MAX], end[PNEU_EVENT_MAX];
+  if (state->mode != PNEU_MODE_UP && state->mode != PNEU_MODE_DOWN)
+    return 0;
+  pneu_events(model, state, input, work->y0, start);
+  pneu_events(model, state, input, work->y1, end);
+  return PNEU_M(fmax)(start[0], end[0]) + bulge(work, i_v) < 0 && PNEU_M(fmax)(start[1], end[1]) + bulge(work, i_x) < 0;
+}
+
 /* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:
  * which, -1 if none. */
 static pneu_real first_event(const pneu_model *model, const pneu_state *state, const pneu_input *input,
@@ -63,6 +87,8 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
   const int parts = n > model->n_gas ? 4 : 2;
   int part, i, count;
   *which = -1;
+  if (only_moves(model, state, input, work))
+    return first;
   for (part = 1; part <= parts && *which < 0; part++) {
     const pneu_real theta = (pneu_real)part / (pneu_real)parts;
     pneu_dense_packed(work, n, theta, y);
@@ -88,7 +114,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
 {
   pneu_real theta, length, slope;
   int i;
-  pneu_dense_prepare(pneu_dimension(model, state->mode), work);
+  pneu_dense_step(model, state->mode, *h, work);
   theta = first_event(model, state, input, work, which);
   length = theta * *h;
   if (*which < 0)
@@ -98,7 +124,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
     pneu_real g0, g1, correction;
     if (status != PNEU_OK)
       return status;
-    pneu_dense_prepare(pneu_dimension(model, state->mode), work);
+    pneu_dense_step(model, state->mode, length, work);
     g1 = event_at(model, state, input, work, *which, 1);
     g0 = event_at(model, state, input, work, *which, PNEU_C(0.99));
     slope = (g1 - g0) / (PNEU_C(0.01) * length);

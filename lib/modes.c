@@ -35,7 +35,7 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
   default:
     break;
   }
-  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
     return 0;
   rest_balance(&t, &force, &level);
   g[0] = state->mode == PNEU_MODE_UPPER ? -force - level : force - level;
@@ -71,7 +71,7 @@ void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *s
   }
   state->mode = PNEU_MODE_STUCK;
   pneu_pack(model, state, y);
-  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
     return;
   rest_balance(&t, &force, &level);
   state->mode = rest_mode(model, state->x, force, level);

@@ -11,7 +11,7 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   pneu_real y[PNEU_STATE_MAX];
   int status;
   pneu_pack(model, state, y);
-  status = pneu_evaluate(model, state, input, y, &t, NULL);
+  status = pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t, NULL);
   if (status != PNEU_OK)
     return status;
   out->pressure = t.p - model->p.ambient_pressure;
@@ -75,7 +75,7 @@ static void start_effects(const pneu_model *model, const pneu_input *input, pneu
   pneu_real y[PNEU_STATE_MAX];
   int i;
   pneu_pack(model, state, y);
-  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t, NULL) != PNEU_OK)
     return;
   t.opening = pneu_command_opening(&t);
   for (i = 0; i < model->n_active; i++) {
@@ -98,7 +98,7 @@ static void sink_in(const pneu_model *model, const pneu_input *input, pneu_state
   int i;
   for (i = 0; i < ROUNDS && (lower || upper); i++) {
     pneu_pack(model, state, y);
-    if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
+    if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
       return;
     if (i == 0 && (lower ? t.force >= 0 : t.force <= 0))
       return;

@@ -503,8 +503,15 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
 
 /* ---- Modes and events: one set for every integrator ---- */
 
-/* Events at once; parts of a pneu_step, and repeats by which the end of one is located. */
-enum { PNEU_EVENT_MAX = 2, PNEU_PARTS_MAX = 64, PNEU_PARTS_FREE = 16, PNEU_LOCATE_MAX = 8 };
+/* Events at once; parts of a pneu_step, and repeats by which the end of one is located; evaluations of the right-hand
+ * side in a pneu_step, the Jacobian's differences and looks for events apart. */
+enum {
+  PNEU_EVENT_MAX = 2,
+  PNEU_PARTS_MAX = 64,
+  PNEU_PARTS_FREE = 16,
+  PNEU_LOCATE_MAX = 8,
+  PNEU_STEP_RHS_MAX = PNEU_PARTS_MAX * (1 + (PNEU_STAGE_COUNT - 1) * (1 + PNEU_LOCATE_MAX))
+};
 
 /* Event functions of the state's mode: an event happens where g rises through 0.
  * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
@@ -545,14 +552,19 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
              const pneu_options *options, const pneu_observer *observer, pneu_workspace *work);
 
 /* One step of fixed length, for a firmware loop. The work is bounded: one Rosenbrock step as a rule, at
- * most PNEU_PARTS_MAX where modes switch within it or a trial point leaves the chamber without volume,
- * each end on an event located in at most PNEU_LOCATE_MAX repeats.
- * In:      dt  [s] > 0. The step is split where its local error exceeds 1e-4 of full scale, as far as the parts
+ * most PNEU_PARTS_MAX where modes switch within it, its error is large, or a trial point leaves the chamber without
+ * volume, each end on an event located in at most PNEU_LOCATE_MAX repeats: PNEU_STEP_RHS_MAX evaluations in all. A stem
+ * that has used up the parts, by bouncing between its stops, is held for what is left of the step.
+ * In:      state  made of numbers; p > -ambient_pressure; T > 0 but under the isothermal law; x on or between the
+ *                 stops, to a thousandth of the stroke; a mode of enum pneu_mode
+ *          input  made of numbers; u in -1..1 unless proportional_band is set; supply_pressure > -ambient_pressure
+ *          dt  [s] > 0. The step is split where its local error exceeds 1e-4 of full scale, as far as the parts
  *              reach: what decides is how stiff the gas is, V_0/(A stroke)
- * Error:   R1-400 with its 2 cm3 of dead volume, over a fill-and-vent, in four laws: at most 5e-7 of stroke at 1 ms,
- *          4e-5 at 10 ms, 7e-4 at 20 ms, 1e-2 at 50 ms; beyond that the parts are used up and it grows quickly
- * In/out:  state, work
- * Returns: PNEU_OK, PNEU_E_NONFINITE, PNEU_E_SINGULAR, PNEU_E_EVENTS; `state` then is unchanged. */
+ * Error:   R1-400 with its 2 cm3 of dead volume, over a fill-and-vent, in four laws, in double: at most 5e-7 of stroke
+ * at 1 ms, 4e-5 at 10 ms, 7e-4 at 20 ms, 1e-2 at 50 ms; beyond that the parts are used up and it grows quickly. In
+ * single (order 4): 3e-5 at 1 ms, most of it rounding, 2e-4 at 10 ms, 6e-3 at 20 ms In/out:  state, work Returns:
+ * PNEU_OK, and `state` is again in the ranges above, v = 0 on a stop; PNEU_E_NONFINITE where state, input or dt is
+ *          outside them, or PNEU_E_SINGULAR: `state` then is unchanged, bit for bit. */
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work);
 
 /* State inside an accepted step, order 4: its error falls with the fifth power of the step's length.

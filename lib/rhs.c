@@ -94,12 +94,12 @@ static void add_terms(pneu_terms *t, int first, int last)
     pneu_add_terms(t, first, last);
 }
 
-static int evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                    int slopes, pneu_terms *t, pneu_real *rate)
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  int extent, pneu_terms *t, pneu_real *rate)
 {
   int next = 0;
   begin(model, state, input, y, t);
-  t->slopes = slopes;
+  t->extent = extent;
   add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
   if (!pneu_chamber_ok(t))
     return PNEU_RETRY_STATE;
@@ -107,7 +107,8 @@ static int evaluate(const pneu_model *model, const pneu_state *state, const pneu
     t->opening = pneu_command_opening(t);
     add_effects(t, y, PNEU_STAGE_BOUNDARY, &next, rate);
     add_terms(t, PNEU_TERM_SUPPLY, PNEU_TERM_SUPPLY);
-    pneu_transducer_flow(t);
+    if (extent > PNEU_EXTENT_FORCES)
+      pneu_transducer_flow(t);
   }
   add_effects(t, y, PNEU_STAGE_WALL, &next, rate);
   pneu_stem_force(t);
@@ -120,18 +121,6 @@ static int evaluate(const pneu_model *model, const pneu_state *state, const pneu
   add_effects(t, y, PNEU_STAGE_SENSOR, &next, rate);
   add_terms(t, PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_SHOWN_POSITION);
   return PNEU_OK;
-}
-
-int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                  pneu_terms *t, pneu_real *rate)
-{
-  return evaluate(model, state, input, y, 0, t, rate);
-}
-
-int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                         pneu_terms *t)
-{
-  return evaluate(model, state, input, y, 1, t, NULL);
 }
 
 void pneu_rates(const pneu_terms *t, int mode, pneu_real *dydt)
@@ -151,7 +140,7 @@ int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input 
              pneu_real *dydt)
 {
   pneu_terms t;
-  if (pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t, dydt + 1 + model->thermal) != PNEU_OK)
     return PNEU_RETRY_STATE;
   pneu_rates(&t, state->mode, dydt);
   return PNEU_OK;

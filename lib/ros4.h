@@ -1,7 +1,8 @@
 /* ROS4, L-stable: order 4 with an embedded method of order 3, three evaluations a step. E. Hairer, G. Wanner, "Solving
  * Ordinary Differential Equations II" (1996), IV.7, in the digits of KPP (A. Sandu et al., Atmos. Environ. 31, 1997).
  * Its dense output is our own: b_i(theta) meet the conditions of order 3 but the one on f'' (f, f), which no weights
- * meet for all theta beside an embedded method of order 3; b_4 is linear in theta. Order 2, 3 for linear equations.
+ * meet for all theta beside an embedded method of order 3; b_4 is linear in theta. Order 2, 3 for linear equations. So
+ * that position and velocity tell the same event, position is taken from its velocities instead (rosenbrock.c).
  * SPDX-License-Identifier: MIT */
 #define GAMMA PNEU_C(0.57282)
 

@@ -112,6 +112,22 @@ void pneu_dense_prepare(int n, pneu_workspace *work)
       work->dense[i][l] = add_products(0, DENSE_STAGES, d[i], work->k[l]);
 }
 
+/* The stem's velocity is the slope of its position, at the start and at the end. */
+static void join_position(int i_x, pneu_real h, pneu_workspace *work)
+{
+  const pneu_real way = work->y1[i_x] - work->y0[i_x], start = h * work->y0[i_x + 1], end = h * work->y1[i_x + 1];
+  work->dense[0][i_x] = start - way;
+  work->dense[1][i_x] = 2 * way - start - end;
+}
+
+void pneu_dense_step(const pneu_model *model, int mode, pneu_real h, pneu_workspace *work)
+{
+  const int n = pneu_dimension(model, mode);
+  pneu_dense_prepare(n, work);
+  if (PNEU_ORDER == 4 && n > model->n_gas + 1)
+    join_position(model->n_gas, h, work);
+}
+
 void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y)
 {
   int i, l;

@@ -114,7 +114,7 @@ static int leaps(const pneu_model *model, const pneu_state *state, const pneu_in
   int quarter;
   if (pneu_dimension(model, state->mode) != model->n_gas || model->law.pressure_input)
     return 0;
-  if (pneu_evaluate(model, state, input, w->y1, &t, NULL) != PNEU_OK)
+  if (pneu_evaluate(model, state, input, w->y1, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
     return 1;
   equal = t.opening > 0 ? t.supply : t.exhaust;
   before = w->y0[0] + ambient - equal;
@@ -143,28 +143,32 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
   return PNEU_M(fmin)(factor, trend);
 }
 
-/* Whether state and input are numbers. */
-static int all_finite(const pneu_model *model, const pneu_state *state, const pneu_input *input)
+/* Whether a state is made of numbers, with pressure and temperature above zero. */
+static int is_physical(const pneu_model *model, const pneu_state *state)
 {
-  pneu_real zero = 0 * (state->p + state->x + state->v + input->u + input->supply_pressure + input->force +
-                        input->pressure_rate + input->position_rate);
+  pneu_real zero = 0 * (state->p + state->x + state->v);
   int i;
   if (model->thermal)
     zero += 0 * state->T;
   for (i = 0; i < model->n_extra; i++)
     zero += 0 * state->extra[i];
-  return zero == 0;
+  return zero == 0 && state->p > -model->p.ambient_pressure && (!model->thermal || state->T > 0);
 }
 
-/* Whether they lie in their documented ranges; position with a thousandth of the stroke for sensors and rounding. */
+static int all_finite(const pneu_input *input)
+{
+  return 0 * (input->u + input->supply_pressure + input->force + input->pressure_rate + input->position_rate) == 0;
+}
+
+/* Whether state and input lie in their documented ranges; position with a thousandth of the stroke for sensors and
+ * rounding. */
 static int usable(const pneu_model *model, const pneu_state *state, const pneu_input *input)
 {
   const pneu_params *p = &model->p;
   const pneu_real margin = PNEU_C(1e-3) * p->stroke;
-  if (!all_finite(model, state, input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
+  if (!is_physical(model, state) || !all_finite(input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
     return 0;
-  if (state->p <= -p->ambient_pressure || input->supply_pressure <= -p->ambient_pressure ||
-      (model->thermal && state->T <= 0))
+  if (input->supply_pressure <= -p->ambient_pressure)
     return 0;
   if (p->proportional_band <= 0 && PNEU_M(fabs)(input->u) > PNEU_C(1.00001))
     return 0;
@@ -258,6 +262,7 @@ static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_inp
                         pneu_real tol, pneu_real *h, int *which)
 {
   pneu_real error = 0;
+  pneu_state next;
   int status;
   pneu_pack(model, now, work->y0);
   status = pneu_step_prepare(model, now, input, work);
@@ -269,9 +274,30 @@ static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_inp
     status = pneu_locate(model, now, input, work, h, which);
   if (status != PNEU_OK)
     return status;
-  pneu_unpack(model, work->y1, now);
+  next = *now;
+  pneu_unpack(model, work->y1, &next);
+  if (!model->law.position_input)
+    next.x = clip(next.x, model->lower_stop, model->upper_stop);
+  if (!is_physical(model, &next))
+    return PNEU_RETRY_STATE;
+  *now = next;
   work->stats.steps++;
   return PNEU_OK;
+}
+
+/* The parts are used up, as by a stem that bounces between its stops: it is held for what is left of the step, and the
+ * gas goes on. Where even that leads nowhere, the state stays as it is. */
+static void hold(const pneu_model *model, pneu_state *now, const pneu_input *input, pneu_workspace *work,
+                 pneu_real left)
+{
+  pneu_state held = *now;
+  int which;
+  if (held.mode == PNEU_MODE_UP || held.mode == PNEU_MODE_DOWN || held.mode == PNEU_MODE_FREE) {
+    held.mode = PNEU_MODE_STUCK;
+    held.v = 0;
+  }
+  if (part_of_step(model, &held, input, work, PNEU_C(1e30), &left, &which) == PNEU_OK)
+    *now = held;
 }
 
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work)
@@ -282,7 +308,7 @@ int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *inpu
   if (!usable(model, state, input) || !(dt > 0 && dt * 0 == 0))
     return PNEU_E_NONFINITE;
   pneu_settle(model, input, &now);
-  for (i = 0; i < PNEU_PARTS_MAX; i++) {
+  for (i = 0; i < PNEU_PARTS_MAX - 1; i++) {
     /* the last parts take what they get: the work is bounded, not the error */
     const pneu_real tol = i < PNEU_PARTS_MAX - PNEU_PARTS_FREE ? PNEU_STEP_TOL : PNEU_C(1e30);
     int which = -1;
@@ -305,7 +331,9 @@ int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *inpu
       return PNEU_OK;
     }
   }
-  return PNEU_E_EVENTS;
+  hold(model, &now, input, work, left);
+  *state = now;
+  return PNEU_OK;
 }
 
 void pneu_dense(const pneu_step_view *view, pneu_real theta, pneu_state *state)

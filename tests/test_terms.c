@@ -195,7 +195,7 @@ static pneu_terms sums(const pneu_model *m)
   s.extra[0] = (pneu_real)0.3; /* the clock, where there is one: the base model has no other states */
   s.mode = m->law.position_input ? PNEU_MODE_DRIVEN : PNEU_MODE_DOWN;
   pneu_pack(m, &s, y);
-  assert_int_equal(pneu_evaluate(m, &s, &input, y, &t, NULL), PNEU_OK);
+  assert_int_equal(pneu_evaluate(m, &s, &input, y, PNEU_EXTENT_FLOWS, &t, NULL), PNEU_OK);
   return t;
 }
 
