@@ -191,13 +191,13 @@ static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_
   return flow->q - (p - s->p_down) * conductance;
 }
 
-/* Newton, kept inside the bracket by bisection; a fixed number of times, so that the work is bounded. */
+/* Newton, kept inside the bracket by bisection; so many times at most, so that the work is bounded. */
 static void series_flow(const series *s, pneu_flow *flow)
 {
   pneu_real low = s->p_down, high = s->p_up, p = s->before ? high : low, slope;
   int i;
   for (i = 0; i < SERIES_ITERATIONS; i++) {
-    const pneu_real gap = series_gap(s, p, flow, &slope);
+    const pneu_real gap = series_gap(s, p, flow, &slope), before = p;
     if ((gap > 0) == (s->before != 0))
       high = p;
     else
@@ -205,6 +205,8 @@ static void series_flow(const series *s, pneu_flow *flow)
     p -= gap / slope;
     if (!(p >= low && p <= high))
       p = (low + high) / 2;
+    if (p == before)
+      return;
   }
   series_gap(s, p, flow, &slope);
 }

@@ -70,8 +70,8 @@ static void base_jacobian(const pneu_terms *t, int i_x, int n, const pneu_real *
                           pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
   int i, j;
-  for (i = 0; i < n; i++)
-    for (j = 0; j < n; j++)
+  for (j = 0; j < n; j++) /* the gas fills its rows */
+    for (i = i_x; i < n; i++)
       jac[i][j] = 0;
   if (t->model->thermal)
     energy_rows(t, i_x, n, f0, jac);

@@ -64,17 +64,16 @@ static pneu_real bulge(const pneu_workspace *work, int l)
   return PNEU_C(0.26) * sum;
 }
 
-/* Whether the stem moves all through the step and touches no stop: most steps, told without looking inside. */
-static int only_moves(const pneu_model *model, const pneu_state *state, const pneu_input *input,
-                      const pneu_workspace *work)
+/* Whether a sliding stem slides all through the step and touches no stop: most steps, told without looking inside. */
+static int only_slides(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                       const pneu_workspace *work)
 {
   const int i_x = model->n_gas, i_v = i_x + 1;
+  const pneu_real v = bulge(work, i_v), x = bulge(work, i_x);
   pneu_real start[PNEU_EVENT_MAX], end[PNEU_EVENT_MAX];
-  if (state->mode != PNEU_MODE_UP && state->mode != PNEU_MODE_DOWN)
-    return 0;
   pneu_events(model, state, input, work->y0, start);
   pneu_events(model, state, input, work->y1, end);
-  return PNEU_M(fmax)(start[0], end[0]) + bulge(work, i_v) < 0 && PNEU_M(fmax)(start[1], end[1]) + bulge(work, i_x) < 0;
+  return start[0] < -v && end[0] < -v && start[1] < -x && end[1] < -x;
 }
 
 /* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:
@@ -87,7 +86,7 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
   const int parts = n > model->n_gas ? 4 : 2;
   int part, i, count;
   *which = -1;
-  if (only_moves(model, state, input, work))
+  if ((state->mode == PNEU_MODE_UP || state->mode == PNEU_MODE_DOWN) && only_slides(model, state, input, work))
     return first;
   for (part = 1; part <= parts && *which < 0; part++) {
     const pneu_real theta = (pneu_real)part / (pneu_real)parts;

@@ -13,7 +13,7 @@ unsigned long board_ticks(void);
 /* Instructions between two readings. */
 long board_instructions(unsigned long from, unsigned long to);
 
-/* Bytes of stack that have been used at most since board_paint_stack(); 0 where it cannot be told. */
+/* Bytes of stack that have been used at most since board_paint_stack(), below its caller; 0 where it cannot be told. */
 void board_paint_stack(void);
 long board_stack_used(void);
 

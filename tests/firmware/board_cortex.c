@@ -25,6 +25,8 @@ int main(void);
 void board_reset(void);
 void board_fault(void);
 
+static uint32_t *painted_to;
+
 static uintptr_t host(uintptr_t operation, uintptr_t argument)
 {
   register uintptr_t r0 __asm__("r0") = operation;
@@ -68,7 +70,8 @@ void board_paint_stack(void)
   uint32_t *at, *here;
   __asm__ volatile("mov %0, sp" : "=r"(here));
   for (at = board_stack_low; at < here; at++)
-    *at = PAINT;
+    *(volatile uint32_t *)at = PAINT; /* not by memset, which would need stack itself */
+  painted_to = here;
 }
 
 long board_stack_used(void)
@@ -76,7 +79,7 @@ long board_stack_used(void)
   uint32_t *at = board_stack_low;
   while (*at == PAINT)
     at++;
-  return (long)((char *)board_stack_top - (char *)at);
+  return (long)((char *)painted_to - (char *)at);
 }
 
 void board_fault(void)

@@ -3,12 +3,13 @@
 OPT    ?= -O2
 DEFS   ?=
 NATIVE ?= cc
+LTO    ?=
 FLAGS  := -std=c99 $(OPT) -Wall -Wextra -Wpedantic -Wdouble-promotion -Werror -ffp-contract=off -Ilib -Itests/firmware
 BOARD  := board_host
 
 # Cortex-M: the compiler's own library (newlib), no start-up of its own.
 BARE   := -mthumb -DPNEU_SINGLE -ffunction-sections -fdata-sections
-BARE_LINK := -nostartfiles -T tests/firmware/cortex.ld -Wl,--gc-sections
+BARE_LINK := --specs=nano.specs -nostartfiles -T tests/firmware/cortex.ld -Wl,--gc-sections
 
 ifeq ($(TARGET),host) # what the targets are compared with
   CC := $(NATIVE)
@@ -42,7 +43,7 @@ $(OUT)/demo: $(OUT)/demo.o $(OUT)/rig_logs.o $(OUT)/$(BOARD).o $(OUT)/libpneu.a
 $(OUT)/count: $(OUT)/count.o $(OUT)/$(BOARD).o $(OUT)/libpneu.a
 
 $(OUT)/demo $(OUT)/count:
-	$(CC) $(FLAGS) $(LINK) $^ -lm -Wl,-Map=$@.map -o $@
+	$(CC) $(FLAGS) $(LTO) -fstack-usage $(LINK) $^ -lm -Wl,-Map=$@.map -o $@
 
 # The core's tests, with a small stand-in for cmocka.
 TEST_FLAGS := -D_POSIX_C_SOURCE=200809L -Itests/firmware/cmocka
@@ -55,7 +56,7 @@ $(OUT)/libpneu.a: $(LIB_O)
 
 $(OUT)/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -MMD -MP -fstack-usage $(DEFS) -c $< -o $@
+	$(CC) $(FLAGS) $(LTO) -MMD -MP -fstack-usage $(DEFS) -c $< -o $@
 
 $(OUT)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
