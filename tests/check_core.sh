@@ -100,23 +100,32 @@ if $CC -std=c90 $other "$user" "$archive" -lm -o "$scratch/mixed" 2> /dev/null; 
   exit 1
 fi
 
-# A build without free terms: the evaluation does not refer to them, the user still runs. The full build does refer.
+# Builds without free terms, and without effects: the evaluation does not refer to them, the user still runs, to the same
+# end. The full build does refer.
 refers()
 {
-  $NM "$1" | grep -q 'U pneu_add_terms$'
+  $NM "$1" | grep -q "U $2\$"
 }
 
-mkdir "$scratch/without"
-for file in "$source"/*.c "$source"/effects/*.c; do
-  $CC -std=c99 -Os -Wall -Wextra -Werror $single -DPNEU_TERM_KNOTS=0 -c "$file" -o "$scratch/without/$(basename "$file" .c).o"
-done
-$AR rcs "$scratch/without.a" "$scratch"/without/*.o
-report "$scratch/without.a"
-if refers "$scratch/without.a" || ! refers "$archive"; then
-  echo "check_core: free terms are not left out where PNEU_TERM_KNOTS is 0, or are missing where it is not" >&2
-  exit 1
-fi
-$CC -std=c90 $single -DPNEU_TERM_KNOTS=0 "$user" "$scratch/without.a" -lm -o "$scratch/trimmed"
-$RUN "$scratch/trimmed" > "$scratch/trimmed.out"
-cmp "$scratch/consumer.out" "$scratch/trimmed.out"
+# trimmed NAME SYMBOL DEFINITION
+trimmed()
+{
+  mkdir "$scratch/$1"
+  for file in "$source"/*.c "$source"/effects/*.c; do
+    $CC -std=c99 -Os -Wall -Wextra -Werror $single "$3" -c "$file" -o "$scratch/$1/$(basename "$file" .c).o"
+  done
+  $AR rcs "$scratch/$1.a" "$scratch/$1"/*.o
+  report "$scratch/$1.a"
+  if refers "$scratch/$1.a" "$2" || ! refers "$archive" "$2"; then
+    echo "check_core: $2 is called in spite of $3, or is not called without it" >&2
+    exit 1
+  fi
+  $CC -std=c90 $single "$3" "$user" "$scratch/$1.a" -lm -o "$scratch/$1.program"
+  $RUN "$scratch/$1.program" > "$scratch/$1.out"
+  cmp "$scratch/consumer.out" "$scratch/$1.out"
+}
+
+trimmed no_terms pneu_add_terms -DPNEU_TERM_KNOTS=0
+printf '\n' > "$scratch/none.def"
+trimmed no_effects pneu_effect_record_chamber_leak "-DPNEU_EFFECTS_FILE=\"$scratch/none.def\""
 echo "check_core: $(basename "$archive") is clean"

@@ -11,7 +11,8 @@
 #endif
 
 enum { SYS_WRITE0 = 4, SYS_EXIT = 0x18, STOPPED_BY_ERROR = 0x20023, STOPPED_BY_EXIT = 0x20026 };
-enum { NS_PER_INSTRUCTION = 64, TICK_MASK = 0xffffff, PAINT = 0x5a5a5a5a };
+enum { HALF_NS_PER_INSTRUCTION = 128, HALF_NS_PER_TICK = 2000000000 / BOARD_CLOCK };
+enum { TICK_MASK = 0xffffff, PAINT = 0x5a5a5a5a };
 
 #define SYSTICK_CONTROL (*(volatile uint32_t *)0xe000e010)
 #define SYSTICK_RELOAD  (*(volatile uint32_t *)0xe000e014)
@@ -61,8 +62,8 @@ unsigned long board_ticks(void)
 
 long board_instructions(unsigned long from, unsigned long to)
 {
-  const uint64_t ticks = (from - to) & TICK_MASK; /* it counts down */
-  return (long)((ticks * 1000000000 / BOARD_CLOCK + NS_PER_INSTRUCTION / 2) / NS_PER_INSTRUCTION);
+  const unsigned long ticks = (from - to) & TICK_MASK; /* it counts down */
+  return (long)((ticks * HALF_NS_PER_TICK + HALF_NS_PER_INSTRUCTION / 2) / HALF_NS_PER_INSTRUCTION);
 }
 
 void board_paint_stack(void)

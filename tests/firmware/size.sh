@@ -1,6 +1,6 @@
 #!/bin/sh
 # What the core costs on a Cortex-M: code, memory, stack and instructions, for each processor, build and catalogue.
-#   size.sh > size.csv      columns: see tests/firmware/README.md
+#   size.sh > size.csv      DESIGN.md says what is in the columns and how each is measured
 set -eu
 : "${MAKE:=make}" "${BUILD:=build}"
 base=$BUILD/firmware/size
