@@ -85,14 +85,14 @@ static double least_chi2(const lab_attempt *a, int n)
 }
 
 /* Fit those to the end that are in the running after a brief fit: whatever is nearly as good as the best, and the best
- * few; of these only rivals where the best leaves no more than noise. */
+ * few; of these only rivals where one leaves nothing to explain. */
 static void fit_finalists(lab_attempt *a, int n)
 {
   double bar, reach;
   int i;
   qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
   bar = n > 0 ? nearly * a[0].bic : 0;
-  reach = lab_any_is_noise(a, n) ? rival * least_chi2(a, n) : (double)INFINITY;
+  reach = lab_any_is_clean(a, n) ? rival * least_chi2(a, n) : (double)INFINITY;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     lab_error ignored;
@@ -122,8 +122,8 @@ static void refit_race(const lab_attempt *base, const lab_candidate *leader, int
   free(mine);
 }
 
-/* Refit the leaders: the foremost from the first start, and while none leaves only noise, the rest, and all from the
- * other starts. */
+/* Refit the leaders: the foremost from the first start, the rest unless one of these leaves nothing that they could
+ * explain, and all from the other starts for as long as none leaves only noise. */
 static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, int n, lab_attempt *a)
 {
   const int starts = base->n_found == 0 ? STARTS : STARTS - 1, first = count_near(leader, n, foremost);
@@ -131,7 +131,7 @@ static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, 
   for (i = 0; i < n; i++)
     a[i].fitted = 0;
   refit_race(base, leader, first, FROM_SLOPE, a);
-  if (!lab_any_is_noise(a, n))
+  if (!lab_any_is_clean(a, n))
     refit_race(base, leader + first, n - first, FROM_SLOPE, a + first);
   for (start = FROM_SLOPE + 1; start < starts && !lab_any_is_noise(a, n); start++)
     refit_race(base, leader, n, start, a);

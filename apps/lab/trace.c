@@ -6,7 +6,7 @@
 
 /* A slope is taken at the usual size of a parameter and, where that changes the residual by far more than can just be
  * seen, at shorter ones until it does not; at a small one where the usual one fails. */
-static const double far_more = 100, just_seen = 20, small = 0.02;
+static const double far_more = 40, just_seen = 20, small = 0.02;
 static const double shapes[] = {0.3, 1.0, 3.0}; /* over the usual shape */
 enum { SHAPES = sizeof shapes / sizeof *shapes, SIZES = 3 };
 
