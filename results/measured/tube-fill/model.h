@@ -13,7 +13,7 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)2.5934814232243438e-06, /* fill_area [m2] */ \
+    (pneu_real)2.5934411922840935e-06, /* fill_area [m2] */ \
     (pneu_real)3.9999999999999998e-06, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
@@ -30,7 +30,7 @@
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)51216819.662577942, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)51215520.979620077, /* tube_resistance [Pa.s/kg] */ \
       (pneu_real)1.0000000000000001e-09, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
@@ -49,7 +49,7 @@
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
-      (pneu_real)0.016183316164501412, /* pressure_time [s] */ \
+      (pneu_real)0.016183324424712483, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
       (pneu_real)0.001, /* hysteresis_length [m] */ \
