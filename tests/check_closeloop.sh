@@ -92,7 +92,7 @@ kill -INT $PPID $$
 PATH=$REAL_PATH exec gnuplot "$@"
 SCRIPT
 chmod +x "$folder/bin/gnuplot"
-expect 130 "interrupted drawing" env REAL_PATH="$PATH" PATH="$folder/bin:$PATH" \
+expect 130 "interrupted drawing" env --default-signal=INT REAL_PATH="$PATH" PATH="$folder/bin:$PATH" \
   ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/late"
 whole "$folder/late"
 for file in $files; do
