@@ -36,7 +36,7 @@ TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab.a
 
-# Tables made by another program are made again: the sources' checksum goes into the record of what is done.
+# What was made by another program is made again: the sources' checksum goes into the record of what is done.
 SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
@@ -105,9 +105,9 @@ $(BUILD)/apps/%.o: apps/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-$(BUILD)/apps/study/products.o: apps/study/products.c $(SOURCES)
+$(BUILD)/apps/lab/checksum.o: apps/lab/checksum.c $(SOURCES)
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DSTUDY_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
 
 # Scripts and templates that a program carries inside, a line a string.
 CARRIED := $(wildcard apps/lab/report/*) study/figures/style.gp
