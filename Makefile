@@ -1,5 +1,6 @@
 # libpneu. `make help` lists the targets.
 BUILD   ?= build
+MPI     ?=
 CC      ?= cc
 CXX     ?= c++
 OPT     ?= -O2
@@ -20,9 +21,15 @@ FLAGS   += -ffp-contract=off
 CMINPACK ?= $(firstword $(wildcard /usr/include/cminpack-1 /usr/local/include/cminpack-1 /opt/homebrew/include/cminpack-1))
 LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) -fopenmp
 LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
+ifdef MPI
+MPI_FLAGS := $(shell pkg-config --cflags ompi-c)
+LAB_LIBS  += $(shell pkg-config --libs ompi-c)
+endif
 
 LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
-LAB_C   := $(wildcard apps/lab/*.c apps/study/*.c)
+# closeloop --batch over the ranks of MPI: make MPI=1 closeloop
+CREW    := $(if $(MPI),apps/lab/mpi/crew.c,apps/lab/crew.c)
+LAB_C   := $(filter-out apps/lab/crew.c,$(wildcard apps/lab/*.c apps/study/*.c)) $(CREW)
 PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
 BLIND_C := $(wildcard tests/blind/*.c)
@@ -34,7 +41,7 @@ HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
 BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
-LAB     := $(BUILD)/liblab.a
+LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
 # What was made by another program is made again: the sources' checksum goes into the record of what is done.
 SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
@@ -105,6 +112,14 @@ $(BUILD)/apps/%.o: apps/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
+$(BUILD)/apps/lab/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
+
+# Programs are linked again when MPI=1 comes or goes.
+$(BUILD)/crew: FORCE
+	@mkdir -p $(@D)
+	@echo '$(CREW)' | cmp -s - $@ || echo '$(CREW)' > $@
+.PHONY: FORCE
+
 $(BUILD)/apps/lab/checksum.o: apps/lab/checksum.c $(SOURCES)
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
@@ -118,8 +133,8 @@ $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 $(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
 $(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
 
-$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)

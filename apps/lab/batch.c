@@ -308,10 +308,11 @@ static int place_out(batch *b, lab_error *error)
 }
 
 /* Paths in the list are taken from its folder. */
-static int move_to_list(const char *list, lab_error *error)
+static int move_to_list(void *context, lab_error *error)
 {
+  const batch *b = context;
+  const char *list = b->how->list, *slash = strrchr(list, '/');
   char folder[LAB_PATH_TEXT];
-  const char *slash = strrchr(list, '/');
   snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - list) + 1 : 1, slash ? list : ".");
   if (chdir(folder))
     return lab_fail(error, LAB_WORLD, "%s: cannot go there: %s", folder, strerror(errno));
@@ -346,7 +347,7 @@ static int lead(batch *b, const lab_crew *crew, lab_error *error)
   if (status == LAB_OK)
     status = lock(b, error);
   if (status == LAB_OK)
-    status = move_to_list(b->how->list, error);
+    status = move_to_list(b, error);
   if (status != LAB_OK)
     return status;
   lab_progress_begin(&b->progress, "closeloop", b->how->quiet);
@@ -363,17 +364,12 @@ static int lead(batch *b, const lab_crew *crew, lab_error *error)
   return status == LAB_OK && !lab_interrupt_pending() ? sum_up(b, &t, error) : status;
 }
 
-static int serve(const batch *b, const lab_crew *crew, lab_error *error)
-{
-  return move_to_list(b->how->list, error) ? error->status : lab_crew_serve(crew, error);
-}
-
 int lab_batch_run(const lab_batch_options *options, lab_error *error)
 {
   static batch b;
-  lab_crew crew = {0, sizeof(job), sizeof(lab_outcome), next, work, lost, done, &b};
+  lab_crew crew = {0, sizeof(job), sizeof(lab_outcome), move_to_list, next, work, lost, done, &b};
   double scale, offset;
-  int status;
+  int status = LAB_OK;
   b.how = options;
   b.leader = getpid();
   crew.at_once = options->at_once ? options->at_once : lab_crew_usual();
@@ -383,7 +379,7 @@ int lab_batch_run(const lab_batch_options *options, lab_error *error)
   if (lab_crew_join())
     status = lab_list_open(&b.list, options->list, error) ? error->status : lead(&b, &crew, error);
   else
-    status = serve(&b, &crew, error);
+    lab_crew_serve(&crew);
   lab_crew_leave(&crew);
   lab_list_close(&b.list);
   lab_interrupt_release();

@@ -8,6 +8,8 @@
 #include "hands.h"
 #include "interrupt.h"
 
+static const int breath = 200; /* [ms] between two looks for signals */
+
 int lab_crew_usual(void)
 {
 #ifdef _OPENMP
@@ -22,10 +24,9 @@ int lab_crew_join(void)
   return 1;
 }
 
-int lab_crew_serve(const lab_crew *crew, lab_error *error)
+void lab_crew_serve(const lab_crew *crew)
 {
   (void)crew;
-  return lab_fail(error, LAB_WORLD, "there is no crew to serve");
 }
 
 void lab_crew_leave(const lab_crew *crew)
@@ -57,7 +58,7 @@ int lab_crew_run(const lab_crew *crew, lab_error *error)
       break;
     }
     status = hand_out(&hands, &more, error);
-    finished = status == LAB_OK && lab_hands_busy(&hands) ? lab_hands_wait(&hands, -1) : NULL;
+    finished = status == LAB_OK && lab_hands_busy(&hands) ? lab_hands_wait(&hands, breath) : NULL;
     if (finished)
       status = crew->done(crew->context, finished->job, finished->result, error);
   }

@@ -5,7 +5,7 @@
  *   if (lab_crew_join())
  *     lab_crew_run(&crew, &error);    the leader
  *   else
- *     lab_crew_serve(&crew, &error);  the others
+ *     lab_crew_serve(&crew);          the others
  *   lab_crew_leave(&crew);
  *
  * Signals are to be put off (lab_interrupt_hold) from before the first call to after the last one.
@@ -20,6 +20,7 @@
 typedef struct lab_crew {
   int at_once; /* jobs at once, in each rank */
   size_t job_size, result_size;
+  int (*prepare)(void *context, lab_error *error);                      /* before any work, in ranks that serve */
   int (*next)(void *context, void *job);                                /* leader.  Returns: 0 if none is left */
   void (*work)(void *context, const void *job, void *result);           /* in a process of its own */
   void (*lost)(void *context, const void *job, int wait, void *result); /* it died, see waitpid; result: all 0 */
@@ -36,8 +37,8 @@ int lab_crew_join(void);
 /* Do all jobs.  Returns: LAB_OK; what `done` failed with; LAB_WORLD, also if a signal came, which then waits. */
 int lab_crew_run(const lab_crew *crew, lab_error *error);
 
-/* Work for the leader until there is nothing left.  Returns: LAB_OK, LAB_WORLD */
-int lab_crew_serve(const lab_crew *crew, lab_error *error);
+/* Work for the leader until there is nothing left; where that cannot be, the whole crew is ended. */
+void lab_crew_serve(const lab_crew *crew);
 
 /* Leave; the leader sends home whoever still asks for work. */
 void lab_crew_leave(const lab_crew *crew);
