@@ -146,6 +146,9 @@ $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
 $(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
 
+$(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$(BLIND_O)) $(LAB)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
+
 # No $(STATIC) here: what it links with proves that the trials know nothing of the library.
 $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
