@@ -67,7 +67,8 @@ install-packages:
 	@sh study/install-packages.sh
 
 ## Run every test: library in double and single precision, with sanitizers, headers, README, short study
-check: install-packages
+check:
+	@sh study/install-packages.sh tests
 	@$(MAKE) --no-print-directory all
 	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
 
@@ -91,6 +92,11 @@ blind: closeloop $(BUILD)/tests/blind/blind
 blind-trial: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
 .PHONY: blind blind-trial
+
+## Run closeloop --batch on N logs (500) of a few hundred rows; writes results/fleet.csv, goes on after a stop
+fleet: closeloop $(BUILD)/tests/bench/fleet
+	BUILD='$(BUILD)' sh tests/bench/fleet.sh $(N)
+.PHONY: fleet
 
 ## Build the test programs
 tests: $(TESTS)

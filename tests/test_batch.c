@@ -204,7 +204,9 @@ static lab_done sample(void)
   done.key = UINT64_C(0x0123456789abcdef);
   done.extent = LAB_WRITE_PLAIN;
   done.outcome.status = LAB_NUMERIC;
-  done.outcome.seconds = 1.25;
+  done.outcome.cost.seconds = 1.25;
+  done.outcome.cost.cpu = 1.125;
+  done.outcome.cost.memory = 42.5;
   strcpy(done.outcome.row, "error,,\"a, b\",,words");
   return done;
 }
@@ -222,7 +224,9 @@ static void test_lab_done__written__reads_back(void **state)
   assert_true(got.key == want.key);
   assert_int_equal(got.extent, want.extent);
   assert_int_equal(got.outcome.status, want.outcome.status);
-  assert_close(got.outcome.seconds, 1.25, 0, 0);
+  assert_close(got.outcome.cost.seconds, 1.25, 0, 0);
+  assert_close(got.outcome.cost.cpu, 1.125, 0, 0);
+  assert_close(got.outcome.cost.memory, 42.5, 0, 0);
   assert_string_equal(got.outcome.row, want.outcome.row);
   lab_done_remove(folder);
   assert_false(lab_done_read(folder, &got));

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -41,6 +42,19 @@ static double seconds(void)
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* What this process took since a time on the clock. */
+static lab_cost cost_since(double start)
+{
+  lab_cost cost;
+  struct rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  cost.seconds = seconds() - start;
+  cost.cpu = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+             1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  cost.memory = (double)use.ru_maxrss / 1024; /* in kB on Linux */
+  return cost;
 }
 
 static void folder_of(const batch *b, const char *name, char folder[LAB_PATH_TEXT])
@@ -190,7 +204,7 @@ static void work(void *context, const void *what, void *result)
       lab_row_answer(answer, outcome);
     lab_answer_free(answer);
   }
-  outcome->seconds = seconds() - start;
+  outcome->cost = cost_since(start);
 }
 
 static void lost(void *context, const void *what, int wait, void *result)
@@ -223,7 +237,7 @@ static void count(totals *t, const lab_outcome *outcome)
     t->worst = outcome->status;
 }
 
-static int copy_rows(batch *b, FILE *rows, FILE *times, totals *t, lab_error *error)
+static int copy_rows(batch *b, FILE *rows, FILE *costs, totals *t, lab_error *error)
 {
   lab_entry e;
   int more, status;
@@ -236,8 +250,8 @@ static int copy_rows(batch *b, FILE *rows, FILE *times, totals *t, lab_error *er
                       e.line);
     lab_row_cell(rows, e.name);
     fprintf(rows, ",%s\n", d.outcome.row);
-    lab_row_cell(times, e.name);
-    fprintf(times, ",%.3f\n", d.outcome.seconds);
+    lab_row_cell(costs, e.name);
+    fprintf(costs, ",%.3f,%.3f,%.1f\n", d.outcome.cost.seconds, d.outcome.cost.cpu, d.outcome.cost.memory);
     count(t, &d.outcome);
   }
   return status;
@@ -246,25 +260,25 @@ static int copy_rows(batch *b, FILE *rows, FILE *times, totals *t, lab_error *er
 static int write_tables(batch *b, totals *t, lab_error *error)
 {
   char path[LAB_PATH_TEXT];
-  lab_outfile rows, times;
+  lab_outfile rows, costs;
   int status;
   folder_of(b, "batch.csv", path);
   if (lab_list_restart(&b->list, error) || lab_out_open(&rows, path, error))
     return error->status;
-  folder_of(b, "batch.seconds.csv", path);
-  if (lab_out_open(&times, path, error)) {
+  folder_of(b, "batch.cost.csv", path);
+  if (lab_out_open(&costs, path, error)) {
     lab_out_abandon(&rows);
     return error->status;
   }
   lab_row_header(rows.file);
-  fputs("name,seconds\n", times.file);
-  status = copy_rows(b, rows.file, times.file, t, error);
+  fputs("name,seconds,cpu_seconds,memory_MB\n", costs.file);
+  status = copy_rows(b, rows.file, costs.file, t, error);
   if (status != LAB_OK) {
     lab_out_abandon(&rows);
-    lab_out_abandon(&times);
+    lab_out_abandon(&costs);
     return status;
   }
-  status = lab_out_close(&times, error);
+  status = lab_out_close(&costs, error);
   if (status != LAB_OK)
     lab_out_abandon(&rows);
   return status == LAB_OK ? lab_out_close(&rows, error) : status;

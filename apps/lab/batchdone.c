@@ -13,10 +13,11 @@ static void path_in(const char *folder, char path[LAB_PATH_TEXT + 32])
 /* Two lines: numbers, and the row. The end of the second tells that it is whole. */
 static int read_lines(FILE *file, lab_done *done)
 {
+  lab_cost *cost = &done->outcome.cost;
   char line[160];
   size_t length;
-  if (!fgets(line, sizeof line, file) || sscanf(line, "%" SCNx64 " %d %d %lf", &done->key, &done->extent,
-                                                &done->outcome.status, &done->outcome.seconds) != 4)
+  if (!fgets(line, sizeof line, file) || sscanf(line, "%" SCNx64 " %d %d %lf %lf %lf", &done->key, &done->extent,
+                                                &done->outcome.status, &cost->seconds, &cost->cpu, &cost->memory) != 6)
     return 0;
   if (!fgets(done->outcome.row, sizeof done->outcome.row, file))
     return 0;
@@ -43,13 +44,14 @@ int lab_done_read(const char *folder, lab_done *done)
 
 int lab_done_write(const char *folder, const lab_done *done, lab_error *error)
 {
+  const lab_cost *cost = &done->outcome.cost;
   char path[LAB_PATH_TEXT + 32];
   lab_outfile out;
   path_in(folder, path);
   if (lab_out_open(&out, path, error))
     return error->status;
-  fprintf(out.file, "%016" PRIx64 " %d %d %.3f\n%s\n", done->key, done->extent, done->outcome.status,
-          done->outcome.seconds, done->outcome.row);
+  fprintf(out.file, "%016" PRIx64 " %d %d %.3f %.3f %.1f\n%s\n", done->key, done->extent, done->outcome.status,
+          cost->seconds, cost->cpu, cost->memory, done->outcome.row);
   return lab_out_close(&out, error);
 }
 
