@@ -35,19 +35,40 @@ static int write_list(const char *folder, const char *written, int n, lab_error 
   return lab_out_close(&list, error);
 }
 
-/* A rig whose events cannot be followed is left out: another is drawn instead. */
+/* Try the rigs from, ..., to - 1. One whose events cannot be followed is left out.  Returns: LAB_OK, LAB_WORLD */
+static int write_some(const char *folder, char *written, int from, int to, int rows, lab_error *error)
+{
+  int k, status = LAB_OK;
+#pragma omp parallel for schedule(dynamic)
+  for (k = from; k < to; k++) {
+    lab_error mine;
+    const int failed = write_one(folder, k, rows, &mine);
+    written[k] = failed == LAB_OK;
+#pragma omp critical(fleet)
+    if (failed && failed != LAB_NUMERIC) {
+      status = failed;
+      *error = mine;
+    }
+  }
+  return status;
+}
+
+/* For each that was left out another is drawn. */
 static int write_all(const char *folder, int n, int rows, lab_error *error)
 {
   const int room = 2 * n;
   char *written = calloc((size_t)room, 1);
-  int k, done = 0, status = written ? LAB_OK : lab_fail_memory(error, "the fleet");
-  for (k = 0; k < room && done < n && status == LAB_OK; k++) {
-    status = write_one(folder, k, rows, error);
-    done += written[k] = status == LAB_OK;
-    status = status == LAB_NUMERIC ? LAB_OK : status;
+  int from = 0, to = n, done = 0, status = written ? LAB_OK : lab_fail_memory(error, "the fleet");
+  while (status == LAB_OK && done < n && to <= room) {
+    status = write_some(folder, written, from, to, rows, error);
+    for (; from < to; from++)
+      done += written[from];
+    to += n - done;
   }
+  if (status == LAB_OK && done < n)
+    status = lab_fail(error, LAB_NUMERIC, "only %d of %d rigs can be followed", done, room);
   if (status == LAB_OK)
-    status = write_list(folder, written, k, error);
+    status = write_list(folder, written, from, error);
   free(written);
   return status;
 }
