@@ -1,5 +1,6 @@
 # libpneu. `make help` lists the targets.
 BUILD   ?= build
+MPI     ?=
 CC      ?= cc
 CXX     ?= c++
 OPT     ?= -O2
@@ -20,9 +21,15 @@ FLAGS   += -ffp-contract=off
 CMINPACK ?= $(firstword $(wildcard /usr/include/cminpack-1 /usr/local/include/cminpack-1 /opt/homebrew/include/cminpack-1))
 LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) -fopenmp
 LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
+ifdef MPI
+MPI_FLAGS := $(shell pkg-config --cflags ompi-c)
+LAB_LIBS  += $(shell pkg-config --libs ompi-c)
+endif
 
 LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
-LAB_C   := $(wildcard apps/lab/*.c apps/study/*.c)
+# closeloop --batch over the ranks of MPI: make MPI=1 closeloop
+CREW    := $(if $(MPI),apps/lab/mpi/crew.c,apps/lab/crew.c)
+LAB_C   := $(filter-out apps/lab/crew.c,$(wildcard apps/lab/*.c apps/study/*.c)) $(CREW)
 PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
 BLIND_C := $(wildcard tests/blind/*.c)
@@ -34,9 +41,9 @@ HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
 BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
-LAB     := $(BUILD)/liblab.a
+LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
-# Tables made by another program are made again: the sources' checksum goes into the record of what is done.
+# What was made by another program is made again: the sources' checksum goes into the record of what is done.
 SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
@@ -60,7 +67,8 @@ install-packages:
 	@sh study/install-packages.sh
 
 ## Run every test: library in double and single precision, with sanitizers, headers, README, short study
-check: install-packages
+check:
+	@sh study/install-packages.sh tests
 	@$(MAKE) --no-print-directory all
 	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
 
@@ -85,6 +93,11 @@ blind-trial: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
 .PHONY: blind blind-trial
 
+## Run closeloop --batch on N logs (500) of a few hundred rows; writes results/fleet.csv, goes on after a stop
+fleet: closeloop $(BUILD)/tests/bench/fleet
+	BUILD='$(BUILD)' sh tests/bench/fleet.sh $(N)
+.PHONY: fleet
+
 ## Build the test programs
 tests: $(TESTS)
 .PHONY: tests
@@ -105,9 +118,17 @@ $(BUILD)/apps/%.o: apps/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-$(BUILD)/apps/study/products.o: apps/study/products.c $(SOURCES)
+$(BUILD)/apps/lab/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
+
+# Programs are linked again when MPI=1 comes or goes.
+$(BUILD)/crew: FORCE
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DSTUDY_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
+	@echo '$(CREW)' | cmp -s - $@ || echo '$(CREW)' > $@
+.PHONY: FORCE
+
+$(BUILD)/apps/lab/checksum.o: apps/lab/checksum.c $(SOURCES)
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
 
 # Scripts and templates that a program carries inside, a line a string.
 CARRIED := $(wildcard apps/lab/report/*) study/figures/style.gp
@@ -118,8 +139,8 @@ $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 $(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
 $(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
 
-$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
@@ -130,6 +151,9 @@ $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
 
 $(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+
+$(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$(BLIND_O)) $(LAB)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
 # No $(STATIC) here: what it links with proves that the trials know nothing of the library.
 $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)

@@ -1,10 +1,11 @@
 #!/bin/sh
 # Install what is missing, on Debian and Ubuntu; name it for other systems.
-# Exits 0 where everything is there.
+# Exits 0 where everything is there. With the word tests: also what only make check uses.
 set -eu
 
 apt_packages="gcc g++ make pkg-config libsundials-dev libnlopt-dev libconfig-dev libudunits2-dev libcjson-dev
 libcminpack-dev libcmocka-dev gnuplot-nox"
+[ "${1:-}" = tests ] && apt_packages="$apt_packages libopenmpi-dev openmpi-bin"
 
 missing() {
   for package in $apt_packages; do
@@ -15,8 +16,8 @@ missing() {
 name_others() {
   cat <<WORDS
 This system has no apt-get. Install the same libraries by its own package manager, then run make all:
-  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot
-  brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp
+  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot openmpi-devel
+  brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp open-mpi
 WORDS
 }
 

@@ -105,6 +105,7 @@ pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/sing
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
 pass "closeloop: its folder, interrupted runs" sh tests/check_closeloop.sh
+pass "closeloop --batch: threads, ranks, stops" sh tests/check_batch.sh && { grep '^absent:' "$log" || true; }
 $MAKE --no-print-directory "$BUILD/tests/blind/blind" >/dev/null && pass "blind: 40 trials of closeloop" blind_trials
 $MAKE --no-print-directory "$BUILD/tests/compare" >/dev/null && pass "study: same numbers as results/" study_agrees
 

@@ -7,27 +7,6 @@
 
 #include "../lab/outfile.h"
 
-unsigned long long done_hash(unsigned long long key, const void *data, unsigned long size)
-{
-  const unsigned char *byte = data;
-  for (; size; size--)
-    key = (key ^ *byte++) * 1099511628211ULL;
-  return key;
-}
-
-unsigned long long done_hash_file(unsigned long long key, const char *path)
-{
-  unsigned char block[4096];
-  size_t n;
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return key;
-  while ((n = fread(block, 1, sizeof block, file)) > 0)
-    key = done_hash(key, block, n);
-  fclose(file);
-  return key;
-}
-
 void done_read(done *d, const char *folder)
 {
   char text[DONE_TEXT + 128];

@@ -20,13 +20,6 @@ typedef struct done {
   done_line line[DONE_MAX];
 } done;
 
-/* FNV-1a over bytes, going on from `key`; start with DONE_SEED. */
-#define DONE_SEED 14695981039346656037ULL
-unsigned long long done_hash(unsigned long long key, const void *data, unsigned long size);
-
-/* The same over a file's content; a missing file counts as empty. */
-unsigned long long done_hash_file(unsigned long long key, const char *path);
-
 /* Read the record; none is an empty one. */
 void done_read(done *d, const char *folder);
 
