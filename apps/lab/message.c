@@ -28,6 +28,14 @@ int lab_fail_in(lab_error *error, const char *format, ...)
   return error->status;
 }
 
+void lab_fail_together(lab_error *all, const lab_error *one)
+{
+  if (one->status != LAB_WORLD)
+    return;
+#pragma omp critical(lab_fail_together)
+  *all = *one;
+}
+
 int lab_fail_memory(lab_error *error, const char *what)
 {
   return lab_fail(error, LAB_WORLD, "out of memory for %s", what);

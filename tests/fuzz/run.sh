@@ -10,7 +10,11 @@ shift 3
 all=0
 finds=0
 mkdir -p "$folder/found"
+export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export ASAN_OPTIONS=malloc_context_size=4:quarantine_size_mb=8
+export LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0
 
+# Leaks are counted once, at the end of a target's run: after every execution it would take all the time.
 # Words of the files, as the readers have them.
 cat apps/lab/rig*.c apps/lab/log*.c apps/lab/channel.h apps/study/study.c lib/*.h lib/effects/*.c |
   grep -o '"[A-Za-z0-9_.^/%-][A-Za-z0-9_.^/% -]*"' | sort -u >"$folder/words"
@@ -22,8 +26,8 @@ for target in "$@"; do
   for seed in tests/fuzz/seeds/"$target"-* tests/fuzz/finds/"$target"-*; do
     [ -f "$seed" ] && cp "$seed" "$corpus"
   done
-  FUZZ_TARGET=$target "$folder/fuzz" -max_total_time="$seconds" -runs="$runs" -max_len=2048 -timeout=5 \
-    -rss_limit_mb=2048 -dict="$folder/words" -artifact_prefix="$folder/found/$target-" -print_final_stats=1 \
+  FUZZ_TARGET=$target "$folder/fuzz" -max_total_time="$seconds" -runs="$runs" -max_len=1024 -timeout=5 \
+    -rss_limit_mb=4096 -detect_leaks=0 -entropic=0 -dict="$folder/words" -artifact_prefix="$folder/found/$target-" -print_final_stats=1 \
     "$corpus" >"$log" 2>&1
   status=$?
   count=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -n 1)
