@@ -139,7 +139,7 @@ $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP_O) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
-include tests/fuzz/fuzz.mk
+include tests/fuzz/fuzz.mk tests/trust.mk
 
 ## Remove what was built, but no results
 clean:

@@ -481,7 +481,8 @@ static int search_coarsely(const lab_unknowns *u, const lab_loop_options *option
 {
   lab_unknowns coarse = *u;
   *done = 0;
-  result->window = lab_unknowns_rough(u);
+  if (lab_unknowns_rough(u, &result->window, error))
+    return error->status;
   if (result->window == 0)
     return LAB_OK;
   lab_unknowns_view(&coarse, result->window);

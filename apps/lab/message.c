@@ -35,8 +35,3 @@ void lab_fail_together(lab_error *all, const lab_error *one)
 #pragma omp critical(lab_fail_together)
   *all = *one;
 }
-
-int lab_fail_memory(lab_error *error, const char *what)
-{
-  return lab_fail(error, LAB_WORLD, "out of memory for %s", what);
-}
