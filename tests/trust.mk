@@ -11,3 +11,17 @@ alloc:
 	  { tail $(BUILD)/alloc.log; exit 1; }
 	@sh tests/check_alloc.sh $(BUILD)/sanitized/tests/alloc
 .PHONY: alloc
+
+# Tests that say what the library and the readers of files do; none that fits.
+COVERING := test_params test_terms test_clock test_flow test_chamber test_stem test_stepper test_jacobian test_audit \
+            test_effects test_effects_gas test_effects_stem test_effects_sensor test_log test_rig test_rigterm test_units \
+            test_number test_table test_finds
+COVERED  := $(BUILD)/coverage
+
+## Lines and branches of lib/ and of the readers that the tests reach; writes results/coverage.csv
+coverage:
+	@mkdir -p $(COVERED)
+	@$(MAKE) --no-print-directory BUILD=$(COVERED) OPT=-O0 CFLAGS=--coverage $(COVERING:%=$(COVERED)/tests/%) \
+	  >$(COVERED)/build.log 2>&1 || { tail $(COVERED)/build.log; exit 1; }
+	@sh tests/coverage.sh $(COVERED) $(COVERING)
+.PHONY: coverage

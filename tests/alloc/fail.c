@@ -1,6 +1,6 @@
 /* Memory that runs out. What is linked with --wrap for malloc, calloc and realloc gets no memory at the call FAIL_AT,
- * counted from 1, of the environment, and if FAIL_ON is set at no later call either. At the end the number of calls goes
- * into the file FAIL_COUNT. Libraries that are linked dynamically have memory all the time. */
+ * counted from 1, of the environment, and if FAIL_ON is set at no later call either. At the end the number of calls
+ * goes into the file FAIL_COUNT. Libraries that are linked dynamically have memory all the time. */
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
