@@ -15,7 +15,7 @@ alloc:
 # Tests that say what the library and the readers of files do; none that fits.
 COVERING := test_params test_terms test_clock test_flow test_chamber test_stem test_stepper test_jacobian test_audit \
             test_effects test_effects_gas test_effects_stem test_effects_sensor test_log test_rig test_rigterm test_units \
-            test_number test_table test_finds
+            test_number test_table test_tableread test_study test_finds
 COVERED  := $(BUILD)/coverage
 
 ## Lines and branches of lib/ and of the readers that the tests reach; writes results/coverage.csv

@@ -78,8 +78,11 @@ static void open_files(void)
 /* Bad bytes are the file's fault, and the message is one line that ends. */
 static void check_error(int status, const lab_error *error)
 {
+  const char *at;
   promise(status == LAB_DATA && error->status == LAB_DATA, "status of a bad file", error->text);
   promise(*error->text && memchr(error->text, 0, sizeof error->text), "message", "none");
+  for (at = error->text; *at; at++)
+    promise((unsigned char)*at >= ' ' && *at != 127, "no control characters in a message", error->text);
 }
 
 /* ---- Logs ---- */
@@ -187,6 +190,9 @@ static void check_rig(const lab_rig *rig)
   promise(again.n_terms == rig->n_terms && memcmp(again.term, rig->term, sizeof again.term) == 0, "same terms",
           rig->name);
   promise(again.n_fit == rig->n_fit && memcmp(again.fit, rig->fit, sizeof again.fit) == 0, "same fit", rig->name);
+  promise(memcmp(again.noise, rig->noise, sizeof again.noise) == 0, "same noise", rig->name);
+  promise(memcmp(again.input, rig->input, sizeof again.input) == 0, "same inputs", rig->name);
+  promise(memcmp(&again.log, &rig->log, sizeof again.log) == 0, "same form of logs", rig->name);
 }
 
 static void read_rig(const uint8_t *data, size_t size)
