@@ -25,3 +25,13 @@ coverage:
 	  >$(COVERED)/build.log 2>&1 || { tail $(COVERED)/build.log; exit 1; }
 	@sh tests/coverage.sh $(COVERED) $(COVERING)
 .PHONY: coverage
+
+TIDY ?= $(firstword $(wildcard /usr/bin/clang-tidy-14 /usr/bin/clang-tidy))
+
+## Static analysis of lib/ and apps/ by clang-tidy (.clang-tidy)
+lint: $(CARRIED:%=$(BUILD)/%.inc)
+	@test -n "$(TIDY)" || { echo "clang-tidy is missing: apt-get install clang-tidy-14"; exit 1; }
+	@printf '%s\n' $(LIB_C) $(LAB_C) $(wildcard apps/*.c) | xargs -P 2 -n 12 sh -c \
+	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
+	@echo "lint: nothing found in $(words $(LIB_C) $(LAB_C) $(wildcard apps/*.c)) files"
+.PHONY: lint

@@ -434,11 +434,9 @@ static double cycle_at(const pneu_term *term, double t)
 {
   const double angle = 6.283185307179586 * t / (double)(term->to - term->from);
   double sum = 0;
-  int i;
-  for (i = 0; i + 1 < term->n; i += 2) {
-    const double harmonic = angle * (i / 2 + 1);
-    sum += (double)term->value[i] * cos(harmonic) + (double)term->value[i + 1] * sin(harmonic);
-  }
+  int k;
+  for (k = 1; 2 * k <= term->n; k++)
+    sum += (double)term->value[2 * k - 2] * cos(k * angle) + (double)term->value[2 * k - 1] * sin(k * angle);
   return sum;
 }
 
