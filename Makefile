@@ -19,7 +19,8 @@ SINGLE_FLAG := $(if $(SINGLE),-DPNEU_SINGLE)
 FLAGS   += -ffp-contract=off
 
 CMINPACK ?= $(firstword $(wildcard /usr/include/cminpack-1 /usr/local/include/cminpack-1 /opt/homebrew/include/cminpack-1))
-LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) -fopenmp
+OPENMP ?= -fopenmp
+LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) $(OPENMP)
 LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
 ifdef MPI
 MPI_FLAGS := $(shell pkg-config --cflags ompi-c)
@@ -33,7 +34,7 @@ LAB_C   := $(filter-out apps/lab/crew.c,$(wildcard apps/lab/*.c apps/study/*.c))
 PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
 BLIND_C := $(wildcard tests/blind/*.c)
-HELP_C  := tests/fixture.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
+HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
 
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
 LAB_O   := $(LAB_C:%.c=$(BUILD)/%.o)
@@ -161,6 +162,8 @@ $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP_O) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
+
+include tests/fuzz/fuzz.mk tests/trust.mk
 
 ## Remove what was built, but no results
 clean:

@@ -36,6 +36,9 @@ expect 2 "" ./simulate
 expect 0 "" ./sweep --help
 expect 0 "" ./simulate --version
 
+# the world
+expect 4 "unit database" env UDUNITS2_XML_PATH=nothere ./simulate "$model" --step
+
 # configuration
 expect 1 "nothere.cfg" ./sweep nothere.cfg
 expect 1 "nothere.cfg" ./simulate nothere.cfg --step

@@ -320,6 +320,8 @@ static void footprint_stop_compliance(void)
   assert_int_equal(s.mode, PNEU_MODE_STUCK);
   s = fixture_rest(&m, 4e5, 0.02, &input);
   assert_close((double)s.x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9), TOL(1e-9, 1e-3));
+  assert_close(fixture_rest(&m, 4e5, 0, &input).x, 0, 0, 0); /* the air lifts it off */
+  assert_close(fixture_rest(&m, 0, 0.02, &input).x, 0.02, 0, TOL(1e-15, 1e-7));
   assert_close(balance(&p, 0, 0.001).x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-6, 1e-3));
   assert_close((double)balance(&p, 4e5, 0.015).x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9),
                TOL(1e-6, 1e-2));

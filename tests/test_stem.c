@@ -412,6 +412,23 @@ static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(voi
   assert_close(g[0], -(16000 - 12000 + 480), TOL(1e-8, 0.5), 0);
 }
 
+/* A chamber without air has no balance of forces: nothing to tell of the stem. */
+static void test_pneu_settle__chamber_without_air__stem_stays(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 213e3, 0.01, &input);
+  pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
+  (void)state;
+  assert_int_equal(s.mode, PNEU_MODE_UP);
+  s.p = (pneu_real)-2e5;
+  pneu_settle(&m, &input, &s);
+  assert_int_equal(s.mode, PNEU_MODE_STUCK);
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_events(&m, &s, &input, y, g), 0);
+}
+
 /* ---- invariants under anything ---- */
 
 /* What to check at every step of a run. */
@@ -532,6 +549,7 @@ int main(void)
       cmocka_unit_test(test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays),
       cmocka_unit_test(test_pneu_regulator_opening__error_over_band__is_held_within_one),
       cmocka_unit_test(test_pneu_settle__at_rest__mode_follows_the_balance_of_forces),
+      cmocka_unit_test(test_pneu_settle__chamber_without_air__stem_stays),
       cmocka_unit_test(test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_for),
       cmocka_unit_test(test_pneu_events__about_break_away__rise_through_zero_in_newtons),
       cmocka_unit_test(test_pneu_observe__driven_stem__shows_the_force_that_holds_it),

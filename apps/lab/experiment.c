@@ -61,8 +61,11 @@ static int add_channel(lab_experiment *e, int channel, lab_error *error)
   const double *value = e->log->value[channel] + e->first;
   const double memory = lab_noise_memory(value, rows_still(value, rows_at_rest(e)));
   double sigma = e->rig->noise[channel];
-  if (isnan(sigma))
-    sigma = for_memory(lab_noise_estimate(value, e->n), memory);
+  if (isnan(sigma)) {
+    if (lab_noise_estimate(value, e->n, &sigma, error))
+      return error->status;
+    sigma = for_memory(sigma, memory);
+  }
   if (!(sigma > 0))
     return lab_fail(error, LAB_DATA,
                     "%s: channel %s does not change, or has too few values to tell its noise; declare it in the group "

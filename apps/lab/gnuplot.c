@@ -99,5 +99,8 @@ int lab_gnuplot_run(FILE *script, char **drawing, lab_error *error)
     *drawing = text_of(out);
   if (out)
     fclose(out);
-  return *drawing ? LAB_OK : cannot(status, "its script", "the report", error);
+  if (status == 0 && !*drawing)
+    return lab_fail(error, LAB_WORLD,
+                    "what gnuplot drew cannot be read back: out of memory, or of room for temporary files");
+  return status == 0 ? LAB_OK : cannot(status, "its script", "the report", error);
 }

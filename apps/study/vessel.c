@@ -245,8 +245,10 @@ static int job_open(job *j, const vessel *v, const vessel_law *law, const unsign
   j->law = law;
   j->use = use;
   j->p = calloc(2 * v->log.n, sizeof *j->p);
+  if (!j->p)
+    return lab_fail_memory(error, "a vessel");
   j->T = j->p + v->log.n;
-  return j->p ? LAB_OK : lab_fail_memory(error, "a vessel");
+  return LAB_OK;
 }
 
 int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit, lab_error *error)
