@@ -85,6 +85,12 @@ blind-trial: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
 .PHONY: blind blind-trial
 
+## Break the library one sign or factor at a time, see that a test notices: MUTANTS=10 SEED=1 draws some, else all (half an hour)
+mutate: tests
+	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP_O)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
+	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS),,results/mutation.csv)' sh tests/mutate.sh
+.PHONY: mutate
+
 ## Build the test programs
 tests: $(TESTS)
 .PHONY: tests
