@@ -26,7 +26,7 @@ inputs_of_sweep() {
   for script in study/figures/*.gp; do
     case $script in
     */fig04.gp | */fig11.gp | */style.gp) cp "$script" "$folder/study/figures" ;;
-    *) echo 'set terminal svg; if (exists("OUT")) set output OUT; plot x' >"$folder/study/figures/${script##*/}" ;;
+    *) echo 'set terminal svg; plot x' >"$folder/study/figures/${script##*/}" ;;
     esac
   done
   for points in 3 4; do
@@ -120,7 +120,7 @@ clock() { date +%s.%N | sed 's/N$/0/'; }
 # undisturbed PROGRAM INPUT: its folder, and the time it takes [ms]
 undisturbed() {
   from=$(clock)
-  $(words "$1" "$2" "$folder/$1-$2") >"$folder/out" 2>&1 || { kill=0; complain "$1 $2 fails: $(cat "$folder/out")"; }
+  $(words "$1" "$2" "$folder/$1-$2") >"$folder/out" 2>&1 || { cat "$folder/out"; exit 2; }
   to=$(clock)
   awk -v a="$from" -v b="$to" 'BEGIN { printf "%d\n", (b - a) * 1000 + 20 }' >"$folder/$1-$2.ms"
 }
@@ -144,8 +144,9 @@ one_kill() {
   sleep "$(awk -v ms="$drawn" 'BEGIN { printf "%.3f", ms / 1000 }')"
   kill -STOP $victim 2>/dev/null # so that it starts no other while it is asked
   orphans=$(children $victim)
-  kill -9 $victim 2>/dev/null && killed=$((killed + 1))
+  kill -9 $victim 2>/dev/null
   wait $victim 2>/dev/null
+  [ $? -eq 137 ] && killed=$((killed + 1))
   each_whole "$program"
   draw 3
   [ "$drawn" -eq 0 ] && return # the next kill meets what this one left
