@@ -20,7 +20,7 @@ run() {
   export OMP_NUM_THREADS OMP_DYNAMIC
   ./sweep hypotheses.cfg --quiet --no-figures --results "$folder/$1/sweep" &&
     ./closeloop "$folder/rig.cfg" "$folder/log.csv" --quiet --out "$folder/$1/closeloop" &&
-    "$BUILD/tests/blind/blind" --trials 4 --seed 3 --quiet --work "$folder/$1/work" --out "$folder/$1/blind" &&
+    "$BUILD/tests/blind/blind" --trials 2 --seed 1 --quiet --work "$folder/$1/work" --out "$folder/$1/blind" &&
     sed '/^[[:space:]]*"timing":/,/^[[:space:]]*}/d' "$folder/$1/closeloop/report.json" >"$folder/$1/report.json" &&
     rm -r "$folder/$1/closeloop/report.json" "$folder/$1/work"
 }

@@ -57,7 +57,7 @@ function values(text, i, last) {
     match(substr(text, i), /^([+*-]?= |return )/)
     i += RLENGTH
     last = end_of(text, i)
-    if (last > 0 && substr(text, i, last - i + 1) !~ /^(0|NULL|PNEU_[A-Z_]+)$/)
+    if (last > 0 && substr(text, i, last - i + 1) !~ /(^|= )(0|NULL|PNEU_[A-Z_]+)$/)
       mutant(i, last - i + 1, "PNEU_C(1.01) * (" substr(text, i, last - i + 1) ")")
   }
 }

@@ -65,11 +65,12 @@ apply() {
     $0 = substr($0, 1, column - 1) ENVIRON["TEXT"] substr($0, column + length_) } { print }' "$1"
 }
 
-# is_explained FILE LINE: whether the changed line says what the table explains
+# is_explained FILE LINE: whether the changed line, and not the true one, says what the table explains
 is_explained() {
-  sed -n "$2p" "$scratch/$1" >"$scratch/line"
-  awk -F '\t' -v file="$1" 'NR == FNR { line = $0; next }
-    $1 == file && index(line, $2) { found = 1 } END { exit !found }' "$scratch/line" tests/mutate_equivalents.txt
+  { sed -n "$2p" "$scratch/$1" && sed -n "$2p" "$1"; } >"$scratch/lines"
+  awk -F '\t' -v file="$1" 'NR == FNR { line[NR] = $0; next }
+    $1 == file && index(line[1], $2) && !index(line[2], $2) { found = 1 } END { exit !found }' \
+    "$scratch/lines" tests/mutate_equivalents.txt
 }
 
 # quote TEXT: as a field of CSV

@@ -77,6 +77,10 @@ static void footprint_porous_leak(void)
     const double q = f.out - f.in, share = q / (c * crossover), squared = at[i] * (at[i] + 2 * pa);
     assert_close(q / c + share * fabs(share), squared, 0, TOL(1e-12, 1e-5));
   }
+  fixture_set(&p, "crossover_pressure", 1e8);
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, -5e4, 0, 20).p,
+               seeped(&p, -5e4, 1.4 * c * (double)p.gas_constant * (double)p.ambient_temperature / 1e-3, 20), 0,
+               TOL(1e-4, 1e-3));
   for (driven = 0; driven < 2; driven++) {
     const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, driven, 0);
     const pneu_input input = fixture_input(&m, 0);

@@ -164,6 +164,27 @@ static void test_presliding__moving__friction_is_that_of_lugre(void **state)
   check_bristle(0, 0.5);
 }
 
+/* Bristles that carry no force bend as the others do: z ends at 1 where the stem goes on in one direction. */
+static void test_presliding__no_friction__bristles_bend_all_the_way(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (fixture_effect("presliding") < 0)
+    skip();
+  p.dry_friction = 0;
+  fixture_set(&p, "presliding_length", 2e-5);
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  input = fixture_input(&m, 0);
+  input.pressure_rate = (pneu_real)1e4;
+  s = fixture_rest(&m, 1.5e5, 0.005, &input);
+  fixture_run(&m, &s, &input, 2, TOL(1e-7, 1e-4), NULL);
+  assert_true((double)s.x > 0.006);
+  assert_close(s.extra[0], 1, TOL(1e-5, 1e-3), 0);
+}
+
 /* Bristles bent on the way down help the stem up from the lower stop: it leaves at k x_0 - F. */
 static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
 {
@@ -425,11 +446,12 @@ static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void
 
 int main(void)
 {
-  enum { OTHERS = 6 };
+  enum { OTHERS = 7 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_stem__has_a_footprint_test),
       cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
+      cmocka_unit_test(test_presliding__no_friction__bristles_bend_all_the_way),
       cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
       cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
       cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),
