@@ -375,6 +375,29 @@ static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(vo
   assert_int_equal(s.mode, PNEU_MODE_LOWER);
 }
 
+/* Behind a stop that hardly resists, rigid ones: above at twice the stroke, below at the stroke or, where the gas would
+ * have no room, at a tenth of the dead volume. */
+static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  (void)state;
+  if (fixture_effect("stop_compliance") < 0)
+    skip();
+  fixture_set(&p, "stop_compliance", 1e-4);
+  p.swept_ratio = (pneu_real)0.5;
+  p.spring_rate = (pneu_real)1e3;
+  p.external_force = 4000;
+  m = pressed(&p);
+  input = fixture_input(&m, 0);
+  assert_close(fixture_rest(&m, 4e5, 0.02, &input).x, 0.04, 0, TOL(1e-12, 1e-6));
+  assert_close(pneu_volume(&m, fixture_rest(&m, 0, 0, &input).x), 0.1 * (double)p.dead_volume, 0, TOL(1e-9, 1e-4));
+  p.dead_volume = (pneu_real)1e-2;
+  m = pressed(&p);
+  assert_close(fixture_rest(&m, 0, 0, &input).x, -0.02, 0, TOL(1e-12, 1e-6));
+}
+
 /* On a stop as stiff as a block of steel the rounding of the position alone makes a force: the stem must not mind. */
 static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
 {
@@ -446,7 +469,7 @@ static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void
 
 int main(void)
 {
-  enum { OTHERS = 7 };
+  enum { OTHERS = 8 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_stem__has_a_footprint_test),
@@ -454,6 +477,7 @@ int main(void)
       cmocka_unit_test(test_presliding__no_friction__bristles_bend_all_the_way),
       cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
       cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
+      cmocka_unit_test(test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops),
       cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),
       cmocka_unit_test(test_stop_compliance__creeping_in__does_not_chatter),
   };
