@@ -322,7 +322,7 @@ static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **sta
     pneu_model m;
     pneu_input input;
     pneu_state s;
-    set_share(&p, e, 1);
+    *pneu_param_at(&p, pneu_effect_params(e, NULL)) = pneu_effect_at(e)->param[0].value;
     m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
     input = fixture_input(&m, 1);
     s = fixture_rest(&m, 2e5, 0, &input);

@@ -339,6 +339,8 @@ static void footprint_stop_compliance(void)
   s = fixture_rest(&m, 0, 0, &input);
   assert_close(s.x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-9, 1e-4));
   assert_int_equal(s.mode, PNEU_MODE_STUCK);
+  assert_close(fixture_rest(&m, 4e5, 0, &input).x, 0, 0, 0); /* pushed away from the stop, not into it */
+  assert_close(fixture_rest(&m, 0, 0.02, &input).x, (pneu_real)0.02, 0, 0);
   s = fixture_rest(&m, 4e5, 0.02, &input);
   assert_close((double)s.x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9), TOL(1e-9, 1e-3));
   assert_close(balance(&p, 0, 0.001).x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-6, 1e-3));
@@ -396,6 +398,10 @@ static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(voi
   p.dead_volume = (pneu_real)1e-2;
   m = pressed(&p);
   assert_close(fixture_rest(&m, 0, 0, &input).x, -0.02, 0, TOL(1e-12, 1e-6));
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0,
+                          1); /* whoever drives the stem says where it is */
+  input = fixture_input(&m, 0);
+  assert_close(fixture_rest(&m, 0, 0, &input).x, 0, 0, 0);
 }
 
 /* On a stop as stiff as a block of steel the rounding of the position alone makes a force: the stem must not mind. */
