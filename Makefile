@@ -99,6 +99,17 @@ fleet: closeloop $(BUILD)/tests/bench/fleet
 	BUILD='$(BUILD)' sh tests/bench/fleet.sh $(N)
 .PHONY: fleet
 
+## Break the library one sign or factor at a time, see that a test notices: MUTANTS=10 SEED=1 draws some, else all
+mutate: tests
+	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP_O)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
+	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS),,results/mutation.csv)' sh tests/mutate.sh
+.PHONY: mutate
+
+## End sweep and closeloop by kill -9 KILLS times (200, 5 minutes), see that nothing is half-written and the next run is whole
+kill: sweep simulate closeloop
+	@BUILD='$(BUILD)' KILLS='$(or $(KILLS),200)' SEED='$(or $(SEED),1)' sh tests/kill.sh
+.PHONY: kill
+
 ## Build the test programs
 tests: $(TESTS)
 .PHONY: tests

@@ -126,7 +126,8 @@ pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
   return area * model->choked_gain * model->p.gas_constant * PNEU_M(sqrt)(PNEU_C(293.15)) / PNEU_C(1e5);
 }
 
-/* The declared law, mixed with the nozzle's as far as choked_flow says. */
+/* The declared law, mixed with the nozzle's as far as choked_flow says; so are the slopes that Newton needs below. The
+ * one in T serves the analytic Jacobian alone, which is not used with an effect. */
 static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                        pneu_flow *flow)
 {
@@ -139,7 +140,6 @@ static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu
   flow->q += c * (nozzle_flow.q - flow->q);
   flow->dq_dup += c * (nozzle_flow.dq_dup - flow->dq_dup);
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
-  flow->dq_dT += c * (nozzle_flow.dq_dT - flow->dq_dT);
   flow->choked = nozzle_flow.choked;
 }
 

@@ -188,7 +188,7 @@ static void test_pneu_model_terms__every_state_at_once__fills_the_room(void **st
 static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortest(void **state)
 {
   static const double value[] = {1, 2, 3, 4, 5, 6};
-  const pneu_term term[] = {cycle(FORCE, 3, 6, value), cycle(SHOWN, 2, 2, value), cycle(SHOWN, 1.5, 2, value)};
+  pneu_term term[] = {cycle(FORCE, 3, 6, value), cycle(SHOWN, 2, 2, value), cycle(SHOWN, 1.5, 2, value)};
   pneu_model m = plain_model();
   (void)state;
   assert_close(m.term_step, 0, 0, 0);
@@ -196,6 +196,9 @@ static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortes
   assert_close(m.term_step, 1.0 / 8, 0, TOL(1e-14, 1e-6));
   add(&m, term + 1, 2);
   assert_close(m.term_step, 1.5 / 8, 0, TOL(1e-14, 1e-6));
+  term[2].from = (pneu_real)0.5;
+  add(&m, term + 1, 2);
+  assert_close(m.term_step, 1.0 / 8, 0, TOL(1e-14, 1e-6)); /* the distance of its ends is the period */
   add(&m, NULL, 0);
   assert_close(m.term_step, 0, 0, 0);
 }

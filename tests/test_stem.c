@@ -244,6 +244,23 @@ static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **st
     }
 }
 
+/* The opening is the distance from the set point over the band, and no more than wide open either way. */
+static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band(void **state)
+{
+  static const double over[][2] = {{-0.5, 0.5}, {0.25, -0.25}, {-1.005, 1}, {1.005, -1}, {-3, 1}, {3, -1}};
+  pneu_params p = fixture_vessel(1e-4);
+  int i;
+  (void)state;
+  p.proportional_band = (pneu_real)2e4;
+  for (i = 0; i < COUNT(over); i++) {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+    const pneu_input input = fixture_input(&m, 2e5);
+    const pneu_state s = fixture_rest(&m, 2e5 + over[i][0] * 2e4, 0, &input);
+    check_note("%g bands above", over[i][0]);
+    assert_close(fixture_look(&m, &s, &input).opening, over[i][1], TOL(1e-10, 1e-4), 0);
+  }
+}
+
 static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -543,6 +560,7 @@ int main(void)
       cmocka_unit_test(test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop),
       cmocka_unit_test(test_pneu_run__no_stroke__is_a_vessel),
       cmocka_unit_test(test_pneu_run__regulator__brings_a_vessel_to_its_set_point),
+      cmocka_unit_test(test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band),
       cmocka_unit_test(test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction),
       cmocka_unit_test(test_pneu_stem_extension__normal_and_reverse__mirror_each_other),
       cmocka_unit_test(test_pneu_run__regulator_at_many_set_points__always_ends),

@@ -629,9 +629,23 @@ void lab_figures_free(lab_figures *figures)
   memset(figures, 0, sizeof *figures);
 }
 
+/* What an earlier run has left of figures that this one does not draw, lest they be taken for its own. */
+static void remove_others(const lab_figures *figures, const char *folder)
+{
+  static const char *const endings[] = {".svg", ".svg.part"};
+  char path[LAB_PATH_TEXT + 32];
+  int i, k;
+  for (i = 0; i < LAB_FIGURE_COUNT; i++)
+    for (k = 0; k < 2 && !lab_figures_find(figures, figures_known[i].name); k++) {
+      snprintf(path, sizeof path, "%s/%s%s", folder, figures_known[i].name, endings[k]);
+      remove(path);
+    }
+}
+
 int lab_figures_write(const lab_figures *figures, const char *folder, lab_error *error)
 {
   int i;
+  remove_others(figures, folder);
   for (i = 0; i < figures->n; i++) {
     char path[LAB_PATH_TEXT + 32];
     lab_outfile out;

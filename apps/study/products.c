@@ -94,6 +94,8 @@ static int make_table(maker *m, const char *name, int (*make)(const study *, lab
   if (is_fresh(m, name, key))
     return step(m);
   m->saved.names[0] = 0;
+  if (done_forget(&m->record, name, error))
+    return error->status;
   if (make(m->s, error))
     return lab_fail_in(error, "%s", name);
   if (m->saved.names[0] && done_note(&m->record, name, key, m->saved.names, error))
@@ -138,7 +140,8 @@ static int make_figure(maker *m, const char *name, const char *needs, lab_error 
   key = lab_checksum_file(lab_checksum_file(key, script), table_path);
   if (!exists(table_path) || is_fresh(m, product, key))
     return step(m);
-  if (lab_gnuplot_draw(script, m->s->results, out, error) || done_note(&m->record, product, key, file, error))
+  if (done_forget(&m->record, product, error) || lab_gnuplot_draw(script, m->s->results, out, error) ||
+      done_note(&m->record, product, key, file, error))
     return error->status;
   return step(m);
 }
