@@ -39,6 +39,7 @@ HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c,$(wildcard
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
 LAB_O   := $(LAB_C:%.c=$(BUILD)/%.o)
 HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
+HELP    := $(BUILD)/libhelp.a
 BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
@@ -101,7 +102,7 @@ fleet: closeloop $(BUILD)/tests/bench/fleet
 
 ## Break the library one sign or factor at a time, see that a test notices: MUTANTS=10 SEED=1 draws some, else all
 mutate: tests
-	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP_O)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
+	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
 	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS),,results/mutation.csv)' sh tests/mutate.sh
 .PHONY: mutate
 
@@ -119,6 +120,11 @@ $(STATIC): $(LIB_O)
 	$(AR) rcs $@ $^
 
 $(LAB): $(LAB_O)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+# What tests share: each takes what it needs, so that a test of the core links no reader.
+$(HELP): $(HELP_O)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
@@ -171,7 +177,7 @@ $(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$
 $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP_O) $(LAB) $(STATIC)
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
 include tests/fuzz/fuzz.mk tests/trust.mk
