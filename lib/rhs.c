@@ -1,10 +1,14 @@
 /* From a packed state to its time derivative: every term is added once, in the order of the stages. */
-#include <string.h>
-
 #include "internal.h"
 #include "chamber.h"
 #include "stem.h"
 #include "transducer.h"
+
+int pneu_dimension(const pneu_model *model, int mode)
+{
+  static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};
+  return model->n_gas + stem_entries[mode];
+}
 
 int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y)
 {
@@ -42,7 +46,6 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   const int i_x = model->n_gas, n = pneu_dimension(model, state->mode);
   const pneu_params *p = &model->p;
-  memset(t, 0, sizeof *t);
   t->model = model;
   t->input = input;
   t->p = y[0] + p->ambient_pressure;
@@ -57,25 +60,17 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->exhaust = p->ambient_pressure;
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
+  t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
+  t->heat = t->film = t->bristle_force = 0;
+  t->din_dp = t->dout_dp = t->dout_dT = 0;
+  t->choked = 0;
 }
 
-/* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
- * the model's constants by `prepare`. */
 static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
 {
-  const pneu_model *model = t->model;
-  pneu_real unused[PNEU_EXTRA_MAX];
-  const pneu_real *extra = y + 1 + model->thermal;
-  if (!rate)
-    rate = unused;
-  for (; *next < model->n_active; ++*next) {
-    const int e = model->active[*next];
-    const pneu_effect *effect = pneu_effect_at(e);
-    if (effect->stage > stage)
-      return;
-    if (effect->add)
-      effect->add(&model->p.effect[model->param_of[e]], extra + model->state_of[e], t, rate + model->state_of[e]);
-  }
+  if (*next < t->model->n_active)
+    pneu_add_effects(t, y, stage, next, rate);
 }
 
 /* A build without free terms need not link them. */
