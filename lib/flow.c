@@ -1,8 +1,9 @@
 /* Mass flow through an orifice under each flow law. */
 #include "internal.h"
 
-/* A law without area and temperature: q = area p_up gain(law) psi(r) / sqrt(T_up), r = p_down/p_up. */
+/* A law without area and temperature: q = area p_up gain psi(r) / sqrt(T_up), r = p_down/p_up. */
 typedef struct shape {
+  pneu_real gain;      /* [sqrt(kg K/J)] */
   pneu_real psi, dpsi; /* value and slope in r */
   int choked;
 } shape;
@@ -32,35 +33,35 @@ static pneu_real power(pneu_real w, pneu_real m, pneu_real *slope)
 static void paper(const pneu_model *model, pneu_real w, shape *s)
 {
   pneu_real slope;
-  (void)model;
+  s->gain = model->paper_gain;
   s->psi = power(w, PNEU_C(0.5), &slope);
   s->dpsi = -slope;
   s->choked = 0;
 }
 
-/* psi = sqrt(r^a - r^b), a = 2/gamma, b = (gamma+1)/gamma, held below the critical ratio. Written as
- * sqrt(w) G(r) with G^2 = r^a (1 - r^(b-a))/w, which is smooth and free of cancellation at r = 1. */
+/* psi = sqrt(r^a - r^b), a = 2/gamma, b = (gamma+1)/gamma, held below the critical ratio. With d = 1 - 1/gamma and
+ * e = r^d - 1 it is sqrt(w) G, G = r sqrt(-e/w)/(1 + e): one power, and no cancellation at r = 1. */
 static void nozzle(const pneu_model *model, pneu_real w, shape *s)
 {
-  const pneu_real a = 2 / model->p.heat_ratio, d = 1 - 1 / model->p.heat_ratio;
-  pneu_real r = 1 - w, lr, ra, g2, g, dg, s0, slope;
+  const pneu_real d = model->nozzle_exponent, r = 1 - w;
+  pneu_real e, g, dg, s0, slope;
+  s->gain = model->nozzle_gain;
   s->choked = r <= model->critical_ratio;
   if (s->choked) {
-    s->psi = model->choked_gain / model->nozzle_gain;
+    s->gain = model->choked_gain;
+    s->psi = 1;
     s->dpsi = 0;
     return;
   }
-  lr = PNEU_M(log1p)(-w);
-  ra = PNEU_M(exp)(a * lr);
-  g2 = w > 0 ? -ra * PNEU_M(expm1)(d * lr) / w : d;
-  g = PNEU_M(sqrt)(g2);
+  e = PNEU_M(expm1)(d * PNEU_M(log1p)(-w));
+  g = r / (1 + e) * PNEU_M(sqrt)(w > 0 ? -e / w : d);
   s0 = power(w, PNEU_C(0.5), &slope);
-  if (w < PNEU_BLEND) /* d(G^2)/dw at w = 0 is -d (a + (d - 1)/2) */
-    dg = d * (a + (d - 1) / 2) / (2 * g);
+  if (w < PNEU_BLEND) /* d(G^2)/dw at w = 0 is -d (2/gamma + (d - 1)/2) */
+    dg = -d * (2 - 2 * d + (d - 1) / 2) / (2 * g);
   else
-    dg = ((a * ra - (a + d) * (ra - g2 * w)) / r + g2) / (2 * g * w);
+    dg = -g * ((1 + d * (1 - e) / (2 * e)) / r + 1 / (2 * w));
   s->psi = s0 * g;
-  s->dpsi = s0 * dg - slope * g;
+  s->dpsi = -(s0 * dg + slope * g);
 }
 
 /* phi = (1 - ((r - b)/(1 - b))^2)^m = (w (1 + z)/(1 - b))^m, z = (r - b)/(1 - b); 1 below b. */
@@ -68,6 +69,7 @@ static void iso6358(const pneu_model *model, pneu_real w, shape *s)
 {
   const pneu_real b = model->p.critical_ratio, m = model->p.subsonic_index;
   pneu_real c, cm, s0, slope;
+  s->gain = model->choked_gain;
   s->choked = 1 - w <= b;
   if (s->choked) {
     s->psi = 1;
@@ -84,7 +86,7 @@ static void iso6358(const pneu_model *model, pneu_real w, shape *s)
 /* Flow in proportion to the pressure difference: psi = 1 - r. */
 static void linear(const pneu_model *model, pneu_real w, shape *s)
 {
-  (void)model;
+  s->gain = model->paper_gain;
   s->psi = w;
   s->dpsi = -1;
   s->choked = 0;
@@ -106,13 +108,12 @@ static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, 
 void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                   pneu_flow *flow)
 {
-  const pneu_real gain[PNEU_FLOW_COUNT] = {model->paper_gain, model->nozzle_gain, model->choked_gain, model->paper_gain,
-                                           model->paper_gain};
   const pneu_real T = law < PNEU_FLOW_LINEAR ? T_up : model->p.ambient_temperature;
-  const pneu_real k = area * gain[law] / PNEU_M(sqrt)(T);
   const pneu_real r = p_down / p_up;
+  pneu_real k;
   shape s;
   shapes[law](model, 1 - r, &s);
+  k = area * s.gain / PNEU_M(sqrt)(T);
   flow->q = k * p_up * s.psi;
   flow->dq_dup = k * (s.psi - r * s.dpsi);
   flow->dq_ddown = k * s.dpsi;

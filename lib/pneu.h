@@ -294,6 +294,7 @@ struct pneu_model {
   pneu_laws law;
   pneu_real g;                      /* exponent of the energy balance: 1, n or gamma */
   pneu_real critical_ratio;         /* of the isentropic nozzle */
+  pneu_real nozzle_exponent;        /* 1 - 1/gamma */
   pneu_real choked_gain;            /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
   pneu_real nozzle_gain;            /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
   pneu_real paper_gain;             /* sqrt(2/R) [sqrt(kg K/J)] */
