@@ -80,6 +80,14 @@ typedef struct pneu_terms pneu_terms;
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *terms, pneu_real *rate);
 
+/* As pneu_rhs.  Out: terms, too */
+int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+               pneu_terms *terms, pneu_real *dydt);
+
+/* As pneu_jacobian.  In: terms, of y */
+void pneu_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                 const pneu_real *f0, const pneu_terms *terms, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX]);
+
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 

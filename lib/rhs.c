@@ -107,19 +107,25 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   return PNEU_OK;
 }
 
+int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+               pneu_terms *t, pneu_real *dydt)
+{
+  const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
+  if (pneu_evaluate(model, state, input, y, t, dydt + 1 + model->thermal) != PNEU_OK)
+    return PNEU_RETRY_STATE;
+  pneu_chamber_rates(t, dydt);
+  if (model->clock >= 0)
+    dydt[1 + model->thermal + model->clock] = 1;
+  if (n > i_x)
+    dydt[i_x] = t->v;
+  if (n > i_x + 1)
+    dydt[i_x + 1] = pneu_stem_acceleration(t, state->mode);
+  return PNEU_OK;
+}
+
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
              pneu_real *dydt)
 {
   pneu_terms t;
-  const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
-  if (pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal) != PNEU_OK)
-    return PNEU_RETRY_STATE;
-  pneu_chamber_rates(&t, dydt);
-  if (model->clock >= 0)
-    dydt[1 + model->thermal + model->clock] = 1;
-  if (n > i_x)
-    dydt[i_x] = t.v;
-  if (n > i_x + 1)
-    dydt[i_x + 1] = pneu_stem_acceleration(&t, state->mode);
-  return PNEU_OK;
+  return pneu_rates(model, state, input, y, &t, dydt);
 }
