@@ -22,7 +22,7 @@ static int scan(bench *b, bench_rig *r, lab_error *error)
   if (status == LAB_OK)
     status = bench_scan_fit(r, &s, error);
   if (status == LAB_OK)
-    alone(b, "scan of all effects", "5000 rows, one thread", bench_task_scan, &s, 41);
+    alone(b, "scan of all effects", "5000 rows on one thread", bench_task_scan, &s, 41);
   bench_rig_close(r);
   return status;
 }
@@ -35,9 +35,9 @@ int bench_loops(bench *b, lab_error *error)
       scan(b, &leaky, error))
     return error->status;
   bench_closeloop_line(b, &healthy, line);
-  alone(b, "closeloop, nothing missing", "5000 rows", bench_task_command, line, 11);
+  alone(b, "closeloop on a sound rig", "5000 rows", bench_task_command, line, 11);
   bench_closeloop_line(b, &leaky, line);
-  alone(b, "closeloop, a leak missing", "5000 rows", bench_task_command, line, 11);
+  alone(b, "closeloop with a leak missing", "5000 rows", bench_task_command, line, 11);
   if (b->quick)
     return LAB_OK;
   snprintf(line, sizeof line, "exec '%s/sweep' hypotheses.cfg --force --quiet --results '%s/study' >/dev/null",

@@ -15,7 +15,7 @@ table()
     /^fill-and-vent/ && !/1e-06/ && $2 != "isothermal choked" { next }
     $3 == "libpneu" { row[++n] = "| " $1 ", " $2 " | " text($8) " (" text($7) " to " text($9) ") |"; next }
     { split($3, name, " "); who = $3 == "wc -l" ? $3 : name[1]
-      rival[n] = rival[n] (rival[n] ? ", " : "") who " " ($8 == "" ? "fails" : text($8) sprintf(" (%.2gx)", $10)) }
+      rival[n] = rival[n] (rival[n] ? ", " : "") who " " ($8 == "" ? "fails" : text($8) sprintf($10 < 10 ? " (%.2gx)" : " (%.0fx)", $10)) }
     END { print "| what | libpneu: median (quartiles) | others: median (over libpneu) |"; print "|---|---|---|"
           for (i = 1; i <= n; i++) print row[i] " " rival[i] " |" }' "$1"
 }
