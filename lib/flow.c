@@ -3,6 +3,7 @@
 
 /* A law without area and temperature: q = area p_up gain psi(r) / sqrt(T_up), r = p_down/p_up. */
 typedef struct shape {
+  int sloped;          /* 0: the slope is not wanted, and may be anything */
   pneu_real gain;      /* [sqrt(kg K/J)] */
   pneu_real psi, dpsi; /* value and slope in r */
   int choked;
@@ -11,13 +12,15 @@ typedef struct shape {
 /* w^m of w = 1 - r; within PNEU_BLEND of equal pressures the odd polynomial w_b^m z (a + b z^2 + c z^4),
  * z = w/w_b, which meets value, slope and curvature of the power at z = 1 and is linear at 0:
  * c = (m - 1)(m - 3)/8, b = (m - 1)(5 - m)/4, a = 1 - b - c.  Out: slope in w. */
-static pneu_real power(pneu_real w, pneu_real m, pneu_real *slope)
+static pneu_real power(pneu_real w, pneu_real m, int sloped, pneu_real *slope)
 {
   const int root = m == PNEU_C(0.5);
   const pneu_real at = w >= PNEU_BLEND ? w : PNEU_BLEND, value = root ? PNEU_M(sqrt)(at) : PNEU_M(pow)(at, m);
   pneu_real a, b, c, z, z2;
+  *slope = 0;
   if (w >= PNEU_BLEND) {
-    *slope = m * value / w;
+    if (sloped)
+      *slope = m * value / w;
     return value;
   }
   c = (m - 1) * (m - 3) / 8;
@@ -34,7 +37,7 @@ static void paper(const pneu_model *model, pneu_real w, shape *s)
 {
   pneu_real slope;
   s->gain = model->paper_gain;
-  s->psi = power(w, PNEU_C(0.5), &slope);
+  s->psi = power(w, PNEU_C(0.5), s->sloped, &slope);
   s->dpsi = -slope;
   s->choked = 0;
 }
@@ -55,12 +58,14 @@ static void nozzle(const pneu_model *model, pneu_real w, shape *s)
   }
   e = PNEU_M(expm1)(d * PNEU_M(log1p)(-w));
   g = r / (1 + e) * PNEU_M(sqrt)(w > 0 ? -e / w : d);
-  s0 = power(w, PNEU_C(0.5), &slope);
+  s0 = power(w, PNEU_C(0.5), s->sloped, &slope);
+  s->psi = s0 * g;
+  if (!s->sloped)
+    return;
   if (w < PNEU_BLEND) /* d(G^2)/dw at w = 0 is -d (2/gamma + (d - 1)/2) */
     dg = -d * (2 - 2 * d + (d - 1) / 2) / (2 * g);
   else
     dg = -g * ((1 + d * (1 - e) / (2 * e)) / r + 1 / (2 * w));
-  s->psi = s0 * g;
   s->dpsi = -(s0 * dg + slope * g);
 }
 
@@ -78,7 +83,7 @@ static void iso6358(const pneu_model *model, pneu_real w, shape *s)
   }
   c = (2 - 2 * b - w) / ((1 - b) * (1 - b)); /* (1 + z)/(1 - b) */
   cm = m == PNEU_C(0.5) ? PNEU_M(sqrt)(c) : PNEU_M(pow)(c, m);
-  s0 = power(w, m, &slope);
+  s0 = power(w, m, s->sloped, &slope);
   s->psi = s0 * cm;
   s->dpsi = cm * (s0 * m / (c * (1 - b) * (1 - b)) - slope);
 }
@@ -105,20 +110,31 @@ static void linear_choked(const pneu_model *model, pneu_real w, shape *s)
 typedef void shape_function(const pneu_model *, pneu_real, shape *);
 static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, linear, linear_choked};
 
-void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                  pneu_flow *flow)
+/* As pneu_orifice; without `sloped` the slopes are 0. */
+static void orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                    int sloped, pneu_flow *flow)
 {
   const pneu_real T = law < PNEU_FLOW_LINEAR ? T_up : model->p.ambient_temperature;
   const pneu_real r = p_down / p_up;
   pneu_real k;
   shape s;
+  s.sloped = sloped;
   shapes[law](model, 1 - r, &s);
   k = area * s.gain / PNEU_M(sqrt)(T);
   flow->q = k * p_up * s.psi;
+  flow->choked = s.choked;
+  flow->dq_dup = flow->dq_ddown = flow->dq_dT = 0;
+  if (!sloped)
+    return;
   flow->dq_dup = k * (s.psi - r * s.dpsi);
   flow->dq_ddown = k * s.dpsi;
   flow->dq_dT = law < PNEU_FLOW_LINEAR ? -flow->q / (2 * T_up) : 0;
-  flow->choked = s.choked;
+}
+
+void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                  pneu_flow *flow)
+{
+  orifice(model, law, area, p_up, T_up, p_down, 1, flow);
 }
 
 pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
@@ -129,14 +145,14 @@ pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
 
 /* The declared law, mixed with the nozzle's as far as choked_flow says. */
 static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                       pneu_flow *flow)
+                       int sloped, pneu_flow *flow)
 {
   const pneu_real c = t->choked_share;
   pneu_flow nozzle_flow;
-  pneu_orifice(t->model, t->model->law.flow, area, p_up, T_up, p_down, flow);
+  orifice(t->model, t->model->law.flow, area, p_up, T_up, p_down, sloped, flow);
   if (c == 0)
     return;
-  pneu_orifice(t->model, PNEU_FLOW_CHOKED, area, p_up, T_up, p_down, &nozzle_flow);
+  orifice(t->model, PNEU_FLOW_CHOKED, area, p_up, T_up, p_down, sloped, &nozzle_flow);
   flow->q += c * (nozzle_flow.q - flow->q);
   flow->dq_dup += c * (nozzle_flow.dq_dup - flow->dq_dup);
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
@@ -158,11 +174,11 @@ static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_
 {
   const pneu_real conductance = 1 / s->resistance;
   if (s->before) {
-    mixed_flow(s->t, s->area, p, s->T_up, s->p_down, flow);
+    mixed_flow(s->t, s->area, p, s->T_up, s->p_down, 1, flow);
     *slope = flow->dq_dup + conductance;
     return flow->q - (s->p_up - p) * conductance;
   }
-  mixed_flow(s->t, s->area, s->p_up, s->T_up, p, flow);
+  mixed_flow(s->t, s->area, s->p_up, s->T_up, p, 1, flow);
   *slope = flow->dq_ddown - conductance;
   return flow->q - (p - s->p_down) * conductance;
 }
@@ -193,7 +209,7 @@ static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pn
   if (resistance > 0 && p_up > p_down)
     series_flow(&s, flow);
   else
-    mixed_flow(t, area, p_up, T_up, p_down, flow);
+    mixed_flow(t, area, p_up, T_up, p_down, t->sloped, flow);
 }
 
 void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)

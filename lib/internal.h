@@ -72,6 +72,7 @@ struct pneu_terms {
   pneu_real bristle_force;            /* [N] */
   pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
   int choked;
+  int sloped; /* the slopes are wanted; else they are 0 */
 };
 typedef struct pneu_terms pneu_terms;
 
@@ -80,7 +81,11 @@ typedef struct pneu_terms pneu_terms;
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *terms, pneu_real *rate);
 
-/* As pneu_rhs.  Out: terms, too */
+/* The same with the slopes of the flows. */
+int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                         pneu_terms *terms, pneu_real *rate);
+
+/* As pneu_rhs.  Out: terms, too, with slopes */
 int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                pneu_terms *terms, pneu_real *dydt);
 

@@ -95,7 +95,7 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
                   const pneu_real *f0, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
   pneu_terms t;
-  const int status = pneu_evaluate(model, state, input, y, &t, NULL);
+  const int status = pneu_evaluate_slopes(model, state, input, y, &t, NULL);
   if (status == PNEU_OK)
     pneu_slopes(model, state, input, y, f0, &t, jac);
   return status;

@@ -80,11 +80,12 @@ static void add_terms(pneu_terms *t, int first, int last)
     pneu_add_terms(t, first, last);
 }
 
-int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                  pneu_terms *t, pneu_real *rate)
+static int evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                    int sloped, pneu_terms *t, pneu_real *rate)
 {
   int next = 0;
   begin(model, state, input, y, t);
+  t->sloped = sloped;
   add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
   if (!pneu_chamber_ok(t))
     return PNEU_RETRY_STATE;
@@ -107,12 +108,23 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   return PNEU_OK;
 }
 
-int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-               pneu_terms *t, pneu_real *dydt)
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  pneu_terms *t, pneu_real *rate)
 {
+  return evaluate(model, state, input, y, 0, t, rate);
+}
+
+int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                         pneu_terms *t, pneu_real *rate)
+{
+  return evaluate(model, state, input, y, 1, t, rate);
+}
+
+/* Time derivative of what was evaluated; the rates of the effects' states are there already. */
+static void derive(const pneu_terms *t, const pneu_state *state, pneu_real *dydt)
+{
+  const pneu_model *model = t->model;
   const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
-  if (pneu_evaluate(model, state, input, y, t, dydt + 1 + model->thermal) != PNEU_OK)
-    return PNEU_RETRY_STATE;
   pneu_chamber_rates(t, dydt);
   if (model->clock >= 0)
     dydt[1 + model->thermal + model->clock] = 1;
@@ -120,12 +132,23 @@ int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_inpu
     dydt[i_x] = t->v;
   if (n > i_x + 1)
     dydt[i_x + 1] = pneu_stem_acceleration(t, state->mode);
-  return PNEU_OK;
+}
+
+int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+               pneu_terms *t, pneu_real *dydt)
+{
+  const int status = pneu_evaluate_slopes(model, state, input, y, t, dydt + 1 + model->thermal);
+  if (status == PNEU_OK)
+    derive(t, state, dydt);
+  return status;
 }
 
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
              pneu_real *dydt)
 {
   pneu_terms t;
-  return pneu_rates(model, state, input, y, &t, dydt);
+  const int status = pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal);
+  if (status == PNEU_OK)
+    derive(&t, state, dydt);
+  return status;
 }
