@@ -103,6 +103,9 @@ void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_re
  * the model's constants by `prepare`.  Out: rate, of their states (may be NULL) */
 void pneu_add_effects(pneu_terms *terms, const pneu_real *y, int stage, int *next, pneu_real *rate);
 
+/* Terms of the nozzle's flow function, for its heat and critical ratio.  In/out: model */
+void pneu_nozzle_prepare(pneu_model *model);
+
 /* Add the free terms on the equations first..last (enum pneu_term_equation) to the sums. */
 void pneu_add_terms(pneu_terms *terms, int first, int last);
 

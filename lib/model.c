@@ -70,9 +70,9 @@ static void derive_flow(pneu_model *model)
 {
   const pneu_real gamma = model->p.heat_ratio, R = model->p.gas_constant;
   model->critical_ratio = PNEU_M(pow)(2 / (gamma + 1), gamma / (gamma - 1));
-  model->nozzle_exponent = 1 - 1 / gamma;
   model->paper_gain = PNEU_M(sqrt)(2 / R);
   model->nozzle_gain = PNEU_M(sqrt)(2 * gamma / ((gamma - 1) * R));
+  pneu_nozzle_prepare(model);
   model->choked_gain = PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
 }
 
