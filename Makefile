@@ -77,7 +77,7 @@ $(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)
 ## Time everything beside its rivals, in one process; writes results/bench.csv, work_precision.csv, scaling.csv
 bench: all
 	@$(MAKE) --no-print-directory BUILD='$(BUILD)/pic' OPT='$(OPT) -fPIC' $(BUILD)/pic/bench
-	MEASURED='$(MEASURED)' BUILD='$(BUILD)' sh tests/bench/run.sh results
+	MEASURED='$(MEASURED)' BUILD='$(BUILD)' sh tests/bench/run.sh $(if $(QUICK),'$(BUILD)/bench/results' quick,results)
 
 ## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind

@@ -5,7 +5,7 @@ set -eu
 : "${BUILD:=build}"
 results=$1
 scratch="$BUILD/bench"
-mkdir -p "$scratch"
+mkdir -p "$scratch" "$results"
 if ! python3 tests/bench/rivals.py "$BUILD/pic/libbench.so" "$BUILD/rivals" "$results" "$scratch" . ${2:+"$2"}; then
   echo "bench: without SciPy and CasADi (python3 with venv, and a network at the first time, bring them in)"
   "$BUILD/pic/bench" "$results" "$scratch" . ${2:+"$2"}
