@@ -35,12 +35,14 @@ PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
 BLIND_C := $(wildcard tests/blind/*.c)
 HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
+BENCH_C := $(filter-out %/main.c %/fleet.c,$(wildcard tests/bench/*.c)) tests/second/rig.c $(filter-out tests/blind/main.c,$(BLIND_C))
 
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
 LAB_O   := $(LAB_C:%.c=$(BUILD)/%.o)
 HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
 HELP    := $(BUILD)/libhelp.a
 BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
+BENCH_O := $(BENCH_C:%.c=$(BUILD)/%.o)
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
@@ -82,10 +84,10 @@ measured: $(STATIC) closeloop $(BUILD)/measured
 $(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
 
-## Time one fill-and-vent beside CVODE, in one run; writes results/bench.csv and work_precision.csv
-bench: $(BUILD)/tests/bench/fill_and_vent
-	$< results
-	gnuplot -e "IN='results'; OUT='results/work_precision.svg'" study/figures/work_precision.gp
+## Time everything beside its rivals, in one process; writes results/bench.csv, work_precision.csv, scaling.csv
+bench: all
+	@$(MAKE) --no-print-directory BUILD='$(BUILD)/pic' OPT='$(OPT) -fPIC' $(BUILD)/pic/bench
+	MEASURED='$(MEASURED)' BUILD='$(BUILD)' sh tests/bench/run.sh $(if $(QUICK),'$(BUILD)/bench/results' quick,results)
 
 ## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind
@@ -167,8 +169,12 @@ $(BUILD)/tests/%.o: tests/%.c
 $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
 	$(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
 
-$(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+# What is timed is a shared library, so that rivals in another language can share its process.
+$(BUILD)/libbench.so: $(BENCH_O) $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) -shared -Wl,-Bsymbolic -Wl,--whole-archive $^ -Wl,--no-whole-archive $(LDFLAGS) $(LAB_LIBS) -o $@
+
+$(BUILD)/bench: $(BUILD)/tests/bench/main.o $(BUILD)/libbench.so
+	$(CC) $(FLAGS) $(CFLAGS) $< $(LDFLAGS) -L$(BUILD) -lbench -Wl,-rpath,'$$ORIGIN' -o $@
 
 $(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$(BLIND_O)) $(LAB)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@

@@ -9,18 +9,18 @@
 #include "pneu.h"
 
 #ifdef PNEU_SINGLE
-#define PNEU_C(literal)  literal##f
-#define PNEU_M(function) function##f
-#define PNEU_EPS         PNEU_C(1.1920929e-7)
-#define PNEU_EVENT_TIME  PNEU_C(1e-6)
-#define PNEU_FORCE_NOISE PNEU_C(7.6e-6)
+#define PNEU_C(literal)     literal##f
+#define PNEU_M(function)    function##f
+#define PNEU_EPS            PNEU_C(1.1920929e-7)
+#define PNEU_EVENT_TIME     PNEU_C(1e-6)
+#define PNEU_FORCE_NOISE    PNEU_C(7.6e-6)
 #define PNEU_FORCE_RESOLVED PNEU_C(1e-4)
 #else
-#define PNEU_C(literal)  literal
-#define PNEU_M(function) function
-#define PNEU_EPS         2.220446049250313e-16
-#define PNEU_EVENT_TIME  1e-9
-#define PNEU_FORCE_NOISE 1.5e-14
+#define PNEU_C(literal)     literal
+#define PNEU_M(function)    function
+#define PNEU_EPS            2.220446049250313e-16
+#define PNEU_EVENT_TIME     1e-9
+#define PNEU_FORCE_NOISE    1.5e-14
 #define PNEU_FORCE_RESOLVED 1e-7
 #endif
 
@@ -47,7 +47,7 @@ enum pneu_stage {
   PNEU_STAGE_SENSOR    /* sensors: what they add to it */
 };
 
-/* The running sums of one evaluation. */
+/* The running sums of one evaluation: first what begins as the base model says, then what begins at 0. */
 struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
@@ -56,21 +56,23 @@ struct pneu_terms {
   pneu_real volume, area, swept_area;  /* [m3], [m2] that pressure acts on, [m2] dV/dx */
   pneu_real opening;                   /* [1] */
   pneu_real supply, exhaust;           /* [Pa] abs, behind the orifices */
-  pneu_real supply_resistance;         /* [Pa s/kg] pressure lost on the way from the supply */
-  pneu_real exhaust_resistance;        /* [Pa s/kg] pressure built up on the way out */
   pneu_real fill_area, vent_area;      /* [m2] */
-  pneu_real choked_share;              /* [1] of the flow that follows the nozzle law */
-  pneu_real mass_in, mass_out;         /* [kg/s] of the chamber */
-  pneu_real drawn;                     /* [kg/s] from the supply */
-  pneu_real mass_in_T;                 /* [kg K/s] inflow times its temperature */
-  pneu_real heat;                      /* [W] from the wall into the gas */
-  pneu_real film;                      /* [W/K] its conductance */
   pneu_real force;                     /* [N] sum without friction and viscous terms */
   pneu_real friction;                  /* [N] level of dry friction at the present velocity */
-  pneu_real bristle_force;             /* [N] */
   pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
-  pneu_real din_dp, dout_dp, dout_dT;  /* slopes of the flows, base model only */
+
+  pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
+  pneu_real exhaust_resistance;       /* [Pa s/kg] pressure built up on the way out */
+  pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
+  pneu_real mass_in, mass_out;        /* [kg/s] of the chamber */
+  pneu_real drawn;                    /* [kg/s] from the supply */
+  pneu_real mass_in_T;                /* [kg K/s] inflow times its temperature */
+  pneu_real heat;                     /* [W] from the wall into the gas */
+  pneu_real film;                     /* [W/K] its conductance */
+  pneu_real bristle_force;            /* [N] */
+  pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
   int choked;
+  int sloped; /* the slopes are wanted; else they are 0 */
 };
 typedef struct pneu_terms pneu_terms;
 
@@ -79,11 +81,30 @@ typedef struct pneu_terms pneu_terms;
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *terms, pneu_real *rate);
 
+/* The same with the slopes of the flows. */
+int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                         pneu_terms *terms, pneu_real *rate);
+
+/* As pneu_rhs.  Out: terms, too, with slopes */
+int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+               pneu_terms *terms, pneu_real *dydt);
+
+/* As pneu_jacobian.  In: terms, of y */
+void pneu_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                 const pneu_real *f0, const pneu_terms *terms, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX]);
+
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 
 /* Flow between the chamber and a reservoir, either way, added to the sums. */
 void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
+
+/* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
+ * the model's constants by `prepare`.  Out: rate, of their states (may be NULL) */
+void pneu_add_effects(pneu_terms *terms, const pneu_real *y, int stage, int *next, pneu_real *rate);
+
+/* Terms of the nozzle's flow function, for its heat and critical ratio.  In/out: model */
+void pneu_nozzle_prepare(pneu_model *model);
 
 /* Add the free terms on the equations first..last (enum pneu_term_equation) to the sums. */
 void pneu_add_terms(pneu_terms *terms, int first, int last);

@@ -80,17 +80,22 @@ static void base_jacobian(const pneu_terms *t, int i_x, int n, const pneu_real *
     stem_rows(t, i_x, jac);
 }
 
+void pneu_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                 const pneu_real *f0, const pneu_terms *t, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
+{
+  const int n = pneu_dimension(model, state->mode);
+  if (model->n_active > 0 || model->n_terms > 0 || model->p.proportional_band > 0 || model->law.pressure_input)
+    differences(model, state, input, y, f0, n, jac);
+  else
+    base_jacobian(t, model->n_gas, n, f0, jac);
+}
+
 int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   const pneu_real *f0, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
   pneu_terms t;
-  const int n = pneu_dimension(model, state->mode);
-  if (model->n_active > 0 || model->n_terms > 0 || model->p.proportional_band > 0 || model->law.pressure_input) {
-    differences(model, state, input, y, f0, n, jac);
-    return PNEU_OK;
-  }
-  if (pneu_evaluate(model, state, input, y, &t, NULL) != PNEU_OK)
-    return PNEU_RETRY_STATE;
-  base_jacobian(&t, model->n_gas, n, f0, jac);
-  return PNEU_OK;
+  const int status = pneu_evaluate_slopes(model, state, input, y, &t, NULL);
+  if (status == PNEU_OK)
+    pneu_slopes(model, state, input, y, f0, &t, jac);
+  return status;
 }

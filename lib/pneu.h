@@ -203,6 +203,7 @@ enum pneu_effect_sizes {
   PNEU_EXTRA_MAX = PNEU_EFFECT_STATE_COUNT + 1, /* effects, clock; never 0: C has no empty array */
   PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT + (PNEU_TERM_KNOTS > 0), /* and p, T, clock, x, v */
   PNEU_STAGE_COUNT = 8,                         /* of the Rosenbrock method */
+  PNEU_NOZZLE_TERMS = 16,                       /* of a polynomial; a multiple of 4 */
   PNEU_TERM_ROOM = PNEU_TERM_KNOTS > 0 ? PNEU_TERM_KNOTS : 1
 };
 
@@ -292,25 +293,26 @@ typedef struct pneu_effect {
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
-  pneu_real g;                      /* exponent of the energy balance: 1, n or gamma */
-  pneu_real critical_ratio;         /* of the isentropic nozzle */
-  pneu_real choked_gain;            /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
-  pneu_real nozzle_gain;            /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
-  pneu_real paper_gain;             /* sqrt(2/R) [sqrt(kg K/J)] */
-  pneu_real viscous;                /* viscous_friction + damping [N.s/m] */
-  pneu_real lower_stop, upper_stop; /* [m] where the stem is stopped: 0 and travel, unless an effect moves them */
-  pneu_real travel;                 /* [m] between touching both stops: stroke, less what an effect takes away */
-  pneu_real stop_compliance;        /* [m/N] of either stop; 0: rigid */
-  pneu_real area_slope;             /* [1/m] share of the effective area lost per travel */
-  pneu_real command_delay;          /* [s] for the owner of the clock */
-  pneu_real position_skew;          /* [s] for the owner of the clock */
-  pneu_real force_noise;            /* [N] rounding of the balance of forces; break-away asks for more */
-  pneu_real force_resolved;         /* [N] by which a stem that has just stopped must be pushed to go on */
-  pneu_real scale[4];               /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
-  int thermal;                      /* gas temperature is a state */
-  int bristle;                      /* friction has its own state: no stick mode */
-  int n_extra;                      /* states of active effects, and the clock */
-  int n_gas;                        /* states before x in the packed vector: p, [T], effects */
+  pneu_real g;                         /* exponent of the energy balance: 1, n or gamma */
+  pneu_real critical_ratio;            /* of the isentropic nozzle */
+  pneu_real nozzle[PNEU_NOZZLE_TERMS]; /* of its flow function, see lib/flow.c */
+  pneu_real choked_gain;               /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
+  pneu_real nozzle_gain;               /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
+  pneu_real paper_gain;                /* sqrt(2/R) [sqrt(kg K/J)] */
+  pneu_real viscous;                   /* viscous_friction + damping [N.s/m] */
+  pneu_real lower_stop, upper_stop;    /* [m] where the stem is stopped: 0 and travel, unless an effect moves them */
+  pneu_real travel;                    /* [m] between touching both stops: stroke, less what an effect takes away */
+  pneu_real stop_compliance;           /* [m/N] of either stop; 0: rigid */
+  pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
+  pneu_real command_delay;             /* [s] for the owner of the clock */
+  pneu_real position_skew;             /* [s] for the owner of the clock */
+  pneu_real force_noise;               /* [N] rounding of the balance of forces; break-away asks for more */
+  pneu_real force_resolved;            /* [N] by which a stem that has just stopped must be pushed to go on */
+  pneu_real scale[4];                  /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
+  int thermal;                         /* gas temperature is a state */
+  int bristle;                         /* friction has its own state: no stick mode */
+  int n_extra;                         /* states of active effects, and the clock */
+  int n_gas;                           /* states before x in the packed vector: p, [T], effects */
   int n_active;
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */

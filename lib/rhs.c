@@ -1,10 +1,14 @@
 /* From a packed state to its time derivative: every term is added once, in the order of the stages. */
-#include <string.h>
-
 #include "internal.h"
 #include "chamber.h"
 #include "stem.h"
 #include "transducer.h"
+
+int pneu_dimension(const pneu_model *model, int mode)
+{
+  static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};
+  return model->n_gas + stem_entries[mode];
+}
 
 int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y)
 {
@@ -42,7 +46,6 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   const int i_x = model->n_gas, n = pneu_dimension(model, state->mode);
   const pneu_params *p = &model->p;
-  memset(t, 0, sizeof *t);
   t->model = model;
   t->input = input;
   t->p = y[0] + p->ambient_pressure;
@@ -57,25 +60,17 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->exhaust = p->ambient_pressure;
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
+  t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
+  t->heat = t->film = t->bristle_force = 0;
+  t->din_dp = t->dout_dp = t->dout_dT = 0;
+  t->choked = 0;
 }
 
-/* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
- * the model's constants by `prepare`. */
 static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
 {
-  const pneu_model *model = t->model;
-  pneu_real unused[PNEU_EXTRA_MAX];
-  const pneu_real *extra = y + 1 + model->thermal;
-  if (!rate)
-    rate = unused;
-  for (; *next < model->n_active; ++*next) {
-    const int e = model->active[*next];
-    const pneu_effect *effect = pneu_effect_at(e);
-    if (effect->stage > stage)
-      return;
-    if (effect->add)
-      effect->add(&model->p.effect[model->param_of[e]], extra + model->state_of[e], t, rate + model->state_of[e]);
-  }
+  if (*next < t->model->n_active)
+    pneu_add_effects(t, y, stage, next, rate);
 }
 
 /* A build without free terms need not link them. */
@@ -85,11 +80,12 @@ static void add_terms(pneu_terms *t, int first, int last)
     pneu_add_terms(t, first, last);
 }
 
-int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                  pneu_terms *t, pneu_real *rate)
+static int evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                    int sloped, pneu_terms *t, pneu_real *rate)
 {
   int next = 0;
   begin(model, state, input, y, t);
+  t->sloped = sloped;
   add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
   if (!pneu_chamber_ok(t))
     return PNEU_RETRY_STATE;
@@ -112,19 +108,47 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   return PNEU_OK;
 }
 
+int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                  pneu_terms *t, pneu_real *rate)
+{
+  return evaluate(model, state, input, y, 0, t, rate);
+}
+
+int pneu_evaluate_slopes(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                         pneu_terms *t, pneu_real *rate)
+{
+  return evaluate(model, state, input, y, 1, t, rate);
+}
+
+/* Time derivative of what was evaluated; the rates of the effects' states are there already. */
+static void derive(const pneu_terms *t, const pneu_state *state, pneu_real *dydt)
+{
+  const pneu_model *model = t->model;
+  const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
+  pneu_chamber_rates(t, dydt);
+  if (model->clock >= 0)
+    dydt[1 + model->thermal + model->clock] = 1;
+  if (n > i_x)
+    dydt[i_x] = t->v;
+  if (n > i_x + 1)
+    dydt[i_x + 1] = pneu_stem_acceleration(t, state->mode);
+}
+
+int pneu_rates(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+               pneu_terms *t, pneu_real *dydt)
+{
+  const int status = pneu_evaluate_slopes(model, state, input, y, t, dydt + 1 + model->thermal);
+  if (status == PNEU_OK)
+    derive(t, state, dydt);
+  return status;
+}
+
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
              pneu_real *dydt)
 {
   pneu_terms t;
-  const int n = pneu_dimension(model, state->mode), i_x = model->n_gas;
-  if (pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal) != PNEU_OK)
-    return PNEU_RETRY_STATE;
-  pneu_chamber_rates(&t, dydt);
-  if (model->clock >= 0)
-    dydt[1 + model->thermal + model->clock] = 1;
-  if (n > i_x)
-    dydt[i_x] = t.v;
-  if (n > i_x + 1)
-    dydt[i_x + 1] = pneu_stem_acceleration(&t, state->mode);
-  return PNEU_OK;
+  const int status = pneu_evaluate(model, state, input, y, &t, dydt + 1 + model->thermal);
+  if (status == PNEU_OK)
+    derive(&t, state, dydt);
+  return status;
 }

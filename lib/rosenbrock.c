@@ -42,9 +42,10 @@ static const pneu_real d[3][8] = {
 
 int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work)
 {
-  int status = pneu_rhs(model, state, input, work->y0, work->f0);
+  pneu_terms t;
+  const int status = pneu_rates(model, state, input, work->y0, &t, work->f0);
   if (status == PNEU_OK)
-    status = pneu_jacobian(model, state, input, work->y0, work->f0, work->jac);
+    pneu_slopes(model, state, input, work->y0, work->f0, &t, work->jac);
   work->stats.rhs++;
   work->stats.jacobians++;
   return status;

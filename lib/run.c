@@ -36,7 +36,8 @@ static void pass_time(run *r, pneu_real h)
 }
 
 /* First step in a mode: with mu the rate at which the slope changes along the solution,
- * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale. */
+ * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale; and no longer than the slope needs
+ * for the full scale, which a choked flow, whose slope does not change, would leave far behind. */
 static pneu_real first_step(const run *r)
 {
   const pneu_workspace *w = r->work;
@@ -55,7 +56,7 @@ static pneu_real first_step(const run *r)
     return left_of(r);
   mu = jf / f + PNEU_EPS;
   h = PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_C(0.2));
-  return h;
+  return PNEU_M(fmin)(h, 1 / f);
 }
 
 static int notify_step(run *r, pneu_real h)
