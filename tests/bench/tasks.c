@@ -29,6 +29,7 @@ int bench_scan_fit(bench_rig *r, bench_scan *scan, lab_error *error)
 static double score_some(const lab_scan *s, int effects)
 {
   double *slope = malloc(s->m * sizeof *slope), sum = 0;
+  lab_error ignored;
   int e;
   for (e = 0; e < effects && e < PNEU_EFFECT_COUNT && slope; e++) {
     const int param = pneu_effect_params(e, NULL);
@@ -36,7 +37,7 @@ static double score_some(const lab_scan *s, int effects)
     pneu_param_info info;
     pneu_param_describe(param, &info);
     *pneu_param_at(&model.params, param) = info.value;
-    if (lab_scan_difference(s, &model, slope) == 0 && lab_scan_visible(s, slope) > 0)
+    if (lab_scan_difference(s, &model, slope, &ignored) == 0 && lab_scan_visible(s, slope) > 0)
       sum += lab_scan_dot(slope, s->r, s->m);
   }
   free(slope);
@@ -50,11 +51,11 @@ double bench_task_scan(void *context)
   lab_scan s;
   lab_error error;
   const double started = bench_seconds();
-  const int status = lab_scan_open(&b->u, &s, &error);
+  int status = lab_scan_open(&b->u, &s, &error);
   if (status == LAB_OK && b->effects > 0)
     score_some(&s, b->effects);
   else if (status == LAB_OK)
-    lab_trace_effects(&s, &result);
+    status = lab_trace_effects(&s, &result, &error);
   lab_scan_close(&s);
   return status == LAB_OK ? bench_seconds() - started : (double)NAN;
 }
