@@ -109,7 +109,7 @@ static void test_study_read__bad_keys__are_refused(void **state)
 /* A path that the file cannot be beside. */
 static void test_study_read__path_too_long__is_refused(void **state)
 {
-  char path[2 * STUDY_PATH_TEXT], text[2 * STUDY_PATH_TEXT];
+  char path[2 * STUDY_PATH_TEXT], text[3 * STUDY_PATH_TEXT];
   (void)state;
   memset(path, 'a', sizeof path);
   path[sizeof path - 1] = 0;

@@ -8,6 +8,7 @@
 #include "response.h"
 #include "start.h"
 
+static const int most_steps = 20000; /* from one change of input to the next: a model that takes more chatters */
 static const double off = 6; /* times the scatter at rest: a value so far off is no noise */
 
 static int is_predicted(int channel)
@@ -189,7 +190,7 @@ int lab_experiment_predict(const lab_experiment *e, const lab_rig *rig, const do
                            lab_error *error)
 {
   const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
-  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0, 1};
+  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0, 1, most_steps};
   lab_schedule schedule;
   lab_trace trace;
   pneu_model model;

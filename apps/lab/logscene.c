@@ -76,7 +76,7 @@ double lab_scene_span(const lab_scene *s, int channel)
 /* Run the declared model. A rig that cannot be run leaves the scene without; the fit will say why. */
 static int expect(lab_scene *s, lab_error *error)
 {
-  const lab_response_options options = {LAB_STEPPER, 1e-5, s->t[s->n - 1], 0, 0};
+  const lab_response_options options = {LAB_STEPPER, 1e-5, s->t[s->n - 1], 0, 0, 0};
   pneu_model model;
   pneu_state start;
   lab_drive drive;

@@ -164,7 +164,7 @@ static pneu_params parameters(const vessel *v, const vessel_law *law, const doub
 
 static int respond(const pneu_model *model, const double *t, size_t n, lab_trace *trace, lab_error *error)
 {
-  const lab_response_options options = {LAB_STEPPER, tolerance, t[n - 1], 0, 0};
+  const lab_response_options options = {LAB_STEPPER, tolerance, t[n - 1], 0, 0, 0};
   const double from = 0;
   pneu_input input;
   const lab_schedule schedule = {1, &from, &input};
