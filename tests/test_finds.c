@@ -17,7 +17,7 @@ static void replay(const char *folder, const char *name)
   FILE *file;
   size_t size;
   snprintf(path, sizeof path, "%s/%s", folder, name);
-  check_note("%s", path);
+  check_note("%.100s", name);
   file = fopen(path, "rb");
   assert_non_null(target);
   assert_non_null(data);

@@ -116,7 +116,7 @@ static void test_study_read__path_too_long__is_refused(void **state)
   assert_int_equal(study_read(path, &s, &error), LAB_DATA);
   assert_contains(error.text, "path is too long");
   path[STUDY_PATH_TEXT - 1] = 0;
-  snprintf(text, sizeof text, "actuators = ( \"%s\" );", path);
+  snprintf(text, sizeof text, "actuators = ( \"%.*s\" );", STUDY_PATH_TEXT - 1, path);
   assert_int_equal(study_read(file_with("actuators", text), &s, &error), LAB_DATA);
   assert_contains(error.text, "path is too long");
   path[STUDY_PATH_TEXT / 2] = 0;

@@ -9,7 +9,8 @@ alloc:
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitized SANITIZE=address,undefined OPT=-O1 \
 	  $(BUILD)/sanitized/tests/alloc/closeloop $(BUILD)/sanitized/tests/alloc/simulate >$(BUILD)/alloc.log 2>&1 || \
 	  { tail $(BUILD)/alloc.log; exit 1; }
-	@sh tests/check_alloc.sh $(BUILD)/sanitized/tests/alloc
+	@$(MAKE) --no-print-directory $(ALLOC)/closeloop >>$(BUILD)/alloc.log 2>&1 || { tail $(BUILD)/alloc.log; exit 1; }
+	@sh tests/check_alloc.sh $(BUILD)/sanitized/tests/alloc $(ALLOC)
 .PHONY: alloc
 
 # Tests that say what the library and the readers of files do; none that fits.
@@ -35,3 +36,17 @@ lint: $(CARRIED:%=$(BUILD)/%.inc)
 	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
 	@echo "lint: nothing found in $(words $(LIB_C) $(LAB_C) $(wildcard apps/*.c)) files"
 .PHONY: lint
+
+# Under valgrind by `make valgrind`: what takes a second or two without it.
+GRIND  := test_params test_terms test_clock test_flow test_chamber test_stem test_jacobian test_audit test_effects \
+          test_effects_gas test_effects_stem test_effects_sensor test_stepper test_log test_rig test_rigterm test_units \
+          test_number test_tableread test_study test_finds
+
+## Tests of the library and of the readers under valgrind's memcheck
+valgrind: $(GRIND:%=$(BUILD)/tests/%)
+	@for test in $(GRIND); do \
+	  valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+	    --suppressions=tests/valgrind.supp $(BUILD)/tests/$$test >$(BUILD)/valgrind.log 2>&1 && \
+	    echo "valgrind: nothing found in $$test" || { tail -n 40 $(BUILD)/valgrind.log; exit 1; }; \
+	done
+.PHONY: valgrind

@@ -106,7 +106,7 @@ static int lay_out(const lab_unknowns *u, spectrum *s, lab_error *error)
     fastest = fmin(fastest, cells / (ROWS_PER_CYCLE * length));
   }
   s->step = 1 / (OVERSAMPLED * longest);
-  s->first = OVERSAMPLED * FEWEST_CYCLES;
+  s->first = (size_t)OVERSAMPLED * FEWEST_CYCLES;
   last = fastest / s->step;
   s->n = last > (double)s->first ? (size_t)last - s->first + 1 : 0;
   s->power = calloc(s->n + 1, sizeof *s->power);

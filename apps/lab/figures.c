@@ -605,7 +605,7 @@ int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_f
   char *drawn = NULL;
   int status;
   memset(figures, 0, sizeof *figures);
-  if (!(d.point = malloc((3 * COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point)))
+  if (!(d.point = malloc(((size_t)3 * COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point)))
     return lab_fail_memory(error, "the figures");
   if ((d.file = tmpfile())) {
     put_all(&d, figures);

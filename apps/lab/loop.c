@@ -409,7 +409,7 @@ static int wants_nameless(const search *s, int rounds)
 
 static int search_all(search *s, lab_error *error)
 {
-  lab_attempt *best = &s->beam[0];
+  lab_attempt *best = &s->beam[0]; /* NOLINT(clang-analyzer-unix.Malloc): search_from frees it */
   int rounds, better = 1;
   note_way(s->result, best);
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {

@@ -187,7 +187,7 @@ static void try_cycles(const lab_scan *s, lab_slot *slot, int *n, lab_error *err
   for (i = 0; i < CYCLIC * found; i++)
     try_cycle(s, &all[i], error);
   for (k = 0; k < CYCLIC; k++) {
-    qsort(all + k * found, (size_t)found, sizeof *all, by_surplus);
+    qsort(&all[(size_t)k * (size_t)found], (size_t)found, sizeof *all, by_surplus);
     for (i = 0; i < found && i < EACH && all[k * found + i].degrees > 0; i++)
       slot[(*n)++] = all[k * found + i];
   }
