@@ -9,10 +9,10 @@
     (pneu_real)0, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.10000000000000001, /* moving_mass [kg] */ \
-    (pneu_real)1.8459481293124711, /* dry_friction [N] */ \
+    (pneu_real)1.8459481217363227, /* dry_friction [N] */ \
     (pneu_real)0, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
-    (pneu_real)-0.54159061297821665, /* external_force [N] */ \
+    (pneu_real)-0.54159061387872376, /* external_force [N] */ \
     (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
     (pneu_real)8.9299999999999996e-07, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
@@ -35,7 +35,7 @@
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
-      (pneu_real)1.5435614650288336e-05, /* friction_per_pressure [m2] */ \
+      (pneu_real)1.5435614667362904e-05, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
@@ -45,10 +45,10 @@
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
-      (pneu_real)4.8045082842100142e-05, /* presliding_length [m] */ \
-      (pneu_real)533.73776966949208, /* bristle_damping [N.s/m] */ \
+      (pneu_real)4.8045082267680866e-05, /* presliding_length [m] */ \
+      (pneu_real)533.73776850247054, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
-      (pneu_real)-0.01092662974236935, /* pressure_gain [1] */ \
+      (pneu_real)-0.010926629735639092, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \

@@ -9,10 +9,10 @@
     (pneu_real)0, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.10000000000000001, /* moving_mass [kg] */ \
-    (pneu_real)4.1173898044795374, /* dry_friction [N] */ \
+    (pneu_real)4.1173898049344642, /* dry_friction [N] */ \
     (pneu_real)0, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
-    (pneu_real)-0.93936492011669093, /* external_force [N] */ \
+    (pneu_real)-0.93936491987542958, /* external_force [N] */ \
     (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
     (pneu_real)8.9299999999999996e-07, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
@@ -35,7 +35,7 @@
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
-      (pneu_real)5.6208966469300529e-06, /* friction_per_pressure [m2] */ \
+      (pneu_real)5.620896645349326e-06, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
@@ -45,10 +45,10 @@
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
-      (pneu_real)0.00016212242608703632, /* presliding_length [m] */ \
-      (pneu_real)319.56641548469997, /* bristle_damping [N.s/m] */ \
+      (pneu_real)0.00016212242641184272, /* presliding_length [m] */ \
+      (pneu_real)319.56641770294004, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
-      (pneu_real)-0.0048007144033282824, /* pressure_gain [1] */ \
+      (pneu_real)-0.0048007144052312377, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
