@@ -409,12 +409,12 @@ static int wants_nameless(const search *s, int rounds)
 
 static int search_all(search *s, lab_error *error)
 {
-  lab_attempt *best = &s->beam[0]; /* NOLINT(clang-analyzer-unix.Malloc): search_from frees it */
+  lab_attempt *best = &s->beam[0];
   int rounds, better = 1;
   note_way(s->result, best);
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
     if (advance(s, &better, error))
-      return error->status;
+      return error->status; /* NOLINT(clang-analyzer-unix.Malloc): the caller frees what it made */
     if (better)
       note_way(s->result, best);
     if (best->u.window && lab_any_is_noise(best, 1))

@@ -91,10 +91,11 @@ int lab_unit_factor(const char *from, const char *to, double *scale, double *off
   *offset = 0;
   if (strcmp(from, to) == 0)
     return LAB_OK;
-  if (parse(to, &want, error))
-    return error->status == LAB_WORLD ? LAB_WORLD
-                                      : lab_fail(error, LAB_DATA, "expected the unit %s, found \"%s\"", to, from);
-  status = parse(from, &have, error);
+  status = parse(to, &want, error);
+  if (status == LAB_DATA)
+    return lab_fail(error, status, "expected the unit %s, found \"%s\"", to, from);
+  if (status == LAB_OK)
+    status = parse(from, &have, error);
   if (status == LAB_OK)
     status = factor(from, have, to, want, scale, offset, error);
   else if (status == LAB_DATA)
