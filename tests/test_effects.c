@@ -333,6 +333,7 @@ static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **sta
                 isfinite(look.friction));
     assert_true(isfinite(look.shown_p) && isfinite(look.shown_T) && isfinite(look.shown_x));
     assert_close(look.x, 0, 0, 0);
+    assert_true(look.friction > 0);
   }
 }
 

@@ -157,7 +157,7 @@ static void check_mixed_series(double resistance, double p_in, int fill)
 
 static void check_all_mixed_series(void)
 {
-  static const double resistance[] = {1e5, 1e6, 1e7, 1e8}, at[] = {1e4, 1e5, 2e5, 3.5e5, 3.98e5};
+  static const double resistance[] = {1e5, 1e6, 1e7, 1e8, 1e9}, at[] = {1e4, 1e5, 2e5, 3.5e5, 3.98e5};
   int i, k, fill;
   for (fill = 0; fill < 2; fill++)
     for (i = 0; i < COUNT(resistance); i++)

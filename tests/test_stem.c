@@ -244,6 +244,32 @@ static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **st
     }
 }
 
+#ifndef PNEU_SINGLE
+/* A stem that is pushed beyond friction by no more than the rounding of the balance, 64 units in the last place of the
+ * largest force, stays: the pressure at which it leaves is found by halving. */
+static void test_pneu_settle__push_within_rounding__stem_stays(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  const double balanced = (4e5 * 0.02 + 480) / 0.04;
+  const double largest = (4e5 + p.ambient_pressure) * 0.04 + 4e5 * 0.03;
+  double stays = 0, leaves = 1e-6; /* [Pa] beyond balance */
+  int i;
+  (void)state;
+  for (i = 0; i < 40; i++) {
+    const double middle = (stays + leaves) / 2;
+    const pneu_state s = fixture_rest(&m, balanced + middle, 0.01, &input);
+    assert_true(s.mode == PNEU_MODE_STUCK || s.mode == PNEU_MODE_UP);
+    if (s.mode == PNEU_MODE_STUCK)
+      stays = middle;
+    else
+      leaves = middle;
+  }
+  assert_close(leaves * 0.04, 64 * 2.22e-16 * largest, 0, 0.1);
+}
+#endif
+
 /* The opening is the distance from the set point over the band, and no more than wide open either way. */
 static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band(void **state)
 {
@@ -560,6 +586,9 @@ int main(void)
       cmocka_unit_test(test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop),
       cmocka_unit_test(test_pneu_run__no_stroke__is_a_vessel),
       cmocka_unit_test(test_pneu_run__regulator__brings_a_vessel_to_its_set_point),
+#ifndef PNEU_SINGLE
+      cmocka_unit_test(test_pneu_settle__push_within_rounding__stem_stays),
+#endif
       cmocka_unit_test(test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band),
       cmocka_unit_test(test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction),
       cmocka_unit_test(test_pneu_stem_extension__normal_and_reverse__mirror_each_other),
