@@ -1,5 +1,6 @@
 # libpneu. `make help` lists the targets.
 BUILD   ?= build
+MPI     ?=
 CC      ?= cc
 CXX     ?= c++
 OPT     ?= -O2
@@ -18,25 +19,35 @@ SINGLE_FLAG := $(if $(SINGLE),-DPNEU_SINGLE)
 FLAGS   += -ffp-contract=off
 
 CMINPACK ?= $(firstword $(wildcard /usr/include/cminpack-1 /usr/local/include/cminpack-1 /opt/homebrew/include/cminpack-1))
-LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) -fopenmp
+OPENMP ?= -fopenmp
+LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) $(OPENMP)
 LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
+ifdef MPI
+MPI_FLAGS := $(shell pkg-config --cflags ompi-c)
+LAB_LIBS  += $(shell pkg-config --libs ompi-c)
+endif
 
 LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
-LAB_C   := $(wildcard apps/lab/*.c apps/study/*.c)
+# closeloop --batch over the ranks of MPI: make MPI=1 closeloop
+CREW    := $(if $(MPI),apps/lab/mpi/crew.c,apps/lab/crew.c)
+LAB_C   := $(filter-out apps/lab/crew.c,$(wildcard apps/lab/*.c apps/study/*.c)) $(CREW)
 PROGS   := sweep simulate closeloop
 TEST_C  := $(wildcard tests/test_*.c)
 BLIND_C := $(wildcard tests/blind/*.c)
-HELP_C  := tests/fixture.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
+HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
+BENCH_C := $(filter-out %/main.c %/fleet.c,$(wildcard tests/bench/*.c)) tests/second/rig.c $(filter-out tests/blind/main.c,$(BLIND_C))
 
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
 LAB_O   := $(LAB_C:%.c=$(BUILD)/%.o)
 HELP_O  := $(HELP_C:%.c=$(BUILD)/%.o)
+HELP    := $(BUILD)/libhelp.a
 BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
+BENCH_O := $(BENCH_C:%.c=$(BUILD)/%.o)
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
 STATIC  := $(BUILD)/libpneu.a
-LAB     := $(BUILD)/liblab.a
+LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
-# Tables made by another program are made again: the sources' checksum goes into the record of what is done.
+# What was made by another program is made again: the sources' checksum goes into the record of what is done.
 SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
@@ -60,7 +71,8 @@ install-packages:
 	@sh study/install-packages.sh
 
 ## Run every test: library in double and single precision, with sanitizers, headers, README, short study
-check: install-packages
+check:
+	@sh study/install-packages.sh tests
 	@$(MAKE) --no-print-directory all
 	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
 
@@ -78,10 +90,10 @@ firmware-check: $(STATIC)
 	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' sh tests/firmware/check.sh full
 .PHONY: firmware-check
 
-## Time one fill-and-vent beside CVODE, in one run; writes results/bench.csv and work_precision.csv
-bench: $(BUILD)/tests/bench/fill_and_vent
-	$< results
-	gnuplot -e "IN='results'; OUT='results/work_precision.svg'" study/figures/work_precision.gp
+## Time everything beside its rivals, in one process; writes results/bench.csv, work_precision.csv, scaling.csv
+bench: all
+	@$(MAKE) --no-print-directory BUILD='$(BUILD)/pic' OPT='$(OPT) -fPIC' $(BUILD)/pic/bench
+	MEASURED='$(MEASURED)' BUILD='$(BUILD)' sh tests/bench/run.sh $(if $(QUICK),'$(BUILD)/bench/results' quick,results)
 
 ## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind
@@ -90,6 +102,22 @@ blind: closeloop $(BUILD)/tests/blind/blind
 blind-trial: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
 .PHONY: blind blind-trial
+
+## Run closeloop --batch on N logs (500) of a few hundred rows; writes results/fleet.csv, goes on after a stop
+fleet: closeloop $(BUILD)/tests/bench/fleet
+	BUILD='$(BUILD)' sh tests/bench/fleet.sh $(N)
+.PHONY: fleet
+
+## Break the library one sign or factor at a time, see that a test notices: MUTANTS=10 SEED=1 draws some, else all
+mutate: tests
+	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
+	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS),,results/mutation.csv)' sh tests/mutate.sh
+.PHONY: mutate
+
+## End sweep and closeloop by kill -9 KILLS times (200, 5 minutes), see that nothing is half-written and the next run is whole
+kill: sweep simulate closeloop
+	@BUILD='$(BUILD)' KILLS='$(or $(KILLS),200)' SEED='$(or $(SEED),1)' sh tests/kill.sh
+.PHONY: kill
 
 ## Build the test programs
 tests: $(TESTS)
@@ -103,6 +131,11 @@ $(LAB): $(LAB_O)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
+# What tests share: each takes what it needs, so that a test of the core links no reader.
+$(HELP): $(HELP_O)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
 $(BUILD)/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
@@ -111,9 +144,17 @@ $(BUILD)/apps/%.o: apps/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-$(BUILD)/apps/study/products.o: apps/study/products.c $(SOURCES)
+$(BUILD)/apps/lab/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
+
+# Programs are linked again when MPI=1 comes or goes.
+$(BUILD)/crew: FORCE
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DSTUDY_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
+	@echo '$(CREW)' | cmp -s - $@ || echo '$(CREW)' > $@
+.PHONY: FORCE
+
+$(BUILD)/apps/lab/checksum.o: apps/lab/checksum.c $(SOURCES)
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
 
 # Scripts and templates that a program carries inside, a line a string.
 CARRIED := $(wildcard apps/lab/report/*) study/figures/style.gp
@@ -124,8 +165,8 @@ $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 $(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
 $(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
 
-$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
@@ -134,15 +175,24 @@ $(BUILD)/tests/%.o: tests/%.c
 $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
 	$(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
 
-$(BUILD)/tests/bench/%: $(BUILD)/tests/bench/%.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+# What is timed is a shared library, so that rivals in another language can share its process.
+$(BUILD)/libbench.so: $(BENCH_O) $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) -shared -Wl,-Bsymbolic -Wl,--whole-archive $^ -Wl,--no-whole-archive $(LDFLAGS) $(LAB_LIBS) -o $@
+
+$(BUILD)/bench: $(BUILD)/tests/bench/main.o $(BUILD)/libbench.so
+	$(CC) $(FLAGS) $(CFLAGS) $< $(LDFLAGS) -L$(BUILD) -lbench -Wl,-rpath,'$$ORIGIN' -o $@
+
+$(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$(BLIND_O)) $(LAB)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
 # No $(STATIC) here: what it links with proves that the trials know nothing of the library.
 $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP_O) $(LAB) $(STATIC)
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
+
+include tests/fuzz/fuzz.mk tests/trust.mk
 
 ## Remove what was built, but no results
 clean:

@@ -27,7 +27,7 @@ static const lab_program program = {"simulate",
                                     1,
                                     2};
 
-static const lab_response_options accuracy = {LAB_STEPPER, 1e-7, 0, 0, 0};
+static const lab_response_options accuracy = {LAB_STEPPER, 1e-7, 0, 0, 0, 0};
 
 /* Time, command, and those channels that are asked for; `u` may be NULL.  Returns: the number of columns. */
 static int columns(const pneu_model *model, const lab_trace *trace, const double *u, int p, int x, int T,

@@ -47,7 +47,7 @@ enum pneu_stage {
   PNEU_STAGE_SENSOR    /* sensors: what they add to it */
 };
 
-/* The running sums of one evaluation. */
+/* The running sums of one evaluation: first what begins as the base model says, then what begins at 0. */
 struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
@@ -56,20 +56,21 @@ struct pneu_terms {
   pneu_real volume, area, swept_area;  /* [m3], [m2] that pressure acts on, [m2] dV/dx */
   pneu_real opening;                   /* [1] */
   pneu_real supply, exhaust;           /* [Pa] abs, behind the orifices */
-  pneu_real supply_resistance;         /* [Pa s/kg] pressure lost on the way from the supply */
-  pneu_real exhaust_resistance;        /* [Pa s/kg] pressure built up on the way out */
   pneu_real fill_area, vent_area;      /* [m2] */
-  pneu_real choked_share;              /* [1] of the flow that follows the nozzle law */
-  pneu_real mass_in, mass_out;         /* [kg/s] of the chamber */
-  pneu_real drawn;                     /* [kg/s] from the supply */
-  pneu_real mass_in_T;                 /* [kg K/s] inflow times its temperature */
-  pneu_real heat;                      /* [W] from the wall into the gas */
-  pneu_real film;                      /* [W/K] its conductance */
   pneu_real force;                     /* [N] sum without friction and viscous terms */
   pneu_real friction;                  /* [N] level of dry friction at the present velocity */
-  pneu_real bristle_force;             /* [N] */
   pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
-  pneu_real din_dp, dout_dp, dout_dT;  /* slopes of the flows, base model only */
+
+  pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
+  pneu_real exhaust_resistance;       /* [Pa s/kg] pressure built up on the way out */
+  pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
+  pneu_real mass_in, mass_out;        /* [kg/s] of the chamber */
+  pneu_real drawn;                    /* [kg/s] from the supply */
+  pneu_real mass_in_T;                /* [kg K/s] inflow times its temperature */
+  pneu_real heat;                     /* [W] from the wall into the gas */
+  pneu_real film;                     /* [W/K] its conductance */
+  pneu_real bristle_force;            /* [N] */
+  pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
   int choked;
   int extent; /* enum pneu_extent */
 };
@@ -95,6 +96,13 @@ void pneu_transducer_flow(pneu_terms *terms);
 
 /* Flow between the chamber and a reservoir, either way, added to the sums. */
 void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
+
+/* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
+ * the model's constants by `prepare`.  Out: rate, of their states (may be NULL) */
+void pneu_add_effects(pneu_terms *terms, const pneu_real *y, int stage, int *next, pneu_real *rate);
+
+/* Terms of the nozzle's flow function, for its heat and critical ratio.  In/out: model */
+void pneu_nozzle_prepare(pneu_model *model);
 
 /* Add the free terms on the equations first..last (enum pneu_term_equation) to the sums. */
 void pneu_add_terms(pneu_terms *terms, int first, int last);

@@ -72,6 +72,7 @@ static void derive_flow(pneu_model *model)
   model->critical_ratio = PNEU_M(pow)(2 / (gamma + 1), gamma / (gamma - 1));
   model->paper_gain = PNEU_M(sqrt)(2 / R);
   model->nozzle_gain = PNEU_M(sqrt)(2 * gamma / ((gamma - 1) * R));
+  pneu_nozzle_prepare(model);
   model->choked_gain = PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
 }
 

@@ -87,8 +87,7 @@ static void come_to_rest(const pneu_model *model, const pneu_input *input, pneu_
     return;
   state->mode = PNEU_MODE_STUCK;
   pneu_pack(model, state, y);
-  pneu_events(model, state, input, y, g);
-  if (g[before == PNEU_MODE_UP ? 0 : 1] > model->force_resolved)
+  if (pneu_events(model, state, input, y, g) > 0 && g[before == PNEU_MODE_UP ? 0 : 1] > model->force_resolved)
     state->mode = before;
 }
 

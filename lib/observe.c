@@ -75,8 +75,8 @@ static void start_effects(const pneu_model *model, const pneu_input *input, pneu
   pneu_real y[PNEU_STATE_MAX];
   int i;
   pneu_pack(model, state, y);
-  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t, NULL) != PNEU_OK)
-    return;
+  (void)pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t,
+                      NULL); /* pneu_state_rest has looked at what may fail */
   t.opening = pneu_command_opening(&t);
   for (i = 0; i < model->n_active; i++) {
     const int e = model->active[i];
@@ -98,8 +98,7 @@ static void sink_in(const pneu_model *model, const pneu_input *input, pneu_state
   int i;
   for (i = 0; i < ROUNDS && (lower || upper); i++) {
     pneu_pack(model, state, y);
-    if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
-      return;
+    (void)pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL);
     if (i == 0 && (lower ? t.force >= 0 : t.force <= 0))
       return;
     state->x = PNEU_M(fmin)(PNEU_M(fmax)(state->x + t.force / rate, model->lower_stop), model->upper_stop);

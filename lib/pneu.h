@@ -219,6 +219,7 @@ enum pneu_effect_sizes {
   PNEU_STATE_MAX = 4 + PNEU_EFFECT_STATE_COUNT + (PNEU_TERM_KNOTS > 0), /* and p, T, clock, x, v */
   PNEU_STAGE_COUNT = PNEU_ORDER == 5 ? 8 : 4,   /* of the Rosenbrock method */
   PNEU_DENSE_COUNT = PNEU_ORDER == 5 ? 3 : 2,   /* powers of its dense output */
+  PNEU_NOZZLE_TERMS = sizeof(pneu_real) == sizeof(double) ? 16 : 8, /* of a polynomial; a multiple of 4 */
   PNEU_TERM_ROOM = PNEU_TERM_KNOTS > 0 ? PNEU_TERM_KNOTS : 1
 };
 
@@ -308,25 +309,26 @@ typedef struct pneu_effect {
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
-  pneu_real g;                      /* exponent of the energy balance: 1, n or gamma */
-  pneu_real critical_ratio;         /* of the isentropic nozzle */
-  pneu_real choked_gain;            /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
-  pneu_real nozzle_gain;            /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
-  pneu_real paper_gain;             /* sqrt(2/R) [sqrt(kg K/J)] */
-  pneu_real viscous;                /* viscous_friction + damping [N.s/m] */
-  pneu_real lower_stop, upper_stop; /* [m] where the stem is stopped: 0 and travel, unless an effect moves them */
-  pneu_real travel;                 /* [m] between touching both stops: stroke, less what an effect takes away */
-  pneu_real stop_compliance;        /* [m/N] of either stop; 0: rigid */
-  pneu_real area_slope;             /* [1/m] share of the effective area lost per travel */
-  pneu_real command_delay;          /* [s] for the owner of the clock */
-  pneu_real position_skew;          /* [s] for the owner of the clock */
-  pneu_real force_noise;            /* [N] rounding of the balance of forces; break-away asks for more */
-  pneu_real force_resolved;         /* [N] by which a stem that has just stopped must be pushed to go on */
-  pneu_real scale[4];               /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
-  int thermal;                      /* gas temperature is a state */
-  int bristle;                      /* friction has its own state: no stick mode */
-  int n_extra;                      /* states of active effects, and the clock */
-  int n_gas;                        /* states before x in the packed vector: p, [T], effects */
+  pneu_real g;                         /* exponent of the energy balance: 1, n or gamma */
+  pneu_real critical_ratio;            /* of the isentropic nozzle */
+  pneu_real nozzle[PNEU_NOZZLE_TERMS]; /* of its flow function, see lib/flow.c */
+  pneu_real choked_gain;               /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
+  pneu_real nozzle_gain;               /* sqrt(2 gamma/((gamma-1) R)) [sqrt(kg K/J)] */
+  pneu_real paper_gain;                /* sqrt(2/R) [sqrt(kg K/J)] */
+  pneu_real viscous;                   /* viscous_friction + damping [N.s/m] */
+  pneu_real lower_stop, upper_stop;    /* [m] where the stem is stopped: 0 and travel, unless an effect moves them */
+  pneu_real travel;                    /* [m] between touching both stops: stroke, less what an effect takes away */
+  pneu_real stop_compliance;           /* [m/N] of either stop; 0: rigid */
+  pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
+  pneu_real command_delay;             /* [s] for the owner of the clock */
+  pneu_real position_skew;             /* [s] for the owner of the clock */
+  pneu_real force_noise;               /* [N] rounding of the balance of forces; break-away asks for more */
+  pneu_real force_resolved;            /* [N] by which a stem that has just stopped must be pushed to go on */
+  pneu_real scale[4];                  /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
+  int thermal;                         /* gas temperature is a state */
+  int bristle;                         /* friction has its own state: no stick mode */
+  int n_extra;                         /* states of active effects, and the clock */
+  int n_gas;                           /* states before x in the packed vector: p, [T], effects */
   int n_active;
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
@@ -556,15 +558,16 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * volume, each end on an event located in at most PNEU_LOCATE_MAX repeats: PNEU_STEP_RHS_MAX evaluations in all. A stem
  * that has used up the parts, by bouncing between its stops, is held for what is left of the step.
  * In:      state  made of numbers; p > -ambient_pressure; T > 0 but under the isothermal law; x on or between the
- *                 stops, to a thousandth of the stroke; a mode of enum pneu_mode
+ *                 stops, to a thousandth of the stroke, or, driven, where there is volume; a mode of enum pneu_mode
  *          input  made of numbers; u in -1..1 unless proportional_band is set; supply_pressure > -ambient_pressure
  *          dt  [s] > 0. The step is split where its local error exceeds 1e-4 of full scale, as far as the parts
  *              reach: what decides is how stiff the gas is, V_0/(A stroke)
- * Error:   R1-400 with its 2 cm3 of dead volume, over a fill-and-vent, in four laws, in double: at most 5e-7 of stroke
- * at 1 ms, 4e-5 at 10 ms, 7e-4 at 20 ms, 1e-2 at 50 ms; beyond that the parts are used up and it grows quickly. In
- * single (order 4): 3e-5 at 1 ms, most of it rounding, 2e-4 at 10 ms, 6e-3 at 20 ms In/out:  state, work Returns:
- * PNEU_OK, and `state` is again in the ranges above, v = 0 on a stop; PNEU_E_NONFINITE where state, input or dt is
- *          outside them, or PNEU_E_SINGULAR: `state` then is unchanged, bit for bit. */
+ * Error:   R1-400 with its 2 cm3 of dead volume, filled and vented from end to end, in four laws, in double: at most
+ *          4e-6 of stroke up to 2 ms, 5e-5 at 10 ms, 8e-4 at 20 ms, 1e-2 at 50 ms; beyond that the parts are used up
+ *          and it grows quickly. In single (order 4): 2e-5 at 1 ms, most of it rounding, 2e-4 at 10 ms, 7e-3 at 20 ms
+ * In/out:  state, work
+ * Returns: PNEU_OK, and `state` is again in the ranges above, v = 0 on a stop; PNEU_E_NONFINITE where state, input or
+ *          dt is outside them, or PNEU_E_SINGULAR: `state` then is unchanged, bit for bit. */
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work);
 
 /* State inside an accepted step, order 4: its error falls with the fifth power of the step's length.

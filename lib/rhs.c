@@ -4,6 +4,12 @@
 #include "stem.h"
 #include "transducer.h"
 
+int pneu_dimension(const pneu_model *model, int mode)
+{
+  static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};
+  return model->n_gas + stem_entries[mode];
+}
+
 int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y)
 {
   const int n = pneu_dimension(model, state->mode);
@@ -55,36 +61,17 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
   t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
-  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = t->heat = t->film = 0;
-  t->force = t->friction = t->bristle_force = 0;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
+  t->heat = t->film = t->bristle_force = 0;
   t->din_dp = t->dout_dp = t->dout_dT = 0;
   t->choked = 0;
-}
-
-/* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
- * the model's constants by `prepare`. */
-static void call_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
-{
-  const pneu_model *model = t->model;
-  pneu_real unused[PNEU_EXTRA_MAX];
-  const pneu_real *extra = y + 1 + model->thermal;
-  if (!rate)
-    rate = unused;
-  for (; *next < model->n_active; ++*next) {
-    const int e = model->active[*next];
-    const pneu_effect *effect = pneu_effect_at(e);
-    if (effect->stage > stage)
-      return;
-    if (effect->add)
-      effect->add(&model->p.effect[model->param_of[e]], extra + model->state_of[e], t, rate + model->state_of[e]);
-  }
 }
 
 /* A build without effects need not link the call. */
 static void add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
 {
   if (PNEU_EFFECT_COUNT > 0 && *next < t->model->n_active)
-    call_effects(t, y, stage, next, rate);
+    pneu_add_effects(t, y, stage, next, rate);
 }
 
 /* A build without free terms need not link them. */

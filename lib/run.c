@@ -37,12 +37,14 @@ static void pass_time(run *r, pneu_real h)
 }
 
 /* First step in a mode: with mu the rate at which the slope changes along the solution,
- * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale; of order 4, |f| mu^3 h^4 / 100. */
+ * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale; of order 4, |f| mu^3 h^4 / 100.
+ * And no longer than the slope needs for the full scale, which a choked flow, whose slope does not change, would leave
+ * far behind. */
 static pneu_real first_step(const run *r)
 {
   const pneu_workspace *w = r->work;
   const int n = pneu_dimension(r->model, r->state->mode);
-  pneu_real scale[PNEU_STATE_MAX], f = 0, jf = 0, mu;
+  pneu_real scale[PNEU_STATE_MAX], f = 0, jf = 0, mu, h;
   int i, j;
   pneu_scales(r->model, scale);
   for (i = 0; i < n; i++) {
@@ -55,9 +57,9 @@ static pneu_real first_step(const run *r)
   if (!(f > 0))
     return left_of(r);
   mu = jf / f + PNEU_EPS;
-  if (PNEU_ORDER == 4)
-    return PNEU_M(pow)(100 * r->options->tol / (f * mu * mu * mu), PNEU_POWER);
-  return PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_POWER);
+  h = PNEU_ORDER == 4 ? PNEU_M(pow)(100 * r->options->tol / (f * mu * mu * mu), PNEU_POWER)
+                      : PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_POWER);
+  return PNEU_M(fmin)(h, 1 / f);
 }
 
 static int notify_step(run *r, pneu_real h)
@@ -143,7 +145,7 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
   return PNEU_M(fmin)(factor, trend);
 }
 
-/* Whether a state is made of numbers, with pressure and temperature above zero. */
+/* Whether a state is made of numbers, with pressure, temperature and volume above zero. */
 static int is_physical(const pneu_model *model, const pneu_state *state)
 {
   pneu_real zero = 0 * (state->p + state->x + state->v);
@@ -152,7 +154,8 @@ static int is_physical(const pneu_model *model, const pneu_state *state)
     zero += 0 * state->T;
   for (i = 0; i < model->n_extra; i++)
     zero += 0 * state->extra[i];
-  return zero == 0 && state->p > -model->p.ambient_pressure && (!model->thermal || state->T > 0);
+  return zero == 0 && state->p > -model->p.ambient_pressure && (!model->thermal || state->T > 0) &&
+         (model->law.pressure_input || pneu_volume(model, state->x) > 0);
 }
 
 static int all_finite(const pneu_input *input)

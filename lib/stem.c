@@ -30,12 +30,6 @@ pneu_real pneu_stem_holding(const pneu_terms *t)
   return t->force + t->input->force - t->model->viscous * t->v - dry;
 }
 
-int pneu_dimension(const pneu_model *model, int mode)
-{
-  static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};
-  return model->n_gas + stem_entries[mode];
-}
-
 pneu_real pneu_stem_extension(const pneu_model *model, pneu_real x, int reverse)
 {
   return reverse ? model->p.stroke - x : x;

@@ -1,12 +1,18 @@
 #!/bin/sh
 # Install what is missing, on Debian and Ubuntu; name it for other systems.
 # Exits 0 where everything is there.
-#   install-packages.sh [PACKAGE ...]    default: what `make all` and `make check` need
+#   install-packages.sh            what `make all` needs
+#   install-packages.sh tests      also what only make check uses
+#   install-packages.sh PACKAGE... these
 set -eu
 
 apt_packages="gcc g++ make pkg-config libsundials-dev libnlopt-dev libconfig-dev libudunits2-dev libcjson-dev
 libcminpack-dev libcmocka-dev gnuplot-nox"
-[ $# -eq 0 ] || apt_packages=$*
+case "${1:-}" in
+"") ;;
+tests) apt_packages="$apt_packages libopenmpi-dev openmpi-bin" ;;
+*) apt_packages=$* ;;
+esac
 
 missing() {
   for package in $apt_packages; do
@@ -18,8 +24,8 @@ name_others() {
   cat <<WORDS
 This system has no apt-get. Install by its own package manager: $apt_packages
 Libraries for make all elsewhere:
-  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot
-  brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp
+  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot openmpi-devel
+  brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp open-mpi
 WORDS
 }
 

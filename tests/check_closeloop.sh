@@ -80,6 +80,33 @@ whole() {
   done
 }
 
+# a disk that fills up at one file after the other: the message names it, what was there stays, no part is left
+for file in $files; do
+  [ -e /dev/full ] || break
+  rm -rf "$folder/full"
+  cp -R "$folder/whole" "$folder/full"
+  ln -s /dev/full "$folder/full/$file.part"
+  expect 4 "full disk at $file" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/full"
+  grep -q "$file: cannot be written: .*space" "$folder/err" || complain "full disk at $file: $(cat "$folder/err")"
+  whole "$folder/full"
+  [ -L "$folder/full/$file.part" ] && complain "full disk: $file.part stays"
+done
+
+# the folder of temporary files fills up while gnuplot draws, which gnuplot itself does not say
+printf '#!/bin/sh\ntrap "" XFSZ\nulimit -f 8\nPATH=$REAL_PATH exec gnuplot "$@"\n' >"$folder/bin/gnuplot"
+chmod +x "$folder/bin/gnuplot"
+expect 4 "no room for figures" env REAL_PATH="$PATH" PATH="$folder/bin:$PATH" \
+  ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/cramped"
+grep -q "gnuplot" "$folder/err" || complain "no room for figures: $(cat "$folder/err")"
+ls "$folder/cramped"/*.svg >/dev/null 2>&1 && complain "a figure was written that gnuplot did not finish"
+
+# figures of an earlier run that this one does not draw go
+cp -R "$folder/whole" "$folder/stale"
+cp "$folder/whole/residual.svg" "$folder/stale/candidates.svg"
+: >"$folder/stale/unlisted.svg.part"
+expect 0 "stale figures" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/stale"
+[ "$(ls "$folder/stale")" = "$(ls "$folder/whole")" ] || complain "figures of an earlier run stay"
+
 # Ctrl-C while it fits: nothing is written
 expect 130 "interrupted fit" timeout --preserve-status -s INT 0.03 \
   ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/early"
@@ -92,7 +119,7 @@ kill -INT $PPID $$
 PATH=$REAL_PATH exec gnuplot "$@"
 SCRIPT
 chmod +x "$folder/bin/gnuplot"
-expect 130 "interrupted drawing" env REAL_PATH="$PATH" PATH="$folder/bin:$PATH" \
+expect 130 "interrupted drawing" env --default-signal=INT REAL_PATH="$PATH" PATH="$folder/bin:$PATH" \
   ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/late"
 whole "$folder/late"
 for file in $files; do

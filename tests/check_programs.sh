@@ -36,6 +36,9 @@ expect 2 "" ./simulate
 expect 0 "" ./sweep --help
 expect 0 "" ./simulate --version
 
+# the world
+expect 4 "unit database" env UDUNITS2_XML_PATH=nothere ./simulate "$model" --step
+
 # configuration
 expect 1 "nothere.cfg" ./sweep nothere.cfg
 expect 1 "nothere.cfg" ./simulate nothere.cfg --step
@@ -114,10 +117,18 @@ for file in "$folder/whole"/*; do
 done
 ls "$folder/killed"/*.part >/dev/null 2>&1 && { echo "a .part file stays"; wrong=$((wrong + 1)); }
 
-# the same bytes whatever the threads
-./sweep hypotheses.cfg --quiet --no-figures --threads 1 --results "$folder/one" || wrong=$((wrong + 1))
-for file in "$folder/whole"/*; do
-  cmp -s "$file" "$folder/one/$(basename "$file")" || { echo "threads change $file"; wrong=$((wrong + 1)); }
-done
+# a disk that fills up at the first file of one product after the other: the message says so and no part is left; with room
+# again the next run writes what is missing
+cp -R "$folder/whole" "$folder/full"
+while read -r product key file others; do
+  [ -e /dev/full ] || break
+  rm "$folder/full/$file"
+  ln -s /dev/full "$folder/full/$file.part"
+  expect 4 "space" ./sweep hypotheses.cfg --quiet --no-figures --results "$folder/full"
+  [ -e "$folder/full/$file" ] && { echo "full disk: $file is there"; wrong=$((wrong + 1)); }
+  [ -L "$folder/full/$file.part" ] && { echo "full disk: $file.part stays"; wrong=$((wrong + 1)); }
+  expect 0 "" ./sweep hypotheses.cfg --quiet --no-figures --results "$folder/full"
+  cmp -s "$folder/whole/$file" "$folder/full/$file" || { echo "after $product: $file differs"; wrong=$((wrong + 1)); }
+done <"$folder/whole/.done"
 
 exit "$((wrong != 0))"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The README's C example compiles and runs; its commands exist.
+# The README's C example compiles and runs; its commands exist; its table of times is that of results/bench.csv.
 set -eu
 : "${CC:=cc}" "${BUILD:=build}"
 folder="$BUILD/readme"
@@ -19,3 +19,4 @@ done
 for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' README.md); do
   case $path in http*) ;; *) [ -e "$path" ] || { echo "README points to $path, which is not there"; exit 1; } ;; esac
 done
+sh tests/bench/table.sh --check results/bench.csv README.md

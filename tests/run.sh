@@ -119,8 +119,15 @@ firmware
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
-pass "closeloop: its folder, interrupted runs" sh tests/check_closeloop.sh
+pass "memory that runs out, call by call" $MAKE --no-print-directory BUILD="$BUILD" alloc
+command -v valgrind >/dev/null && pass "valgrind: a part of the tests" $MAKE --no-print-directory BUILD="$BUILD" \
+  GRIND="test_params test_flow test_jacobian test_number test_finds" valgrind
+pass "closeloop: its folder, full disk, interrupted runs" sh tests/check_closeloop.sh
+pass "closeloop --batch: threads, ranks, stops" sh tests/check_batch.sh && { grep '^absent:' "$log" || true; }
+pass "killed at any moment: 10 times" env KILLS=10 sh tests/kill.sh
+pass "mutants: 10 ways to break the library" $MAKE --no-print-directory mutate MUTANTS=10
 $MAKE --no-print-directory "$BUILD/tests/blind/blind" >/dev/null && pass "blind: 40 trials of closeloop" blind_trials
+pass "the same bytes with 1, 2 and 3 threads" sh tests/check_threads.sh
 $MAKE --no-print-directory "$BUILD/tests/compare" >/dev/null && pass "study: same numbers as results/" study_agrees
 
 say "$passed passed, $failed failed, $skipped skipped"

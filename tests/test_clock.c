@@ -96,6 +96,26 @@ static void test_pneu_add_terms__harmonics__are_the_closed_form(void **state)
   }
 }
 
+/* With states of effects, and a temperature, before the clock in the packed vector. */
+static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void **state)
+{
+  static const double amplitude[] = {1000, -500}, t[] = {0, 0.3, 1.7};
+  const pneu_term term = cycle(SHOWN, 1, 2, amplitude);
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  int i;
+  (void)state;
+  if (fixture_effect("transducer_lag") < 0 || fixture_effect("position_lag") < 0)
+    skip();
+  fixture_set(&p, "transducer_time", 0.02);
+  fixture_set(&p, "position_time", 0.02);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  add(&m, &term, 1);
+  assert_int_equal(m.clock, 2);
+  for (i = 0; i < COUNT(t); i++)
+    assert_close(shown_at(&m, t[i]), closed_form(&term, t[i]), TOL(1e-8, 0.5), 0);
+}
+
 static void test_pneu_model_terms__odd_number_over_a_cycle__is_refused(void **state)
 {
   static const double value[MOST] = {1, 2, 3};
@@ -188,7 +208,7 @@ static void test_pneu_model_terms__every_state_at_once__fills_the_room(void **st
 static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortest(void **state)
 {
   static const double value[] = {1, 2, 3, 4, 5, 6};
-  const pneu_term term[] = {cycle(FORCE, 3, 6, value), cycle(SHOWN, 2, 2, value), cycle(SHOWN, 1.5, 2, value)};
+  pneu_term term[] = {cycle(FORCE, 3, 6, value), cycle(SHOWN, 2, 2, value), cycle(SHOWN, 1.5, 2, value)};
   pneu_model m = plain_model();
   (void)state;
   assert_close(m.term_step, 0, 0, 0);
@@ -196,6 +216,9 @@ static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortes
   assert_close(m.term_step, 1.0 / 8, 0, TOL(1e-14, 1e-6));
   add(&m, term + 1, 2);
   assert_close(m.term_step, 1.5 / 8, 0, TOL(1e-14, 1e-6));
+  term[2].from = (pneu_real)0.5;
+  add(&m, term + 1, 2);
+  assert_close(m.term_step, 1.0 / 8, 0, TOL(1e-14, 1e-6)); /* the distance of its ends is the period */
   add(&m, NULL, 0);
   assert_close(m.term_step, 0, 0, 0);
 }
@@ -374,6 +397,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_pneu_add_terms__cosine_or_sine__is_the_closed_form),
       cmocka_unit_test(test_pneu_add_terms__harmonics__are_the_closed_form),
+      cmocka_unit_test(test_pneu_add_terms__clock_behind_other_states__is_read_as_time),
       cmocka_unit_test(test_pneu_model_terms__odd_number_over_a_cycle__is_refused),
       cmocka_unit_test(test_pneu_model_terms__cycle__brings_a_clock_and_takes_it_away),
       cmocka_unit_test(test_pneu_model_terms__every_state_at_once__fills_the_room),

@@ -311,6 +311,32 @@ static void test_pneu_run__all_effects_together__stays_physical(void **state)
   }
 }
 
+/* A vessel has no stroke to divide by. */
+static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **state)
+{
+  int e;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    pneu_params p = fixture_vessel(1e-3);
+    fixture_sample look;
+    pneu_model m;
+    pneu_input input;
+    pneu_state s;
+    *pneu_param_at(&p, pneu_effect_params(e, NULL)) = pneu_effect_at(e)->param[0].value;
+    m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+    input = fixture_input(&m, 1);
+    s = fixture_rest(&m, 2e5, 0, &input);
+    fixture_run(&m, &s, &input, 0.1, TOL(1e-6, 1e-4), NULL);
+    look = fixture_look(&m, &s, &input);
+    check_note("%s", names[e]);
+    assert_true(isfinite(look.p) && isfinite(look.T) && isfinite(look.m) && isfinite(look.in) &&
+                isfinite(look.friction));
+    assert_true(isfinite(look.shown_p) && isfinite(look.shown_T) && isfinite(look.shown_x));
+    assert_close(look.x, 0, 0, 0);
+    assert_true(look.friction > 0);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -325,6 +351,7 @@ int main(void)
       cmocka_unit_test(test_pneu_run__two_effects_with_states__each_keeps_its_own),
       cmocka_unit_test(test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere),
       cmocka_unit_test(test_pneu_run__all_effects_together__stays_physical),
+      cmocka_unit_test(test_pneu_observe__each_effect_on_a_vessel__shows_numbers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -273,7 +273,7 @@ static experiment random_experiment(uint64_t seed, int gas, int flow)
 static lab_trace respond(const experiment *e)
 {
   pneu_model m = fixture_model(&e->p, e->gas, e->flow);
-  const lab_response_options options = {LAB_STEPPER, 1e-9, t_end, 0, 0};
+  const lab_response_options options = {LAB_STEPPER, 1e-9, t_end, 0, 0, 0};
   lab_schedule schedule;
   pneu_input input[CHANGES];
   double t[SAMPLES];

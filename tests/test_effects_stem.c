@@ -164,6 +164,27 @@ static void test_presliding__moving__friction_is_that_of_lugre(void **state)
   check_bristle(0, 0.5);
 }
 
+/* Bristles that carry no force bend as the others do: z ends at 1 where the stem goes on in one direction. */
+static void test_presliding__no_friction__bristles_bend_all_the_way(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (fixture_effect("presliding") < 0)
+    skip();
+  p.dry_friction = 0;
+  fixture_set(&p, "presliding_length", 2e-5);
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  input = fixture_input(&m, 0);
+  input.pressure_rate = (pneu_real)1e4;
+  s = fixture_rest(&m, 1.5e5, 0.005, &input);
+  fixture_run(&m, &s, &input, 2, TOL(1e-7, 1e-4), NULL);
+  assert_true((double)s.x > 0.006);
+  assert_close(s.extra[0], 1, TOL(1e-5, 1e-3), 0);
+}
+
 /* Bristles bent on the way down help the stem up from the lower stop: it leaves at k x_0 - F. */
 static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
 {
@@ -318,8 +339,12 @@ static void footprint_stop_compliance(void)
   s = fixture_rest(&m, 0, 0, &input);
   assert_close(s.x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-9, 1e-4));
   assert_int_equal(s.mode, PNEU_MODE_STUCK);
+  assert_close(fixture_rest(&m, 4e5, 0, &input).x, 0, 0, 0); /* pushed away from the stop, not into it */
+  assert_close(fixture_rest(&m, 0, 0.02, &input).x, (pneu_real)0.02, 0, 0);
   s = fixture_rest(&m, 4e5, 0.02, &input);
   assert_close((double)s.x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9), TOL(1e-9, 1e-3));
+  assert_close(fixture_rest(&m, 4e5, 0, &input).x, 0, 0, 0); /* the air lifts it off */
+  assert_close(fixture_rest(&m, 0, 0.02, &input).x, 0.02, 0, TOL(1e-15, 1e-7));
   assert_close(balance(&p, 0, 0.001).x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-6, 1e-3));
   assert_close((double)balance(&p, 4e5, 0.015).x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9),
                TOL(1e-6, 1e-2));
@@ -352,6 +377,33 @@ static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(vo
   input.u = -1;
   fixture_run(&m, &s, &input, 8, TOL(1e-6, 1e-4), NULL);
   assert_int_equal(s.mode, PNEU_MODE_LOWER);
+}
+
+/* Behind a stop that hardly resists, rigid ones: above at twice the stroke, below at the stroke or, where the gas would
+ * have no room, at a tenth of the dead volume. */
+static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  (void)state;
+  if (fixture_effect("stop_compliance") < 0)
+    skip();
+  fixture_set(&p, "stop_compliance", 1e-4);
+  p.swept_ratio = (pneu_real)0.5;
+  p.spring_rate = (pneu_real)1e3;
+  p.external_force = 4000;
+  m = pressed(&p);
+  input = fixture_input(&m, 0);
+  assert_close(fixture_rest(&m, 4e5, 0.02, &input).x, 0.04, 0, TOL(1e-12, 1e-6));
+  assert_close(pneu_volume(&m, fixture_rest(&m, 0, 0, &input).x), 0.1 * (double)p.dead_volume, 0, TOL(1e-9, 1e-4));
+  p.dead_volume = (pneu_real)1e-2;
+  m = pressed(&p);
+  assert_close(fixture_rest(&m, 0, 0, &input).x, -0.02, 0, TOL(1e-12, 1e-6));
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0,
+                          1); /* whoever drives the stem says where it is */
+  input = fixture_input(&m, 0);
+  assert_close(fixture_rest(&m, 0, 0, &input).x, 0, 0, 0);
 }
 
 /* On a stop as stiff as a block of steel the rounding of the position alone makes a force: the stem must not mind. */
@@ -425,13 +477,15 @@ static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void
 
 int main(void)
 {
-  enum { OTHERS = 6 };
+  enum { OTHERS = 8 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_stem__has_a_footprint_test),
       cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
+      cmocka_unit_test(test_presliding__no_friction__bristles_bend_all_the_way),
       cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
       cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
+      cmocka_unit_test(test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops),
       cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),
       cmocka_unit_test(test_stop_compliance__creeping_in__does_not_chatter),
   };

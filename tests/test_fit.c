@@ -397,7 +397,7 @@ static int bench_run(const double *theta, bench *out, lab_error *e)
 {
   pneu_params params = fixture_params(FIXTURE_R1_400);
   const pneu_laws law = {PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 0};
-  const lab_response_options options = {LAB_STEPPER, 1e-8, 9, 0, 0};
+  const lab_response_options options = {LAB_STEPPER, 1e-8, 9, 0, 0, 0};
   const double at[2] = {0, 3};
   pneu_input input[2];
   const lab_schedule schedule = {2, at, input};

@@ -337,6 +337,23 @@ static void test_pneu_observe__shut__passes_nothing(void **state)
   assert_true(look.in <= 0 && look.out <= 0);
 }
 
+static void test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_not_choked(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  fixture_sample look;
+  (void)state;
+  p.fill_area = 0;
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, 1);
+  s = fixture_rest(&m, 0, 0, &input);
+  look = fixture_look(&m, &s, &input);
+  assert_close(look.in, 0, 0, 0);
+  assert_int_equal(look.choked, 0);
+}
+
 static void test_pneu_observe__choked__is_reported_while_it_lasts(void **state)
 {
   const pneu_params p = fixture_vessel(1e-3);
@@ -368,6 +385,7 @@ int main(void)
       cmocka_unit_test(test_pneu_observe__pressures_swapped__net_flow_changes_sign_only),
       cmocka_unit_test(test_pneu_observe__vacuum_at_open_vent__draws_ambient_air),
       cmocka_unit_test(test_pneu_observe__shut__passes_nothing),
+      cmocka_unit_test(test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_not_choked),
       cmocka_unit_test(test_pneu_observe__choked__is_reported_while_it_lasts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -193,6 +193,39 @@ static void test_pneu_invert__singular_or_nan__is_refused(void **state)
   assert_int_equal(pneu_invert(2, nan), PNEU_E_SINGULAR);
 }
 
+static void test_pneu_jacobian__chamber_without_air__is_refused(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  const pneu_input input = fixture_input(&m, 1);
+  pneu_real y[PNEU_STATE_MAX], f0[PNEU_STATE_MAX] = {0}, jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
+  pneu_state s = fixture_rest(&m, 1e5, 0.01, &input);
+  (void)state;
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_jacobian(&m, &s, &input, y, f0, jac), PNEU_OK);
+  y[0] = (pneu_real)-2e5;
+  assert_int_equal(pneu_jacobian(&m, &s, &input, y, f0, jac), PNEU_RETRY_STATE);
+}
+
+/* The step at which I/(h gamma) - J of one state is 0. */
+static void test_pneu_step_try__singular_matrix__is_refused(void **state)
+{
+  const pneu_real h = (pneu_real)1e-3, gamma = (pneu_real)0.21193756319429014;
+  const pneu_params p = fixture_vessel(1e-3);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 1);
+  const pneu_state s = fixture_rest(&m, 1e5, 0, &input);
+  pneu_workspace work;
+  pneu_real error;
+  (void)state;
+  memset(&work, 0, sizeof work);
+  pneu_pack(&m, &s, work.y0);
+  assert_int_equal(pneu_step_prepare(&m, &s, &input, &work), PNEU_OK);
+  assert_int_equal(pneu_step_try(&m, &s, &input, h, &work, &error), PNEU_OK);
+  work.jac[0][0] = 1 / (gamma * h);
+  assert_int_equal(pneu_step_try(&m, &s, &input, h, &work, &error), PNEU_E_SINGULAR);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -200,6 +233,8 @@ int main(void)
       cmocka_unit_test(test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_right_hand_side),
       cmocka_unit_test(test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_hand_side),
       cmocka_unit_test(test_pneu_jacobian__each_effect__is_the_slope_of_the_right_hand_side),
+      cmocka_unit_test(test_pneu_jacobian__chamber_without_air__is_refused),
+      cmocka_unit_test(test_pneu_step_try__singular_matrix__is_refused),
       cmocka_unit_test(test_pneu_invert__random_matrices__times_itself_is_one),
       cmocka_unit_test(test_pneu_invert__zeros_on_the_diagonal__are_pivoted),
       cmocka_unit_test(test_pneu_invert__singular_or_nan__is_refused),

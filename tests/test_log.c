@@ -521,6 +521,50 @@ static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **
   lab_log_free(&log);
 }
 
+/* A lead may name a channel that has only gaps in the run. */
+static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [Pa]", "x [m]");
+  set_lead();
+  format.lead[0][LAB_CHANNEL_P] = NAN;
+  format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_X + 1;
+  log = read_log("1,5,\n2,6,\n");
+  assert_int_equal(log.n, 4);
+  assert_true(isnan(CHANNEL(log, P)[0]));
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(void **state)
+{
+  (void)state;
+  set_columns("t [s]", "pressure [Pa]", NULL);
+  assert_refused("0,1\n", "log.columns", "unknown channel \"pressure\"");
+  set_columns("quantity", "t [s]", "value");
+  format.n_quantities = 1;
+  strcpy(format.quantity[0].word, "a");
+  strcpy(format.quantity[0].column, "p");
+  assert_refused("a,0,1\n", "log.quantities", "has no unit");
+}
+
+static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("quantity", "t [s]", "value");
+  format.n_quantities = 2;
+  strcpy(format.quantity[0].word, "a");
+  strcpy(format.quantity[0].column, "p [Pa]");
+  strcpy(format.quantity[1].word, "b");
+  strcpy(format.quantity[1].column, "x [m]");
+  log = read_log("a,0,1\nb,0,2\na,1,3\n");
+  assert_int_equal(log.n, 2);
+  assert_int_equal(log.line[0], 1);
+  assert_int_equal(log.line[1], 3);
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
 {
   (void)state;
@@ -804,6 +848,9 @@ int main(void)
       CASE(test_lab_log_read__name_of_the_file__tells_a_channel),
       CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
       CASE(test_lab_log_read__lead__comes_before_each_run),
+      CASE(test_lab_log_read__lead_of_gaps__is_a_gap),
+      CASE(test_lab_log_read__columns_of_the_rig_that_are_none__are_refused),
+      CASE(test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines),
       CASE(test_lab_log_read__lead_of_ends__takes_first_and_last_values),
       CASE(test_lab_log_read__lead_after_the_first_row__is_refused),
       CASE(test_lab_log_read__missing_file__says_so),

@@ -7,6 +7,14 @@ enum { N = 4000 };
 
 static double y[N];
 
+static double noise_of(const double *value, size_t n)
+{
+  lab_error error;
+  double noise;
+  assert_int_equal(lab_noise_estimate(value, n, &noise, &error), LAB_OK);
+  return noise;
+}
+
 static double normal(uint64_t *seed)
 {
   double sum = -6;
@@ -43,7 +51,7 @@ static void test_lab_noise_estimate__white_noise__is_its_deviation(void **state)
   for (k = 0; k < COUNT(sigma); k++) {
     fill_white(sigma[k], (uint64_t)k + 1);
     check_note("sigma %g", sigma[k]);
-    assert_close(lab_noise_estimate(y, N), sigma[k], 0, 0.05);
+    assert_close(noise_of(y, N), sigma[k], 0, 0.05);
   }
 }
 
@@ -54,7 +62,7 @@ static void test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviati
   fill_white(0.5, 8);
   for (i = 0; i < N; i++)
     y[i] += 0.01 * i + (i > N / 2 ? 100 : 0);
-  assert_close(lab_noise_estimate(y, N), 0.5, 0, 0.05);
+  assert_close(noise_of(y, N), 0.5, 0, 0.05);
 }
 
 static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it(void **state)
@@ -64,7 +72,7 @@ static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_dist
   fill_white(1, 4);
   for (i = 0; i < N; i++)
     y[i] += i < N / 2 ? 0 : i < N / 2 + N / 10 ? 50 * sin(i) : 1e4;
-  assert_between(lab_noise_estimate(y, N), 0.95, 1.25); /* a tenth of the sizes moves the median to the 55th in 100 */
+  assert_between(noise_of(y, N), 0.95, 1.25); /* a tenth of the sizes moves the median to the 55th in 100 */
 }
 
 /* Alternating signs: every second difference is 4 a, sigma sqrt(6) z of the median. */
@@ -74,7 +82,7 @@ static void test_lab_noise_estimate__alternating_values__are_the_closed_form(voi
   (void)state;
   for (i = 0; i < N; i++)
     y[i] = i % 2 ? 3 : -3;
-  assert_close(lab_noise_estimate(y, N), 4 * 3 / (sqrt(6) * 0.67448975019608171), 0, 1e-12);
+  assert_close(noise_of(y, N), 4 * 3 / (sqrt(6) * 0.67448975019608171), 0, 1e-12);
 }
 
 static void test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step(void **state)
@@ -83,7 +91,7 @@ static void test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step(voi
   (void)state;
   for (i = 0; i < N; i++)
     y[i] = 0.5 * i;
-  assert_close(lab_noise_estimate(y, N), 0.125, 0, 1e-12);
+  assert_close(noise_of(y, N), 0.125, 0, 1e-12);
 }
 
 /* Noise far below a step of the converter shows as steps now and then, and their size sets the least estimate. */
@@ -95,7 +103,7 @@ static void test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_
   fill_white(0.05, 5);
   for (i = 0; i < N; i++)
     y[i] = step * floor((y[i] + 1e-3 * i) / step + 0.5);
-  assert_close(lab_noise_estimate(y, N), step / 4, 0, 1e-12);
+  assert_close(noise_of(y, N), step / 4, 0, 1e-12);
 }
 
 /* Steps finer than the noise change it by little: sigma^2 + step^2/12. */
@@ -107,7 +115,7 @@ static void test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_litt
   fill_white(1, 6);
   for (i = 0; i < N; i++)
     y[i] = step * floor(y[i] / step + 0.5);
-  assert_close(lab_noise_estimate(y, N), 1, 0, 0.07);
+  assert_close(noise_of(y, N), 1, 0, 0.07);
 }
 
 static void test_lab_noise_estimate__gaps__do_not_count(void **state)
@@ -118,10 +126,10 @@ static void test_lab_noise_estimate__gaps__do_not_count(void **state)
   for (i = 0; i < N; i++)
     if (i % 7 == 3)
       y[i] = NAN;
-  assert_close(lab_noise_estimate(y, N), 0.5, 0, 0.07);
+  assert_close(noise_of(y, N), 0.5, 0, 0.07);
   for (i = 0; i < N; i += 3)
     y[i] = NAN;
-  assert_true(isnan(lab_noise_estimate(y, N))); /* no three values in a row */
+  assert_true(isnan(noise_of(y, N))); /* no three values in a row */
 }
 
 static void test_lab_noise_estimate__fewer_than_eight_differences__says_nothing(void **state)
@@ -129,13 +137,13 @@ static void test_lab_noise_estimate__fewer_than_eight_differences__says_nothing(
   static const double ten[] = {1, -1, 1, -1, 1, -1, 1, -1, 1, -1};
   double gap[10];
   (void)state;
-  assert_true(isfinite(lab_noise_estimate(ten, 10)));
-  assert_true(isnan(lab_noise_estimate(ten, 9)));
-  assert_true(isnan(lab_noise_estimate(ten, 1)));
-  assert_true(isnan(lab_noise_estimate(ten, 0)));
+  assert_true(isfinite(noise_of(ten, 10)));
+  assert_true(isnan(noise_of(ten, 9)));
+  assert_true(isnan(noise_of(ten, 1)));
+  assert_true(isnan(noise_of(ten, 0)));
   memcpy(gap, ten, sizeof gap);
   gap[0] = NAN;
-  assert_true(isnan(lab_noise_estimate(gap, 10)));
+  assert_true(isnan(noise_of(gap, 10)));
 }
 
 static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
@@ -144,7 +152,7 @@ static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
   (void)state;
   for (i = 0; i < N; i++)
     y[i] = 7;
-  assert_close(lab_noise_estimate(y, N), 0, 0, 0);
+  assert_close(noise_of(y, N), 0, 0, 0);
 }
 
 /* ---- Memory ---- */

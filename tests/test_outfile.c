@@ -147,6 +147,7 @@ static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(voi
   for (i = 0; i < 100000; i++)
     fputs("0123456789\n", out.file);
   assert_int_equal(lab_out_close(&out, &error), LAB_WORLD);
+  assert_contains(error.text, "full: cannot be written: No space left on device");
 }
 
 static void test_lab_out_close__device__is_written_in_place(void **state)

@@ -229,6 +229,17 @@ static void test_pneu_text__in_and_out_of_range__has_words(void **state)
   assert_string_equal(pneu_flow_key(-1), "unknown");
 }
 
+/* Results that programs publish rest on the default tolerance. */
+static void test_pneu_options_default__each__is_as_documented(void **state)
+{
+  pneu_options options;
+  (void)state;
+  pneu_options_default(&options);
+  assert_close(options.tol, TOL(1e-6, 1e-4), 0, TOL(1e-15, 1e-7));
+  assert_close(options.h_max, 0, 0, 0);
+  assert_int_equal(options.max_steps, 100000);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -244,6 +255,7 @@ int main(void)
       cmocka_unit_test(test_pneu_param_describe__out_of_range__is_refused),
       cmocka_unit_test(test_pneu_param_at__each__is_a_place_of_its_own_inside),
       cmocka_unit_test(test_pneu_effect_params__ranges__fill_the_list_in_order),
+      cmocka_unit_test(test_pneu_options_default__each__is_as_documented),
       cmocka_unit_test(test_pneu_text__in_and_out_of_range__has_words),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

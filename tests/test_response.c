@@ -38,7 +38,7 @@ static pneu_input input_of(const pneu_model *m, int i, int j)
 static lab_trace respond(const pneu_model *m, size_t n, const double *t_row, const pneu_input *input, double shift,
                          int integrator)
 {
-  const lab_response_options options = {integrator, 1e-9, t_end, 0, 0};
+  const lab_response_options options = {integrator, 1e-9, t_end, 0, 0, 0};
   lab_schedule schedule;
   double t[SAMPLES];
   lab_trace trace;
@@ -167,7 +167,7 @@ static void test_lab_respond__negative_skew__looks_beyond_the_end(void **state)
 
 static void test_lab_respond__statistics_only__needs_no_trace(void **state)
 {
-  const lab_response_options options = {LAB_STEPPER, 1e-6, t_end, 1, 0};
+  const lab_response_options options = {LAB_STEPPER, 1e-6, t_end, 1, 0, 0};
   pneu_model m;
   pneu_input input[2];
   const double t[] = {0, 0.2};
@@ -242,7 +242,7 @@ static void check_own_time(double skew, int integrator)
   static const double t_row[] = {5.3, 6.1, 7.4};
   const pneu_term term[] = {cycle(PNEU_TERM_SHOWN_PRESSURE, 0.77, 1e3), cycle(PNEU_TERM_SHOWN_POSITION, 0.9, 1e-3)};
   pneu_model m = model_with(NULL, 0);
-  const lab_response_options options = {integrator, 1e-9, 8, 0, 0};
+  const lab_response_options options = {integrator, 1e-9, 8, 0, 0, 0};
   double t[28];
   pneu_input input[3];
   lab_schedule schedule = {3, t_row, input};

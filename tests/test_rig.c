@@ -294,6 +294,13 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
   assert_close(rig.log.lead[1][LAB_CHANNEL_U], 1, 0, 0);
   rig = read_rig("log = { columns = ( \"p [kPa]\", \"x [mm]\" ); time_step = 10; way_back = \"p\"; };");
   assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
+  file = fopen(scratch_path("again.cfg"), "w");
+  assert_non_null(file);
+  lab_rig_write(file, &rig, NULL);
+  fclose(file);
+  if (lab_rig_read(scratch_path("again.cfg"), &rig, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
 }
 
 static void test_lab_rig_read__long_log__lists_quantities(void **state)
@@ -470,6 +477,34 @@ static void test_lab_rig_read__bad_fit__is_refused(void **state)
   assert_refused("fit = ( \"area\" );\nfit_per_log = ( \"area\" );\n", "rig.cfg:2: fit_per_log[0]:", "twice");
   assert_refused("fit = ( \"fill_area\" ); fit_per_log = ( \"orifice_area\" );\n", "fit_per_log[0]",
                  "orifice_area scales");
+}
+
+static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
+{
+  (void)state;
+  need_effect("heat_transfer");
+  assert_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
+                 "effects.heat_transfer.free_convection", "does nothing with the other laws");
+}
+
+static void test_lab_rig_read__control_characters__do_not_reach_the_message(void **state)
+{
+  (void)state;
+  assert_refused("laws = { gas = \"a\\n\\x1b[2Jb\"; };\n", "laws.gas", "unknown word \"a??[2Jb\"");
+}
+
+static void test_lab_rig_read__bad_keys_of_logs__are_refused(void **state)
+{
+  (void)state;
+  assert_refused("log = { decimal = 5; };\n", "log.decimal", "expected one character");
+  assert_refused("log = { scale = { p = true; }; };\n", "log.scale.p", "expected");
+  assert_refused("log = { scale = { p = 0; }; };\n", "log.scale.p", "other than 0");
+  assert_refused(
+      "log = { quantities = {\n a12345678901234567890123456789012345678901234567890123456789012345 = \"-\"; }; };",
+      "log.quantities.a1234", "a word of less than 64 bytes");
+  assert_refused("log = { holdout = { first = -1; }; };\n", "log.holdout.first", "0 to");
+  assert_refused("log = { holdout = { window = ( \"2 s\", \"1 s\" ); }; };\n", "log.holdout.window", "from 2 s to 1 s");
+  assert_refused("log = { lead = ( { t = \"0 s\"; p = \"2e15 Pa\"; } ); };\n", "log.lead[0].p", "-5e+14 to 5e+14");
 }
 
 static void test_lab_rig_read__bad_noise__is_refused(void **state)
@@ -759,6 +794,9 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__name_with_slash__is_refused),
       cmocka_unit_test(test_lab_rig_read__long_name__is_refused),
       cmocka_unit_test(test_lab_rig_read__bad_fit__is_refused),
+      cmocka_unit_test(test_lab_rig_read__effect_that_cannot_act__is_refused),
+      cmocka_unit_test(test_lab_rig_read__control_characters__do_not_reach_the_message),
+      cmocka_unit_test(test_lab_rig_read__bad_keys_of_logs__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_noise__is_refused),
       cmocka_unit_test(test_lab_rig_read__bad_inputs__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_effects__are_refused),

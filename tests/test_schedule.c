@@ -344,7 +344,7 @@ static void test_lab_start_from_log__below_vacuum__is_refused(void **state)
 
 static void test_lab_standard_experiment__default_model__fills_and_vents(void **state)
 {
-  const lab_response_options options = {LAB_STEPPER, 1e-6, 0, 0, 0};
+  const lab_response_options options = {LAB_STEPPER, 1e-6, 0, 0, 0, 0};
   lab_trace trace;
   (void)state;
   if (lab_standard_experiment(&model, &options, &trace, &error))

@@ -91,7 +91,7 @@ static int slots_of(const pneu_term *term, uint64_t seed)
   measure(term, seed);
   assert_int_equal(lab_unknowns_fit(&u, LAB_FIT_WHOLE, &chi2, &error), LAB_OK);
   assert_int_equal(lab_scan_open(&u, &scan, &error), LAB_OK);
-  n = lab_slots_try(&scan, slot);
+  assert_int_equal(lab_slots_try(&scan, slot, &n, &error), LAB_OK);
   lab_scan_close(&scan);
   return n;
 }
@@ -193,7 +193,7 @@ static void test_lab_slots_try__nothing_missing__is_chance(void **state)
 static void test_lab_slots_try__model_full_of_terms__has_no_slots(void **state)
 {
   lab_scan scan;
-  int i;
+  int i, n;
   (void)state;
   declare();
   open_log();
@@ -202,7 +202,8 @@ static void test_lab_slots_try__model_full_of_terms__has_no_slots(void **state)
     u.rig.term[i] = cycle(PNEU_TERM_FORCE, 1, 0, 0);
   u.rig.n_terms = LAB_TERM_MAX;
   assert_int_equal(lab_scan_open(&u, &scan, &error), LAB_OK);
-  assert_int_equal(lab_slots_try(&scan, slot), 0);
+  assert_int_equal(lab_slots_try(&scan, slot, &n, &error), LAB_OK);
+  assert_int_equal(n, 0);
   lab_scan_close(&scan);
 }
 

@@ -63,7 +63,7 @@ static void run_lab(const experiment *e, int integrator, double tol, lab_trace *
   pneu_input input[3];
   pneu_state start;
   lab_schedule schedule;
-  lab_response_options options = {0, 0, 30.5, 0, 0};
+  lab_response_options options = {0, 0, 30.5, 0, 0, 0};
   lab_error error;
   int i;
   for (i = 0; i < 3; i++)

@@ -244,6 +244,49 @@ static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **st
     }
 }
 
+#ifndef PNEU_SINGLE
+/* A stem that is pushed beyond friction by no more than the rounding of the balance, 64 units in the last place of the
+ * largest force, stays: the pressure at which it leaves is found by halving. */
+static void test_pneu_settle__push_within_rounding__stem_stays(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  const double balanced = (4e5 * 0.02 + 480) / 0.04;
+  const double largest = (4e5 + p.ambient_pressure) * 0.04 + 4e5 * 0.03;
+  double stays = 0, leaves = 1e-6; /* [Pa] beyond balance */
+  int i;
+  (void)state;
+  for (i = 0; i < 40; i++) {
+    const double middle = (stays + leaves) / 2;
+    const pneu_state s = fixture_rest(&m, balanced + middle, 0.01, &input);
+    assert_true(s.mode == PNEU_MODE_STUCK || s.mode == PNEU_MODE_UP);
+    if (s.mode == PNEU_MODE_STUCK)
+      stays = middle;
+    else
+      leaves = middle;
+  }
+  assert_close(leaves * 0.04, 64 * 2.22e-16 * largest, 0, 0.1);
+}
+#endif
+
+/* The opening is the distance from the set point over the band, and no more than wide open either way. */
+static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band(void **state)
+{
+  static const double over[][2] = {{-0.5, 0.5}, {0.25, -0.25}, {-1.005, 1}, {1.005, -1}, {-3, 1}, {3, -1}};
+  pneu_params p = fixture_vessel(1e-4);
+  int i;
+  (void)state;
+  p.proportional_band = (pneu_real)2e4;
+  for (i = 0; i < COUNT(over); i++) {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+    const pneu_input input = fixture_input(&m, 2e5);
+    const pneu_state s = fixture_rest(&m, 2e5 + over[i][0] * 2e4, 0, &input);
+    check_note("%g bands above", over[i][0]);
+    assert_close(fixture_look(&m, &s, &input).opening, over[i][1], TOL(1e-10, 1e-4), 0);
+  }
+}
+
 static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -412,6 +455,23 @@ static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(voi
   assert_close(g[0], -(16000 - 12000 + 480), TOL(1e-8, 0.5), 0);
 }
 
+/* A chamber without air has no balance of forces: nothing to tell of the stem. */
+static void test_pneu_settle__chamber_without_air__stem_stays(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 213e3, 0.01, &input);
+  pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
+  (void)state;
+  assert_int_equal(s.mode, PNEU_MODE_UP);
+  s.p = (pneu_real)-2e5;
+  pneu_settle(&m, &input, &s);
+  assert_int_equal(s.mode, PNEU_MODE_STUCK);
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_events(&m, &s, &input, y, g), 0);
+}
+
 /* ---- invariants under anything ---- */
 
 /* What to check at every step of a run. */
@@ -526,12 +586,17 @@ int main(void)
       cmocka_unit_test(test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop),
       cmocka_unit_test(test_pneu_run__no_stroke__is_a_vessel),
       cmocka_unit_test(test_pneu_run__regulator__brings_a_vessel_to_its_set_point),
+#ifndef PNEU_SINGLE
+      cmocka_unit_test(test_pneu_settle__push_within_rounding__stem_stays),
+#endif
+      cmocka_unit_test(test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band),
       cmocka_unit_test(test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction),
       cmocka_unit_test(test_pneu_stem_extension__normal_and_reverse__mirror_each_other),
       cmocka_unit_test(test_pneu_run__regulator_at_many_set_points__always_ends),
       cmocka_unit_test(test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays),
       cmocka_unit_test(test_pneu_regulator_opening__error_over_band__is_held_within_one),
       cmocka_unit_test(test_pneu_settle__at_rest__mode_follows_the_balance_of_forces),
+      cmocka_unit_test(test_pneu_settle__chamber_without_air__stem_stays),
       cmocka_unit_test(test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_for),
       cmocka_unit_test(test_pneu_events__about_break_away__rise_through_zero_in_newtons),
       cmocka_unit_test(test_pneu_observe__driven_stem__shows_the_force_that_holds_it),

@@ -335,6 +335,41 @@ static pneu_state fill_for(double time, double tol, double h_max, pneu_stats *st
   return s;
 }
 
+/* Largest error of x over six seconds of filling and six of venting in steps of dt, in units of stroke. */
+static double error_in_steps(int gas, int flow, double dt)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, gas, flow);
+  pneu_input input = fixture_input(&m, 1);
+  pneu_state at = fixture_rest(&m, 0, 0, &input), exact = at;
+  pneu_workspace work;
+  const int n = (int)(6 / dt + 0.5);
+  double worst = 0;
+  int i;
+  clear(&work);
+  for (i = 0; i < 2 * n; i++) {
+    input.u = i < n ? 1 : -1;
+    assert_int_equal(pneu_step(&m, &at, &input, (pneu_real)dt, &work), PNEU_OK);
+    fixture_run(&m, &exact, &input, dt, 1e-9, NULL);
+    worst = fmax(worst, fabs((double)at.x - (double)exact.x) / (double)p.stroke);
+  }
+  return worst;
+}
+
+/* What pneu.h says of it. */
+static void test_pneu_step__fill_and_vent__is_as_exact_as_documented(void **state)
+{
+  static const double dt[] = {1e-3, 1e-2}, most[2][2] = {{1e-5, 2e-4}, {4e-6, 5e-5}};
+  int gas, flow, i;
+  (void)state;
+  for (gas = PNEU_GAS_ISOTHERMAL; gas <= PNEU_GAS_ENERGY; gas += PNEU_GAS_ENERGY - PNEU_GAS_ISOTHERMAL)
+    for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
+      for (i = 0; i < COUNT(dt); i++) {
+        check_note("%s, %s, steps of %g s", pneu_gas_key(gas), pneu_flow_key(flow), dt[i]);
+        assert_between(error_in_steps(gas, flow, dt[i]), 1e-9, most[PNEU_ORDER == 5][i]);
+      }
+}
+
 static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
 {
   static const double tol[] = {1e-4, 1e-6, 1e-8};
@@ -818,6 +853,93 @@ static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void *
   assert_between(work.stats.steps, 1, 3);
 }
 
+/* Whoever drives the stem may drive it to where the chamber has no volume. */
+static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1);
+  const pneu_input input = fixture_input(&m, 1);
+  pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;
+  pneu_options options;
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  s.x = -1;
+  before = s;
+  assert_int_equal(pneu_run(&m, &s, &input, 1, &options, NULL, &work), PNEU_E_NONFINITE);
+  s = before;
+  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_E_NONFINITE);
+  assert_memory_equal(&s, &before, sizeof s);
+}
+
+/* A force that turns round at every event keeps the stem at one time. */
+static int turn_force(void *context, pneu_real t, const pneu_state *state, int before)
+{
+  pneu_input *input = context;
+  (void)t, (void)state, (void)before;
+  input->force = -input->force;
+  return 0;
+}
+
+static void test_pneu_run__event_after_event_at_one_time__is_ended(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_input input = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
+  const pneu_observer observer = {NULL, turn_force, &input};
+  pneu_options options;
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  input.force = 1e9;
+  s.v = (pneu_real)1e-6;
+  assert_int_equal(pneu_run(&m, &s, &input, 1, &options, &observer, &work), PNEU_E_EVENTS);
+}
+
+/* Numbers, but so large that no slope is one. */
+static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
+{
+  const pneu_params p = fixture_vessel(1e-3);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_input input = fixture_input(&m, -1);
+  pneu_state s = fixture_rest(&m, 1e5, 0, &input);
+  pneu_options options;
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  s.p = s.T = (pneu_real)TOL(1e300, 1e37);
+  assert_int_equal(pneu_run(&m, &s, &input, 1, &options, NULL, &work), PNEU_E_STEP_SIZE);
+}
+
+/* So loose a tolerance lets a step end below vacuum: it is refused. */
+static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input input;
+  double h;
+  (void)state;
+  p.ambient_pressure = 1000;
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, -1);
+  for (h = 0.1; h < 1e4; h *= 1.1) {
+    pneu_state s = fixture_rest(&m, 9e5, 0, &input);
+    pneu_options options;
+    pneu_workspace work;
+    clear(&work);
+    pneu_options_default(&options);
+    options.tol = (pneu_real)0.9;
+    work.h = (pneu_real)h;
+    check_note("h = %g", h);
+    assert_int_equal(pneu_run(&m, &s, &input, (pneu_real)1e4, &options, NULL, &work), PNEU_OK);
+    assert_true(s.p > -p.ambient_pressure);
+  }
+}
+
 /* Numbers, but outside the ranges that the header gives. */
 static void test_pneu_step__outside_documented_ranges__is_refused_and_state_kept(void **state)
 {
@@ -855,6 +977,7 @@ int main(void)
 #ifndef PNEU_SINGLE
       cmocka_unit_test(test_pneu_step__smooth_stretch__converges_with_its_order),
       cmocka_unit_test(test_pneu_dense__smooth_stretch__has_its_order),
+      cmocka_unit_test(test_pneu_step__fill_and_vent__is_as_exact_as_documented),
       cmocka_unit_test(test_pneu_run__smaller_tolerance__error_falls_with_it),
 #endif
       cmocka_unit_test(test_pneu_dense__at_the_ends__is_the_step_itself),
@@ -883,6 +1006,10 @@ int main(void)
       cmocka_unit_test(test_pneu_step__step_not_positive__is_refused_and_state_kept),
       cmocka_unit_test(test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing),
       cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
+      cmocka_unit_test(test_pneu_run__driven_to_where_there_is_no_volume__is_refused),
+      cmocka_unit_test(test_pneu_run__event_after_event_at_one_time__is_ended),
+      cmocka_unit_test(test_pneu_run__pressure_beyond_all_sense__is_an_error),
+      cmocka_unit_test(test_pneu_run__step_that_ends_below_vacuum__is_refused),
       cmocka_unit_test(test_pneu_step__outside_documented_ranges__is_refused_and_state_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

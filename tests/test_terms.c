@@ -9,7 +9,7 @@ enum { SAMPLES = 640 };
 
 typedef double curve(double argument);
 
-/* A curve at n equidistant knots. */
+/* A curve at n equidistant knots, and no number behind the last, so that nobody looks there. */
 static pneu_term sampled(int equation, int argument, int n, double from, double to, curve *f)
 {
   pneu_term term;
@@ -22,6 +22,8 @@ static pneu_term sampled(int equation, int argument, int n, double from, double 
   term.to = (pneu_real)to;
   for (i = 0; i < n; i++)
     term.value[i] = (pneu_real)f(from + (to - from) * i / (n - 1));
+  for (; i < PNEU_TERM_KNOTS; i++)
+    term.value[i] = (pneu_real)NAN;
   return term;
 }
 
@@ -177,6 +179,7 @@ static void test_pneu_add_terms__knots_middles_and_beyond__lie_on_the_lines(void
     assert_close(shown_at(&m, 0.004 + (i + 0.5) * h), (double)(term.value[i] + term.value[i + 1]) / 2, tol, 0);
     assert_close(shown_at(&m, 0.004 + (i + 0.25) * h), (double)(3 * term.value[i] + term.value[i + 1]) / 4, tol, 0);
   }
+  assert_close(shown_at(&m, (double)term.to), (double)term.value[8], 0, TOL(1e-12, 1e-4));
   assert_close(shown_at(&m, 0), (double)term.value[0], tol, 0);
   assert_close(shown_at(&m, 0.02), (double)term.value[8], tol, 0);
 }

@@ -36,6 +36,16 @@ int lab_any_is_noise(const lab_attempt *a, int n)
   return any;
 }
 
+int lab_any_is_clean(const lab_attempt *a, int n)
+{
+  int i, any = 0;
+  for (i = 0; i < n; i++) {
+    const double values = (double)a[i].u.n_values;
+    any |= a[i].fitted && a[i].chi2 < values + sqrt(2 * values);
+  }
+  return any;
+}
+
 int lab_attempt_by_bic(const void *x, const void *y)
 {
   const lab_attempt *a = x, *b = y;

@@ -35,6 +35,9 @@ void lab_attempt_name(const lab_attempt *a, char *text, size_t size);
  * error within a twentieth of the noise, as far as a declared noise can be trusted. */
 int lab_any_is_noise(const lab_attempt *a, int n);
 
+/* Whether one of n attempts leaves nothing to explain: chi-square within a standard deviation of its expectation. */
+int lab_any_is_clean(const lab_attempt *a, int n);
+
 /* Order for qsort: fitted ones first, then by BIC. */
 int lab_attempt_by_bic(const void *x, const void *y);
 

@@ -39,6 +39,16 @@ static void fill(struct table *table, const lab_program *program, lab_cli *cli)
     table->row[table->n++] = shared[i];
 }
 
+/* Every line of a text in its column. */
+static void print_help(const char *head, const char *text)
+{
+  for (; text; head = "") {
+    const char *end = strchr(text, '\n');
+    printf("  %-20s %.*s\n", head, end ? (int)(end - text) : (int)strlen(text), text);
+    text = end ? end + 1 : NULL;
+  }
+}
+
 static void print_usage(const lab_program *program, const struct table *table)
 {
   int i;
@@ -47,7 +57,7 @@ static void print_usage(const lab_program *program, const struct table *table)
     const lab_option *row = &table->row[i];
     char head[64];
     snprintf(head, sizeof head, "--%s%s%s", row->name, row->argument ? " " : "", row->argument ? row->argument : "");
-    printf("  %-20s %s\n", head, row->help);
+    print_help(head, row->help);
   }
   printf("\nExit status: 0 done, 1 data or configuration at fault, 2 usage, 3 numerical failure, 4 no disk, permission "
          "or memory.\nCtrl-C ends it by the signal, 130 in a shell, with every file whole or absent.\n");

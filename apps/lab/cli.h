@@ -18,7 +18,7 @@ typedef struct lab_option {
   int kind;             /* enum lab_option_kind */
   void *value;          /* where it goes; keeps what is there if the option is not given */
   const char *argument; /* word for the argument in the usage text; NULL for a flag */
-  const char *help;     /* one line */
+  const char *help;     /* a line, or several */
   double lower, upper;  /* bounds of a number */
 } lab_option;
 

@@ -67,7 +67,7 @@ int lab_config_fail(const config_setting_t *setting, lab_error *error, const cha
   vsnprintf(error->text, sizeof error->text, format, args);
   va_end(args);
   error->status = LAB_DATA;
-  return lab_config_fail_in(setting, error);
+  return lab_config_fail_in(setting, error); /* which makes it one line */
 }
 
 /* What a setting holds, for a message. */

@@ -94,8 +94,8 @@ static void keep(double period[LAB_CYCLES_MAX], double rank[LAB_CYCLES_MAX], int
   period[i] = candidate;
 }
 
-/* Lines that every log resolves.  Returns: 0 if there are none, or no memory. */
-static int lay_out(const lab_unknowns *u, spectrum *s)
+/* Lines that every log resolves. */
+static int lay_out(const lab_unknowns *u, spectrum *s, lab_error *error)
 {
   double longest = 0, fastest = INFINITY, last;
   int e;
@@ -106,12 +106,12 @@ static int lay_out(const lab_unknowns *u, spectrum *s)
     fastest = fmin(fastest, cells / (ROWS_PER_CYCLE * length));
   }
   s->step = 1 / (OVERSAMPLED * longest);
-  s->first = OVERSAMPLED * FEWEST_CYCLES;
+  s->first = (size_t)OVERSAMPLED * FEWEST_CYCLES;
   last = fastest / s->step;
   s->n = last > (double)s->first ? (size_t)last - s->first + 1 : 0;
   s->power = calloc(s->n + 1, sizeof *s->power);
   s->height = calloc(s->n + 1, sizeof *s->height);
-  return s->power && s->height && s->n > 2;
+  return s->power && s->height ? LAB_OK : lab_fail_memory(error, "the spectrum of a residual");
 }
 
 /* See how far the lines of one channel stand out. */
@@ -131,20 +131,22 @@ static void look_at_channel(const lab_unknowns *u, const double *r, int channel,
     s->height[i] = fmax(s->height[i], prominence(s, i));
 }
 
-int lab_cycles_find(const lab_unknowns *u, const double *r, double *period)
+int lab_cycles_find(const lab_unknowns *u, const double *r, double *period, int *n, lab_error *error)
 {
   double rank[LAB_CYCLES_MAX];
   spectrum s;
   size_t i;
-  int channel, n = 0;
-  if (lay_out(u, &s)) {
+  const int status = lay_out(u, &s, error);
+  int channel;
+  *n = 0;
+  if (status == LAB_OK && s.n > 2) {
     for (channel = 0; channel < LAB_CHANNEL_COUNT; channel++)
       look_at_channel(u, r, channel, &s);
     for (i = 1; i + 1 < s.n; i++)
       if (s.height[i] > clear && s.height[i] > s.height[i - 1] && s.height[i] >= s.height[i + 1])
-        keep(period, rank, &n, 1 / ((double)(s.first + i) * s.step), s.height[i]);
+        keep(period, rank, n, 1 / ((double)(s.first + i) * s.step), s.height[i]);
   }
   free(s.power);
   free(s.height);
-  return n;
+  return status;
 }

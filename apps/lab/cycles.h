@@ -12,7 +12,8 @@ enum { LAB_CYCLES_MAX = 24 };
  * a peak counts where it is three times its surroundings at least.
  * In:      r       errors over noise, as from lab_unknowns_errors
  * Out:     period  [s] LAB_CYCLES_MAX at most
- * Returns: their number; 0 also where memory is short. */
-int lab_cycles_find(const lab_unknowns *u, const double *r, double *period);
+ *          n       their number
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_cycles_find(const lab_unknowns *u, const double *r, double *period, int *n, lab_error *error);
 
 #endif

@@ -103,7 +103,7 @@ static void lay_out_time(const lab_unknowns *u, lab_evidence *v)
 static int respond(const lab_unknowns *u, const lab_experiment *x, lab_evidence *v, size_t row, lab_error *error)
 {
   const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
-  const lab_response_options options = {LAB_STEPPER, u->tol, t[x->n - 1], 0, 0};
+  const lab_response_options options = {LAB_STEPPER, u->tol, t[x->n - 1], 0, 0, 0};
   const double *column[LAB_ARGUMENT_COUNT];
   pneu_model model;
   pneu_state start;

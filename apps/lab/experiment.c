@@ -8,6 +8,7 @@
 #include "response.h"
 #include "start.h"
 
+static const int most_steps = 20000; /* from one change of input to the next: a model that takes more chatters */
 static const double off = 6; /* times the scatter at rest: a value so far off is no noise */
 
 static int is_predicted(int channel)
@@ -61,8 +62,11 @@ static int add_channel(lab_experiment *e, int channel, lab_error *error)
   const double *value = e->log->value[channel] + e->first;
   const double memory = lab_noise_memory(value, rows_still(value, rows_at_rest(e)));
   double sigma = e->rig->noise[channel];
-  if (isnan(sigma))
-    sigma = for_memory(lab_noise_estimate(value, e->n), memory);
+  if (isnan(sigma)) {
+    if (lab_noise_estimate(value, e->n, &sigma, error))
+      return error->status;
+    sigma = for_memory(sigma, memory);
+  }
   if (!(sigma > 0))
     return lab_fail(error, LAB_DATA,
                     "%s: channel %s does not change, or has too few values to tell its noise; declare it in the group "
@@ -186,7 +190,7 @@ int lab_experiment_predict(const lab_experiment *e, const lab_rig *rig, const do
                            lab_error *error)
 {
   const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
-  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0, 1};
+  const lab_response_options options = {LAB_STEPPER, tol, t[e->n - 1], 0, 1, most_steps};
   lab_schedule schedule;
   lab_trace trace;
   pneu_model model;

@@ -52,6 +52,7 @@ typedef struct drawing {
   const lab_evidence *evidence;
   FILE *file; /* the script */
   lab_figure *figure;
+  lab_point *point; /* room for the envelope of a series */
 } drawing;
 
 /* ---- Text ---- */
@@ -154,12 +155,8 @@ static void put_points(FILE *file, const char *block, int number, const lab_poin
 static void put_series(const drawing *d, const char *block, int number, const double *value, double scale)
 {
   const lab_evidence *v = d->evidence;
-  lab_point *point = malloc((3 * COLUMNS + (size_t)v->n_runs) * sizeof *point);
-  size_t n = 0;
-  if (point)
-    n = lab_envelope(v->t, value, v->n, v->first, v->n_runs, v->t[0], v->t[v->n - 1], COLUMNS, point);
-  put_points(d->file, block, number, point, n, scale);
-  free(point);
+  const size_t n = lab_envelope(v->t, value, v->n, v->first, v->n_runs, v->t[0], v->t[v->n - 1], COLUMNS, d->point);
+  put_points(d->file, block, number, d->point, n, scale);
 }
 
 static void put_time_axis(const drawing *d)
@@ -437,11 +434,9 @@ static double cycle_at(const pneu_term *term, double t)
 {
   const double angle = 6.283185307179586 * t / (double)(term->to - term->from);
   double sum = 0;
-  int i;
-  for (i = 0; i + 1 < term->n; i += 2) {
-    const double harmonic = angle * (i / 2 + 1);
-    sum += (double)term->value[i] * cos(harmonic) + (double)term->value[i + 1] * sin(harmonic);
-  }
+  int k;
+  for (k = 1; 2 * k <= term->n; k++)
+    sum += (double)term->value[2 * k - 2] * cos(k * angle) + (double)term->value[2 * k - 1] * sin(k * angle);
   return sum;
 }
 
@@ -583,37 +578,46 @@ static void put_all(drawing *d, lab_figures *figures)
   }
 }
 
-/* Cut what gnuplot drew into one text for each figure.  Returns: 0 if there are more or fewer. */
-static int share_out(const char *drawn, lab_figures *figures)
+/* Cut what gnuplot drew into one text for each figure. */
+static int share_out(const char *drawn, lab_figures *figures, lab_error *error)
 {
   static const char begin[] = "<?xml", end[] = "</svg>";
   int i;
   for (i = 0; i < figures->n; i++) {
     const char *from = strstr(drawn, begin), *to = from ? strstr(from, end) : NULL;
-    char *svg = to ? malloc((size_t)(to - from) + sizeof end + 1) : NULL;
-    if (!svg)
-      return 0;
+    char *svg;
+    if (!to)
+      return lab_fail(error, LAB_WORLD, "gnuplot drew %d figures of the %d asked for", i, figures->n);
+    if (!(svg = malloc((size_t)(to - from) + sizeof end + 1)))
+      return lab_fail_memory(error, "the figures");
     sprintf(svg, "%.*s%s\n", (int)(to - from), from, end);
     figures->figure[i].svg = svg;
     drawn = to + sizeof end - 1;
   }
-  return !strstr(drawn, begin);
+  if (strstr(drawn, begin))
+    return lab_fail(error, LAB_WORLD, "gnuplot drew more than the %d figures asked for", figures->n);
+  return LAB_OK;
 }
 
 int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_figures *figures, lab_error *error)
 {
-  drawing d = {story, evidence, tmpfile(), NULL};
+  drawing d = {story, evidence, NULL, NULL, NULL};
   char *drawn = NULL;
   int status;
   memset(figures, 0, sizeof *figures);
-  if (!d.file)
-    return lab_fail(error, LAB_WORLD, "no room for the script of the figures in the folder of temporary files");
-  put_all(&d, figures);
-  status = lab_gnuplot_run(d.file, &drawn, error);
-  fclose(d.file);
-  if (status == LAB_OK && !share_out(drawn, figures))
-    status = lab_fail(error, LAB_WORLD, "gnuplot drew something else than the %d figures asked for", figures->n);
+  if (!(d.point = malloc(((size_t)3 * COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point)))
+    return lab_fail_memory(error, "the figures");
+  if ((d.file = tmpfile())) {
+    put_all(&d, figures);
+    status = lab_gnuplot_run(d.file, &drawn, error);
+    fclose(d.file);
+  } else {
+    status = lab_fail(error, LAB_WORLD, "no room for the script of the figures in the folder of temporary files");
+  }
+  if (status == LAB_OK)
+    status = share_out(drawn, figures, error);
   free(drawn);
+  free(d.point);
   return status;
 }
 
@@ -625,9 +629,23 @@ void lab_figures_free(lab_figures *figures)
   memset(figures, 0, sizeof *figures);
 }
 
+/* What an earlier run has left of figures that this one does not draw, lest they be taken for its own. */
+static void remove_others(const lab_figures *figures, const char *folder)
+{
+  static const char *const endings[] = {".svg", ".svg.part"};
+  char path[LAB_PATH_TEXT + 32];
+  int i, k;
+  for (i = 0; i < LAB_FIGURE_COUNT; i++)
+    for (k = 0; k < 2 && !lab_figures_find(figures, figures_known[i].name); k++) {
+      snprintf(path, sizeof path, "%s/%s%s", folder, figures_known[i].name, endings[k]);
+      remove(path);
+    }
+}
+
 int lab_figures_write(const lab_figures *figures, const char *folder, lab_error *error)
 {
   int i;
+  remove_others(figures, folder);
   for (i = 0; i < figures->n; i++) {
     char path[LAB_PATH_TEXT + 32];
     lab_outfile out;

@@ -192,10 +192,11 @@ static int difference(fit_run *run, const double *z, const double *r0, int j, do
 static int differences(fit_run *run, const double *z, const int *hold)
 {
   const size_t m = run->problem->m;
-  double *scratch = calloc(3 * m, sizeof *scratch), *r0 = scratch + 2 * m;
+  double *scratch = calloc(3 * m, sizeof *scratch), *r0;
   int j, outcome = FIT_GOOD;
   if (!scratch)
     return ended(run, lab_fail_memory(&run->error, "the slopes of a fit"));
+  r0 = scratch + 2 * m;
   memcpy(r0, run->r, m * sizeof *r0);
   for (j = 0; j < run->problem->n && outcome == FIT_GOOD; j++) {
     if (hold && hold[j])

@@ -41,7 +41,7 @@ void lab_outlook_close(lab_outlook *outlook)
 int lab_foresee(const lab_outlook *outlook, const pneu_params *params, double *y, long *steps, lab_error *error)
 {
   const size_t n = (size_t)outlook->n;
-  const lab_response_options options = {LAB_STEPPER, tolerance, outlook->t[n - 1], 0, 0};
+  const lab_response_options options = {LAB_STEPPER, tolerance, outlook->t[n - 1], 0, 0, 0};
   lab_rig rig = *outlook->rig;
   lab_trace trace;
   pneu_model model;

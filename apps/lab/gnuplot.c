@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "interrupt.h"
+#include "outfile.h"
 
 static const int no_program = 127; /* as the shell says it */
 
@@ -44,26 +45,10 @@ static int cannot(int status, const char *script, const char *out, lab_error *er
 {
   if (status == no_program)
     return lab_fail(error, LAB_WORLD, "gnuplot is not installed; install it, or use --no-figures");
+  if (status == 0)
+    return lab_fail(error, LAB_WORLD, "%s: what gnuplot drew is not whole; is the folder of temporary files full?",
+                    out);
   return lab_fail(error, LAB_WORLD, "gnuplot failed on %s for %s", script, out);
-}
-
-int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error)
-{
-  char part[1200], definitions[3600];
-  const char *const arguments[] = {"gnuplot", "-e", definitions, script, NULL};
-  int status, placed;
-  if (access(script, R_OK))
-    return lab_fail(error, LAB_DATA, "%s: the script of a figure is missing", script);
-  if (snprintf(part, sizeof part, "%s.part", out) >= (int)sizeof part || strchr(in, '\'') || strchr(out, '\''))
-    return lab_fail(error, LAB_DATA, "%s: gnuplot cannot take this path", out);
-  snprintf(definitions, sizeof definitions, "IN='%s'; OUT='%s'", in, part);
-  lab_interrupt_hold();
-  status = run(arguments, -1, -1);
-  placed = status == 0 && rename(part, out) == 0;
-  if (!placed)
-    remove(part);
-  lab_interrupt_release();
-  return placed ? LAB_OK : cannot(status, script, out, error);
 }
 
 /* The whole of an open file as text, NULL if it cannot be read. */
@@ -84,20 +69,68 @@ static char *text_of(FILE *file)
   return text;
 }
 
+/* gnuplot does not say whether all that it drew has arrived: on a full disk it does not end so. */
+static int is_whole(const char *drawing)
+{
+  static const char end[] = "</svg>";
+  size_t length = strlen(drawing);
+  while (length > 0 && strchr(" \r\n", drawing[length - 1]))
+    length--;
+  return length >= sizeof end - 1 && !strncmp(drawing + length - (sizeof end - 1), end, sizeof end - 1);
+}
+
+/* What gnuplot draws to standard output, by way of a file without a name. */
+static char *drawing_of(const char *const arguments[], int in, int *status)
+{
+  FILE *out = tmpfile();
+  char *text = NULL;
+  *status = -1;
+  if (!out)
+    return NULL;
+  lab_interrupt_hold();
+  *status = run(arguments, in, fileno(out));
+  lab_interrupt_release();
+  if (*status == 0)
+    text = text_of(out);
+  fclose(out);
+  if (text && !is_whole(text)) {
+    free(text);
+    text = NULL;
+  }
+  return text;
+}
+
+int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error)
+{
+  char definitions[2400], *drawing;
+  const char *const arguments[] = {"gnuplot", "-e", definitions, script, NULL};
+  lab_outfile file;
+  int status;
+  if (access(script, R_OK))
+    return lab_fail(error, LAB_DATA, "%s: the script of a figure is missing", script);
+  if (strchr(in, '\'') || snprintf(definitions, sizeof definitions, "IN='%s'", in) >= (int)sizeof definitions)
+    return lab_fail(error, LAB_DATA, "%s: gnuplot cannot take this path", in);
+  drawing = drawing_of(arguments, -1, &status);
+  if (!drawing)
+    return cannot(status, script, out, error);
+  status = lab_out_open(&file, out, error);
+  if (status == LAB_OK) {
+    fputs(drawing, file.file);
+    status = lab_out_close(&file, error);
+  }
+  free(drawing);
+  return status;
+}
+
 int lab_gnuplot_run(FILE *script, char **drawing, lab_error *error)
 {
   static const char *const arguments[] = {"gnuplot", NULL};
-  FILE *out = tmpfile();
   int status = -1;
   *drawing = NULL;
-  if (out && fflush(script) == 0 && !ferror(script) && lseek(fileno(script), 0, SEEK_SET) == 0) {
-    lab_interrupt_hold();
-    status = run(arguments, fileno(script), fileno(out));
-    lab_interrupt_release();
-  }
-  if (status == 0)
-    *drawing = text_of(out);
-  if (out)
-    fclose(out);
-  return *drawing ? LAB_OK : cannot(status, "its script", "the report", error);
+  if (fflush(script) == 0 && !ferror(script) && lseek(fileno(script), 0, SEEK_SET) == 0)
+    *drawing = drawing_of(arguments, fileno(script), &status);
+  if (status == 0 && !*drawing)
+    return lab_fail(error, LAB_WORLD,
+                    "what gnuplot drew cannot be read back: out of memory, or of room for temporary files");
+  return status == 0 ? LAB_OK : cannot(status, "its script", "the report", error);
 }

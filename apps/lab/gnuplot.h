@@ -7,8 +7,9 @@
 
 #include "message.h"
 
-/* Draw a figure, whole or not at all: runs the script with IN, the folder of the tables, and OUT, the file to write.
- * Returns: LAB_OK; LAB_WORLD if gnuplot is not there or fails. */
+/* Draw a figure, whole or not at all, into the file `out`: runs the script, which draws to standard output, with IN,
+ * the folder of the tables. A gnuplot that outlives this program touches no file that has a name. Returns: LAB_OK;
+ * LAB_WORLD if gnuplot is not there or fails, or the file cannot be written. */
 int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error);
 
 /* Run a script that has its data in it and draws to standard output. Nothing is left on the disk, however it ends.

@@ -46,3 +46,8 @@ void lab_interrupt_release(void)
   if (held == 0 && pending)
     end_by((int)pending);
 }
+
+int lab_interrupt_pending(void)
+{
+  return (int)pending;
+}

@@ -13,4 +13,7 @@ void lab_interrupt_catch(void);
 void lab_interrupt_hold(void);
 void lab_interrupt_release(void);
 
+/* Whether a signal waits.  Returns: its number, or 0 */
+int lab_interrupt_pending(void);
+
 #endif

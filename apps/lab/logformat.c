@@ -67,7 +67,10 @@ static int read_mark(const config_setting_t *setting, char *mark, lab_error *err
   int named = text ? lab_name_index(text, marks, MARKS, sizeof marks[0]) : -1;
   if (!text || (named < 0 && strlen(text) != 1))
     return lab_config_expected(setting, "one character, \"tab\", \"comma\" or \"semicolon\"", error);
-  *mark = named < 0 ? *text : marks[named].mark;
+  if (named < 0)
+    *mark = *text;
+  else
+    *mark = marks[named].mark;
   return LAB_OK;
 }
 
@@ -239,7 +242,7 @@ static int read_lead_value(const config_setting_t *setting, const char *unit, do
   const int last = text && strncmp(text, "last ", 5) == 0, first = text && strncmp(text, "first ", 6) == 0;
   int channel;
   if (!first && !last)
-    return read_one_constant(setting, unit, value, error);
+    return lab_config_quantity(setting, unit, -lead_code / 2, lead_code / 2, value, error);
   channel = lab_name_index(text + (first ? 6 : 5), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
   if (channel < 0)
     return lab_config_expected(setting, "\"first\" or \"last\" with a channel, such as \"first p\"", error);

@@ -50,13 +50,13 @@ static size_t number_instants(const struct instant *order, size_t n, size_t *to)
   return last + 1;
 }
 
-/* Lines of the first row of each instant. */
-static void join_lines(lab_log *log, const struct instant *order, const size_t *to, double *scratch)
+/* Lines of the first row of each of n instants. */
+static void join_lines(lab_log *log, const struct instant *order, const size_t *to, size_t n, double *scratch)
 {
   size_t i;
   for (i = log->n; i-- > 0;)
     scratch[to[i]] = log->line[order[i].row];
-  for (i = 0; i < log->n; i++)
+  for (i = 0; i < n; i++)
     log->line[i] = (int)scratch[i];
 }
 
@@ -88,7 +88,7 @@ static int join(lab_log *log, struct instant *order, size_t *to, double *scratch
   for (channel = 0; channel < LAB_CHANNEL_COUNT; channel++)
     if (log->value[channel] && join_channel(log, order, to, channel, scratch, error))
       return error->status;
-  join_lines(log, order, to, scratch);
+  join_lines(log, order, to, n, scratch);
   log->n = n;
   return hold_command(log, error);
 }

@@ -76,34 +76,39 @@ double lab_scene_span(const lab_scene *s, int channel)
 /* Run the declared model. A rig that cannot be run leaves the scene without; the fit will say why. */
 static int expect(lab_scene *s, lab_error *error)
 {
-  const lab_response_options options = {LAB_STEPPER, 1e-5, s->t[s->n - 1], 0, 0};
+  const lab_response_options options = {LAB_STEPPER, 1e-5, s->t[s->n - 1], 0, 0, 0};
   pneu_model model;
   pneu_state start;
   lab_drive drive;
-  lab_error ignored;
+  int status;
   if (lab_rig_model(s->rig, &model, error) || lab_drive_from_log(&model, s->rig, s->log, s->run, &drive, error))
     return error->status;
-  if (lab_start_from_log(&model, drive.input, s->log, s->run, &start, &ignored) == LAB_OK)
-    s->has_expected =
-        lab_respond(&model, &start, &drive.schedule, s->t, s->n, &options, &s->expected, NULL, &ignored) == LAB_OK;
+  status = lab_start_from_log(&model, drive.input, s->log, s->run, &start, error);
+  if (status == LAB_OK)
+    status = lab_respond(&model, &start, &drive.schedule, s->t, s->n, &options, &s->expected, NULL, error);
+  s->has_expected = status == LAB_OK;
   lab_drive_free(&drive);
+  if (status == LAB_WORLD)
+    return status;
   if (s->has_expected && s->main >= 0)
     make_cells(s, lab_scene_expected(s, s->main), &s->expected_cells);
   return LAB_OK;
 }
 
-static void look_at(lab_scene *s, int c)
+static int look_at(lab_scene *s, int c, lab_error *error)
 {
   s->y[c] = s->log->value[c] ? s->log->value[c] + s->first : NULL;
-  s->sigma[c] = s->rig->noise[c];
-  if (s->y[c] && isnan(s->sigma[c]))
-    s->sigma[c] = lab_noise_estimate(s->y[c], s->n);
+  s->seen[c] = (double)NAN;
+  if (s->y[c] && lab_noise_estimate(s->y[c], s->n, &s->seen[c], error))
+    return error->status;
+  s->sigma[c] = isnan(s->rig->noise[c]) ? s->seen[c] : s->rig->noise[c];
   if (c != LAB_CHANNEL_P && c != LAB_CHANNEL_X)
-    return;
+    return LAB_OK;
   if (s->y[c])
     make_cells(s, s->y[c], &s->cells[c]);
   else
     s->cells[c].low = s->cells[c].high = (double)NAN;
+  return LAB_OK;
 }
 
 int lab_scene_open(const lab_rig *rig, const lab_log *log, size_t run, lab_scene *s, lab_error *error)
@@ -127,7 +132,8 @@ int lab_scene_open(const lab_rig *rig, const lab_log *log, size_t run, lab_scene
   s->n_cells = s->n_cells < LAB_SCENE_FEWEST ? LAB_SCENE_FEWEST : s->n_cells;
   s->cell = (s->t[s->n - 1] - s->t[0]) / s->n_cells;
   for (c = LAB_CHANNEL_P; c < LAB_CHANNEL_COUNT; c++)
-    look_at(s, c);
+    if (look_at(s, c, error))
+      return error->status;
   for (c = LAB_CHANNEL_X; c >= LAB_CHANNEL_P; c--)
     if (lab_scene_predicts(s, c))
       s->main = c;

@@ -23,6 +23,7 @@ typedef struct lab_scene {
   size_t run, first, n;
   const double *t, *u, *y[LAB_CHANNEL_COUNT]; /* n rows each; NULL where absent */
   double sigma[LAB_CHANNEL_COUNT];            /* noise, declared or else estimated; NaN where unknown */
+  double seen[LAB_CHANNEL_COUNT];             /* noise from row to row; NaN where absent or unknown */
   int n_cells;
   double cell;              /* [s] */
   lab_cells *cells;         /* [LAB_CHANNEL_COUNT], of p and x; NaN where absent */

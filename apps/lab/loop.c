@@ -68,39 +68,22 @@ static double gain(const lab_attempt *a, const lab_attempt *b, const lab_errors 
 
 /* ---- Search ---- */
 
-/* Whether the first n things found by a are among those found by b. */
-static int has_found(const lab_attempt *b, const lab_attempt *a, int n)
+/* Whether two models have the same, whatever was added first, beside one thing found of each; -1: beside nothing. */
+static int is_alike_but(const lab_attempt *a, int which_a, const lab_attempt *b, int which_b)
 {
-  int i, k, all = 1;
-  for (i = 0; i < n; i++) {
-    int any = 0;
+  int i, k, all = a->n_found == b->n_found;
+  for (i = 0; i < a->n_found; i++) {
+    int any = i == which_a;
     for (k = 0; k < b->n_found; k++)
-      any |= a->found[i].param == b->found[k].param && a->found[i].term == b->found[k].term;
+      any |= k != which_b && a->found[i].param == b->found[k].param && a->found[i].term == b->found[k].term;
     all &= any;
   }
   return all;
 }
 
-/* The same model, whatever was added first. */
 static int is_same(const lab_attempt *a, const lab_attempt *b)
 {
-  return a->n_found == b->n_found && has_found(b, a, a->n_found);
-}
-
-/* Whether two models have the same beside one thing found of each. */
-static int is_alike_but(const lab_attempt *a, int i, const lab_attempt *b, int k)
-{
-  lab_attempt *rest = malloc(2 * sizeof *rest);
-  int alike = 0;
-  if (rest) {
-    rest[0] = *a;
-    rest[1] = *b;
-    rest[0].found[i] = rest[0].found[--rest[0].n_found];
-    rest[1].found[k] = rest[1].found[--rest[1].n_found];
-    alike = is_same(&rest[0], &rest[1]);
-  }
-  free(rest);
-  return alike;
+  return is_alike_but(a, -1, b, -1);
 }
 
 /* Effects of a pool, each added last, that are as good as one of a model's in its place: a better fit by one unknown
@@ -162,42 +145,63 @@ static int leaves_something(const lab_attempt *a)
   return a->chi2 > n + 2 * sqrt(2 * n);
 }
 
-static void try_slots(const search *s, const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best)
+static int try_slots(const search *s, const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best,
+                     lab_error *error)
 {
   tell(s, "looking for what has no name");
-  lab_refit_slots(base, slot, n, best);
+  return lab_refit_slots(base, slot, n, best, error);
 }
 
-/* Try every extension of one model by one effect; and before these, of the declared model by a free term, where that
- * explains most of what there is and far more than any of them. */
+/* A free term beside the declared model, tried before any effect where it explains most of what there is and far more
+ * than any of them. */
+static int try_slots_first(const search *s, const lab_attempt *base, const lab_scan *scan, double best_effect,
+                           lab_error *error)
+{
+  lab_slot slot[LAB_SLOT_MAX];
+  int n;
+  if (base->n_found > 0 || lab_any_is_noise(base, 1) || !(alone * best_effect < scan->excess))
+    return LAB_OK;
+  if (lab_slots_try(scan, slot, &n, error))
+    return error->status;
+  if (n == 0 || !(slot[0].statistic > mostly * scan->excess) || !(slot[0].statistic > alone * best_effect))
+    return LAB_OK;
+  return try_slots(s, base, slot, n, s->nameless, error);
+}
+
+/* Every extension of a model by one effect, with the scan of its residual. */
+static int extend_scanned(search *s, const lab_attempt *base, const lab_scan *scan, double start, lab_error *error)
+{
+  double level;
+  lab_trace_result trace;
+  int n = 0;
+  tell(s, "tracing the residual");
+  if (lab_trace_effects(scan, &trace, error))
+    return error->status;
+  if (s->result->trace.n == 0)
+    s->result->trace_s = seconds() - start;
+  level = trace.tests > 0 ? s->options->alpha / trace.tests : 0;
+  if (try_slots_first(s, base, scan, trace.candidate[0].statistic, error))
+    return error->status;
+  tell(s, "fitting the leaders");
+  if (!lab_any_is_noise(s->nameless, 1) && lab_refit_effects(base, &trace, level, s->pool + s->n_pool, &n, error))
+    return error->status;
+  s->n_pool += n;
+  if (s->result->trace.n == 0) {
+    s->result->trace = trace;
+    s->result->level = level;
+  }
+  return LAB_OK;
+}
+
+/* Try every extension of one model. */
 static int extend(search *s, const lab_attempt *base, lab_error *error)
 {
   const double start = seconds();
-  double level;
-  lab_slot slot[LAB_SLOT_MAX];
-  lab_trace_result trace;
-  lab_scan scan;
   lab_attempt copy = *base;
-  int n_slots = 0, status = lab_scan_open(&copy.u, &scan, error);
-  if (status == LAB_OK) {
-    tell(s, "tracing the residual");
-    lab_trace_effects(&scan, &trace);
-    if (s->result->trace.n == 0)
-      s->result->trace_s = seconds() - start;
-    level = trace.tests > 0 ? s->options->alpha / trace.tests : 0;
-    if (base->n_found == 0 && !lab_any_is_noise(base, 1) && alone * trace.candidate[0].statistic < scan.excess)
-      n_slots = lab_slots_try(&scan, slot);
-    if (n_slots > 0 && slot[0].statistic > mostly * scan.excess &&
-        slot[0].statistic > alone * trace.candidate[0].statistic)
-      try_slots(s, base, slot, n_slots, s->nameless);
-    tell(s, "fitting the leaders");
-    if (!lab_any_is_noise(s->nameless, 1))
-      s->n_pool += lab_refit_effects(base, &trace, level, s->pool + s->n_pool);
-    if (s->result->trace.n == 0) {
-      s->result->trace = trace;
-      s->result->level = level;
-    }
-  }
+  lab_scan scan;
+  int status = lab_scan_open(&copy.u, &scan, error);
+  if (status == LAB_OK)
+    status = extend_scanned(s, base, &scan, start, error);
   lab_scan_close(&scan);
   return status;
 }
@@ -270,10 +274,9 @@ static int advance(search *s, int *better, lab_error *error)
   return LAB_OK;
 }
 
-/* Without one of the found effects, fitted again.  Returns: 0, or -1 where that fails. */
-static int leave_out(const lab_attempt *a, int which, lab_attempt *without)
+/* Without one of the found effects, fitted again, or not fitted where no fit is found.  Returns: LAB_OK, LAB_WORLD. */
+static int leave_out(const lab_attempt *a, int which, lab_attempt *without, lab_error *error)
 {
-  lab_error ignored;
   int k;
   *without = *a;
   if (a->found[which].shape >= 0)
@@ -282,20 +285,25 @@ static int leave_out(const lab_attempt *a, int which, lab_attempt *without)
   for (k = which; k + 1 < without->n_found; k++)
     without->found[k] = without->found[k + 1];
   without->n_found--;
-  return lab_attempt_fit(without, LAB_FIT_WHOLE, &ignored) == LAB_OK ? 0 : -1;
+  return lab_attempt_fit(without, LAB_FIT_WHOLE, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
 }
 
 /* Take out again what is not needed now that other effects have come. */
-static void remove_needless(lab_attempt *a)
+static int remove_needless(lab_attempt *a, lab_error *error)
 {
   lab_attempt *without = malloc(sizeof *without);
-  int i;
-  for (i = 0; without && a->n_found > 1 && i < a->n_found - 1; i++)
-    if (a->found[i].term < 0 && leave_out(a, i, without) == 0 && without->bic <= a->bic) {
+  int i, status = without ? LAB_OK : lab_fail_memory(error, "the search");
+  for (i = 0; status == LAB_OK && a->n_found > 1 && i < a->n_found - 1; i++) {
+    if (a->found[i].term >= 0)
+      continue;
+    status = leave_out(a, i, without, error);
+    if (status == LAB_OK && without->fitted && without->bic <= a->bic) {
       *a = *without;
       i = -1;
     }
+  }
   free(without);
+  return status;
 }
 
 /* An effect that was the best one alone need not be the best one beside those that came after it: put each earlier one
@@ -305,7 +313,10 @@ static int exchange(search *s, lab_error *error)
   lab_attempt *without = malloc(sizeof *without);
   int i, status = without ? LAB_OK : lab_fail_memory(error, "the search");
   for (i = 0; status == LAB_OK && i < s->beam[0].n_found - 1; i++) {
-    if (s->beam[0].found[i].term >= 0 || leave_out(&s->beam[0], i, without))
+    if (s->beam[0].found[i].term >= 0)
+      continue;
+    status = leave_out(&s->beam[0], i, without, error);
+    if (status != LAB_OK || !without->fitted)
       continue;
     s->n_pool = 0;
     status = extend(s, without, error);
@@ -356,8 +367,10 @@ static int find_slot(const search *s, const lab_attempt *base, lab_attempt *best
   lab_scan scan;
   int n, status = lab_scan_open(&copy.u, &scan, error);
   best->fitted = 0;
-  if (status == LAB_OK && (n = lab_slots_try(&scan, slot)) > 0 && slot_passes(s, slot))
-    try_slots(s, base, slot, n, best);
+  if (status == LAB_OK)
+    status = lab_slots_try(&scan, slot, &n, error);
+  if (status == LAB_OK && n > 0 && slot_passes(s, slot))
+    status = try_slots(s, base, slot, n, best, error);
   lab_scan_close(&scan);
   return status;
 }
@@ -380,7 +393,8 @@ static int last_resort(search *s, lab_error *error)
     return LAB_OK;
   }
   *best = *longer;
-  remove_needless(best);
+  if (remove_needless(best, error))
+    return error->status;
   note_way(s->result, best);
   return LAB_OK;
 }
@@ -400,14 +414,15 @@ static int search_all(search *s, lab_error *error)
   note_way(s->result, best);
   for (rounds = 0; better && rounds < s->options->max_effects; rounds++) {
     if (advance(s, &better, error))
-      return error->status;
+      return error->status; /* NOLINT(clang-analyzer-unix.Malloc): the caller frees what it made */
     if (better)
       note_way(s->result, best);
     if (best->u.window && lab_any_is_noise(best, 1))
       return LAB_OK; /* a coarse view does not see fine differences */
     if (better && best->n_found > 1) {
       const double before = best->chi2;
-      remove_needless(best);
+      if (remove_needless(best, error))
+        return error->status;
       if ((best->n_found == 2 || lab_any_is_noise(best, 1)) && exchange(s, error))
         return error->status;
       if (best->chi2 != before)
@@ -466,7 +481,8 @@ static int search_coarsely(const lab_unknowns *u, const lab_loop_options *option
 {
   lab_unknowns coarse = *u;
   *done = 0;
-  result->window = lab_unknowns_rough(u);
+  if (lab_unknowns_rough(u, &result->window, error))
+    return error->status;
   if (result->window == 0)
     return LAB_OK;
   lab_unknowns_view(&coarse, result->window);

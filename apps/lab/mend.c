@@ -45,23 +45,23 @@ static size_t count_within(const struct stretch *s, double limit, double width)
 }
 
 /* Noise of the rows that are not on the limit; NaN if it cannot be told. */
-static double noise_elsewhere(const struct stretch *s, double limit)
+static int noise_elsewhere(const struct stretch *s, double limit, double *noise, lab_error *error)
 {
-  double *rest = malloc(s->n * sizeof *rest), noise;
+  double *rest = malloc(s->n * sizeof *rest);
   size_t i;
+  int status;
   if (!rest)
-    return (double)NAN;
+    return lab_fail_memory(error, s->log->path);
   for (i = 0; i < s->n; i++)
     rest[i] = s->y[i] == limit ? (double)NAN : s->y[i];
-  noise = lab_noise_estimate(rest, s->n);
+  status = lab_noise_estimate(rest, s->n, noise, error);
   free(rest);
-  return noise;
+  return status;
 }
 
 /* Noisy elsewhere, without noise at the limit. */
-static int lacks_noise(const struct stretch *s, double limit)
+static int lacks_noise(const struct stretch *s, double limit, double noise)
 {
-  const double noise = noise_elsewhere(s, limit);
   const size_t on = count_within(s, limit, 0);
   return on >= CLIP_ROWS && noise >= lab_smallest_step(s->y, s->n) &&
          (double)on > clip_share * (double)count_within(s, limit, 2 * noise);
@@ -132,8 +132,11 @@ static int clear_saturated(struct stretch *s, int upper, lab_remarks *remarks, l
   const double limit = limit_of(s, upper);
   const char *key = lab_channels[s->channel].key, *which = upper ? "largest" : "smallest";
   char value[LAB_SHOW_TEXT];
+  double noise;
   size_t n;
-  if (!lacks_noise(s, limit) && !stops_dead(s, limit))
+  if (noise_elsewhere(s, limit, &noise, error))
+    return error->status;
+  if (!lacks_noise(s, limit, noise) && !stops_dead(s, limit))
     return LAB_OK;
   lab_show(s->channel, limit, value);
   if (s->rig->input[s->channel])
@@ -204,14 +207,16 @@ static size_t clear_spikes_once(struct stretch *s, double noise, size_t *where)
 }
 
 /* A tall spike hides low ones, so that the passes go on until one finds nothing. */
-static void clear_spikes(struct stretch *s, lab_remarks *remarks)
+static int clear_spikes(struct stretch *s, lab_remarks *remarks, lab_error *error)
 {
-  double noise = lab_noise_estimate(s->y, s->n);
   size_t n = 0, more, where = 0, at;
+  double noise;
+  if (lab_noise_estimate(s->y, s->n, &noise, error))
+    return error->status;
   if (s->rig->noise[s->channel] > noise)
     noise = s->rig->noise[s->channel];
   if (!(noise > 0))
-    return;
+    return LAB_OK;
   while ((more = clear_spikes_once(s, noise, &at)) > 0) {
     where = n == 0 || at < where ? at : where;
     n += more;
@@ -222,12 +227,12 @@ static void clear_spikes(struct stretch *s, lab_remarks *remarks)
         "%s: %zu values of channel %s are far from both neighbours, the first at line %d (t = %.6g s): left out.",
         s->log->path, n, lab_channels[s->channel].key, s->log->line[s->first + where], s->t[where]);
   clear_last(s, noise, remarks);
+  return LAB_OK;
 }
 
 static int mend_channel(struct stretch *s, lab_remarks *remarks, lab_error *error)
 {
-  clear_spikes(s, remarks);
-  if (clear_saturated(s, 1, remarks, error) || clear_saturated(s, 0, remarks, error))
+  if (clear_spikes(s, remarks, error) || clear_saturated(s, 1, remarks, error) || clear_saturated(s, 0, remarks, error))
     return error->status;
   return LAB_OK;
 }

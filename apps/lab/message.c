@@ -4,12 +4,23 @@
 #include <stdio.h>
 #include <string.h>
 
+#undef lab_fail
+
+/* What was found in a file may be anything; a message is one line, and no control sequence of a terminal. */
+static void make_line(char *text)
+{
+  for (; *text; text++)
+    if ((unsigned char)*text < ' ' || *text == 127)
+      *text = '?';
+}
+
 int lab_fail(lab_error *error, int status, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
   vsnprintf(error->text, sizeof error->text, format, args);
   va_end(args);
+  make_line(error->text);
   error->status = status;
   return status;
 }
@@ -25,10 +36,14 @@ int lab_fail_in(lab_error *error, const char *format, ...)
   va_end(args);
   used = strlen(error->text);
   snprintf(error->text + used, sizeof error->text - used, ": %s", old);
+  make_line(error->text);
   return error->status;
 }
 
-int lab_fail_memory(lab_error *error, const char *what)
+void lab_fail_together(lab_error *all, const lab_error *one)
 {
-  return lab_fail(error, LAB_WORLD, "out of memory for %s", what);
+  if (one->status != LAB_WORLD)
+    return;
+#pragma omp critical(lab_fail_together)
+  *all = *one;
 }

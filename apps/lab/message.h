@@ -30,7 +30,20 @@ int lab_fail(lab_error *error, int status, const char *format, ...) LAB_PRINTF(3
 /* Put "prefix: " in front of the recorded text, as a caller that knows more does.  Returns: its status. */
 int lab_fail_in(lab_error *error, const char *format, ...) LAB_PRINTF(2, 3);
 
-/* Out of memory, while making `what`.  Returns: LAB_WORLD. */
-int lab_fail_memory(lab_error *error, const char *what);
+/* Attempts of which any may fail for a reason of its own fail together where it is the outside world's: take that from
+ * one of them. From any thread.  In/out: all  with status LAB_OK before the first */
+void lab_fail_together(lab_error *all, const lab_error *one);
+
+/* Out of memory, while making `what`.  Returns: LAB_WORLD; here, so that a static analysis knows. */
+static inline int lab_fail_memory(lab_error *error, const char *what)
+{
+  lab_fail(error, LAB_WORLD, "out of memory for %s", what);
+  return LAB_WORLD;
+}
+
+/* For the static analysis, which does not look into message.c: the status that is given comes back. */
+#ifdef __clang_analyzer__
+#define lab_fail(error, status, ...) ((void)(lab_fail)(error, status, __VA_ARGS__), (status))
+#endif
 
 #endif

@@ -9,7 +9,8 @@
  * gets its knots there.
  * In:      base  fitted
  *          slot  n of them, best first
- * Out:     best  fitted or not */
-void lab_refit_slots(const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best);
+ * Out:     best  fitted or not
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_slots(const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best, lab_error *error);
 
 #endif

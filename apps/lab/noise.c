@@ -32,21 +32,22 @@ double lab_smallest_step(const double *value, size_t n)
   return isfinite(step) ? step : 0;
 }
 
-double lab_noise_estimate(const double *value, size_t n)
+int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *error)
 {
-  double *size = malloc((n ? n : 1) * sizeof *size), estimate = (double)NAN;
+  double *size = malloc((n ? n : 1) * sizeof *size);
   size_t i, m = 0;
   if (!size)
-    return estimate;
+    return lab_fail_memory(error, "the noise of a channel");
+  *noise = (double)NAN;
   for (i = 2; i < n; i++) {
     const double d = value[i] - 2 * value[i - 1] + value[i - 2];
     if (!isnan(d))
       size[m++] = fabs(d);
   }
   if (m >= FEWEST)
-    estimate = fmax(median(size, m) / (second_difference * median_of_size), lab_smallest_step(value, n) / 4);
+    *noise = fmax(median(size, m) / (second_difference * median_of_size), lab_smallest_step(value, n) / 4);
   free(size);
-  return estimate;
+  return LAB_OK;
 }
 
 double lab_noise_memory(const double *value, size_t n)

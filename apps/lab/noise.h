@@ -5,12 +5,15 @@
 
 #include <stddef.h>
 
+#include "message.h"
+
 /* Standard deviation of the noise on a channel that otherwise changes smoothly from row to row: from the median size of
  * second differences, which a jump or a stroke in a part of the log does not disturb; no less than a quarter of the
  * smallest step between values (quantisation).
  * In:      value  n values; NaN is a gap
- * Returns: in the unit of the channel; NaN with fewer than eight differences. */
-double lab_noise_estimate(const double *value, size_t n);
+ * Out:     noise  in the unit of the channel; NaN with fewer than eight differences
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *error);
 
 /* Correlation of the noise from one row to the next, from a stretch in which nothing moves.
  * In:      value  n values; NaN is a gap

@@ -116,12 +116,22 @@ int lab_out_open(lab_outfile *out, const char *path, lab_error *error)
   return status;
 }
 
+/* Why an earlier write has failed, which nobody has noted: the system says it again to whoever asks again. */
+static void ask_again(FILE *file)
+{
+  clearerr(file);
+  fputc('\n', file);
+  fflush(file);
+}
+
 /* Returns: 0 if all that was written has arrived, else -1 with errno. */
 static int finish_stream(FILE *file)
 {
   int failed, reason;
   errno = 0;
   failed = fflush(file) != 0 || ferror(file);
+  if (failed && !errno && file != stdout)
+    ask_again(file);
   reason = errno ? errno : EIO;
   if (file != stdout && fclose(file) != 0 && !failed) {
     failed = 1;

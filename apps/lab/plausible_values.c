@@ -279,7 +279,7 @@ int lab_check_steps(const lab_scene *s, lab_finding *f)
   for (c = LAB_CHANNEL_P; c <= LAB_CHANNEL_T; c++) {
     const double declared = s->rig->noise[c], step = s->y[c] ? lab_smallest_step(s->y[c], s->n) : 0;
     char found[LAB_SHOW_TEXT], want[LAB_SHOW_TEXT];
-    if (step >= 2 * declared && has_repeats(s->y[c], s->n))
+    if (s->y[c] && step >= 2 * declared && has_repeats(s->y[c], s->n))
       return lab_find(f,
                       "%s is recorded in steps of %s, coarser than the noise of %s that the rig file declares: nothing "
                       "below the step can be told",
@@ -294,7 +294,7 @@ int lab_check_noise(const lab_scene *s, lab_finding *f)
   enum { ENOUGH = 200 };
   int c;
   for (c = LAB_CHANNEL_P; c <= LAB_CHANNEL_T && s->n >= ENOUGH; c++) {
-    const double declared = s->rig->noise[c], seen = s->y[c] ? lab_noise_estimate(s->y[c], s->n) : (double)NAN;
+    const double declared = s->rig->noise[c], seen = s->seen[c];
     char found[LAB_SHOW_TEXT], want[LAB_SHOW_TEXT];
     if (seen > 3 * declared || seen < declared / 3)
       return lab_find(f,

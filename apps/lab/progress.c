@@ -1,5 +1,6 @@
 #include "progress.h"
 
+#include <math.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -18,21 +19,56 @@ void lab_progress_begin(lab_progress *progress, const char *what, int quiet)
   progress->written = 0;
 }
 
-void lab_progress_show(lab_progress *progress, double done, double total)
+/* Whether it is time to write the line again. */
+static int is_due(lab_progress *progress, double t)
 {
   const double interval = 0.1;
+  if (t - progress->shown < interval)
+    return 0;
+  progress->shown = t;
+  progress->written = 1;
+  return 1;
+}
+
+void lab_progress_show(lab_progress *progress, double done, double total)
+{
   double t, gone;
   if (!progress->stream || !(done > 0) || !(total >= done))
     return;
   t = now();
-  if (t - progress->shown < interval)
+  if (!is_due(progress, t))
     return;
   gone = t - progress->start;
   fprintf(progress->stream, "\r%s: %3.0f %%, %.1f s, %.1f s to go \033[K", progress->what, 100 * done / total, gone,
           gone * (total - done) / done);
   fflush(progress->stream);
-  progress->shown = t;
-  progress->written = 1;
+}
+
+/* "45 s", "12 min", "3 h 20 min" */
+static void duration(double s, char text[40])
+{
+  const double minutes = ceil(s / 60);
+  if (s < 100)
+    snprintf(text, 40, "%.0f s", s);
+  else if (s < 6000)
+    snprintf(text, 40, "%.0f min", minutes);
+  else
+    snprintf(text, 40, "%.0f h %.0f min", floor(minutes / 60), fmod(minutes, 60));
+}
+
+void lab_progress_count(lab_progress *progress, int done, int total, int before)
+{
+  const double t = now(), rate = (done - before) / (t - progress->start);
+  char to_go[40];
+  if (!progress->stream || !is_due(progress, t))
+    return;
+  fprintf(progress->stream, "\r%s: %d of %d", progress->what, done, total);
+  if (rate > 0) {
+    duration((total - done) / rate, to_go);
+    fprintf(progress->stream, ", %.2g a second, %s to go", rate, to_go);
+  }
+  fputs(" \033[K", progress->stream);
+  fflush(progress->stream);
 }
 
 void lab_progress_say(lab_progress *progress, const char *what)

@@ -19,6 +19,10 @@ void lab_progress_begin(lab_progress *progress, const char *what, int quiet);
  * time (an OpenMP critical section). */
 void lab_progress_show(lab_progress *progress, double done, double total);
 
+/* Show how many of `total` are done, how fast, and how long it will take; `before` of them were done at the beginning.
+ */
+void lab_progress_count(lab_progress *progress, int done, int total, int before);
+
 /* Say what is being done, where nobody can tell how much of it is left.  In: what  not kept */
 void lab_progress_say(lab_progress *progress, const char *what);
 

@@ -36,18 +36,22 @@ static int take_up(const lab_attempt *base, const lab_candidate *c, double size,
 }
 
 /* The model with one candidate, from one start. */
-static void refit_from(const lab_attempt *base, const lab_candidate *c, int start, lab_attempt *a)
+static void refit_from(const lab_attempt *base, const lab_candidate *c, int start, lab_attempt *a, lab_error *all)
 {
   pneu_param_info info;
   double usual;
-  lab_error ignored;
+  lab_error error;
   lab_found *found;
   pneu_param_describe(c->param, &info);
   usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
   if (start == FROM_SLOPE && c->size != 0)
     usual = c->size;
-  if (take_up(base, c, usual, start == FROM_DECLARED, a) || lab_attempt_fit(a, FIRST, &ignored))
+  if (take_up(base, c, usual, start == FROM_DECLARED, a))
     return;
+  if (lab_attempt_fit(a, FIRST, &error)) {
+    lab_fail_together(all, &error);
+    return;
+  }
   found = lab_attempt_add_found(a);
   found->effect = c->effect;
   found->param = c->param;
@@ -85,57 +89,63 @@ static double least_chi2(const lab_attempt *a, int n)
 }
 
 /* Fit those to the end that are in the running after a brief fit: whatever is nearly as good as the best, and the best
- * few; of these only rivals where the best leaves no more than noise. */
-static void fit_finalists(lab_attempt *a, int n)
+ * few; of these only rivals where one leaves nothing to explain. */
+static void fit_finalists(lab_attempt *a, int n, lab_error *all)
 {
   double bar, reach;
   int i;
   qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
   bar = n > 0 ? nearly * a[0].bic : 0;
-  reach = lab_any_is_noise(a, n) ? rival * least_chi2(a, n) : (double)INFINITY;
+  reach = lab_any_is_clean(a, n) ? rival * least_chi2(a, n) : (double)INFINITY;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
-    lab_error ignored;
-    if (a[i].fitted && (a[i].bic < bar || (i < FINALISTS && a[i].chi2 < reach)))
-      lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &ignored);
+    lab_error error;
+    if (a[i].fitted && (a[i].bic < bar || (i < FINALISTS && a[i].chi2 < reach)) &&
+        lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &error))
+      lab_fail_together(all, &error);
   }
 }
 
 /* Refit leaders from one start, in parallel: a few steps, and more for those that keep up with the best.
  * In/out:  a  the best attempt of each so far */
-static void refit_race(const lab_attempt *base, const lab_candidate *leader, int n, int start, lab_attempt *a)
+static void refit_race(const lab_attempt *base, const lab_candidate *leader, int n, int start, lab_attempt *a,
+                       lab_error *all)
 {
   lab_attempt *mine = malloc(((size_t)n + 1) * sizeof *mine);
   double least;
   int i;
+  if (!mine) {
+    lab_fail_memory(all, "refits");
+    return;
+  }
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < (mine ? n : 0); i++)
-    refit_from(base, &leader[i], start, &mine[i]);
-  least = mine ? least_chi2(mine, n) : 0;
+  for (i = 0; i < n; i++)
+    refit_from(base, &leader[i], start, &mine[i], all);
+  least = least_chi2(mine, n);
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < (mine ? n : 0); i++) {
-    lab_error ignored;
-    if (mine[i].fitted && mine[i].chi2 < rival * least)
-      lab_attempt_fit(&mine[i], BRIEF, &ignored);
+  for (i = 0; i < n; i++) {
+    lab_error error;
+    if (mine[i].fitted && mine[i].chi2 < rival * least && lab_attempt_fit(&mine[i], BRIEF, &error))
+      lab_fail_together(all, &error);
     lab_attempt_keep_better(&a[i], &mine[i]);
   }
   free(mine);
 }
 
-/* Refit the leaders: the foremost from the first start, and while none leaves only noise, the rest, and all from the
- * other starts. */
-static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, int n, lab_attempt *a)
+/* Refit the leaders: the foremost from the first start, the rest unless one of these leaves nothing that they could
+ * explain, and all from the other starts for as long as none leaves only noise. */
+static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, int n, lab_attempt *a, lab_error *all)
 {
   const int starts = base->n_found == 0 ? STARTS : STARTS - 1, first = count_near(leader, n, foremost);
   int i, start;
   for (i = 0; i < n; i++)
     a[i].fitted = 0;
-  refit_race(base, leader, first, FROM_SLOPE, a);
-  if (!lab_any_is_noise(a, n))
-    refit_race(base, leader + first, n - first, FROM_SLOPE, a + first);
+  refit_race(base, leader, first, FROM_SLOPE, a, all);
+  if (!lab_any_is_clean(a, n))
+    refit_race(base, leader + first, n - first, FROM_SLOPE, a + first, all);
   for (start = FROM_SLOPE + 1; start < starts && !lab_any_is_noise(a, n); start++)
-    refit_race(base, leader, n, start, a);
-  fit_finalists(a, n);
+    refit_race(base, leader, n, start, a, all);
+  fit_finalists(a, n, all);
 }
 
 /* Whether none of them explains much of what the declared model leaves. */
@@ -149,14 +159,19 @@ int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
 }
 
 /* Refit the leaders; where none of them is any good beside the declared model, which what is missing may have bent
- * beyond the reach of slopes, all that pass.  Returns: how many. */
-int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a)
+ * beyond the reach of slopes, all that pass. */
+int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int *n,
+                      lab_error *error)
 {
   const int all = count_passing(trace, level);
   const int leaders = count_near(trace->candidate, all < LAB_LOOP_LEADERS ? all : LAB_LOOP_LEADERS, worth);
-  refit_leaders(base, trace->candidate, leaders, a);
-  if (base->n_found > 0 || all <= leaders || lab_any_is_noise(base, 1) || !lab_refit_all_poor(base, a, leaders))
-    return leaders;
-  refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders);
-  return all;
+  *n = leaders;
+  error->status = LAB_OK;
+  refit_leaders(base, trace->candidate, leaders, a, error);
+  if (error->status != LAB_OK || base->n_found > 0 || all <= leaders || lab_any_is_noise(base, 1) ||
+      !lab_refit_all_poor(base, a, leaders))
+    return error->status;
+  *n = all;
+  refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders, error);
+  return error->status;
 }

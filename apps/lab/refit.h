@@ -11,8 +11,10 @@ enum { LAB_REFIT_MAX = 40 };
  * In:      base   fitted
  *          level  p-value that a candidate has to pass
  * Out:     a      LAB_REFIT_MAX at most, each with one more effect, fitted or not
- * Returns: their number. */
-int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a);
+ *          n      their number
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int *n,
+                      lab_error *error);
 
 /* Whether none of n attempts explains much of what the declared model leaves. */
 int lab_refit_all_poor(const lab_attempt *declared, const lab_attempt *a, int n);

@@ -99,6 +99,7 @@ typedef struct engine {
   lab_cvode *cvode; /* NULL: the stepper */
   pneu_workspace work;
   double tol;
+  int max_steps; /* 0: as usual */
 } engine;
 
 static int stretch(engine *e, const pneu_model *model, pneu_state *state, const pneu_input *input, double duration,
@@ -111,6 +112,8 @@ static int stretch(engine *e, const pneu_model *model, pneu_state *state, const 
     return lab_cvode_run(e->cvode, model, state, input, duration, e->tol, sampler, &e->work.stats, error);
   pneu_options_default(&options);
   options.tol = e->tol;
+  if (e->max_steps > 0)
+    options.max_steps = e->max_steps;
   status = pneu_run(model, state, input, duration, &options, sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)
     return LAB_OK;
@@ -272,6 +275,7 @@ int lab_respond(const pneu_model *model, const pneu_state *start, const lab_sche
     return error->status;
   memset(&e.work, 0, sizeof e.work);
   e.tol = options->tol;
+  e.max_steps = options->max_steps;
   e.cvode = options->integrator == LAB_CVODE ? lab_cvode_new() : NULL;
   if (options->integrator == LAB_CVODE && !e.cvode)
     status = lab_fail_memory(error, "CVODE");

@@ -43,6 +43,7 @@ typedef struct lab_response_options {
   double t_end;   /* [s] */
   int count_only; /* not 0: no samples, statistics only (trace may be NULL) */
   int shown_only; /* not 0: only p, x, T and force of the trace are filled, in a third of the time */
+  int max_steps;  /* of the stepper from one change of input to the next; 0: as pneu_options_default */
 } lab_response_options;
 
 /* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run). Commands act

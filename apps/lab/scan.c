@@ -99,13 +99,12 @@ void lab_scan_close(lab_scan *s)
   memset(s, 0, sizeof *s);
 }
 
-int lab_scan_difference(const lab_scan *s, const lab_rig *model, double *slope)
+int lab_scan_difference(const lab_scan *s, const lab_rig *model, double *slope, lab_error *error)
 {
-  lab_error ignored;
   size_t i;
-  if (lab_unknowns_residuals_with(s->u, model, slope, &ignored))
-    return -1;
+  if (lab_unknowns_residuals_with(s->u, model, slope, error))
+    return error->status;
   for (i = 0; i < s->m; i++)
     slope[i] -= s->r[i];
-  return 0;
+  return LAB_OK;
 }

@@ -21,8 +21,8 @@ typedef struct lab_scan {
 int lab_scan_open(lab_unknowns *u, lab_scan *scan, lab_error *error);
 void lab_scan_close(lab_scan *scan);
 
-/* What another model would change in the residuals.  Returns: 0, or -1 where it fails. */
-int lab_scan_difference(const lab_scan *scan, const lab_rig *model, double *slope);
+/* What another model would change in the residuals.  Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
+int lab_scan_difference(const lab_scan *scan, const lab_rig *model, double *slope, lab_error *error);
 
 /* Take the span of n orthonormal columns of m entries out of v; a second time where little is left, for rounding.
  * Returns: length left. */

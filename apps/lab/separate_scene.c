@@ -181,10 +181,12 @@ static int survey_one(const lab_outlook *o, const side *model, const pneu_params
 {
   const size_t m = LAB_FORESEEN * (size_t)o->n;
   double *space = calloc(((size_t)model->n + 2) * m, sizeof *space);
-  double *last = space + (size_t)model->n * m, *y = last + m;
+  double *last, *y;
   int status;
   if (!space)
     return lab_fail_memory(error, "a response");
+  last = space + (size_t)model->n * m;
+  y = last + m;
   if ((status = lab_foresee(o, &model->params, y, steps, error)) == LAB_OK &&
       (status = lab_foresee_slopes(o, &model->params, model->n, model->param, model->scale, y, space, error)) ==
           LAB_OK &&

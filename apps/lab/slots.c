@@ -82,17 +82,25 @@ static void prepare_slot(const lab_unknowns *u, const struct place *place, lab_s
 }
 
 /* Project the residual on the span of the knots' slopes. */
-static void try_slot(const lab_scan *s, lab_slot *slot)
+static void try_slot(const lab_scan *s, lab_slot *slot, lab_error *all)
 {
   lab_rig model = s->u->rig;
   pneu_term *term = &model.term[model.n_terms++];
   double *columns = malloc((size_t)slot->term.n * s->m * sizeof *columns);
+  lab_error error;
   int i;
+  if (!columns) {
+    lab_fail_memory(&error, "the slopes of a free term");
+    lab_fail_together(all, &error);
+    return;
+  }
   *term = slot->term;
-  for (i = 0; columns && i < slot->term.n; i++) {
+  for (i = 0; i < slot->term.n; i++) {
     double *column = columns + (size_t)slot->degrees * s->m, whole, left, score;
     term->value[i] = (pneu_real)(0.05 * slot->scale);
-    if (lab_scan_difference(s, &model, column) == 0) {
+    if (lab_scan_difference(s, &model, column, &error))
+      lab_fail_together(all, &error);
+    else {
       whole = sqrt(lab_scan_dot(column, column, s->m));
       left = lab_scan_project_out(s->basis, s->n_basis, s->m, column);
       left = fmin(left, lab_scan_project_out(columns, slot->degrees, s->m, column));
@@ -132,18 +140,21 @@ static void prepare_cycle(const lab_unknowns *u, int equation, double period, la
 }
 
 /* Statistic of the two amplitudes, and the amplitudes themselves. */
-static void try_cycle(const lab_scan *s, lab_slot *slot)
+static void try_cycle(const lab_scan *s, lab_slot *slot, lab_error *all)
 {
   lab_rig model = s->u->rig;
   pneu_term *term = &model.term[model.n_terms++];
   double *column[2] = {malloc(s->m * sizeof(double)), malloc(s->m * sizeof(double))};
   const double step = 0.05 * slot->scale;
   double gram[4], score[2], size[2];
+  lab_error error = {LAB_OK, ""};
   int i, good = column[0] && column[1];
+  if (!good)
+    lab_fail_memory(&error, "the slopes of a cycle");
   *term = slot->term;
   for (i = 0; good && i < 2; i++) {
     term->value[i] = (pneu_real)step;
-    good = lab_scan_difference(s, &model, column[i]) == 0 && lab_scan_visible(s, column[i]) > 0;
+    good = lab_scan_difference(s, &model, column[i], &error) == LAB_OK && lab_scan_visible(s, column[i]) > 0;
     term->value[i] = 0;
   }
   for (i = 0; good && i < 4; i++)
@@ -156,31 +167,30 @@ static void try_cycle(const lab_scan *s, lab_slot *slot)
     for (i = 0; i < 2; i++)
       slot->term.value[i] = (pneu_real)(size[i] * step);
   }
+  lab_fail_together(all, &error);
   free(column[0]);
   free(column[1]);
 }
 
-/* The best few cycles in each equation.  Returns: their number. */
-static int try_cycles(const lab_scan *s, lab_slot *slot)
+/* The best few cycles in each equation.  In/out: n  entries of slot */
+static void try_cycles(const lab_scan *s, lab_slot *slot, int *n, lab_error *error)
 {
-  enum { ALL = CYCLIC * LAB_CYCLES_MAX };
-  lab_slot *all = malloc(ALL * sizeof *all);
+  lab_slot all[CYCLIC * LAB_CYCLES_MAX];
   double period[LAB_CYCLES_MAX];
-  const int n = all && s->u->window == 0 ? lab_cycles_find(s->u, s->r, period) : 0;
-  int i, k, kept = 0;
-  for (i = 0; i < CYCLIC * n; i++)
-    prepare_cycle(s->u, cyclic[i / n], period[i % n], &all[i]);
+  int i, k, found;
+  if (lab_cycles_find(s->u, s->r, period, &found, error))
+    return;
+  for (i = 0; i < CYCLIC * found; i++)
+    prepare_cycle(s->u, cyclic[i / found], period[i % found], &all[i]);
+  error->status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < CYCLIC * n; i++)
-    try_cycle(s, &all[i]);
+  for (i = 0; i < CYCLIC * found; i++)
+    try_cycle(s, &all[i], error);
   for (k = 0; k < CYCLIC; k++) {
-    if (n > 0)
-      qsort(all + k * n, (size_t)n, sizeof *all, by_surplus);
-    for (i = 0; i < n && i < EACH && all[k * n + i].degrees > 0; i++)
-      slot[kept++] = all[k * n + i];
+    qsort(&all[(size_t)k * (size_t)found], (size_t)found, sizeof *all, by_surplus);
+    for (i = 0; i < found && i < EACH && all[k * found + i].degrees > 0; i++)
+      slot[(*n)++] = all[k * found + i];
   }
-  free(all);
-  return kept;
 }
 
 double lab_slot_tests(const pneu_term *term)
@@ -188,22 +198,24 @@ double lab_slot_tests(const pneu_term *term)
   return term->argument == PNEU_TERM_OVER_CYCLE ? lines : 1;
 }
 
-int lab_slots_try(const lab_scan *s, lab_slot slot[LAB_SLOT_MAX])
+int lab_slots_try(const lab_scan *s, lab_slot slot[LAB_SLOT_MAX], int *n, lab_error *error)
 {
   const int vessel = !(s->u->rig.params.stroke > 0);
-  int i, n = 0;
+  int i;
+  *n = 0;
   if (s->u->rig.n_terms == LAB_TERM_MAX)
-    return 0;
+    return LAB_OK;
   for (i = 0; i < PLACES; i++)
     if ((size_t)places[i].knots * rows_per_knot > s->u->n_rows)
       continue;
     else if (!vessel || places[i].argument == PNEU_TERM_OVER_PRESSURE || places[i].argument == PNEU_TERM_OVER_OPENING)
-      prepare_slot(s->u, &places[i], &slot[n++]);
+      prepare_slot(s->u, &places[i], &slot[(*n)++]);
+  error->status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++)
-    try_slot(s, &slot[i]);
-  if (!vessel)
-    n += try_cycles(s, &slot[n]);
-  qsort(slot, (size_t)n, sizeof *slot, by_surplus);
-  return n;
+  for (i = 0; i < *n; i++)
+    try_slot(s, &slot[i], error);
+  if (error->status == LAB_OK && !vessel && s->u->window == 0)
+    try_cycles(s, slot, n, error);
+  qsort(slot, (size_t)*n, sizeof *slot, by_surplus);
+  return error->status;
 }

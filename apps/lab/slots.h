@@ -23,8 +23,9 @@ typedef struct lab_slot {
 
 /* Try every slot.
  * Out:     slot  largest statistic less degrees first
- * Returns: their number. */
-int lab_slots_try(const lab_scan *scan, lab_slot slot[LAB_SLOT_MAX]);
+ *          n     their number
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_slots_try(const lab_scan *scan, lab_slot slot[LAB_SLOT_MAX], int *n, lab_error *error);
 
 /* Tests that the statistic of a term is the best of: a cycle is the best of many lines. */
 double lab_slot_tests(const pneu_term *term);

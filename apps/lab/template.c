@@ -42,7 +42,9 @@ static int next_tag(const char *from, const char *to, tag *t)
   if (!t->begin || t->begin >= to)
     return 0;
   t->name = t->begin + 2;
-  t->kind = strchr("#^/{", *t->name) ? *t->name++ : ' ';
+  t->kind = ' ';
+  if (strchr("#^/{", *t->name))
+    t->kind = *t->name++;
   close = strstr(t->name, t->kind == '{' ? "}}}" : "}}");
   if (!close || close >= to)
     return -1;

@@ -7,7 +7,7 @@
 
 static int cannot_read(const char *path, lab_error *error)
 {
-  if (errno == ENOENT || errno == ENOTDIR)
+  if (errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG)
     return lab_fail(error, LAB_DATA, "%s: there is no such file; check the name and the folder", path);
   if (errno == EISDIR)
     return lab_fail(error, LAB_DATA, "%s: this is a folder, not a file", path);

@@ -6,7 +6,7 @@
 
 /* A slope is taken at the usual size of a parameter and, where that changes the residual by far more than can just be
  * seen, at shorter ones until it does not; at a small one where the usual one fails. */
-static const double far_more = 100, just_seen = 20, small = 0.02;
+static const double far_more = 40, just_seen = 20, small = 0.02;
 static const double shapes[] = {0.3, 1.0, 3.0}; /* over the usual shape */
 enum { SHAPES = sizeof shapes / sizeof *shapes, SIZES = 3 };
 
@@ -37,19 +37,21 @@ static void judge(const lab_scan *s, double *slope, double step, double room_up,
 }
 
 /* Difference of residuals for a step of the candidate's parameter. */
-static int slope_of(const lab_scan *s, const lab_candidate *c, double value, double shape_value, double *slope)
+static int slope_of(const lab_scan *s, const lab_candidate *c, double value, double shape_value, double *slope,
+                    lab_error *error)
 {
   lab_rig model = s->u->rig;
   *pneu_param_at(&model.params, c->param) = (pneu_real)value;
   if (c->shape >= 0)
     *pneu_param_at(&model.params, c->shape) = (pneu_real)shape_value;
-  return lab_scan_difference(s, &model, slope);
+  return lab_scan_difference(s, &model, slope, error);
 }
 
 /* One shape of a candidate.  Returns: the number of slopes that were judged */
-static int try_shape(const lab_scan *s, lab_candidate *c, double shape_value, double *slope)
+static int try_shape(const lab_scan *s, lab_candidate *c, double shape_value, double *slope, lab_error *all)
 {
   pneu_param_info info;
+  lab_error error;
   double neutral, step;
   int i, tests = 0;
   pneu_param_describe(c->param, &info);
@@ -57,7 +59,8 @@ static int try_shape(const lab_scan *s, lab_candidate *c, double shape_value, do
   step = (double)info.value - neutral;
   for (i = 0; i < SIZES; i++) {
     double length;
-    if (slope_of(s, c, neutral + step, shape_value, slope)) {
+    if (slope_of(s, c, neutral + step, shape_value, slope, &error)) {
+      lab_fail_together(all, &error);
       step *= small;
       continue;
     }
@@ -71,18 +74,22 @@ static int try_shape(const lab_scan *s, lab_candidate *c, double shape_value, do
   return tests;
 }
 
-static int try_candidate(const lab_scan *s, lab_candidate *c)
+static int try_candidate(const lab_scan *s, lab_candidate *c, lab_error *all)
 {
+  lab_error error;
   double *slope = malloc(s->m * sizeof *slope);
   pneu_param_info shape = {0};
   int k, tests = 0;
-  if (!slope)
+  if (!slope) {
+    lab_fail_memory(&error, "a slope");
+    lab_fail_together(all, &error);
     return 0;
+  }
   if (c->shape >= 0)
     pneu_param_describe(c->shape, &shape);
   for (k = 0; k < (c->shape >= 0 ? SHAPES : 1); k++)
-    tests +=
-        try_shape(s, c, fmin(fmax(shapes[k] * (double)shape.value, (double)shape.lower), (double)shape.upper), slope);
+    tests += try_shape(s, c, fmin(fmax(shapes[k] * (double)shape.value, (double)shape.lower), (double)shape.upper),
+                       slope, all);
   c->p_value = lab_chi2_p(c->statistic);
   c->explained = s->excess > 0 ? c->statistic / s->excess : 0;
   free(slope);
@@ -145,14 +152,16 @@ static int by_statistic(const void *a, const void *b)
   return x->param - y->param;
 }
 
-void lab_trace_effects(const lab_scan *s, lab_trace_result *result)
+int lab_trace_effects(const lab_scan *s, lab_trace_result *result, lab_error *error)
 {
   int i, tests = 0;
+  error->status = LAB_OK;
   memset(result, 0, sizeof *result);
   list_candidates(s->u, result);
 #pragma omp parallel for schedule(dynamic) reduction(+ : tests)
   for (i = 0; i < result->n; i++)
-    tests += try_candidate(s, &result->candidate[i]);
+    tests += try_candidate(s, &result->candidate[i], error);
   result->tests = tests;
   qsort(result->candidate, (size_t)result->n, sizeof *result->candidate, by_statistic);
+  return error->status;
 }

@@ -32,8 +32,9 @@ typedef struct lab_trace_result {
   int tests; /* slopes tried in all */
 } lab_trace_result;
 
-/* Try every effect that the model does not have. */
-void lab_trace_effects(const lab_scan *scan, lab_trace_result *result);
+/* Try every effect that the model does not have; one whose slope cannot be simulated is not seen.
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_trace_effects(const lab_scan *scan, lab_trace_result *result, lab_error *error);
 
 /* Two-sided p-value of a chi-square statistic with one degree of freedom. */
 double lab_chi2_p(double statistic);

@@ -91,12 +91,14 @@ int lab_unit_factor(const char *from, const char *to, double *scale, double *off
   *offset = 0;
   if (strcmp(from, to) == 0)
     return LAB_OK;
-  if (parse(to, &want, error))
-    return lab_fail(error, error->status, "expected the unit %s, found \"%s\"", to, from);
-  status = parse(from, &have, error);
+  status = parse(to, &want, error);
+  if (status == LAB_DATA)
+    return lab_fail(error, status, "expected the unit %s, found \"%s\"", to, from);
+  if (status == LAB_OK)
+    status = parse(from, &have, error);
   if (status == LAB_OK)
     status = factor(from, have, to, want, scale, offset, error);
-  else
+  else if (status == LAB_DATA)
     lab_fail(error, status, "expected a unit like %s, found the unknown unit \"%s\"", to, from);
   ut_free(have);
   ut_free(want);

@@ -422,44 +422,52 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
 }
 
 /* Share of the windows in which pressure or position of an experiment is rougher than the model's.
- * In:      r  its errors over noise */
-static double roughness(const lab_experiment *x, const double *r, size_t window)
+ * In/out:  r  its errors over noise; then what the model predicts */
+static double roughness(const lab_experiment *x, double *r, size_t window)
 {
-  double *predicted = malloc((x->n + 1) * sizeof *predicted), share = 0;
+  double share = 0;
   int c;
   size_t i;
-  for (c = 0; predicted && c < x->n_channels; c++) {
+  for (c = 0; c < x->n_channels; c++, r += x->n) {
     const double *measured = x->log->value[x->channel[c]] + x->first;
     if (x->channel[c] == LAB_CHANNEL_T)
       continue;
     for (i = 0; i < x->n; i++)
-      predicted[i] = measured[i] - r[(size_t)c * x->n + i] * x->sigma[c];
-    share = fmax(share, lab_coarse_roughness(measured, predicted, x->n, window,
-                                             fmax(x->sigma[c], lab_smallest_step(measured, x->n))));
+      r[i] = measured[i] - r[i] * x->sigma[c];
+    share = fmax(share,
+                 lab_coarse_roughness(measured, r, x->n, window, fmax(x->sigma[c], lab_smallest_step(measured, x->n))));
   }
-  free(predicted);
   return share;
 }
 
-size_t lab_unknowns_rough(const lab_unknowns *u)
+/* The window of the first experiment that is rough; 0 if none is. */
+static size_t rough_window(const lab_unknowns *u, double *r)
 {
   enum { WINDOWS = 90, SHORTEST = 30, LONGEST = 200 };
-  double *errors = malloc((u->n_rows + 1) * sizeof *errors);
-  const double *r = errors;
-  size_t window = 0;
-  lab_error ignored;
   int e;
-  const int has_stem = u->rig.params.stroke > 0 && !u->rig.laws.position_input;
-  if (has_stem && errors && lab_unknowns_errors(u, errors, &ignored) == LAB_OK)
-    for (e = 0; e < u->n_experiments && !window; e++) {
-      const lab_experiment *x = &u->experiment[e];
-      const size_t fair = x->n / WINDOWS, w = fair < SHORTEST ? SHORTEST : fair > LONGEST ? LONGEST : fair;
-      if (roughness(x, r, w) > rough_share)
-        window = w;
-      r += x->n * (size_t)x->n_channels;
-    }
+  for (e = 0; e < u->n_experiments; e++) {
+    const lab_experiment *x = &u->experiment[e];
+    const size_t fair = x->n / WINDOWS, w = fair < SHORTEST ? SHORTEST : fair > LONGEST ? LONGEST : fair;
+    if (roughness(x, r, w) > rough_share)
+      return w;
+    r += x->n * (size_t)x->n_channels;
+  }
+  return 0;
+}
+
+int lab_unknowns_rough(const lab_unknowns *u, size_t *window, lab_error *error)
+{
+  double *errors;
+  int status;
+  *window = 0;
+  if (!(u->rig.params.stroke > 0) || u->rig.laws.position_input)
+    return LAB_OK;
+  errors = malloc((u->n_rows + 1) * sizeof *errors);
+  status = errors ? lab_unknowns_errors(u, errors, error) : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK)
+    *window = rough_window(u, errors);
   free(errors);
-  return window;
+  return status == LAB_WORLD ? status : LAB_OK;
 }
 
 /* A difference into the side where there is room, with a step that is small beside what matters. */

@@ -82,9 +82,10 @@ int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, doubl
 /* See the experiments coarsely from now on, in windows of so many rows; 0: row by row. */
 void lab_unknowns_view(lab_unknowns *u, size_t window);
 
-/* Rows of a window in which to see the experiments coarsely, if the stem of one of them sticks and slips where the
- * present model's does not; else 0. */
-size_t lab_unknowns_rough(const lab_unknowns *u);
+/* Whether the stem of an experiment sticks and slips where the present model's does not.
+ * Out:     window  rows in which to see the experiments coarsely if one does; else 0
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_unknowns_rough(const lab_unknowns *u, size_t *window, lab_error *error);
 
 /* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);

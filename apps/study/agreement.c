@@ -19,8 +19,8 @@ static double largest_gap(const double *a, const double *b, size_t n)
 
 static int compare(const lab_rig *rig, const pneu_model *model, double *dx, double *dp, lab_error *error)
 {
-  const lab_response_options ours = {LAB_STEPPER, stepper_tol, 0, 0, 0},
-                             reference = {LAB_CVODE, reference_tol, 0, 0, 0};
+  const lab_response_options ours = {LAB_STEPPER, stepper_tol, 0, 0, 0, 0},
+                             reference = {LAB_CVODE, reference_tol, 0, 0, 0, 0};
   lab_trace a, b;
   if (lab_standard_experiment(model, &ours, &a, error))
     return error->status;

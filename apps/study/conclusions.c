@@ -49,7 +49,8 @@ static int try_laws(const study *s, finding *found, lab_error *error)
 #pragma omp parallel for schedule(dynamic, 1)
   for (law = 0; law < laws; law++) {
     lab_error mine;
-    const int at = try_law(s, s->gas[law / s->n_flow], s->flow[law % s->n_flow], found + law * CONCLUSIONS, &mine);
+    const int at =
+        try_law(s, s->gas[law / s->n_flow], s->flow[law % s->n_flow], found + (size_t)law * CONCLUSIONS, &mine);
     if (at != LAB_OK) {
 #pragma omp critical(conclusions_error)
       if (law < worst) /* the first in order, whichever thread was first */

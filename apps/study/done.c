@@ -7,27 +7,6 @@
 
 #include "../lab/outfile.h"
 
-unsigned long long done_hash(unsigned long long key, const void *data, unsigned long size)
-{
-  const unsigned char *byte = data;
-  for (; size; size--)
-    key = (key ^ *byte++) * 1099511628211ULL;
-  return key;
-}
-
-unsigned long long done_hash_file(unsigned long long key, const char *path)
-{
-  unsigned char block[4096];
-  size_t n;
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return key;
-  while ((n = fread(block, 1, sizeof block, file)) > 0)
-    key = done_hash(key, block, n);
-  fclose(file);
-  return key;
-}
-
 void done_read(done *d, const char *folder)
 {
   char text[DONE_TEXT + 128];
@@ -35,6 +14,8 @@ void done_read(done *d, const char *folder)
   memset(d, 0, sizeof *d);
   snprintf(d->folder, sizeof d->folder, "%s", folder);
   snprintf(d->path, sizeof d->path, "%s/.done", folder);
+  snprintf(text, sizeof text, "%s.part", d->path);
+  remove(text); /* of a run that was killed while it wrote the record */
   file = fopen(d->path, "r");
   while (file && d->n < DONE_MAX && fgets(text, sizeof text, file)) {
     done_line *line = &d->line[d->n];
@@ -72,11 +53,29 @@ int done_is_fresh(const done *d, const char *product, unsigned long long key)
   return line && line->key == key && all_there(d, line->files);
 }
 
+static int write_record(const done *d, lab_error *error)
+{
+  lab_outfile out;
+  int i;
+  if (lab_out_open(&out, d->path, error))
+    return error->status;
+  for (i = 0; i < d->n; i++)
+    fprintf(out.file, "%s %llx %s\n", d->line[i].product, d->line[i].key, d->line[i].files);
+  return lab_out_close(&out, error);
+}
+
+int done_forget(done *d, const char *product, lab_error *error)
+{
+  done_line *line = find(d, product);
+  if (!line)
+    return LAB_OK;
+  *line = d->line[--d->n];
+  return write_record(d, error);
+}
+
 int done_note(done *d, const char *product, unsigned long long key, const char *files, lab_error *error)
 {
   done_line *line = find(d, product);
-  lab_outfile out;
-  int i;
   if (!line && d->n == DONE_MAX)
     return LAB_OK; /* not noted: made again next time */
   if (!line)
@@ -84,9 +83,5 @@ int done_note(done *d, const char *product, unsigned long long key, const char *
   snprintf(line->product, sizeof line->product, "%s", product);
   snprintf(line->files, sizeof line->files, "%s", files);
   line->key = key;
-  if (lab_out_open(&out, d->path, error))
-    return error->status;
-  for (i = 0; i < d->n; i++)
-    fprintf(out.file, "%s %llx %s\n", d->line[i].product, d->line[i].key, d->line[i].files);
-  return lab_out_close(&out, error);
+  return write_record(d, error);
 }

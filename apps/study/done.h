@@ -20,18 +20,15 @@ typedef struct done {
   done_line line[DONE_MAX];
 } done;
 
-/* FNV-1a over bytes, going on from `key`; start with DONE_SEED. */
-#define DONE_SEED 14695981039346656037ULL
-unsigned long long done_hash(unsigned long long key, const void *data, unsigned long size);
-
-/* The same over a file's content; a missing file counts as empty. */
-unsigned long long done_hash_file(unsigned long long key, const char *path);
-
 /* Read the record; none is an empty one. */
 void done_read(done *d, const char *folder);
 
 /* Whether a product was made with this key and all its files are still there. */
 int done_is_fresh(const done *d, const char *product, unsigned long long key);
+
+/* Forget a product that is about to be made again, lest an end in the midst of it leave a record that is not true.
+ * Returns: LAB_OK, LAB_WORLD. */
+int done_forget(done *d, const char *product, lab_error *error);
 
 /* Note that a product has been made, and write the record.  Returns: LAB_OK, LAB_WORLD. */
 int done_note(done *d, const char *product, unsigned long long key, const char *files, lab_error *error);

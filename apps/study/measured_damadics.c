@@ -164,7 +164,7 @@ static int add_ramp(table *t, const servomotor *s, const servo_law *law, const d
   size_t i;
   if (servo_ramp(s, law, theta, ramp_top, RAMP, p, x, error))
     return error->status;
-  for (i = 0; i < 2 * RAMP; i++)
+  for (i = 0; i < (size_t)2 * RAMP; i++)
     table_row(t, "ssgggggg", law->name, "ramp", i < RAMP ? 1.0 : -1.0, 1e-3 * p[i], 100 * x[i] / s->nominal,
               (double)NAN, (double)NAN, (double)NAN);
   return LAB_OK;

@@ -159,11 +159,13 @@ static void add_rows(table *out, const vessel *v, const vessel_law *law, const d
 static int add_curve(table *out, const vessel *v, const vessel_law *law, const double *theta, lab_error *error)
 {
   const size_t room = v->log.n + GRID + 1;
-  double *t = calloc(3 * room, sizeof *t), *p = t + room, *T = p + room;
+  double *t = calloc(3 * room, sizeof *t), *p, *T;
   size_t n;
   int status;
   if (!t)
     return lab_fail_memory(error, "curves of a vessel");
+  p = t + room;
+  T = p + room;
   n = instants(v, t);
   status = vessel_predict(v, law, theta, t, n, p, T, error);
   if (status == LAB_OK)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../lab/checksum.h"
 #include "../lab/gnuplot.h"
 #include "../lab/outfile.h"
 #include "../lab/progress.h"
@@ -15,10 +16,6 @@
 #include "numbers.h"
 #include "report.h"
 #include "responses.h"
-
-#ifndef STUDY_BUILD
-#define STUDY_BUILD PNEU_VERSION
-#endif
 
 /* Tables, in order of need: the report reads the others. */
 static const struct {
@@ -65,22 +62,22 @@ typedef struct maker {
   const study_run *run;
   done record;
   study_saved saved;
-  unsigned long long inputs; /* of every table: program and configuration */
+  uint64_t inputs; /* of every table: program and configuration */
   lab_progress progress;
   int count;
 } maker;
 
-static unsigned long long hash_inputs(const study *s)
+static uint64_t hash_inputs(const study *s)
 {
-  unsigned long long key = done_hash(DONE_SEED, STUDY_BUILD, strlen(STUDY_BUILD));
+  uint64_t key = lab_checksum_text(LAB_CHECKSUM_SEED, lab_build());
   int i;
-  key = done_hash_file(key, s->file);
+  key = lab_checksum_file(key, s->file);
   for (i = 0; i < s->n_actuators; i++)
-    key = done_hash_file(key, s->actuator[i].file);
-  return done_hash(key, s->measured, strlen(s->measured));
+    key = lab_checksum_file(key, s->actuator[i].file);
+  return lab_checksum_text(key, s->measured);
 }
 
-static int is_fresh(const maker *m, const char *name, unsigned long long key)
+static int is_fresh(const maker *m, const char *name, uint64_t key)
 {
   return !m->run->force && done_is_fresh(&m->record, name, key);
 }
@@ -91,12 +88,14 @@ static int step(maker *m)
   return LAB_OK;
 }
 
-static int make_table(maker *m, const char *name, int (*make)(const study *, lab_error *), unsigned long long key,
+static int make_table(maker *m, const char *name, int (*make)(const study *, lab_error *), uint64_t key,
                       lab_error *error)
 {
   if (is_fresh(m, name, key))
     return step(m);
   m->saved.names[0] = 0;
+  if (done_forget(&m->record, name, error))
+    return error->status;
   if (make(m->s, error))
     return lab_fail_in(error, "%s", name);
   if (m->saved.names[0] && done_note(&m->record, name, key, m->saved.names, error))
@@ -113,15 +112,15 @@ static int exists(const char *path)
 }
 
 /* What several figures load. */
-static unsigned long long hash_shared_scripts(const study *s, int folder)
+static uint64_t hash_shared_scripts(const study *s, int folder)
 {
   static const char *const shared[] = {"style.gp", "varied.gp"};
   char path[STUDY_PATH_TEXT];
-  unsigned long long key = DONE_SEED;
+  uint64_t key = LAB_CHECKSUM_SEED;
   int i;
   for (i = 0; i < 2; i++) {
     snprintf(path, sizeof path, "%.*sfigures/%s", folder, s->file, shared[i]);
-    key = done_hash_file(key, path);
+    key = lab_checksum_file(key, path);
   }
   return key;
 }
@@ -131,17 +130,18 @@ static int make_figure(maker *m, const char *name, const char *needs, lab_error 
   char script[STUDY_PATH_TEXT], table_path[STUDY_PATH_TEXT + 64], out[STUDY_PATH_TEXT + 64], product[64], file[64];
   const char *slash = strrchr(m->s->file, '/');
   const int folder = slash ? (int)(slash - m->s->file) + 1 : 0;
-  unsigned long long key;
+  uint64_t key;
   key = hash_shared_scripts(m->s, folder);
   snprintf(script, sizeof script, "%.*sfigures/%s.gp", folder, m->s->file, name);
   snprintf(table_path, sizeof table_path, "%s/%s", m->s->results, needs);
   snprintf(file, sizeof file, "%s.svg", name);
   snprintf(out, sizeof out, "%s/%s", m->s->results, file);
   snprintf(product, sizeof product, "figure-%s", name);
-  key = done_hash_file(done_hash_file(key, script), table_path);
+  key = lab_checksum_file(lab_checksum_file(key, script), table_path);
   if (!exists(table_path) || is_fresh(m, product, key))
     return step(m);
-  if (lab_gnuplot_draw(script, m->s->results, out, error) || done_note(&m->record, product, key, file, error))
+  if (done_forget(&m->record, product, error) || lab_gnuplot_draw(script, m->s->results, out, error) ||
+      done_note(&m->record, product, key, file, error))
     return error->status;
   return step(m);
 }

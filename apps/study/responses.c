@@ -40,7 +40,7 @@ static int save_trace(const study *s, const char *name, const lab_trace *trace, 
 
 static int standard_of(const study *s, const lab_rig *rig, int gas, int flow, lab_error *error)
 {
-  const lab_response_options options = {LAB_STEPPER, accuracy, 0, 0, 0};
+  const lab_response_options options = {LAB_STEPPER, accuracy, 0, 0, 0, 0};
   char name[2 * LAB_NAME_TEXT];
   pneu_model model;
   lab_trace trace;
@@ -65,7 +65,7 @@ int responses_standard(const study *s, lab_error *error)
 /* Every second sample of a standard experiment, as rows of a figure. */
 static int step_rows(const lab_rig *rig, int gas, int flow, double stroke, table *t, lab_error *error)
 {
-  const lab_response_options options = {LAB_STEPPER, accuracy, 0, 0, 0};
+  const lab_response_options options = {LAB_STEPPER, accuracy, 0, 0, 0, 0};
   pneu_model model;
   lab_trace trace;
   size_t i;

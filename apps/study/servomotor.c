@@ -77,7 +77,7 @@ static int add_point(void *context, const char *text, lab_error *error)
   double p_kPa, x_percent;
   const size_t i = s->n;
   if (sscanf(text, "%15[^,],%lf,%lf", branch, &p_kPa, &x_percent) != 3 ||
-      (strcmp(branch, "lower") && strcmp(branch, "upper")))
+      (strcmp(branch, "lower") != 0 && strcmp(branch, "upper") != 0))
     return lab_fail(error, LAB_DATA, "expected lower or upper, pressure, position; found \"%s\"", text);
   if (i == SERVO_POINTS)
     return lab_fail(error, LAB_DATA, "more than %d points", SERVO_POINTS);

@@ -123,7 +123,7 @@ const char *sets_doubt(const cJSON *json)
   static const char start[] = "Undecided: ";
   const char *sentence = cJSON_GetStringValue(sets_member(json, "sentence"));
   const cJSON *remark;
-  if (!sentence || strncmp(sentence, start, strlen(start)))
+  if (!sentence || strncmp(sentence, start, strlen(start)) != 0)
     return NULL;
   cJSON_ArrayForEach(
       remark,

@@ -249,7 +249,7 @@ static void write_parameters(FILE *file, const cJSON *json)
     fprintf(file, "  - %s = %.4g", p->string, value);
     if (cJSON_IsNumber(low) && cJSON_IsNumber(high) && low->valuedouble < high->valuedouble)
       fprintf(file, " (%.4g to %.4g)", low->valuedouble, high->valuedouble);
-    fprintf(file, " %s\n", unit && strcmp(unit, "1") ? unit : "(a ratio)");
+    fprintf(file, " %s\n", unit && strcmp(unit, "1") != 0 ? unit : "(a ratio)");
   }
   if (remark)
     fprintf(file, "- Not determined: %s.\n", remark);
@@ -266,7 +266,7 @@ static int write_given(FILE *file, const story *s, lab_rig *rig, lab_error *erro
   int i;
   if (!*name)
     return LAB_OK;
-  for (i = 0; i < PNEU_PARAM_COUNT && pneu_param_describe(i, &info) == PNEU_OK && strcmp(info.name, name); i++)
+  for (i = 0; i < PNEU_PARAM_COUNT && pneu_param_describe(i, &info) == PNEU_OK && strcmp(info.name, name) != 0; i++)
     ;
   if (i == PNEU_PARAM_COUNT || !cJSON_IsNumber(low) || !cJSON_IsNumber(high))
     return lab_config_fail(s->set, error, "given: %s is not among the parameters that were fitted", name);
@@ -312,7 +312,7 @@ static void write_run(FILE *file, const config_setting_t *set, int run, int runs
 {
   const config_setting_t *logs = config_setting_get_member((config_setting_t *)set, "fit");
   if (config_setting_length(logs) == runs)
-    fprintf(file, "| %s |", config_setting_get_string_elem(logs, (unsigned)run - 1));
+    fprintf(file, "| %s |", config_setting_get_string_elem(logs, run - 1));
   else
     fprintf(file, "| run %d |", run);
 }

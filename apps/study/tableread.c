@@ -68,7 +68,7 @@ int table_load_file(const char *path, table *t, lab_error *error)
       status =
           lab_fail(error, LAB_DATA, "%s:%d: expected %d fields, as in the header", path, lines.number, (int)t->columns);
   lab_text_free(&text);
-  return status;
+  return status == LAB_OK && t->failed ? lab_fail_memory(error, path) : status;
 }
 
 int table_load(const study *s, const char *name, table *t, lab_error *error)

@@ -164,7 +164,7 @@ static pneu_params parameters(const vessel *v, const vessel_law *law, const doub
 
 static int respond(const pneu_model *model, const double *t, size_t n, lab_trace *trace, lab_error *error)
 {
-  const lab_response_options options = {LAB_STEPPER, tolerance, t[n - 1], 0, 0};
+  const lab_response_options options = {LAB_STEPPER, tolerance, t[n - 1], 0, 0, 0};
   const double from = 0;
   pneu_input input;
   const lab_schedule schedule = {1, &from, &input};
@@ -245,8 +245,10 @@ static int job_open(job *j, const vessel *v, const vessel_law *law, const unsign
   j->law = law;
   j->use = use;
   j->p = calloc(2 * v->log.n, sizeof *j->p);
+  if (!j->p)
+    return lab_fail_memory(error, "a vessel");
   j->T = j->p + v->log.n;
-  return j->p ? LAB_OK : lab_fail_memory(error, "a vessel");
+  return LAB_OK;
 }
 
 int vessel_fit(const vessel *v, const vessel_law *law, const unsigned char *use, lab_fit_result *fit, lab_error *error)

@@ -14,6 +14,7 @@
 
 #include <omp.h>
 
+#include "../../apps/lab/checksum.h"
 #include "../../apps/lab/cli.h"
 #include "../../apps/lab/outfile.h"
 #include "../../apps/lab/progress.h"
@@ -99,19 +100,6 @@ static int show_one(lab_error *error)
 }
 
 /* ---- All of them ---- */
-
-/* Checksum of a file: FNV-1a. */
-static uint64_t checksum(const char *path)
-{
-  uint64_t sum = UINT64_C(14695981039346656037);
-  FILE *file = fopen(path, "rb");
-  int c;
-  while (file && (c = getc(file)) != EOF)
-    sum = (sum ^ (uint64_t)c) * UINT64_C(1099511628211);
-  if (file)
-    fclose(file);
-  return sum;
-}
 
 static int run_all(int quiet, blind_journal *journal, lab_error *error)
 {
@@ -204,7 +192,7 @@ static int run(const lab_cli *cli, const char *self, lab_error *error)
     return show_one(error);
   snprintf(path, sizeof path, "%s/journal.csv", work);
   snprintf(key, sizeof key, "# seed %d, timeout %g s, closeloop %016" PRIx64 ", blind %016" PRIx64, seed, timeout,
-           checksum(closeloop), checksum(self));
+           lab_checksum_file(LAB_CHECKSUM_SEED, closeloop), lab_checksum_file(LAB_CHECKSUM_SEED, self));
   status = blind_journal_open(&journal, path, key, trials, error);
   if (status == LAB_OK)
     status = run_all(cli->quiet, &journal, error);

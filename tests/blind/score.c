@@ -65,6 +65,14 @@ static int names_right(const blind_trial *t, const blind_answer *a, enum level l
   return 0;
 }
 
+static int any_listed(const blind_trial *t, const blind_answer *a)
+{
+  int i, any = 0;
+  for (i = 0; i < t->n_missing; i++)
+    any |= is_listed(a, t->missing[i].effect->name);
+  return any;
+}
+
 static int equation_right(const blind_trial *t, const blind_answer *a)
 {
   return same(a->verdict, "unlisted") && a->n_unlisted > 0 && same(a->unlisted[0], t->missing[0].effect->equation);
@@ -234,7 +242,7 @@ static void explain(const blind_trial *t, const blind_answer *a, blind_record *r
     append(r->why, "below %sthe information limit; ", r->ratio < 1 ? "" : "twice ");
   if (same(a->verdict, "unlisted") && t->kind == BLIND_UNLISTED)
     append(r->why, "wrong equation");
-  else if (r->stated && t->kind == BLIND_UNLISTED)
+  else if (r->stated && (t->kind == BLIND_UNLISTED || any_listed(t, a)))
     append(r->why, "listed as significant but too small to be added");
   else if (r->stated)
     append(r->why, "stated as indistinguishable from what was named");

@@ -14,7 +14,7 @@
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)9.9999999999999995e-08, /* fill_area [m2] */ \
-    (pneu_real)9.0043424519119161e-08, /* vent_area [m2] */ \
+    (pneu_real)9.0022530076492277e-08, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
@@ -38,8 +38,8 @@
       (pneu_real)0, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
-      (pneu_real)0.15829742440957231, /* free_convection [W/K^1.333333333333333] */ \
-      (pneu_real)1.2704374222833962e-15, /* laminar_leak [kg/s/Pa2] */ \
+      (pneu_real)0.15789361760316958, /* free_convection [W/K^1.333333333333333] */ \
+      (pneu_real)1.2702609105083864e-15, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
       (pneu_real)300000, /* crossover_pressure [Pa] */ \
       (pneu_real)0, /* position_bias [m] */ \
@@ -62,8 +62,8 @@
       (pneu_real)0, /* transducer_time [s] */ \
       (pneu_real)0, /* travel_loss [m] */ \
       (pneu_real)0, /* vent_restriction [1] */ \
-      (pneu_real)0.29451985406067471, /* wall_compliance [K/J] */ \
-      (pneu_real)0.0039347264890092709, /* wall_loss [W/K] */ \
+      (pneu_real)0.29528073521821813, /* wall_compliance [K/J] */ \
+      (pneu_real)0.0037074636899737147, /* wall_loss [W/K] */ \
       (pneu_real)0 } \
   }
 #define MODEL_LAWS {2, 1, 0, 0} /* energy, choked */

@@ -6,10 +6,10 @@
     (pneu_real)0.0055000000000000014, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0.040176450000000002, /* stroke [m] */ \
-    (pneu_real)257324.17622535554, /* spring_rate [N/m] */ \
-    (pneu_real)0.010764918992793741, /* spring_preload [m] */ \
+    (pneu_real)288730.7060465641, /* spring_rate [N/m] */ \
+    (pneu_real)0.0095485846822521252, /* spring_preload [m] */ \
     (pneu_real)2, /* moving_mass [kg] */ \
-    (pneu_real)473.08849787029203, /* dry_friction [N] */ \
+    (pneu_real)369.59837554229239, /* dry_friction [N] */ \
     (pneu_real)1500, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
@@ -26,7 +26,7 @@
     (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
-      (pneu_real)0, /* area_loss [1] */ \
+      (pneu_real)-0.22525942383168884, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
@@ -34,7 +34,7 @@
       (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
-      (pneu_real)0, /* friction_slope [1] */ \
+      (pneu_real)0.87427494244650472, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
@@ -50,7 +50,7 @@
       (pneu_real)0, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
-      (pneu_real)0, /* spring_cubic [N/m3] */ \
+      (pneu_real)29174608.002924711, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
       (pneu_real)0.001, /* hysteresis_length [m] */ \
       (pneu_real)0, /* stop_compliance [m/N] */ \

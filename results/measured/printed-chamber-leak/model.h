@@ -27,11 +27,11 @@
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
-      (pneu_real)1.9185674590723109e-09, /* leak_area [m2] */ \
+      (pneu_real)1.9158229458289407e-09, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)5959145648.2856627, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)1.6474825292973736e-05, /* tube_volume [m3] */ \
+      (pneu_real)5985071912.4826441, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)1.64496262106154e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
@@ -40,8 +40,8 @@
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
-      (pneu_real)1.601708995572026e-16, /* porous_leak [kg/s/Pa2] */ \
-      (pneu_real)671842.17759376601, /* crossover_pressure [Pa] */ \
+      (pneu_real)1.6017740675612859e-16, /* porous_leak [kg/s/Pa2] */ \
+      (pneu_real)671604.25554265361, /* crossover_pressure [Pa] */ \
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \

@@ -6,11 +6,11 @@
     (pneu_real)4.000000000000001e-05, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0.040000000000000001, /* stroke [m] */ \
-    (pneu_real)1506.1905768779272, /* spring_rate [N/m] */ \
+    (pneu_real)1536.4648266777237, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.0332, /* moving_mass [kg] */ \
     (pneu_real)0, /* dry_friction [N] */ \
-    (pneu_real)0.10755023528775495, /* viscous_friction [N.s/m] */ \
+    (pneu_real)0.11040981650780411, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
@@ -26,7 +26,7 @@
     (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
-      (pneu_real)0.88621785921711937, /* area_loss [1] */ \
+      (pneu_real)0.88893498574840069, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
@@ -47,12 +47,12 @@
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
-      (pneu_real)3525.598159849977, /* pressure_bias [Pa] */ \
+      (pneu_real)3368.5110139085768, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
-      (pneu_real)8.9981615014074006, /* hysteresis_force [N] */ \
-      (pneu_real)0.013915355717447831, /* hysteresis_length [m] */ \
+      (pneu_real)7.6544506859758163, /* hysteresis_force [N] */ \
+      (pneu_real)0.012137555289300394, /* hysteresis_length [m] */ \
       (pneu_real)0, /* stop_compliance [m/N] */ \
       (pneu_real)10000, /* stop_damping [N.s/m] */ \
       (pneu_real)0, /* stribeck_excess [1] */ \

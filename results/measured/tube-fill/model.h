@@ -13,7 +13,7 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)2.5934814232243438e-06, /* fill_area [m2] */ \
+    (pneu_real)3.0337637960443731e-06, /* fill_area [m2] */ \
     (pneu_real)3.9999999999999998e-06, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
@@ -26,12 +26,12 @@
     (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
     (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
     { \
-      (pneu_real)-1, /* area_loss [1] */ \
+      (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)51216819.662577942, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)1.0000000000000001e-09, /* tube_volume [m3] */ \
+      (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
@@ -42,14 +42,14 @@
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
       (pneu_real)300000, /* crossover_pressure [Pa] */ \
-      (pneu_real)0, /* position_bias [m] */ \
+      (pneu_real)0.13848120928088758, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
-      (pneu_real)0.016183316164501412, /* pressure_time [s] */ \
+      (pneu_real)0.028135445651705771, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
       (pneu_real)0.001, /* hysteresis_length [m] */ \
@@ -57,7 +57,7 @@
       (pneu_real)10000, /* stop_damping [N.s/m] */ \
       (pneu_real)0, /* stribeck_excess [1] */ \
       (pneu_real)0.001, /* stribeck_velocity [m/s] */ \
-      (pneu_real)0, /* supply_resistance [Pa.s/kg] */ \
+      (pneu_real)113841489.82378487, /* supply_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* temperature_time [s] */ \
       (pneu_real)0, /* transducer_time [s] */ \
       (pneu_real)0, /* travel_loss [m] */ \

@@ -14,7 +14,7 @@
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)1.3999999999999999e-06, /* fill_area [m2] */ \
-    (pneu_real)6.0454236742354276e-06, /* vent_area [m2] */ \
+    (pneu_real)6.9054562548327352e-06, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
@@ -30,9 +30,9 @@
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)64367239.3505124, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)1.1625015569466939e-05, /* tube_volume [m3] */ \
-      (pneu_real)0.024903238985138396, /* dead_time [s] */ \
+      (pneu_real)67665957.190357372, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)1.2358111163808145e-05, /* tube_volume [m3] */ \
+      (pneu_real)0.025165365406971743, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
@@ -42,13 +42,13 @@
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
       (pneu_real)300000, /* crossover_pressure [Pa] */ \
-      (pneu_real)0.19461911452581071, /* position_bias [m] */ \
+      (pneu_real)0.19348814321011373, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
-      (pneu_real)0.27166263280169123, /* pressure_gain [1] */ \
+      (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \

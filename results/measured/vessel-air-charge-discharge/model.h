@@ -14,7 +14,7 @@
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)4.8451000000000004e-06, /* fill_area [m2] */ \
-    (pneu_real)4.8510981937602135e-06, /* vent_area [m2] */ \
+    (pneu_real)4.851097656967725e-06, /* vent_area [m2] */ \
     (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
@@ -37,7 +37,7 @@
       (pneu_real)0, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
-      (pneu_real)2.8577906879074475, /* film_conductance [W/K] */ \
+      (pneu_real)2.8577856938200261, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \

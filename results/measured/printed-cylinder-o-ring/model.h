@@ -1,0 +1,70 @@
+/* The completed model of printed-cylinder-o-ring, by closeloop; for libpneu 0.1.0 with its whole catalogue.
+ * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */
+#define MODEL_PARAMS \
+  { \
+    (pneu_real)0.00051875000000000001, /* area [m2] */ \
+    (pneu_real)5.0000000000000013e-06, /* dead_volume [m3] */ \
+    (pneu_real)1, /* swept_ratio [1] */ \
+    (pneu_real)0.050000000000000003, /* stroke [m] */ \
+    (pneu_real)0, /* spring_rate [N/m] */ \
+    (pneu_real)0, /* spring_preload [m] */ \
+    (pneu_real)0.10000000000000001, /* moving_mass [kg] */ \
+    (pneu_real)4.1173898049344642, /* dry_friction [N] */ \
+    (pneu_real)0, /* viscous_friction [N.s/m] */ \
+    (pneu_real)0, /* damping [N.s/m] */ \
+    (pneu_real)-0.93936491987542958, /* external_force [N] */ \
+    (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
+    (pneu_real)8.9299999999999996e-07, /* vent_area [m2] */ \
+    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)0.5, /* subsonic_index [1] */ \
+    (pneu_real)0, /* proportional_band [Pa] */ \
+    (pneu_real)800000, /* supply_pressure [Pa] */ \
+    (pneu_real)295, /* supply_temperature [K] */ \
+    (pneu_real)101325, /* ambient_pressure [Pa] */ \
+    (pneu_real)295, /* ambient_temperature [K] */ \
+    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
+    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    { \
+      (pneu_real)0, /* area_loss [1] */ \
+      (pneu_real)0, /* leak_area [m2] */ \
+      (pneu_real)0, /* channel_skew [s] */ \
+      (pneu_real)0, /* choked_share [1] */ \
+      (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)0, /* dead_time [s] */ \
+      (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
+      (pneu_real)0, /* friction_slope [1] */ \
+      (pneu_real)5.620896645349326e-06, /* friction_per_pressure [m2] */ \
+      (pneu_real)0, /* film_resistance [K/W] */ \
+      (pneu_real)0, /* film_conductance [W/K] */ \
+      (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
+      (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
+      (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
+      (pneu_real)300000, /* crossover_pressure [Pa] */ \
+      (pneu_real)0, /* position_bias [m] */ \
+      (pneu_real)0, /* position_gain [1] */ \
+      (pneu_real)0, /* position_time [s] */ \
+      (pneu_real)0.00016212242641184272, /* presliding_length [m] */ \
+      (pneu_real)319.56641770294004, /* bristle_damping [N.s/m] */ \
+      (pneu_real)0, /* pressure_bias [Pa] */ \
+      (pneu_real)-0.0048007144052312377, /* pressure_gain [1] */ \
+      (pneu_real)0, /* pressure_time [s] */ \
+      (pneu_real)0, /* spring_cubic [N/m3] */ \
+      (pneu_real)0, /* hysteresis_force [N] */ \
+      (pneu_real)0.001, /* hysteresis_length [m] */ \
+      (pneu_real)0, /* stop_compliance [m/N] */ \
+      (pneu_real)10000, /* stop_damping [N.s/m] */ \
+      (pneu_real)0, /* stribeck_excess [1] */ \
+      (pneu_real)0.001, /* stribeck_velocity [m/s] */ \
+      (pneu_real)0, /* supply_resistance [Pa.s/kg] */ \
+      (pneu_real)0, /* temperature_time [s] */ \
+      (pneu_real)0, /* transducer_time [s] */ \
+      (pneu_real)0, /* travel_loss [m] */ \
+      (pneu_real)0, /* vent_restriction [1] */ \
+      (pneu_real)0, /* wall_compliance [K/J] */ \
+      (pneu_real)1, /* wall_loss [W/K] */ \
+      (pneu_real)0 } \
+  }
+#define MODEL_LAWS {0, 1, 1, 1} /* isothermal, choked */
+#define MODEL_N_TERMS 0

@@ -1,0 +1,29 @@
+# Fuzzing of the file readers by libFuzzer; only clang has it.
+FUZZ_CC      ?= clang-14
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS ?= log rig study table
+FUZZ_RUNS    ?= -1
+
+# The readers and what they need, without the rest of the programs.
+FUZZ_READERS := $(wildcard apps/lab/rig*.c) $(filter-out %/logscene.c,$(wildcard apps/lab/log*.c)) \
+                $(addprefix apps/lab/,channel.c config.c interrupt.c message.c names.c number.c outfile.c text.c units.c) \
+                $(addprefix apps/study/,study.c table.c tableread.c)
+FUZZ_C       := $(LIB_C) $(FUZZ_READERS) tests/fuzz/targets.c tests/fuzz/libfuzzer.c
+FUZZING      := $(BUILD)/fuzzing
+
+## Fuzz the readers of files, FUZZ_SECONDS (60) or FUZZ_RUNS executions each; FUZZ_TARGETS: log rig study table
+fuzz:
+	@mkdir -p $(FUZZING)
+	@$(MAKE) --no-print-directory BUILD=$(FUZZING) CC=$(FUZZ_CC) WARN=-w OPENMP= \
+	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZING)/fuzz >$(FUZZING)/build.log 2>&1 || \
+	  { tail $(FUZZING)/build.log; exit 1; }
+	@sh tests/fuzz/run.sh $(FUZZING) $(FUZZ_SECONDS) $(FUZZ_RUNS) $(FUZZ_TARGETS)
+.PHONY: fuzz
+
+$(BUILD)/fuzz: $(FUZZ_C:%.c=$(BUILD)/%.o)
+	$(CC) $(FLAGS) -fsanitize=fuzzer $^ -lconfig -ludunits2 -lm -o $@
+
+# Where the fuzzer is not to look for new ways: nearest names take most of the time otherwise, the library holds no reader.
+ifneq ($(findstring fuzzer,$(SANITIZE)),)
+$(BUILD)/apps/lab/names.o $(LIB_O): FLAGS += -fno-sanitize=fuzzer-no-link
+endif

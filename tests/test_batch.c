@@ -1,0 +1,485 @@
+/* apps/lab/batchlist, batchdone, batchrow, crew, batch */
+#include "scratch.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include "../apps/lab/batch.h"
+#include "../apps/lab/batchdone.h"
+#include "../apps/lab/batchlist.h"
+#include "../apps/lab/checksum.h"
+#include "../apps/lab/crew.h"
+#include "../apps/lab/interrupt.h"
+#include "../apps/lab/split.h"
+
+static lab_error error;
+
+/* ---- List ---- */
+
+enum { ENTRIES = 8 };
+static lab_entry entry[ENTRIES];
+
+/* Read a list whole.  Returns: lines; -1 with `error` */
+static int read_list(const char *text)
+{
+  lab_list list;
+  int n = 0, more = 1, status = lab_list_open(&list, scratch_text("list.csv", text), &error);
+  memset(entry, 0, sizeof entry);
+  while (status == LAB_OK && more && n < ENTRIES) {
+    status = lab_list_next(&list, &entry[n], &more, &error);
+    n += status == LAB_OK && more;
+  }
+  lab_list_close(&list);
+  return status == LAB_OK ? n : -1;
+}
+
+static void assert_entry(int i, int line, const char *name, const char *rig, const char *log, const char *holdout)
+{
+  assert_int_equal(entry[i].line, line);
+  assert_string_equal(entry[i].name, name);
+  assert_string_equal(entry[i].rig, rig);
+  assert_string_equal(entry[i].log, log);
+  assert_string_equal(entry[i].holdout, holdout);
+}
+
+static void test_lab_list__as_documented__is_read(void **state)
+{
+  (void)state;
+  assert_int_equal(
+      read_list("# presses of hall 2\nname,rig,log,holdout\npress-1,rigs/p.cfg,may/a.csv;may/b.csv,june.csv\n"
+                "\n# one more\npress-2,rigs/p.cfg,may/p2.csv,\n"),
+      2);
+  assert_entry(0, 3, "press-1", "rigs/p.cfg", "may/a.csv;may/b.csv", "june.csv");
+  assert_entry(1, 6, "press-2", "rigs/p.cfg", "may/p2.csv", "");
+}
+
+/* As spreadsheets of other countries save it: marks, quotes, byte order mark, ends of lines, cells that are empty. */
+static void test_lab_list__from_spreadsheets__is_the_same(void **state)
+{
+  static const char *const same[] = {
+      "name,rig,log,holdout\none,r.cfg,a.csv;b.csv,\ntwo,r.cfg,c.csv,d.csv\n",
+      "\xEF\xBB\xBFName;Rig;Log;Holdout\r\none;r.cfg;\"a.csv;b.csv\";\r\ntwo;r.cfg;c.csv;d.csv\r\n",
+      "name\trig\tlog\tholdout\none\tr.cfg\ta.csv;b.csv\ntwo\tr.cfg\tc.csv\td.csv",
+      "\"name\",\"rig\",\"log\",\"holdout\",,\n\"one\", \"r.cfg\" , \"a.csv;b.csv\",,,\ntwo,r.cfg,c.csv,d.csv,,\n",
+  };
+  static const char *const empty[] = {"", ",,,,,\n", ";;;\n", "\"# a, comment\",,,\n"};
+  size_t i, k;
+  (void)state;
+  for (i = 0; i < sizeof same / sizeof *same; i++) {
+    check_note("list %d", (int)i);
+    assert_int_equal(read_list(same[i]), 2);
+    assert_entry(0, 2, "one", "r.cfg", "a.csv;b.csv", "");
+    assert_entry(1, 3, "two", "r.cfg", "c.csv", "d.csv");
+  }
+  for (k = 0; k < sizeof empty / sizeof *empty; k++) {
+    char text[200];
+    snprintf(text, sizeof text, "rig,log\n%sr.cfg,a.csv\n", empty[k]);
+    assert_int_equal(read_list(text), 1);
+  }
+}
+
+static void test_lab_list__quotes_and_commas_in_a_cell__are_kept(void **state)
+{
+  (void)state;
+  assert_int_equal(read_list("log,rig,name\n\"a,b.csv\",r 5\".cfg,\"say \"\"hi\"\"\"\n"), 1);
+  assert_entry(0, 2, "say \"hi\"", "r 5\".cfg", "a,b.csv", "");
+}
+
+static void test_lab_list__no_name__is_called_as_its_log(void **state)
+{
+  static const struct {
+    const char *log, *name;
+  } row[] = {{"p2.csv", "p2"}, {"may/p2.csv", "may-p2"},    {"../../may/p2.log.csv", "may-p2.log"},
+             {"./p2", "p2"},   {"/data/p2.csv", "data-p2"}, {"a.csv;b.csv", "a"}};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++) {
+    char text[100];
+    snprintf(text, sizeof text, "rig,log\nr.cfg,%s\n", row[i].log);
+    assert_int_equal(read_list(text), 1);
+    assert_string_equal(entry[0].name, row[i].name);
+  }
+}
+
+static void test_lab_list__bad__is_refused_with_its_line(void **state)
+{
+  static const struct {
+    const char *text, *line, *words;
+  } row[] = {
+      {"# nothing\n", "list.csv", "empty"},
+      {"press-1,r.cfg,a.csv\n", "list.csv:1", "header like name,rig,log,holdout"},
+      {"name,rig,logg\n", "list.csv:1", "nearest known one is log"},
+      {"#\nname,rig\n", "list.csv:2", "no column log"},
+      {"rig,log,rig\n", "list.csv:1", "rig is there twice"},
+      {"rig,log\nr.cfg,\n", "list.csv:2", "column log is empty"},
+      {"rig,log\nr.cfg,a.csv\n,b.csv\n", "list.csv:3", "column rig is empty"},
+      {"rig,log\nr.cfg,a.csv,b.csv\n", "list.csv:2", "cell 3, \"b.csv\", has no column"},
+      {"rig,log\nr.cfg,\"a.csv\n", "list.csv:2", "quote"},
+      {"name,rig,log\na/b,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
+      {"name,rig,log\n..,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
+      {"name,rig,log\nbatch.csv,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
+  };
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++) {
+    check_note("row %d", (int)i);
+    assert_int_equal(read_list(row[i].text), -1);
+    assert_int_equal(error.status, LAB_DATA);
+    assert_contains(error.text, row[i].line);
+    assert_contains(error.text, row[i].words);
+  }
+}
+
+static void test_lab_list__long_cell__is_refused(void **state)
+{
+  char text[LAB_ENTRY_TEXT + 100];
+  (void)state;
+  snprintf(text, sizeof text, "rig,log\nr.cfg,%0*d\n", LAB_ENTRY_TEXT, 0);
+  assert_int_equal(read_list(text), -1);
+  assert_contains(error.text, "list.csv:2");
+  assert_contains(error.text, "at most");
+  snprintf(text, sizeof text, "rig,log\nr.cfg,%0*d\n", LAB_ENTRY_NAME, 0);
+  assert_int_equal(read_list(text), -1);
+  assert_contains(error.text, "give it a name");
+}
+
+static void test_lab_list__zero_byte__is_refused(void **state)
+{
+  static const char bytes[] = "rig,log\nr.cfg,\0.csv\n";
+  lab_list list;
+  int more;
+  (void)state;
+  assert_int_equal(lab_list_open(&list, scratch_bytes("list.csv", bytes, sizeof bytes - 1), &error), LAB_OK);
+  assert_int_equal(lab_list_next(&list, &entry[0], &more, &error), LAB_DATA);
+  assert_contains(error.text, "list.csv:2");
+  lab_list_close(&list);
+}
+
+static int check_list(const char *text, int *n)
+{
+  lab_list list;
+  int status = lab_list_open(&list, scratch_text("list.csv", text), &error);
+  if (status == LAB_OK)
+    status = lab_list_check(&list, n, &error);
+  if (status == LAB_OK) { /* back at the beginning */
+    int more;
+    assert_int_equal(lab_list_next(&list, &entry[0], &more, &error), LAB_OK);
+    assert_true(more);
+  }
+  lab_list_close(&list);
+  return status;
+}
+
+static void test_lab_list_check__doubles_and_no_lines__are_refused(void **state)
+{
+  int n;
+  (void)state;
+  assert_int_equal(check_list("rig,log\nr,a.csv\nr,b.csv\n", &n), LAB_OK);
+  assert_int_equal(n, 2);
+  assert_int_equal(check_list("rig,log\nr,a.csv\nr,b.csv\nother,a.csv\n", &n), LAB_DATA);
+  assert_contains(error.text, "list.csv:4: line 2 has the same name");
+  assert_int_equal(check_list("rig,log\n", &n), LAB_DATA);
+  assert_contains(error.text, "no line after it");
+}
+
+static void test_lab_split__blanks_and_empty_parts__are_dropped(void **state)
+{
+  char text[] = " a.csv ;; b c.csv;", many[] = "a;b;c";
+  const char *part[2];
+  (void)state;
+  assert_int_equal(lab_split(text, ';', part, 2), 2);
+  assert_string_equal(part[0], "a.csv");
+  assert_string_equal(part[1], "b c.csv");
+  assert_int_equal(lab_split(many, ';', part, 2), -1);
+}
+
+/* ---- Record ---- */
+
+static lab_done sample(void)
+{
+  lab_done done;
+  memset(&done, 0, sizeof done);
+  done.key = UINT64_C(0x0123456789abcdef);
+  done.extent = LAB_WRITE_PLAIN;
+  done.outcome.status = LAB_NUMERIC;
+  done.outcome.cost.seconds = 1.25;
+  done.outcome.cost.cpu = 1.125;
+  done.outcome.cost.memory = 42.5;
+  strcpy(done.outcome.row, "error,,\"a, b\",,words");
+  return done;
+}
+
+static void test_lab_done__written__reads_back(void **state)
+{
+  const lab_done want = sample();
+  lab_done got;
+  char folder[600];
+  (void)state;
+  snprintf(folder, sizeof folder, "%s", scratch_path("press-1"));
+  assert_false(lab_done_read(folder, &got));
+  assert_int_equal(lab_done_write(folder, &want, &error), LAB_OK);
+  assert_true(lab_done_read(folder, &got));
+  assert_true(got.key == want.key);
+  assert_int_equal(got.extent, want.extent);
+  assert_int_equal(got.outcome.status, want.outcome.status);
+  assert_close(got.outcome.cost.seconds, 1.25, 0, 0);
+  assert_close(got.outcome.cost.cpu, 1.125, 0, 0);
+  assert_close(got.outcome.cost.memory, 42.5, 0, 0);
+  assert_string_equal(got.outcome.row, want.outcome.row);
+  lab_done_remove(folder);
+  assert_false(lab_done_read(folder, &got));
+}
+
+/* However little of it has reached the disk. */
+static void test_lab_done__torn__is_not_there(void **state)
+{
+  const lab_done want = sample();
+  lab_done got;
+  char folder[600], path[700], *whole;
+  size_t i, size;
+  (void)state;
+  snprintf(folder, sizeof folder, "%s", scratch_path("torn"));
+  snprintf(path, sizeof path, "%s/.done", folder);
+  assert_int_equal(lab_done_write(folder, &want, &error), LAB_OK);
+  whole = scratch_read(path);
+  size = strlen(whole);
+  for (i = 0; i <= size; i++) {
+    scratch_bytes("torn/.done", whole, i);
+    check_note("%d of %d bytes", (int)i, (int)size);
+    assert_int_equal(lab_done_read(folder, &got), i == size);
+  }
+  free(whole);
+}
+
+static void test_lab_row_cell__marks__are_quoted(void **state)
+{
+  static const char *const row[][2] = {
+      {"plain", "plain"}, {"a,b", "\"a,b\""}, {"a\"b", "\"a\"\"b\""}, {"a\nb", "\"a b\""}, {"", ""}};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++) {
+    char text[40] = "";
+    FILE *file = fmemopen(text, sizeof text, "w");
+    assert_non_null(file);
+    lab_row_cell(file, row[i][0]);
+    fclose(file);
+    assert_string_equal(text, row[i][1]);
+  }
+}
+
+/* A line has as many cells as the header, whatever became of it. */
+static void test_lab_row__error__has_the_headers_cells(void **state)
+{
+  char header[1024] = "";
+  FILE *file = fmemopen(header, sizeof header, "w");
+  lab_outcome outcome;
+  const char *c;
+  int cells = 0;
+  (void)state;
+  assert_non_null(file);
+  lab_row_header(file);
+  fclose(file);
+  lab_fail(&error, LAB_DATA, "words");
+  lab_row_error(&error, &outcome);
+  for (c = header; *c; c++)
+    cells += *c == ',';
+  for (c = outcome.row; *c; c++)
+    cells -= *c == ',';
+  assert_int_equal(cells, 1); /* the name */
+  assert_int_equal(outcome.status, LAB_DATA);
+  assert_string_equal(outcome.row + strlen(outcome.row) - 6, ",words");
+}
+
+/* ---- Crew ---- */
+
+enum { JOBS = 20, DIES = 7, EXITS = 11 };
+
+typedef struct tally {
+  int handed_out, times[JOBS], value[JOBS], lost[JOBS], n_done, stop_after;
+} tally;
+
+static int give(void *context, void *job)
+{
+  tally *t = context;
+  *(int *)job = t->handed_out;
+  return t->handed_out < JOBS ? t->handed_out++, 1 : 0;
+}
+
+static void square(void *context, const void *job, void *result)
+{
+  const int i = *(const int *)job;
+  (void)context;
+  if (i == DIES)
+    raise(SIGKILL);
+  if (i == EXITS)
+    _exit(3);
+  *(int *)result = i * i;
+}
+
+static void bury(void *context, const void *job, int wait, void *result)
+{
+  tally *t = context;
+  t->lost[*(const int *)job] = WIFSIGNALED(wait) ? WTERMSIG(wait) : 100 + WEXITSTATUS(wait);
+  *(int *)result = -1;
+}
+
+static int collect(void *context, const void *job, const void *result, lab_error *e)
+{
+  tally *t = context;
+  const int i = *(const int *)job;
+  t->times[i]++;
+  t->value[i] = *(const int *)result;
+  return ++t->n_done == t->stop_after ? lab_fail(e, LAB_WORLD, "enough") : LAB_OK;
+}
+
+static int run_crew(tally *t, int at_once)
+{
+  const lab_crew crew = {at_once, sizeof(int), sizeof(int), NULL, give, square, bury, collect, t};
+  int status;
+  lab_interrupt_hold();
+  assert_true(lab_crew_join());
+  status = lab_crew_run(&crew, &error);
+  lab_crew_leave(&crew);
+  lab_interrupt_release();
+  return status;
+}
+
+static void test_lab_crew__any_number_at_once__does_each_job_once(void **state)
+{
+  static const int at_once[] = {1, 3, 30};
+  size_t k;
+  (void)state;
+  for (k = 0; k < 3; k++) {
+    tally t = {0};
+    int i;
+    assert_int_equal(run_crew(&t, at_once[k]), LAB_OK);
+    for (i = 0; i < JOBS; i++) {
+      assert_int_equal(t.times[i], 1);
+      assert_int_equal(t.value[i], i == DIES || i == EXITS ? -1 : i * i);
+      assert_int_equal(t.lost[i], i == DIES ? SIGKILL : i == EXITS ? 103 : 0);
+    }
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* no child is left */
+    assert_int_equal(errno, ECHILD);
+  }
+}
+
+static void test_lab_crew__result_that_cannot_be_kept__ends_the_run(void **state)
+{
+  tally t = {0};
+  (void)state;
+  t.stop_after = 5;
+  assert_int_equal(run_crew(&t, 2), LAB_WORLD);
+  assert_string_equal(error.text, "enough");
+  assert_int_equal(t.n_done, 5);
+  assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+}
+
+/* ---- Batch ---- */
+
+/* Run a list in a process of its own, silently.  Out: rss  [kB] the most that it had.  Returns: its status */
+static int run_list(const char *list, const char *out, long *rss)
+{
+  lab_batch_options how = {0};
+  int ends[2], wait, i;
+  pid_t pid;
+  how.list = list;
+  how.out = out;
+  how.alpha = 0.01;
+  how.min_gain = 0.02;
+  how.at_once = 2;
+  how.quiet = 1;
+  assert_int_equal(pipe(ends), 0);
+  pid = fork();
+  assert_true(pid >= 0);
+  if (pid == 0) {
+    struct rusage use;
+    lab_error mine;
+    if (!freopen(scratch_path("said.txt"), "w", stdout))
+      _exit(99);
+    i = lab_batch_run(&how, &mine);
+    getrusage(RUSAGE_SELF, &use);
+    fflush(stdout);
+    _exit(write(ends[1], &use.ru_maxrss, sizeof use.ru_maxrss) == sizeof use.ru_maxrss ? i : 98);
+  }
+  close(ends[1]);
+  assert_int_equal(read(ends[0], rss, sizeof *rss), sizeof *rss);
+  close(ends[0]);
+  assert_int_equal(waitpid(pid, &wait, 0), pid);
+  assert_true(WIFEXITED(wait));
+  return WEXITSTATUS(wait);
+}
+
+/* A list of lines that fail at once. */
+static const char *long_list(const char *name, int n)
+{
+  const char *path = scratch_path(name);
+  FILE *file = fopen(path, "w");
+  int i;
+  assert_non_null(file);
+  fputs("name,rig,log\n", file);
+  for (i = 0; i < n; i++)
+    fprintf(file, "n%d,nothing.cfg,nothing-%d.csv\n", i, i);
+  fclose(file);
+  return path;
+}
+
+static void test_lab_batch__lines_that_fail__are_lines(void **state)
+{
+  char out[600], path[700], *rows;
+  long rss;
+  (void)state;
+  snprintf(out, sizeof out, "%s", scratch_path("failing"));
+  assert_int_equal(run_list(long_list("three.csv", 3), out, &rss), LAB_DATA);
+  snprintf(path, sizeof path, "%s/batch.csv", out);
+  rows = scratch_read(path);
+  assert_contains(rows, "\nn0,error,");
+  assert_contains(rows, ",nothing.cfg: there is no such file; check the name and the folder\nn1,error,");
+  assert_contains(rows, "\nn2,error,");
+  free(rows);
+  rows = scratch_read(scratch_path("said.txt"));
+  assert_contains(rows, "3 lines: 3 error.");
+  free(rows);
+}
+
+/* The list is streamed: 2000 lines take no more than 100, but for the 16 bytes a line of its check. */
+static void test_lab_batch__long_list__takes_no_more_memory(void **state)
+{
+  char out[600];
+  long few, many;
+  (void)state;
+#ifdef __SANITIZE_ADDRESS__
+  skip(); /* keeps what has been freed */
+#endif
+  snprintf(out, sizeof out, "%s", scratch_path("few"));
+  assert_int_equal(run_list(long_list("few.csv", 100), out, &few), LAB_DATA);
+  snprintf(out, sizeof out, "%s", scratch_path("many"));
+  assert_int_equal(run_list(long_list("many.csv", 2000), out, &many), LAB_DATA);
+  check_note("100 lines %ld kB, 2000 lines %ld kB", few, many);
+  assert_true(many - few < 200);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_list__as_documented__is_read),
+      cmocka_unit_test(test_lab_list__from_spreadsheets__is_the_same),
+      cmocka_unit_test(test_lab_list__quotes_and_commas_in_a_cell__are_kept),
+      cmocka_unit_test(test_lab_list__no_name__is_called_as_its_log),
+      cmocka_unit_test(test_lab_list__bad__is_refused_with_its_line),
+      cmocka_unit_test(test_lab_list__long_cell__is_refused),
+      cmocka_unit_test(test_lab_list__zero_byte__is_refused),
+      cmocka_unit_test(test_lab_list_check__doubles_and_no_lines__are_refused),
+      cmocka_unit_test(test_lab_split__blanks_and_empty_parts__are_dropped),
+      cmocka_unit_test(test_lab_done__written__reads_back),
+      cmocka_unit_test(test_lab_done__torn__is_not_there),
+      cmocka_unit_test(test_lab_row_cell__marks__are_quoted),
+      cmocka_unit_test(test_lab_row__error__has_the_headers_cells),
+      cmocka_unit_test(test_lab_crew__any_number_at_once__does_each_job_once),
+      cmocka_unit_test(test_lab_crew__result_that_cannot_be_kept__ends_the_run),
+      cmocka_unit_test(test_lab_batch__lines_that_fail__are_lines),
+      cmocka_unit_test(test_lab_batch__long_list__takes_no_more_memory),
+  };
+  return cmocka_run_group_tests_name("batch", tests, scratch_open, scratch_close);
+}

@@ -1,0 +1,52 @@
+# What is checked beside what the tests say: memory that runs out, memory that is misread, lines never run, static analysis.
+
+ALLOC := $(BUILD)/tests/alloc
+$(ALLOC)/closeloop $(ALLOC)/simulate: $(ALLOC)/%: $(BUILD)/apps/%.o $(ALLOC)/fail.o $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc $(LAB_LIBS) -o $@
+
+## Run closeloop and simulate with memory that runs out, at one call after the other
+alloc:
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/sanitized SANITIZE=address,undefined OPT=-O1 \
+	  $(BUILD)/sanitized/tests/alloc/closeloop $(BUILD)/sanitized/tests/alloc/simulate >$(BUILD)/alloc.log 2>&1 || \
+	  { tail $(BUILD)/alloc.log; exit 1; }
+	@$(MAKE) --no-print-directory $(ALLOC)/closeloop >>$(BUILD)/alloc.log 2>&1 || { tail $(BUILD)/alloc.log; exit 1; }
+	@sh tests/check_alloc.sh $(BUILD)/sanitized/tests/alloc $(ALLOC)
+.PHONY: alloc
+
+# Tests that say what the library and the readers of files do; none that fits.
+COVERING := test_params test_terms test_clock test_flow test_chamber test_stem test_stepper test_jacobian test_audit \
+            test_effects test_effects_gas test_effects_stem test_effects_sensor test_log test_rig test_rigterm test_units \
+            test_number test_table test_tableread test_study test_finds
+COVERED  := $(BUILD)/coverage
+
+## Lines and branches of lib/ and of the readers that the tests reach; writes results/coverage.csv
+coverage:
+	@mkdir -p $(COVERED)
+	@$(MAKE) --no-print-directory BUILD=$(COVERED) OPT=-O0 CFLAGS=--coverage $(COVERING:%=$(COVERED)/tests/%) \
+	  >$(COVERED)/build.log 2>&1 || { tail $(COVERED)/build.log; exit 1; }
+	@sh tests/coverage.sh $(COVERED) $(COVERING)
+.PHONY: coverage
+
+TIDY ?= $(firstword $(wildcard /usr/bin/clang-tidy-14 /usr/bin/clang-tidy))
+
+## Static analysis of lib/ and apps/ by clang-tidy (.clang-tidy)
+lint: $(CARRIED:%=$(BUILD)/%.inc)
+	@test -n "$(TIDY)" || { echo "clang-tidy is missing: apt-get install clang-tidy-14"; exit 1; }
+	@printf '%s\n' $(LIB_C) $(LAB_C) $(wildcard apps/*.c) | xargs -P 2 -n 12 sh -c \
+	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
+	@echo "lint: nothing found in $(words $(LIB_C) $(LAB_C) $(wildcard apps/*.c)) files"
+.PHONY: lint
+
+# Under valgrind by `make valgrind`: what takes a second or two without it.
+GRIND  := test_params test_terms test_clock test_flow test_chamber test_stem test_jacobian test_audit test_effects \
+          test_effects_gas test_effects_stem test_effects_sensor test_stepper test_log test_rig test_rigterm test_units \
+          test_number test_tableread test_study test_finds
+
+## Tests of the library and of the readers under valgrind's memcheck
+valgrind: $(GRIND:%=$(BUILD)/tests/%)
+	@for test in $(GRIND); do \
+	  valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+	    --suppressions=tests/valgrind.supp $(BUILD)/tests/$$test >$(BUILD)/valgrind.log 2>&1 && \
+	    echo "valgrind: nothing found in $$test" || { tail -n 40 $(BUILD)/valgrind.log; exit 1; }; \
+	done
+.PHONY: valgrind
