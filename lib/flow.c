@@ -174,7 +174,7 @@ static void linear_choked(const pneu_model *model, pneu_real w, shape *s)
 typedef void shape_function(const pneu_model *, pneu_real, shape *);
 static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, linear, linear_choked};
 
-/* As pneu_orifice; without `slopes` they stay as they are. */
+/* As pneu_orifice; without `slopes` these stay as they are. */
 static void orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                     int slopes, pneu_flow *flow)
 {
@@ -283,7 +283,7 @@ static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pn
 void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
 {
   const int out = p_other < t->p;
-  pneu_flow flow;
+  pneu_flow flow = {0, 0, 0, 0, 0};
   if (area <= 0)
     return;
   if (out) {

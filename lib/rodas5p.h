@@ -2,6 +2,7 @@
  * G. Steinebach, "Construction of Rosenbrock-Wanner method Rodas5P and numerical benchmarks within the Julia
  * Differential Equations package", BIT 63:27 (2023).
  * SPDX-License-Identifier: MIT */
+/* clang-format off */
 #define GAMMA PNEU_C(0.21193756319429014)
 
 enum { DENSE_STAGES = 8, ERROR_FROM = 7 };
@@ -38,3 +39,4 @@ static const pneu_real d[PNEU_DENSE_COUNT][DENSE_STAGES] = {
      PNEU_C(20.176138334709044), PNEU_C(15.98066361424651), PNEU_C(-6.789040303419874), PNEU_C(-6.710236069923372)},
     {PNEU_C(11.419903575922262), PNEU_C(2.8879645146136994), PNEU_C(72.92137995996029), PNEU_C(80.12511834622643),
      PNEU_C(-52.072871366152654), PNEU_C(-59.78993625266729), PNEU_C(-0.15582684282751913), PNEU_C(4.883087185713722)}};
+/* clang-format on */

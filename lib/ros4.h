@@ -4,6 +4,7 @@
  * meet for all theta beside an embedded method of order 3; b_4 is linear in theta. Order 2, 3 for linear equations. So
  * that position and velocity tell the same event, position is taken from its velocities instead (rosenbrock.c).
  * SPDX-License-Identifier: MIT */
+/* clang-format off */
 #define GAMMA PNEU_C(0.57282)
 
 enum { DENSE_STAGES = 3, ERROR_FROM = 0 };
@@ -26,3 +27,4 @@ static const pneu_real e[] = {
 static const pneu_real d[PNEU_DENSE_COUNT][DENSE_STAGES] = {
     {PNEU_C(2.773458653921005), PNEU_C(0.16730670051964985), PNEU_C(-1.7025642080212695)},
     {PNEU_C(-0.21339993065052537), PNEU_C(0.230739389346159), PNEU_C(0.6986541240669655)}};
+/* clang-format on */

@@ -8,13 +8,11 @@
 
 enum { AT_START, FROM_START /* by a row of a */, FROM_LAST /* point and slope k of the stage before */, AS_BEFORE };
 
-/* clang-format off */
 #if PNEU_ORDER == 5
 #include "rodas5p.h"
 #else
 #include "ros4.h"
 #endif
-/* clang-format on */
 
 /* (I/(h gamma) - J)^-1 */
 static int invert_matrix(int n, pneu_real h, pneu_workspace *work)

@@ -19,4 +19,6 @@ done
 for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' README.md); do
   case $path in http*) ;; *) [ -e "$path" ] || { echo "README points to $path, which is not there"; exit 1; } ;; esac
 done
-sh tests/bench/table.sh --check results/bench.csv README.md
+for kind in times sizes; do
+  sh tests/readme_table.sh --check $kind README.md
+done

@@ -210,7 +210,7 @@ static void test_pneu_jacobian__chamber_without_air__is_refused(void **state)
 /* The step at which I/(h gamma) - J of one state is 0. */
 static void test_pneu_step_try__singular_matrix__is_refused(void **state)
 {
-  const pneu_real h = (pneu_real)1e-3, gamma = (pneu_real)0.21193756319429014;
+  const pneu_real h = (pneu_real)1e-3, gamma = (pneu_real)(PNEU_ORDER == 5 ? 0.21193756319429014 : 0.57282);
   const pneu_params p = fixture_vessel(1e-3);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 1);

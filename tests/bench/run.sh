@@ -13,4 +13,4 @@ fi
 for figure in work_precision scaling; do
   gnuplot -e "IN='$results'; OUT='$results/$figure.svg'" "study/figures/$figure.gp"
 done
-[ "$results" != results ] || sh tests/bench/table.sh --refresh results/bench.csv README.md
+[ "$results" != results ] || sh tests/readme_table.sh --refresh times README.md

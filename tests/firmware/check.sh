@@ -114,6 +114,7 @@ sizes()
     say_failed "sizes beyond their bars"
   else
     cp "$out/size.csv" results/size.csv
+    sh tests/readme_table.sh --refresh sizes README.md
     echo "ok      firmware: results/size.csv, within its bars"
   fi
 }
