@@ -91,6 +91,9 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
 
+/* Whether pressure, temperature and volume of a state are above zero. */
+int pneu_is_physical(const pneu_model *model, const pneu_state *state);
+
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 

@@ -41,26 +41,32 @@ static int has_sensors(const pneu_model *model)
 }
 
 /* As pneu_evaluate judges a state; no effect adds to the volume but by the model's constants. */
-static int is_physical(const pneu_model *model, const pneu_state *state)
+int pneu_is_physical(const pneu_model *model, const pneu_state *state)
 {
   return state->p + model->p.ambient_pressure > 0 && (!model->thermal || state->T > 0) &&
          (model->law.pressure_input || pneu_volume(model, state->x) > 0);
 }
 
+/* What stands before the sensors asks for no flow. */
+static int show_by_sensors(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)
+{
+  pneu_terms t;
+  pneu_real y[PNEU_STATE_MAX];
+  pneu_pack(model, state, y);
+  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
+    return PNEU_RETRY_STATE;
+  shown->pressure = t.p_shown;
+  shown->temperature = t.T_shown;
+  shown->position = t.x_shown;
+  shown->force = model->law.position_input ? pneu_stem_holding(&t) : 0;
+  return PNEU_OK;
+}
+
 int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)
 {
-  pneu_output out;
-  if (has_sensors(model)) {
-    const int status = pneu_observe(model, state, input, &out);
-    if (status != PNEU_OK)
-      return status;
-    shown->pressure = out.shown_pressure;
-    shown->temperature = out.shown_temperature;
-    shown->position = out.shown_position;
-    shown->force = model->law.position_input ? out.holding_force : 0;
-    return PNEU_OK;
-  }
-  if (!is_physical(model, state))
+  if (has_sensors(model))
+    return show_by_sensors(model, state, input, shown);
+  if (!pneu_is_physical(model, state))
     return PNEU_RETRY_STATE;
   shown->pressure = state->p;
   shown->temperature = model->thermal ? state->T : model->p.ambient_temperature;

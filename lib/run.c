@@ -145,8 +145,8 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
   return PNEU_M(fmin)(factor, trend);
 }
 
-/* Whether a state is made of numbers, with pressure, temperature and volume above zero. */
-static int is_physical(const pneu_model *model, const pneu_state *state)
+/* Whether a state is made of numbers and physical. */
+static int is_sound(const pneu_model *model, const pneu_state *state)
 {
   pneu_real zero = 0 * (state->p + state->x + state->v);
   int i;
@@ -154,8 +154,7 @@ static int is_physical(const pneu_model *model, const pneu_state *state)
     zero += 0 * state->T;
   for (i = 0; i < model->n_extra; i++)
     zero += 0 * state->extra[i];
-  return zero == 0 && state->p > -model->p.ambient_pressure && (!model->thermal || state->T > 0) &&
-         (model->law.pressure_input || pneu_volume(model, state->x) > 0);
+  return zero == 0 && pneu_is_physical(model, state);
 }
 
 static int all_finite(const pneu_input *input)
@@ -169,7 +168,7 @@ static int usable(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   const pneu_params *p = &model->p;
   const pneu_real margin = PNEU_C(1e-3) * p->stroke;
-  if (!is_physical(model, state) || !all_finite(input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
+  if (!is_sound(model, state) || !all_finite(input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
     return 0;
   if (input->supply_pressure <= -p->ambient_pressure)
     return 0;
@@ -281,7 +280,7 @@ static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_inp
   pneu_unpack(model, work->y1, &next);
   if (!model->law.position_input)
     next.x = clip(next.x, model->lower_stop, model->upper_stop);
-  if (!is_physical(model, &next))
+  if (!is_sound(model, &next))
     return PNEU_RETRY_STATE;
   *now = next;
   work->stats.steps++;
