@@ -114,7 +114,7 @@ mutate: tests
 	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS),,results/mutation.csv)' sh tests/mutate.sh
 .PHONY: mutate
 
-## End sweep and closeloop by kill -9 KILLS times (200, 5 minutes), see that nothing is half-written and the next run is whole
+## End sweep, closeloop and a batch by kill -9 KILLS times (200, 5 minutes), see that nothing is half-written and the next run is whole
 kill: sweep simulate closeloop
 	@BUILD='$(BUILD)' KILLS='$(or $(KILLS),200)' SEED='$(or $(SEED),1)' sh tests/kill.sh
 .PHONY: kill
