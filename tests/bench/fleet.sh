@@ -1,5 +1,5 @@
 #!/bin/sh
-# A fleet run: N logs of a few hundred rows, each of another rig, through closeloop --batch.
+# A fleet run: N logs of a few hundred rows, twenty of a rig, through closeloop --batch.
 # Usage: fleet.sh N [FOLDER-OF-THE-TABLE [THREADS]]; prints logs per second of one core and memory, writes fleet.csv.
 set -eu
 : "${BUILD:=build}"

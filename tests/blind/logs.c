@@ -63,19 +63,23 @@ static void write_rows(FILE *file, const blind_rows *r, int channels)
   }
 }
 
+int blind_write_rows(const blind_rows *rows, int channels, const char *folder, const char *name, lab_error *error)
+{
+  lab_outfile out;
+  if (open_in(folder, name, &out, error))
+    return error->status;
+  write_rows(out.file, rows, channels);
+  return lab_out_close(&out, error);
+}
+
 static int write_log(const blind_trial *t, const second_rig *rig, const blind_schedule *schedule, const char *folder,
                      const char *name, lab_error *error)
 {
-  lab_outfile out;
   blind_rows rows;
   int status;
   if (blind_simulate(rig, schedule, t->spacing, &rows, error))
     return error->status;
-  status = open_in(folder, name, &out, error);
-  if (status == LAB_OK) {
-    write_rows(out.file, &rows, t->channels);
-    status = lab_out_close(&out, error);
-  }
+  status = blind_write_rows(&rows, t->channels, folder, name, error);
   blind_rows_free(&rows);
   return status;
 }
@@ -118,16 +122,21 @@ static void write_rig(FILE *file, const second_rig *g, int channels)
     fprintf(file, "effects    = { heat_transfer = { film_conductance = \"%.10g W/K\"; }; };\n", g->heat);
 }
 
+int blind_write_rig(const blind_trial *t, const char *folder, lab_error *error)
+{
+  lab_outfile out;
+  if (lab_make_folder(folder, error) || open_in(folder, "rig.cfg", &out, error))
+    return error->status;
+  write_rig(out.file, &t->declared, t->channels);
+  return lab_out_close(&out, error);
+}
+
 int blind_write_logs(const blind_trial *t, const char *folder, lab_error *error)
 {
   const second_rig truth = blind_truth(t, BLIND_ALL);
   second_rig again = truth;
-  lab_outfile out;
   again.seed++; /* other noise */
-  if (lab_make_folder(folder, error) || open_in(folder, "rig.cfg", &out, error))
-    return error->status;
-  write_rig(out.file, &t->declared, t->channels);
-  if (lab_out_close(&out, error) || write_log(t, &truth, &t->fit, folder, "fit.csv", error))
+  if (blind_write_rig(t, folder, error) || write_log(t, &truth, &t->fit, folder, "fit.csv", error))
     return error->status;
   return write_log(t, &again, &t->holdout, folder, "holdout.csv", error);
 }

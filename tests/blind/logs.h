@@ -18,7 +18,14 @@ int blind_simulate(const second_rig *rig, const blind_schedule *schedule, double
                    lab_error *error);
 void blind_rows_free(blind_rows *rows);
 
-/* Write rig.cfg, fit.csv and holdout.csv into a folder. */
+/* Write rig.cfg into a folder, which is made. */
+int blind_write_rig(const blind_trial *trial, const char *folder, lab_error *error);
+
+/* Write a log into a folder.
+ * In:  channels  BLIND_P, ...: those it has */
+int blind_write_rows(const blind_rows *rows, int channels, const char *folder, const char *name, lab_error *error);
+
+/* Write rig.cfg, fit.csv and holdout.csv into a folder, which is made. */
 int blind_write_logs(const blind_trial *trial, const char *folder, lab_error *error);
 
 #endif
