@@ -27,11 +27,11 @@ coverage:
 	@sh tests/coverage.sh $(COVERED) $(COVERING)
 .PHONY: coverage
 
-TIDY ?= $(firstword $(wildcard /usr/bin/clang-tidy-14 /usr/bin/clang-tidy))
+TIDY ?= clang-tidy
 
-## Static analysis of lib/ and apps/ by clang-tidy (.clang-tidy)
+## Static analysis of lib/ and apps/ by clang-tidy (.clang-tidy), which it installs
 lint: $(CARRIED:%=$(BUILD)/%.inc)
-	@test -n "$(TIDY)" || { echo "clang-tidy is missing: apt-get install clang-tidy-14"; exit 1; }
+	@sh study/install-packages.sh clang-tidy
 	@printf '%s\n' $(LIB_C) $(LAB_C) $(wildcard apps/*.c) | xargs -P 2 -n 12 sh -c \
 	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
 	@echo "lint: nothing found in $(words $(LIB_C) $(LAB_C) $(wildcard apps/*.c)) files"
@@ -44,6 +44,7 @@ GRIND  := test_params test_terms test_clock test_flow test_chamber test_stem tes
 
 ## Tests of the library and of the readers under valgrind's memcheck
 valgrind: $(GRIND:%=$(BUILD)/tests/%)
+	@sh study/install-packages.sh valgrind
 	@for test in $(GRIND); do \
 	  valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
 	    --suppressions=tests/valgrind.supp $(BUILD)/tests/$$test >$(BUILD)/valgrind.log 2>&1 && \

@@ -1,5 +1,5 @@
 # Fuzzing of the file readers by libFuzzer; only clang has it.
-FUZZ_CC      ?= clang-14
+FUZZ_CC      ?= clang
 FUZZ_SECONDS ?= 60
 FUZZ_TARGETS ?= log rig study table
 FUZZ_RUNS    ?= -1
@@ -11,8 +11,9 @@ FUZZ_READERS := $(wildcard apps/lab/rig*.c) $(filter-out %/logscene.c,$(wildcard
 FUZZ_C       := $(LIB_C) $(FUZZ_READERS) tests/fuzz/targets.c tests/fuzz/libfuzzer.c
 FUZZING      := $(BUILD)/fuzzing
 
-## Fuzz the readers of files, FUZZ_SECONDS (60) or FUZZ_RUNS executions each; FUZZ_TARGETS: log rig study table
+## Fuzz the readers of files, FUZZ_SECONDS (60) or FUZZ_RUNS executions each; FUZZ_TARGETS: log rig study table; installs clang
 fuzz:
+	@sh study/install-packages.sh clang libclang-rt-dev
 	@mkdir -p $(FUZZING)
 	@$(MAKE) --no-print-directory BUILD=$(FUZZING) CC=$(FUZZ_CC) WARN=-w OPENMP= \
 	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZING)/fuzz >$(FUZZING)/build.log 2>&1 || \
