@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "../apps/lab/number.h"
+#include "fixture.h"
 
 static int read(const char *text, char decimal, char thousands, double *value)
 {
@@ -104,6 +105,24 @@ static void test_lab_number_read__very_long_field__is_bad(void **state)
   assert_int_equal(read(text, '.', 0, &value), LAB_NUMBER_BAD);
 }
 
+static void test_lab_number_write__any_number__is_short_and_the_same(void **state)
+{
+  static const struct {
+    double value;
+    const char *text;
+  } row[] = {{0.04, "0.04"}, {1e-9, "1e-09"}, {-2, "-2"}, {0, "0"}, {0.1 + 0.2, "0.30000000000000004"}};
+  char text[LAB_NUMBER_TEXT];
+  uint64_t seed = 5;
+  int i;
+  (void)state;
+  for (i = 0; i < (int)(sizeof row / sizeof *row); i++)
+    assert_string_equal(lab_number_write(row[i].value, text), row[i].text);
+  for (i = 0; i < 10000; i++) {
+    const double value = pow(10, fixture_random(&seed, -300, 300)) * (i % 2 ? -1 : 1);
+    assert_true(strtod(lab_number_write(value, text), NULL) == value);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -115,6 +134,7 @@ int main(void)
       cmocka_unit_test(test_lab_number_read__nothing_or_nan__is_a_gap),
       cmocka_unit_test(test_lab_number_read__not_a_finite_decimal__is_bad),
       cmocka_unit_test(test_lab_number_read__very_long_field__is_bad),
+      cmocka_unit_test(test_lab_number_write__any_number__is_short_and_the_same),
   };
   return cmocka_run_group_tests_name("number", tests, NULL, NULL);
 }

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "number.h"
+
 /* A character as libconfig reads it back. */
 static void write_mark(FILE *file, const char *key, char mark)
 {
@@ -26,13 +28,15 @@ static void write_columns(FILE *file, const lab_log_format *format)
 static void write_channels(FILE *file, const char *key, const lab_log_format *format, const double *value, double dflt,
                            int with_unit)
 {
+  char number[LAB_NUMBER_TEXT];
   int i, any = 0;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
     if (value[i] == dflt || isnan(value[i]))
       continue;
     if (!any++)
       fprintf(file, "  %s = {", key);
-    fprintf(file, " %s = \"%.17g %s\";", lab_channels[i].key, value[i], with_unit ? lab_log_unit(format, i) : "1");
+    fprintf(file, " %s = \"%s %s\";", lab_channels[i].key, lab_number_write(value[i], number),
+            with_unit ? lab_log_unit(format, i) : "1");
   }
   if (any)
     fputs(" };\n", file);
@@ -49,11 +53,18 @@ static void write_quantities(FILE *file, const lab_log_format *format)
 
 static void write_weights(FILE *file, const lab_log_format *format)
 {
+  char number[LAB_NUMBER_TEXT];
   int i;
   for (i = 0; i < format->weighted; i++)
-    fprintf(file, "%s%.17g", i ? ", " : "  weights = ( ", format->weight[i]);
+    fprintf(file, "%s%s", i ? ", " : "  weights = ( ", lab_number_write(format->weight[i], number));
   if (format->weighted)
     fputs(" );\n", file);
+}
+
+static void write_window(FILE *file, double from, double to)
+{
+  char first[LAB_NUMBER_TEXT], last[LAB_NUMBER_TEXT];
+  fprintf(file, " window = ( \"%s s\", \"%s s\" );", lab_number_write(from, first), lab_number_write(to, last));
 }
 
 static void write_held_out(FILE *file, const lab_log_format *format)
@@ -64,7 +75,7 @@ static void write_held_out(FILE *file, const lab_log_format *format)
   if (window || first)
     fputs("  holdout = {", file);
   if (window)
-    fprintf(file, " window = ( \"%.17g s\", \"%.17g s\" );", format->holdout_from, format->holdout_to);
+    write_window(file, format->holdout_from, format->holdout_to);
   if (first)
     fprintf(file, " first = %d;", format->holdout_first);
   if (window || first)
@@ -83,6 +94,7 @@ static void write_channel_names(FILE *file, const lab_log_format *format)
 
 static void write_lead(FILE *file, const lab_log_format *format)
 {
+  char number[LAB_NUMBER_TEXT];
   int i, c;
   for (i = 0; i < format->n_lead; i++) {
     fputs(i ? ", {" : "  lead = ( {", file);
@@ -91,7 +103,8 @@ static void write_lead(FILE *file, const lab_log_format *format)
         fprintf(file, " %s = \"%s %s\";", lab_channels[c].key, format->lead_first[i][c] ? "first" : "last",
                 lab_channels[format->lead_first[i][c] + format->lead_last[i][c] - 1].key);
       else if (!isnan(format->lead[i][c]))
-        fprintf(file, " %s = \"%.17g %s\";", lab_channels[c].key, format->lead[i][c], lab_log_unit(format, c));
+        fprintf(file, " %s = \"%s %s\";", lab_channels[c].key, lab_number_write(format->lead[i][c], number),
+                lab_log_unit(format, c));
     fputs(" }", file);
   }
   if (format->n_lead)
@@ -100,6 +113,7 @@ static void write_lead(FILE *file, const lab_log_format *format)
 
 void lab_log_format_write(FILE *file, const lab_log_format *format)
 {
+  char number[LAB_NUMBER_TEXT];
   fputs("log = {\n", file);
   write_mark(file, "delimiter", format->delimiter);
   write_mark(file, "decimal", format->decimal);
@@ -108,9 +122,12 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   fprintf(file, "  skip_lines = %d;\n", format->skip_lines);
   write_columns(file, format);
   if (format->time_step > 0)
-    fprintf(file, "  time_step = \"%.17g s\";\n", format->time_step);
-  if (isfinite(format->from))
-    fprintf(file, "  window = ( \"%.17g s\", \"%.17g s\" );\n", format->from, format->to);
+    fprintf(file, "  time_step = \"%s s\";\n", lab_number_write(format->time_step, number));
+  if (isfinite(format->from)) {
+    fputc(' ', file);
+    write_window(file, format->from, format->to);
+    fputc('\n', file);
+  }
   fprintf(file, "  new_run = \"%s\";\n", format->new_run == LAB_RUN_T_DROPS ? "t drops" : "never");
   fprintf(file, "  damaged = \"%s\";\n", format->damaged == LAB_DAMAGED_DROP ? "drop" : "error");
   write_channels(file, "scale", format, format->scale, 1, 0);

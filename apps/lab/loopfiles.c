@@ -7,6 +7,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "number.h"
 #include "outfile.h"
 #include "quantile.h"
 #include "rigterm.h"
@@ -283,11 +284,12 @@ int lab_story_header(const lab_story *story, const char *folder, lab_error *erro
       story->rig->name);
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
+    char number[LAB_NUMBER_TEXT];
     pneu_param_describe(i, &info);
     if (i == PNEU_PARAM_BASE_COUNT)
       fputs("    { \\\n", out.file);
-    fprintf(out.file, "    %s(pneu_real)%.17g, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
-            (double)*pneu_param_at(&params, i), info.name, info.unit);
+    fprintf(out.file, "    %s(pneu_real)%s, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
+            lab_number_write((double)*pneu_param_at(&params, i), number), info.name, info.unit);
   }
   fprintf(out.file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n",
           story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input, story->rig->laws.position_input,

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -88,4 +89,15 @@ int lab_number_read(const char *begin, const char *end, char decimal, char thous
   if (!thousands && read_plain(begin, end, decimal, value))
     return LAB_NUMBER_FINITE;
   return read_any(begin, end, decimal, thousands, value);
+}
+
+const char *lab_number_write(double value, char *text)
+{
+  int digits;
+  for (digits = 15; digits <= 17; digits++) {
+    snprintf(text, LAB_NUMBER_TEXT, "%.*g", digits, value);
+    if (strtod(text, NULL) == value)
+      break;
+  }
+  return text;
 }

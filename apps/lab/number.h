@@ -13,4 +13,10 @@ enum lab_number_kind { LAB_NUMBER_BAD, LAB_NUMBER_GAP, LAB_NUMBER_FINITE };
  *          decimal number; `*end` must be readable. */
 int lab_number_read(const char *begin, const char *end, char decimal, char thousands, double *value);
 
+/* The shortest decimal number that is read back as the same value.
+ * Out:     text  LAB_NUMBER_TEXT characters
+ * Returns: text. */
+enum { LAB_NUMBER_TEXT = 32 };
+const char *lab_number_write(double value, char *text);
+
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "config.h"
+#include "number.h"
 #include "units.h"
 
 #define X(name, key, unit, text) {key, unit, "PNEU_TERM_" #name},
@@ -113,10 +114,10 @@ void lab_terms_write(FILE *file, const pneu_term *term, int n)
   for (i = 0; i < n; i++) {
     const lab_term_word *equation = &lab_term_equations[term[i].equation];
     const lab_term_word *argument = &lab_term_arguments[term[i].argument];
-    fprintf(file,
-            "%s  { equation = \"%s\"; argument = \"%s\"; from = \"%.17g %s\"; to = \"%.17g %s\";\n    values = [ ",
-            i ? ",\n" : "unlisted = (\n", equation->key, argument->key, (double)term[i].from, argument->unit,
-            (double)term[i].to, argument->unit);
+    char from[LAB_NUMBER_TEXT], to[LAB_NUMBER_TEXT];
+    fprintf(file, "%s  { equation = \"%s\"; argument = \"%s\"; from = \"%s %s\"; to = \"%s %s\";\n    values = [ ",
+            i ? ",\n" : "unlisted = (\n", equation->key, argument->key, lab_number_write((double)term[i].from, from),
+            argument->unit, lab_number_write((double)term[i].to, to), argument->unit);
     write_values(file, &term[i], "", 4, ",\n               ");
     fputs(" ]; }", file);
   }
@@ -133,10 +134,12 @@ void lab_terms_print_c(FILE *file, const pneu_term *term, int n)
           "#define MODEL_TERMS \\\n  { \\\n",
           file);
   for (i = 0; i < n; i++) {
-    fprintf(file, "    { %s, %s, %d, (pneu_real)%.17g, (pneu_real)%.17g, /* %s over %s [%s] */ \\\n      { ",
+    char from[LAB_NUMBER_TEXT], to[LAB_NUMBER_TEXT];
+    fprintf(file, "    { %s, %s, %d, (pneu_real)%s, (pneu_real)%s, /* %s over %s [%s] */ \\\n      { ",
             lab_term_equations[term[i].equation].constant, lab_term_arguments[term[i].argument].constant, term[i].n,
-            (double)term[i].from, (double)term[i].to, lab_term_equations[term[i].equation].unit,
-            lab_term_arguments[term[i].argument].key, lab_term_arguments[term[i].argument].unit);
+            lab_number_write((double)term[i].from, from), lab_number_write((double)term[i].to, to),
+            lab_term_equations[term[i].equation].unit, lab_term_arguments[term[i].argument].key,
+            lab_term_arguments[term[i].argument].unit);
     write_values(file, &term[i], "(pneu_real)", 3, ", \\\n        ");
     fprintf(file, " } }%s \\\n", i + 1 < n ? "," : "");
   }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "number.h"
 #include "rigkeys.h"
 #include "rigterm.h"
 
@@ -22,8 +23,13 @@ static void write_param(FILE *file, const lab_rig *rig, const char *key, int par
 {
   pneu_params p = rig->params;
   pneu_param_info info;
+  char number[LAB_NUMBER_TEXT];
   pneu_param_describe(param, &info);
-  fprintf(file, "%s%s = \"%.17g %s\";\n", indent, key, (double)*pneu_param_at(&p, param), info.unit);
+  lab_number_write((double)*pneu_param_at(&p, param), number);
+  if (strcmp(info.unit, "1") == 0)
+    fprintf(file, "%s%s = %s;\n", indent, key, number);
+  else
+    fprintf(file, "%s%s = \"%s %s\";\n", indent, key, number, info.unit);
 }
 
 static void write_word(FILE *file, const char *key, const char *word)
@@ -84,11 +90,12 @@ static void write_fit(FILE *file, const lab_rig *rig, const char *key, int per_l
 
 static void write_noise(FILE *file, const lab_rig *rig)
 {
+  char number[LAB_NUMBER_TEXT];
   int i, any = 0;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++)
     if (!isnan(rig->noise[i]))
-      fprintf(file, "%s  %s = \"%.17g %s\";\n", any++ ? "" : "noise = {\n", lab_channels[i].quantity, rig->noise[i],
-              lab_channels[i].unit);
+      fprintf(file, "%s  %s = \"%s %s\";\n", any++ ? "" : "noise = {\n", lab_channels[i].quantity,
+              lab_number_write(rig->noise[i], number), lab_channels[i].unit);
   if (any)
     fputs("};\n", file);
 }
