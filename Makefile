@@ -95,6 +95,11 @@ bench: all
 	@$(MAKE) --no-print-directory BUILD='$(BUILD)/pic' OPT='$(OPT) -fPIC' $(BUILD)/pic/bench
 	MEASURED='$(MEASURED)' BUILD='$(BUILD)' sh tests/bench/run.sh $(if $(QUICK),'$(BUILD)/bench/results' quick,results)
 
+## All figures of results/ on one page
+gallery:
+	@sh study/gallery.sh >results/GALLERY.md.part && mv results/GALLERY.md.part results/GALLERY.md
+.PHONY: gallery
+
 ## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trials $(N) --work $(BUILD)/blind

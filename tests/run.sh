@@ -118,6 +118,8 @@ pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a"
 firmware
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
+pass "guides: every command, and what it prints" sh tests/check_guides.sh study/guides
+pass "gallery: every figure of results/" sh -c 'sh study/gallery.sh | cmp - results/GALLERY.md'
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
 pass "memory that runs out, call by call" $MAKE --no-print-directory BUILD="$BUILD" alloc
 command -v valgrind >/dev/null && pass "valgrind: a part of the tests" $MAKE --no-print-directory BUILD="$BUILD" \

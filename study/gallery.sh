@@ -1,0 +1,19 @@
+#!/bin/sh
+# All figures on one page, each with the first line of the script that draws it: gallery.sh > results/GALLERY.md
+set -eu
+echo "# Gallery"
+echo
+echo "Made by \`make gallery\` from what is in this folder; a figure is drawn by the script of its name in [study/figures](../study/figures)."
+for script in study/figures/*.gp; do
+  name=$(basename "$script" .gp)
+  [ -e "results/$name.svg" ] || continue
+  words=$(sed -n '1s/^# *//p' "$script")
+  printf '\n## %s\n\n![%s](%s.svg)\n' "$name" "$words" "$name"
+  printf '\n%s\n' "$words"
+done
+printf '\n## closeloop on measured sets\n'
+for figure in results/measured/*/response.svg; do
+  set=$(basename "$(dirname "$figure")")
+  sentence=$(sed -n 's/^[[:space:]]*"sentence":[[:space:]]*"\(.*\)",$/\1/p' "results/measured/$set/report.json")
+  printf '\n### %s\n\n![%s: measured and predicted](measured/%s/response.svg)\n\n%s\n' "$set" "$set" "$set" "$sentence"
+done
