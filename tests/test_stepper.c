@@ -519,6 +519,52 @@ static int run_observed(walk *w, double duration, int stop_event)
   return pneu_run(&m, &s, &input, (pneu_real)duration, &options, &observer, &work);
 }
 
+#if PNEU_ORDER == 4
+/* Largest deviation of the position in the middle of a step from the cubic through both ends and their velocities, and
+ * of that cubic from the straight line. */
+typedef struct bend {
+  double off, bent;
+} bend;
+
+static int look_at_bend(void *context, const pneu_step_view *view)
+{
+  bend *b = context;
+  pneu_state from, middle, to;
+  double line, cubic;
+  if (view->start->mode != PNEU_MODE_UP)
+    return 0;
+  pneu_dense(view, 0, &from);
+  pneu_dense(view, (pneu_real)0.5, &middle);
+  pneu_dense(view, 1, &to);
+  line = ((double)from.x + (double)to.x) / 2;
+  cubic = line + (double)view->h * ((double)from.v - (double)to.v) / 8;
+  b->off = fmax(b->off, fabs((double)middle.x - cubic));
+  b->bent = fmax(b->bent, fabs(cubic - line));
+  return 0;
+}
+
+/* With order 4 position and velocity inside a step tell the same story. */
+static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void **state)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_input input = fixture_input(&m, 1);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  bend b = {0, 0};
+  const pneu_observer observer = {look_at_bend, NULL, &b};
+  pneu_options options;
+  pneu_workspace work;
+  (void)state;
+  clear(&work);
+  pneu_options_default(&options);
+  options.tol = (pneu_real)1e-3;
+  assert_int_equal(pneu_run(&m, &s, &input, 3, &options, &observer, &work), PNEU_OK);
+  check_note("off by %g of %g m", b.off, b.bent);
+  assert_between(b.bent, 1e-6, 1e-2);
+  assert_between(b.off, 0, TOL(1e-15, 4e-9));
+}
+#endif
+
 static void test_pneu_run__longest_step__is_kept_and_steps_join(void **state)
 {
   walk w = {0, 0.01, 0, 0};
@@ -975,42 +1021,45 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
 #ifndef PNEU_SINGLE
-      cmocka_unit_test(test_pneu_step__smooth_stretch__converges_with_its_order),
-      cmocka_unit_test(test_pneu_dense__smooth_stretch__has_its_order),
-      cmocka_unit_test(test_pneu_step__fill_and_vent__is_as_exact_as_documented),
-      cmocka_unit_test(test_pneu_run__smaller_tolerance__error_falls_with_it),
+    cmocka_unit_test(test_pneu_step__smooth_stretch__converges_with_its_order),
+    cmocka_unit_test(test_pneu_dense__smooth_stretch__has_its_order),
+    cmocka_unit_test(test_pneu_step__fill_and_vent__is_as_exact_as_documented),
+    cmocka_unit_test(test_pneu_run__smaller_tolerance__error_falls_with_it),
 #endif
-      cmocka_unit_test(test_pneu_dense__at_the_ends__is_the_step_itself),
-      cmocka_unit_test(test_pneu_step__stiff_stretch_and_huge_step__decays),
-      cmocka_unit_test(test_pneu_run__break_away__is_located_to_a_nanosecond),
-      cmocka_unit_test(test_pneu_run__rough_steps__event_lies_on_its_root),
-      cmocka_unit_test(test_pneu_step__two_events_in_one_step__takes_the_first),
-      cmocka_unit_test(test_pneu_step__force_jumps__stem_moves_at_once_in_one_step),
-      cmocka_unit_test(test_pneu_step__break_away_within_a_step__is_located),
-      cmocka_unit_test(test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics),
-      cmocka_unit_test(test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures),
-      cmocka_unit_test(test_pneu_run__lagging_command_through_zero__takes_few_steps),
-      cmocka_unit_test(test_pneu_run__in_two_parts__ends_where_one_run_does),
-      cmocka_unit_test(test_pneu_run__no_time__changes_the_mode_at_most),
-      cmocka_unit_test(test_pneu_run__any_duration__reaches_its_end),
-      cmocka_unit_test(test_pneu_run__longest_step__is_kept_and_steps_join),
-      cmocka_unit_test(test_pneu_run__step_to_try_first__is_tried_and_forgotten),
-      cmocka_unit_test(test_pneu_run__observer_stops__says_so),
-      cmocka_unit_test(test_pneu_run__content_of_the_workspace__means_nothing),
-      cmocka_unit_test(test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run),
-      cmocka_unit_test(test_pneu_step__anywhere__work_is_bounded),
-      cmocka_unit_test(test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_the_bound),
-      cmocka_unit_test(test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept),
-      cmocka_unit_test(test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept),
-      cmocka_unit_test(test_pneu_run__nan_in_state_or_input__is_refused),
-      cmocka_unit_test(test_pneu_step__step_not_positive__is_refused_and_state_kept),
-      cmocka_unit_test(test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing),
-      cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
-      cmocka_unit_test(test_pneu_run__driven_to_where_there_is_no_volume__is_refused),
-      cmocka_unit_test(test_pneu_run__event_after_event_at_one_time__is_ended),
-      cmocka_unit_test(test_pneu_run__pressure_beyond_all_sense__is_an_error),
-      cmocka_unit_test(test_pneu_run__step_that_ends_below_vacuum__is_refused),
-      cmocka_unit_test(test_pneu_step__outside_documented_ranges__is_refused_and_state_kept),
+#if PNEU_ORDER == 4
+    cmocka_unit_test(test_pneu_dense__order_4__position_is_joined_by_its_velocities),
+#endif
+    cmocka_unit_test(test_pneu_dense__at_the_ends__is_the_step_itself),
+    cmocka_unit_test(test_pneu_step__stiff_stretch_and_huge_step__decays),
+    cmocka_unit_test(test_pneu_run__break_away__is_located_to_a_nanosecond),
+    cmocka_unit_test(test_pneu_run__rough_steps__event_lies_on_its_root),
+    cmocka_unit_test(test_pneu_step__two_events_in_one_step__takes_the_first),
+    cmocka_unit_test(test_pneu_step__force_jumps__stem_moves_at_once_in_one_step),
+    cmocka_unit_test(test_pneu_step__break_away_within_a_step__is_located),
+    cmocka_unit_test(test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics),
+    cmocka_unit_test(test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures),
+    cmocka_unit_test(test_pneu_run__lagging_command_through_zero__takes_few_steps),
+    cmocka_unit_test(test_pneu_run__in_two_parts__ends_where_one_run_does),
+    cmocka_unit_test(test_pneu_run__no_time__changes_the_mode_at_most),
+    cmocka_unit_test(test_pneu_run__any_duration__reaches_its_end),
+    cmocka_unit_test(test_pneu_run__longest_step__is_kept_and_steps_join),
+    cmocka_unit_test(test_pneu_run__step_to_try_first__is_tried_and_forgotten),
+    cmocka_unit_test(test_pneu_run__observer_stops__says_so),
+    cmocka_unit_test(test_pneu_run__content_of_the_workspace__means_nothing),
+    cmocka_unit_test(test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run),
+    cmocka_unit_test(test_pneu_step__anywhere__work_is_bounded),
+    cmocka_unit_test(test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_the_bound),
+    cmocka_unit_test(test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept),
+    cmocka_unit_test(test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept),
+    cmocka_unit_test(test_pneu_run__nan_in_state_or_input__is_refused),
+    cmocka_unit_test(test_pneu_step__step_not_positive__is_refused_and_state_kept),
+    cmocka_unit_test(test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing),
+    cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
+    cmocka_unit_test(test_pneu_run__driven_to_where_there_is_no_volume__is_refused),
+    cmocka_unit_test(test_pneu_run__event_after_event_at_one_time__is_ended),
+    cmocka_unit_test(test_pneu_run__pressure_beyond_all_sense__is_an_error),
+    cmocka_unit_test(test_pneu_run__step_that_ends_below_vacuum__is_refused),
+    cmocka_unit_test(test_pneu_step__outside_documented_ranges__is_refused_and_state_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
