@@ -116,7 +116,7 @@ fleet: closeloop $(BUILD)/tests/bench/fleet
 ## Break the library one sign or factor at a time, see that a test notices: MUTANTS=10 SEED=1 draws some, else all
 mutate: tests
 	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
-	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS),,results/mutation.csv)' sh tests/mutate.sh
+	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS)$(FILES),,results/mutation.csv)' sh tests/mutate.sh
 .PHONY: mutate
 
 ## End sweep, closeloop and a batch by kill -9 KILLS times (200, 5 minutes), see that nothing is half-written and the next run is whole

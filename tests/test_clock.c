@@ -103,6 +103,8 @@ static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void
   const pneu_term term = cycle(SHOWN, 1, 2, amplitude);
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
+  pneu_input input;
+  pneu_state s;
   int i;
   (void)state;
   if (fixture_effect("transducer_lag") < 0 || fixture_effect("position_lag") < 0)
@@ -111,7 +113,12 @@ static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void
   fixture_set(&p, "position_time", 0.02);
   m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   add(&m, &term, 1);
+  input = fixture_input(&m, 1);
   assert_int_equal(m.clock, 2);
+  s = fixture_rest(&m, 1e5, 0, &input);
+  fixture_run(&m, &s, &input, 0.25, TOL(1e-6, 1e-4), NULL);
+  assert_close(s.extra[2], 0.25, TOL(1e-12, 1e-6), 0);
+  assert_between(s.p, 1.01e5, 4e5);
   for (i = 0; i < COUNT(t); i++)
     assert_close(shown_at(&m, t[i]), closed_form(&term, t[i]), TOL(1e-8, 0.5), 0);
 }
