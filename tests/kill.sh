@@ -134,6 +134,9 @@ undisturbed() {
   awk -v a="$from" -v b="$to" 'BEGIN { printf "%d\n", (b - a) * 1000 + 20 }' >"$folder/$1-$2.ms"
 }
 
+# sooner FILE: a shorter time
+sooner() { awk '{ printf "%d\n", $1 > 100 ? 0.8 * $1 : $1 }' "$1" >"$1.part" && mv "$1.part" "$1"; }
+
 pick() {
   draw 2
   input=a
@@ -155,7 +158,11 @@ one_kill() {
   orphans=$(children $victim)
   kill -9 $victim 2>/dev/null
   wait $victim 2>/dev/null
-  [ $? -eq 137 ] && killed=$((killed + 1))
+  if [ $? -eq 137 ]; then
+    killed=$((killed + 1))
+  else
+    sooner "$folder/$program-$input.ms" # the machine has become quicker than it was when this was timed
+  fi
   each_whole "$program"
   draw 3
   [ "$drawn" -eq 0 ] && return # the next kill meets what this one left
