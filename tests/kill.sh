@@ -135,7 +135,7 @@ undisturbed() {
 }
 
 # sooner FILE: a shorter time
-sooner() { awk '{ printf "%d\n", $1 > 100 ? 0.8 * $1 : $1 }' "$1" >"$1.part" && mv "$1.part" "$1"; }
+sooner() { awk '{ ms = ($1 > 100) ? 0.8 * $1 : $1; printf "%d\n", ms }' "$1" >"$1.part" && mv "$1.part" "$1"; }
 
 pick() {
   draw 2
