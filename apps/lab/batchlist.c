@@ -45,8 +45,10 @@ static char *unquote(char *at, char mark, int *closed)
   for (at = quoted ? from + 1 : at; *at && (inside || *at != mark); at++)
     if (quoted && *at == '"' && !(inside && at[1] == '"'))
       inside = 0;
-    else
-      *to++ = quoted && *at == '"' ? *at++ : *at;
+    else {
+      *to++ = *at;
+      at += quoted && *at == '"'; /* two for one */
+    }
   *closed = !inside;
   if (to < at)
     *to = '\0';
@@ -151,7 +153,7 @@ static int read_header(lab_list *list, lab_error *error)
   if (!more)
     return lab_fail(error, LAB_DATA, "%s: the list is empty; expected a header like name,rig,log,holdout", list->path);
   mark = strpbrk(list->text, marks);
-  list->mark = mark ? *mark : marks[0];
+  list->mark = *(mark ? mark : marks);
   if (cells_of(list, cell, &n, error))
     return error->status;
   for (i = 0; i < n; i++)
@@ -209,7 +211,8 @@ static int name_after_log(lab_entry *e, lab_error *error)
   snprintf(e->name, sizeof e->name, "%.*s", (int)length, from);
   lab_trim(e->name);
   for (i = 0; e->name[i]; i++)
-    e->name[i] = e->name[i] == '/' || e->name[i] == '\\' ? '-' : e->name[i];
+    if (e->name[i] == '/' || e->name[i] == '\\')
+      e->name[i] = '-';
   dot = strrchr(e->name, '.');
   if (dot && dot > e->name)
     *dot = '\0';

@@ -32,8 +32,11 @@ void lab_row_cell(FILE *file, const char *text)
     return;
   }
   fputc('"', file);
-  for (; *text; text++)
-    fputs(*text == '"' ? "\"\"" : (const char[]){*text == '\n' || *text == '\r' ? ' ' : *text, '\0'}, file);
+  for (; *text; text++) {
+    if (*text == '"') /* doubled */
+      fputc('"', file);
+    fputc(*text == '\n' || *text == '\r' ? ' ' : *text, file);
+  }
   fputc('"', file);
 }
 
