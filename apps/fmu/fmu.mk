@@ -31,3 +31,6 @@ $(FMU): $(FMU_C:%.c=$(BUILD)/%.o)
 
 export-fmu: $(BUILD)/apps/export-fmu.o $(FMU) $(LAB) $(STATIC) $(BUILD)/crew
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(FMU_LIBS) $(LAB_LIBS) -o $@
+
+$(BUILD)/tests/fmu/native: $(BUILD)/tests/fmu/native.o $(LAB) $(STATIC)
+	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@

@@ -79,13 +79,25 @@ int fmu_fits(const fmu_shape *shape, const pneu_model *model)
   return 1;
 }
 
+/* Give the effect of parameter i its usual size. */
+static void switch_on(pneu_params *params, int i)
+{
+  pneu_param_info info;
+  int e = 0, first, count, k;
+  for (first = pneu_effect_params(e, &count); i >= first + count; first = pneu_effect_params(e, &count))
+    e++;
+  for (k = first; k < first + count; k++) {
+    pneu_param_describe(k, &info);
+    *pneu_param_at(params, k) = info.value;
+  }
+}
+
 int fmu_has_parameter(const fmu_data *data, int i)
 {
   pneu_params params = data->params;
-  pneu_param_info info;
   pneu_model model, changed;
   fmu_shape shape;
-  if (pneu_param_describe(i, &info) != PNEU_OK || i == PNEU_PARAM_supply_pressure)
+  if (i < 0 || i >= PNEU_PARAM_COUNT || i == PNEU_PARAM_supply_pressure)
     return 0;
   if (i == PNEU_PARAM_proportional_band)
     return params.proportional_band > 0;
@@ -94,7 +106,7 @@ int fmu_has_parameter(const fmu_data *data, int i)
   if (fmu_model(data, &params, &model, NULL) != PNEU_OK)
     return 0;
   fmu_shape_of(&model, &shape);
-  *pneu_param_at(&params, i) = info.value;
+  switch_on(&params, i);
   return fmu_model(data, &params, &changed, NULL) == PNEU_OK && fmu_fits(&shape, &changed);
 }
 
