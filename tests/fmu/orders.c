@@ -172,11 +172,12 @@ static int fixed_steps(double h)
   status |= fmi3GetContinuousStates(c, x, n);
   status |= fmi3GetEventIndicators(c, before, n_z);
   for (i = 0; i < steps && status == fmi3OK; i++) {
-    int event = i + 1 == steps / 2;
+    const double t = (double)(i + 1) * h;
+    int event = i + 1 == steps / 2 || (timed && t >= next - h / 2);
     status |= fmi3GetContinuousStateDerivatives(c, dx, n);
     for (k = 0; k < n; k++)
       x[k] += h * dx[k];
-    status |= fmi3SetTime(c, (double)(i + 1) * h);
+    status |= fmi3SetTime(c, t);
     status |= fmi3SetContinuousStates(c, x, n);
     status |= fmi3GetEventIndicators(c, z, n_z);
     status |= fmi3CompletedIntegratorStep(c, true, &step_event, &stop);
@@ -197,7 +198,7 @@ static int fixed_steps(double h)
     if (i % (steps / 20) == 0 || i + 1 == steps) {
       status |= fmi3GetFloat64(c, &position, 1, &at, 1);
       status |= fmi3GetInt32(c, &mode_reference, 1, &mode, 1);
-      printf("%.9g,%.9g,%d\n", (double)(i + 1) * h, at, (int)mode);
+      printf("%.9g,%.9g,%d\n", t, at, (int)mode);
     }
   }
   fmi3FreeInstance(c);
