@@ -5,7 +5,8 @@ FMU_C       := $(wildcard apps/fmu/*.c) apps/fmu/runtime/shape.c
 FMU_RUNTIME := $(wildcard apps/fmu/runtime/*.c)
 FMU_FILES   := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/fmu/runtime/*.[ch]))
 FMU         := $(BUILD)/libfmu.a
-FMU_LIBS    := -lzip $(shell pkg-config --libs libxml-2.0)
+FMU_XML     := $(shell pkg-config --cflags libxml-2.0 2>/dev/null)
+FMU_LIBS    := -lzip $(or $(shell pkg-config --libs libxml-2.0 2>/dev/null),-lxml2)
 
 # Not optimised across files: the model's data are constants to the compiler only in their own.
 FMU_FLAGS := -std=c99 $(OPT) $(WARN) $(if $(WERROR),-Werror) -ffp-contract=off -fPIC -fvisibility=hidden -fno-lto
@@ -23,7 +24,7 @@ $(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(BUILD)/fmu2.so $(BUILD)/fmu3.so $(
 	sh apps/fmu/carry.sh $(FMU_CARRIED) > $@
 
 $(BUILD)/apps/fmu/carried.o: $(BUILD)/apps/fmu/carried.inc
-$(BUILD)/apps/fmu/%.o: LAB_FLAGS += -I$(BUILD) $(shell pkg-config --cflags libxml-2.0)
+$(BUILD)/apps/fmu/%.o: LAB_FLAGS += -I$(BUILD) $(FMU_XML)
 
 $(FMU): $(FMU_C:%.c=$(BUILD)/%.o)
 	@rm -f $@

@@ -1,8 +1,5 @@
 #include "package.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "../lab/outfile.h"
 
 enum { NO_TIME = 0, NO_DATE = 1 << 5 | 1 }; /* 1980-01-01, the earliest that a zip archive knows */
@@ -24,19 +21,24 @@ int fmu_package_begin(fmu_package *package, lab_error *error)
   return lab_fail_memory(error, "the archive");
 }
 
+/* A source that owns a copy of the bytes; NULL without memory. */
+static zip_source_t *copy_in(const void *bytes, size_t size)
+{
+  zip_source_t *source = zip_source_buffer_create(NULL, 0, 0, NULL);
+  if (source && (zip_source_begin_write(source) || zip_source_write(source, bytes, size) != (zip_int64_t)size ||
+                 zip_source_commit_write(source))) {
+    zip_source_free(source);
+    return NULL;
+  }
+  return source;
+}
+
 int fmu_package_add(fmu_package *package, const char *name, const void *bytes, size_t size, lab_error *error)
 {
-  void *copy = malloc(size ? size : 1);
-  zip_source_t *source = NULL;
+  zip_source_t *source = copy_in(bytes, size);
   zip_int64_t at;
-  if (copy) {
-    memcpy(copy, bytes, size);
-    source = zip_source_buffer(package->zip, copy, size, 1);
-  }
-  if (!source) {
-    free(copy);
+  if (!source)
     return lab_fail_memory(error, name);
-  }
   at = zip_file_add(package->zip, name, source, 0);
   if (at < 0) {
     zip_source_free(source);

@@ -352,6 +352,34 @@ def check_steps(fmu):
         check(f"{path.stem}: 200, 38 and 1 steps", spread < 1e-8, f"{spread:.1e} of stroke")
 
 
+def check_ramp():
+    """A set pressure that runs, through a dead time: as it is in model exchange, in steps in co-simulation, whose answers
+    for two lengths of step are extrapolated to none."""
+    path = model("ramp", more='effects = { dead_time = { dead_time = "0.05 s"; }; };\n')
+    path.write_text(path.read_text().replace("fill_area", 'proportional_band = "20 kPa"; fill_area', 1))
+    t = np.arange(0, 3001) * 0.001
+    signal = np.array(list(zip(t, 200e3 + 50e3 * np.sin(2 * t))), dtype=COMMANDS.dtype)
+    for version in VERSIONS:
+        fmu = export(path, version)
+        x = []
+        for kind, h in (("ModelExchange", 0.001), ("CoSimulation", 0.001), ("CoSimulation", 0.0005)):
+            with contextlib.redirect_stdout(None):
+                result = simulate_fmu(
+                    fmu,
+                    fmi_type=kind,
+                    start_time=0,
+                    stop_time=3,
+                    output_interval=h,
+                    relative_tolerance=1e-8,
+                    input=signal,
+                    record_events=False,
+                    output=["position"],
+                )
+            x.append(result["position"][:: round(0.01 / h)])
+        error = np.abs(x[0] - (2 * x[2] - x[1])).max() / 0.02
+        check(f"FMI {version}: a set pressure that runs, delayed", error < 1e-5, f"{error:.1e} of stroke")
+
+
 def check_life(fmu):
     """Ends and new beginnings in any order."""
     for kind in KINDS:
@@ -457,6 +485,7 @@ def main():
         check_life(fmu)
     check_sources(SCRATCH / "plain.cfg")
     check_bytes(plain)
+    check_ramp()
     check_agreement()
     check_sources(SCRATCH / "terms.cfg")
     check_disorder(SCRATCH / "effects.cfg")

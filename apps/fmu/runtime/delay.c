@@ -7,6 +7,8 @@ void fmu_delay_begin(fmu_delay *d, double length, double time, double u)
 {
   d->length = length;
   d->last_time = time;
+  d->wake = time;
+  d->runs = 0;
   d->head = 0;
   d->n = 1;
   d->t[0] = time;
@@ -51,7 +53,10 @@ static void hold_until(fmu_delay *d, double time)
 
 void fmu_delay_follow(fmu_delay *d, double time, double u)
 {
-  if (u != d->u[d->n - 1] && time > d->t[d->n - 1]) {
+  if (!(time > d->last_time))
+    return;
+  d->runs = u != d->u[d->n - 1];
+  if (d->runs) {
     hold_until(d, d->last_time);
     append(d, time, u);
   }
@@ -77,6 +82,19 @@ double fmu_delay_next(const fmu_delay *d)
   return end + 1 < d->n ? d->t[end] + d->length : HUGE_VAL;
 }
 
+int fmu_delay_asks(const fmu_delay *d, double time)
+{
+  return d->runs && d->wake <= time;
+}
+
+double fmu_delay_stop(fmu_delay *d, double time)
+{
+  if (!d->runs)
+    return fmu_delay_next(d);
+  d->wake = time + d->length / 2;
+  return fmin(d->wake, fmu_delay_next(d));
+}
+
 void fmu_delay_release(fmu_delay *d, double time)
 {
   const double rounding = 1e-12 * (1 + fabs(time));
@@ -100,5 +118,5 @@ double fmu_delay_value(const fmu_delay *d, double time)
 
 int fmu_delay_is_sound(const fmu_delay *d)
 {
-  return d->n >= 1 && d->n <= FMU_DELAY_ROOM && d->head >= 0 && d->head < d->n;
+  return d->length >= 0 && d->n >= 1 && d->n <= FMU_DELAY_ROOM && d->head >= 0 && d->head < d->n;
 }

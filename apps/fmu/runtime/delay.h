@@ -10,6 +10,8 @@ enum { FMU_DELAY_ROOM = 1024 };
 typedef struct fmu_delay {
   double length;    /* [s]; 0: commands act at once */
   double last_time; /* up to which the last entry's command is known to hold */
+  double wake;      /* when the importer was asked to stop next, for a command that runs */
+  int runs;         /* not 0: at the last look the command had changed without a jump */
   int head, n;      /* first entry in use, and entries */
   double t[FMU_DELAY_ROOM], u[FMU_DELAY_ROOM];
 } fmu_delay;
@@ -21,6 +23,13 @@ void fmu_delay_begin(fmu_delay *d, double length, double time, double u);
  * entry moves. */
 void fmu_delay_follow(fmu_delay *d, double time, double u);
 void fmu_delay_jump(fmu_delay *d, double time, double u);
+
+/* Whether the importer has to be asked to stop: where the command runs, no step may be longer than what is known of it.
+ */
+int fmu_delay_asks(const fmu_delay *d, double time);
+
+/* When the next jump acts, or the importer shall stop for a command that runs, twice in a dead time. In event mode. */
+double fmu_delay_stop(fmu_delay *d, double time);
 
 /* When the next jump acts; HUGE_VAL if none is on its way. */
 double fmu_delay_next(const fmu_delay *d);

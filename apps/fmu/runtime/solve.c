@@ -55,7 +55,7 @@ int fmu_update(fmu_instance *instance, fmu_event *event)
     pneu_settle(&instance->model, &input, &instance->m.state);
   fmu_arm(instance);
   event->states_changed = instance->m.state.x != before.x || instance->m.state.v != before.v;
-  event->next_time = next_time(instance);
+  event->next_time = instance->m.delay.length > 0 ? fmu_delay_stop(&instance->m.delay, instance->m.time) : HUGE_VAL;
   return FMU_OK;
 }
 
@@ -66,7 +66,7 @@ int fmu_completed_step(fmu_instance *instance, int *enter_event)
     return FMU_ERROR;
   if (instance->m.delay.length > 0)
     fmu_delay_follow(&instance->m.delay, instance->m.time, instance->m.input[FMU_INPUT_U]);
-  *enter_event = fmu_fired(instance) >= 0;
+  *enter_event = fmu_fired(instance) >= 0 || fmu_delay_asks(&instance->m.delay, instance->m.time);
   return FMU_OK;
 }
 
@@ -153,9 +153,11 @@ int fmu_count(fmu_instance *instance, size_t *states, size_t *indicators)
 
 /* ---- Co-simulation ---- */
 
-/* To `end`, from one jump of the delayed command to the next. */
+/* To `end`, from one jump of the delayed command to the next. What is no time but rounding is passed over: the stepper
+ * has a shortest step. */
 static int run_to(fmu_instance *i, double end)
 {
+  const double rounding = 1e-12 * (1 + fabs(end));
   fmu_memory *m = &i->m;
   pneu_options options;
   int status = PNEU_OK, last = 0;
@@ -165,11 +167,12 @@ static int run_to(fmu_instance *i, double end)
     pneu_input input;
     double to;
     follow_jumps(i);
-    to = fmin(end, next_time(i));
-    last = to >= end;
+    last = next_time(i) >= end - rounding;
+    to = last ? end : next_time(i);
     fmu_drive(i, &input);
     i->work.h = 0;
-    status = pneu_run(&i->model, &m->state, &input, to - m->time, &options, NULL, &i->work);
+    if (to - m->time > rounding)
+      status = pneu_run(&i->model, &m->state, &input, to - m->time, &options, NULL, &i->work);
     fmu_pass_to(i, to);
   }
   follow_jumps(i);
