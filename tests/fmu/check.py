@@ -274,6 +274,33 @@ def check_inputs(fmu):
     check("a command beyond 1 counts as 1", over == plain)
 
 
+def check_description(fmu):
+    """Units in base units, bounds and start values, and what depends on what."""
+    description = read_model_description(fmu)
+    unit = {u.name: u.baseUnit for u in description.unitDefinitions}
+    wanted = {
+        "1": (0, 0, 0, 0),
+        "m2": (0, 2, 0, 0),
+        "N/m": (1, 0, -2, 0),
+        "N.s/m": (1, 0, -1, 0),
+        "Pa": (1, -1, -2, 0),
+        "J/kg/K": (0, 2, -2, -1),
+        "kg/s": (1, 0, -1, 0),
+        "kg/s/Pa2": (-1, 2, 3, 0),
+        "W/K": (1, 2, -3, -1),
+    }
+    found = {name: (u.kg, u.m, u.s, u.K) for name, u in unit.items() if name in wanted and u}
+    check("units in base units", found == wanted, "" if found == wanted else str(found))
+    variable = {v.name: v for v in description.modelVariables}
+    area = variable["area"]
+    seen = (area.causality, area.variability, area.initial, area.unit, float(area.start), float(area.min), float(area.max))
+    check("a parameter", seen == ("parameter", "fixed", "exact", "m2", 0.04, 1e-6, 10), str(seen))
+    depends = {o.variable.name: o.dependencies for o in description.outputs}
+    names = [v.name for v in depends["shown_position"]]
+    check("no way from input to position at once", depends["position"] == [variable["position"]] and "u" not in names)
+    check("one from input to mass flow", depends["mass_flow"] is None)
+
+
 def check_parameters(fmu):
     """What is set before initialisation ends counts, as in a file; later it is refused, and changes nothing."""
     path = model("leak", flow="choked", more='effects = { chamber_leak = { leak_area = "0.05 mm^2"; }; };\n')
@@ -477,6 +504,7 @@ def main():
     plain = model("plain", flow="choked")
     fmus = [export(plain, version) for version in VERSIONS]
     for fmu in fmus:
+        check_description(fmu)
         check_inputs(fmu)
         check_parameters(fmu)
         check_state(fmu)
