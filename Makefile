@@ -55,7 +55,7 @@ SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch
 .PHONY: all help study check check-core check-single check-san check-readme verify bench figures install-packages clean
 
 ## Build the library and the programs
-all: $(STATIC) $(PROGS)
+all: $(STATIC) $(PROGS) export-fmu
 
 ## Show this list
 help:
@@ -197,10 +197,10 @@ $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
-include tests/fuzz/fuzz.mk tests/trust.mk
+include apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk
 
 ## Remove what was built, but no results
 clean:
-	rm -rf $(BUILD) $(PROGS)
+	rm -rf $(BUILD) $(PROGS) export-fmu
 
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

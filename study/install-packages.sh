@@ -7,10 +7,10 @@
 set -eu
 
 apt_packages="gcc g++ make pkg-config libsundials-dev libnlopt-dev libconfig-dev libudunits2-dev libcjson-dev
-libcminpack-dev libcmocka-dev gnuplot-nox"
+libcminpack-dev libzip-dev libxml2-dev libcmocka-dev gnuplot-nox"
 case "${1:-}" in
 "") ;;
-tests) apt_packages="$apt_packages libopenmpi-dev openmpi-bin" ;;
+tests) apt_packages="$apt_packages libopenmpi-dev openmpi-bin python3-venv" ;;
 *) apt_packages=$* ;;
 esac
 
@@ -24,8 +24,8 @@ name_others() {
   cat <<WORDS
 This system has no apt-get. Install by its own package manager: $apt_packages
 Libraries for make all elsewhere:
-  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libcmocka-devel gnuplot openmpi-devel
-  brew: brew install sundials nlopt libconfig udunits cjson cminpack cmocka gnuplot libomp open-mpi
+  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libzip-devel libxml2-devel libcmocka-devel gnuplot openmpi-devel
+  brew: brew install sundials nlopt libconfig udunits cjson cminpack libzip libxml2 cmocka gnuplot libomp open-mpi
 WORDS
 }
 

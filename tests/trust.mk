@@ -28,13 +28,14 @@ coverage:
 .PHONY: coverage
 
 TIDY ?= clang-tidy
+LINTED := $(LIB_C) $(LAB_C) $(wildcard apps/*.c apps/fmu/*.c apps/fmu/runtime/*.c)
 
 ## Static analysis of lib/ and apps/ by clang-tidy (.clang-tidy), which it installs
-lint: $(CARRIED:%=$(BUILD)/%.inc)
+lint: $(CARRIED:%=$(BUILD)/%.inc) $(BUILD)/apps/fmu/carried.inc
 	@sh study/install-packages.sh clang-tidy
-	@printf '%s\n' $(LIB_C) $(LAB_C) $(wildcard apps/*.c) | xargs -P 2 -n 12 sh -c \
-	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
-	@echo "lint: nothing found in $(words $(LIB_C) $(LAB_C) $(wildcard apps/*.c)) files"
+	@printf '%s\n' $(LINTED) | xargs -P 2 -n 12 sh -c \
+	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) $(FMU_XML) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
+	@echo "lint: nothing found in $(words $(LINTED)) files"
 .PHONY: lint
 
 # Under valgrind by `make valgrind`: what takes a second or two without it.

@@ -7,7 +7,6 @@
 
 #include <cjson/cJSON.h>
 
-#include "number.h"
 #include "outfile.h"
 #include "quantile.h"
 #include "rigterm.h"
@@ -272,29 +271,14 @@ int lab_story_model(const lab_story *story, const char *folder, lab_error *error
 
 int lab_story_header(const lab_story *story, const char *folder, lab_error *error)
 {
-  pneu_params params = story->completed->rig.params;
   lab_outfile out;
-  int i;
   if (open_in(folder, "model.h", &out, error))
     return error->status;
-  fprintf(
-      out.file,
-      "/* The completed model of %s, by closeloop; for libpneu " PNEU_VERSION " with its whole catalogue.\n"
-      " * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */\n#define MODEL_PARAMS \\\n  { \\\n",
-      story->rig->name);
-  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
-    pneu_param_info info;
-    char number[LAB_NUMBER_TEXT];
-    pneu_param_describe(i, &info);
-    if (i == PNEU_PARAM_BASE_COUNT)
-      fputs("    { \\\n", out.file);
-    fprintf(out.file, "    %s(pneu_real)%s, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
-            lab_number_write((double)*pneu_param_at(&params, i), number), info.name, info.unit);
-  }
-  fprintf(out.file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n",
-          story->rig->laws.gas, story->rig->laws.flow, story->rig->laws.pressure_input, story->rig->laws.position_input,
-          pneu_gas_key(story->rig->laws.gas), pneu_flow_key(story->rig->laws.flow));
-  lab_terms_print_c(out.file, story->completed->rig.term, story->completed->rig.n_terms);
+  fprintf(out.file,
+          "/* The completed model of %s, by closeloop; for libpneu " PNEU_VERSION " with its whole catalogue.\n"
+          " * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */\n",
+          story->rig->name);
+  lab_rig_write_c(out.file, &story->completed->rig);
   return lab_out_close(&out, error);
 }
 

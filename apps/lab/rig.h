@@ -66,6 +66,10 @@ int lab_rig_read(const char *path, lab_rig *rig, lab_error *error);
  * In:      remark  lines for the head of the file, or NULL */
 void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark);
 
+/* Write parameters, laws and free terms as C: macros MODEL_PARAMS, MODEL_LAWS, MODEL_N_TERMS and, unless there are
+ * none, MODEL_TERMS, for initialisers. */
+void lab_rig_write_c(FILE *file, const lab_rig *rig);
+
 /* The library's model of a rig. It uses the rig's free terms where they lie: the rig must outlive it, unmoved.
  * Out:     model
  * Returns: LAB_OK, LAB_DATA naming the parameter at fault. */

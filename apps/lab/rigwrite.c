@@ -170,3 +170,23 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
   lab_terms_write(file, rig->term, rig->n_terms);
   lab_log_format_write(file, &rig->log);
 }
+
+void lab_rig_write_c(FILE *file, const lab_rig *rig)
+{
+  pneu_params params = rig->params;
+  int i;
+  fputs("#define MODEL_PARAMS \\\n  { \\\n", file);
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    char number[LAB_NUMBER_TEXT];
+    pneu_param_describe(i, &info);
+    if (i == PNEU_PARAM_BASE_COUNT)
+      fputs("    { \\\n", file);
+    fprintf(file, "    %s(pneu_real)%s, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
+            lab_number_write((double)*pneu_param_at(&params, i), number), info.name, info.unit);
+  }
+  fprintf(file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n", rig->laws.gas,
+          rig->laws.flow, rig->laws.pressure_input, rig->laws.position_input, pneu_gas_key(rig->laws.gas),
+          pneu_flow_key(rig->laws.flow));
+  lab_terms_print_c(file, rig->term, rig->n_terms);
+}

@@ -1,0 +1,24 @@
+/* Files that export-fmu carries inside: all of an FMU that does not depend on the model.
+ * SPDX-License-Identifier: MIT */
+#ifndef FMU_CARRIED_H
+#define FMU_CARRIED_H
+
+#include <stddef.h>
+
+typedef struct fmu_file {
+  const char *name; /* sources: as in the repository */
+  const unsigned char *bytes;
+  size_t size;
+} fmu_file;
+
+/* File i, NULL past the last. */
+const fmu_file *fmu_carried(int i);
+
+/* By name, which must be there. */
+const fmu_file *fmu_carried_find(const char *name);
+
+/* Whether it is a source of an FMU of that version of FMI; and whether that is to be compiled. */
+int fmu_is_source(const fmu_file *file, int fmi);
+int fmu_is_compiled(const fmu_file *file);
+
+#endif

@@ -1,0 +1,313 @@
+#include "description.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "carried.h"
+#include "units.h"
+
+/* What the two versions name differently. */
+typedef struct dialect {
+  const char *version, *token;
+  const char *initial_unknown, *derivative, *output; /* in ModelStructure */
+} dialect;
+
+static const dialect dialects[] = {
+    {"2.0", "guid", "Unknown", "Unknown", "Unknown"},
+    {"3.0", "instantiationToken", "InitialUnknown", "ContinuousStateDerivative", "Output"},
+};
+
+typedef struct flag {
+  const char *name;
+  int fmi; /* 0: both */
+  int co_simulation, model_exchange;
+} flag;
+
+static const flag flags[] = {
+    {"canNotUseMemoryManagementFunctions", 2, 1, 1},
+    {"canGetAndSetFMUstate", 2, 1, 1},
+    {"canSerializeFMUstate", 2, 1, 1},
+    {"canGetAndSetFMUState", 3, 1, 1},
+    {"canSerializeFMUState", 3, 1, 1},
+    {"canHandleVariableCommunicationStepSize", 0, 1, 0},
+    {"needsCompletedIntegratorStep", 3, 0, 1},
+};
+enum { FLAGS = sizeof flags / sizeof flags[0] };
+
+static void sources(fmu_xml *xml, int fmi, const char *element)
+{
+  const fmu_file *file;
+  int i;
+  for (i = 0; (file = fmu_carried(i)); i++)
+    if (fmu_is_source(file, fmi) && fmu_is_compiled(file)) {
+      fmu_xml_open(xml, element);
+      fmu_xml_text(xml, "name", file->name);
+      fmu_xml_close(xml);
+    }
+}
+
+static void interface(fmu_xml *xml, const fmu_description *d, int co_simulation)
+{
+  int i;
+  fmu_xml_open(xml, co_simulation ? "CoSimulation" : "ModelExchange");
+  fmu_xml_text(xml, "modelIdentifier", d->identifier);
+  for (i = 0; i < FLAGS; i++)
+    if ((!flags[i].fmi || flags[i].fmi == d->fmi) && (co_simulation ? flags[i].co_simulation : flags[i].model_exchange))
+      fmu_xml_text(xml, flags[i].name, "true");
+  if (d->fmi == 2) {
+    fmu_xml_open(xml, "SourceFiles");
+    sources(xml, 2, "File");
+    fmu_xml_close(xml);
+  }
+  fmu_xml_close(xml);
+}
+
+/* ---- Units ---- */
+
+static void unit(fmu_xml *xml, const char *name)
+{
+  int exponent[FMU_BASE_COUNT], i;
+  fmu_xml_open(xml, "Unit");
+  fmu_xml_text(xml, "name", name);
+  if (fmu_unit_exponents(name, exponent)) {
+    fmu_xml_open(xml, "BaseUnit");
+    for (i = 0; i < FMU_BASE_COUNT; i++)
+      if (exponent[i])
+        fmu_xml_whole(xml, fmu_base_names[i], exponent[i]);
+    fmu_xml_close(xml);
+  }
+  fmu_xml_close(xml);
+}
+
+static int is_first_of_unit(const fmu_list *list, int at)
+{
+  int i;
+  for (i = 0; i < at; i++)
+    if (list->variable[i].unit && strcmp(list->variable[i].unit, list->variable[at].unit) == 0)
+      return 0;
+  return 1;
+}
+
+static void units(fmu_xml *xml, const fmu_list *list)
+{
+  int i;
+  fmu_xml_open(xml, "UnitDefinitions");
+  for (i = 0; i < list->n; i++)
+    if (list->variable[i].unit && is_first_of_unit(list, i))
+      unit(xml, list->variable[i].unit);
+  fmu_xml_close(xml);
+}
+
+/* ---- Variables ---- */
+
+static void nature(fmu_xml *xml, const fmu_variable *v)
+{
+  static const char *const causality[] = {"independent", "parameter", "input", "output", "local"};
+  static const char *const initial[] = {NULL, "exact", NULL, "calculated", "calculated"};
+  fmu_xml_text(xml, "name", v->name);
+  fmu_xml_whole(xml, "valueReference", (long)v->reference);
+  if (v->meaning)
+    fmu_xml_text(xml, "description", v->meaning);
+  fmu_xml_text(xml, "causality", causality[v->causality]);
+  fmu_xml_text(xml, "variability", v->causality == FMU_PARAMETER ? "fixed" : v->integer ? "discrete" : "continuous");
+  if (initial[v->causality])
+    fmu_xml_text(xml, "initial", initial[v->causality]);
+}
+
+static void numbers(fmu_xml *xml, const fmu_description *d, const fmu_variable *v)
+{
+  if (v->unit)
+    fmu_xml_text(xml, "unit", v->unit);
+  fmu_xml_real(xml, "min", v->lower);
+  fmu_xml_real(xml, "max", v->upper);
+  fmu_xml_real(xml, "nominal", v->nominal);
+  fmu_xml_real(xml, "start", v->start);
+  if (v->rate_of)
+    fmu_xml_whole(xml, "derivative", d->fmi == 2 ? fmu_list_find(d->list, v->rate_of) + 1L : (long)v->rate_of);
+  if (v->jumps)
+    fmu_xml_text(xml, "reinit", "true");
+}
+
+static void variable(fmu_xml *xml, const fmu_description *d, const fmu_variable *v)
+{
+  static const char *const elements[2][2] = {{"Real", "Integer"}, {"Float64", "Int32"}};
+  const char *element = elements[d->fmi - 2][v->integer != 0];
+  if (d->fmi == 2)
+    fmu_xml_open(xml, "ScalarVariable");
+  else
+    fmu_xml_open(xml, element);
+  nature(xml, v);
+  if (d->fmi == 2)
+    fmu_xml_open(xml, element);
+  numbers(xml, d, v);
+  fmu_xml_close(xml);
+  if (d->fmi == 2)
+    fmu_xml_close(xml);
+}
+
+static void variables(fmu_xml *xml, const fmu_description *d)
+{
+  int i;
+  fmu_xml_open(xml, "ModelVariables");
+  for (i = 0; i < d->list->n; i++)
+    variable(xml, d, &d->list->variable[i]);
+  fmu_xml_close(xml);
+}
+
+/* ---- Structure ---- */
+
+/* How a variable is named there: FMI 2 counts from 1. */
+static long pointer(const fmu_description *d, int place)
+{
+  return d->fmi == 2 ? place + 1L : (long)d->list->variable[place].reference;
+}
+
+static void unknown(fmu_xml *xml, const fmu_description *d, const char *element, int place)
+{
+  const int is_output = d->list->variable[place].causality == FMU_OUTPUT && strcmp(element, "InitialUnknown") != 0;
+  char dependencies[16 * PNEU_STATE_MAX] = "";
+  int depends[PNEU_STATE_MAX], n = is_output ? fmu_dependencies(d->data, d->list, place, depends) : -1, i, at = 0;
+  fmu_xml_open(xml, element);
+  fmu_xml_whole(xml, d->fmi == 2 ? "index" : "valueReference", pointer(d, place));
+  for (i = 0; i < n; i++)
+    at += snprintf(dependencies + at, sizeof dependencies - (size_t)at, "%s%ld", i ? " " : "", pointer(d, depends[i]));
+  if (n >= 0)
+    fmu_xml_text(xml, "dependencies", dependencies);
+  fmu_xml_close(xml);
+}
+
+static int is_state(const fmu_variable *v)
+{
+  return !isnan(v->nominal);
+}
+
+/* Which variables are in a part of the structure. */
+static int is_output(const fmu_variable *v)
+{
+  return v->causality == FMU_OUTPUT;
+}
+
+static int is_rate(const fmu_variable *v)
+{
+  return v->rate_of != 0;
+}
+
+static int is_initial(const fmu_variable *v)
+{
+  return is_output(v) || is_state(v) || is_rate(v);
+}
+
+static int is_event(const fmu_variable *v)
+{
+  return v->reference >= FMU_REF_INDICATOR && v->reference < FMU_REF_INDICATOR + FMU_INDICATOR_COUNT;
+}
+
+static void unknowns(fmu_xml *xml, const fmu_description *d, const char *group, const char *element,
+                     int (*belongs)(const fmu_variable *))
+{
+  int i;
+  if (d->fmi == 2)
+    fmu_xml_open(xml, group);
+  for (i = 0; i < d->list->n; i++)
+    if (belongs(&d->list->variable[i]))
+      unknown(xml, d, element, i);
+  if (d->fmi == 2)
+    fmu_xml_close(xml);
+}
+
+static void structure(fmu_xml *xml, const fmu_description *d)
+{
+  const dialect *words = &dialects[d->fmi - 2];
+  fmu_xml_open(xml, "ModelStructure");
+  unknowns(xml, d, "Outputs", words->output, is_output);
+  unknowns(xml, d, "Derivatives", words->derivative, is_rate);
+  unknowns(xml, d, "InitialUnknowns", words->initial_unknown, is_initial);
+  if (d->fmi == 3)
+    unknowns(xml, d, NULL, "EventIndicator", is_event);
+  fmu_xml_close(xml);
+}
+
+/* ---- Documents ---- */
+
+static void head(fmu_xml *xml, const fmu_description *d)
+{
+  char what[128];
+  snprintf(what, sizeof what, "Single-acting pneumatic actuator, %s gas, %s flow", pneu_gas_key(d->data->law.gas),
+           pneu_flow_key(d->data->law.flow));
+  fmu_xml_text(xml, "fmiVersion", dialects[d->fmi - 2].version);
+  fmu_xml_text(xml, "modelName", d->name);
+  fmu_xml_text(xml, dialects[d->fmi - 2].token, d->data->token);
+  fmu_xml_text(xml, "description", what);
+  fmu_xml_text(xml, "license", "MIT");
+  fmu_xml_text(xml, "generationTool", "libpneu " PNEU_VERSION);
+  fmu_xml_text(xml, "variableNamingConvention", "structured");
+  if (d->fmi == 2)
+    fmu_xml_whole(xml, "numberOfEventIndicators", FMU_INDICATOR_COUNT);
+}
+
+void fmu_describe(fmu_xml *xml, const fmu_description *d)
+{
+  fmu_xml_open(xml, "fmiModelDescription");
+  head(xml, d);
+  interface(xml, d, 0);
+  interface(xml, d, 1);
+  units(xml, d->list);
+  fmu_xml_open(xml, "LogCategories");
+  fmu_xml_open(xml, "Category");
+  fmu_xml_text(xml, "name", "logStatusError");
+  fmu_xml_close(xml);
+  fmu_xml_close(xml);
+  fmu_xml_open(xml, "DefaultExperiment");
+  fmu_xml_real(xml, "startTime", 0);
+  fmu_xml_real(xml, "stopTime", 30.5);
+  fmu_xml_real(xml, "tolerance", 1e-7);
+  fmu_xml_close(xml);
+  variables(xml, d);
+  structure(xml, d);
+  fmu_xml_close(xml);
+}
+
+void fmu_describe_build(fmu_xml *xml, const fmu_description *d)
+{
+  fmu_xml_open(xml, "fmiBuildDescription");
+  fmu_xml_text(xml, "fmiVersion", "3.0");
+  fmu_xml_open(xml, "BuildConfiguration");
+  fmu_xml_text(xml, "modelIdentifier", d->identifier);
+  fmu_xml_open(xml, "SourceFileSet");
+  fmu_xml_text(xml, "language", "C99");
+  sources(xml, 3, "SourceFile");
+  fmu_xml_close(xml);
+  fmu_xml_open(xml, "Library");
+  fmu_xml_text(xml, "name", "m");
+  fmu_xml_text(xml, "external", "true");
+  fmu_xml_text(xml, "description", "the C library's mathematics, where that is apart");
+  fmu_xml_close(xml);
+  fmu_xml_close(xml);
+  fmu_xml_close(xml);
+}
+
+static void corners(fmu_xml *xml)
+{
+  fmu_xml_real(xml, "x1", -100);
+  fmu_xml_real(xml, "y1", -100);
+  fmu_xml_real(xml, "x2", 100);
+  fmu_xml_real(xml, "y2", 100);
+}
+
+void fmu_describe_icon(fmu_xml *xml, const fmu_description *d)
+{
+  (void)d;
+  fmu_xml_open(xml, "fmiTerminalsAndIcons");
+  fmu_xml_text(xml, "fmiVersion", "3.0");
+  fmu_xml_open(xml, "GraphicalRepresentation");
+  fmu_xml_open(xml, "CoordinateSystem");
+  corners(xml);
+  fmu_xml_real(xml, "suggestedScalingFactorTo_mm", 0.1);
+  fmu_xml_close(xml);
+  fmu_xml_open(xml, "Icon");
+  corners(xml);
+  fmu_xml_close(xml);
+  fmu_xml_close(xml);
+  fmu_xml_close(xml);
+}

@@ -1,0 +1,124 @@
+/* What the library says of an instance's state. */
+#include <math.h>
+
+#include "private.h"
+
+/* Hysteresis of the event functions beyond where they stand: above rounding, and far below what can be seen. */
+#define SPEED_MARGIN  1e-10 /* of full speed */
+#define TRAVEL_MARGIN 1e-12 /* of the stroke */
+
+void fmu_drive(const fmu_instance *i, pneu_input *input)
+{
+  const fmu_memory *m = &i->m;
+  const double u = m->delay.length > 0 ? fmu_delay_value(&m->delay, m->time) : m->input[FMU_INPUT_U];
+  pneu_input_default(&i->model, input);
+  input->u = m->params.proportional_band > 0 ? u : fmax(-1, fmin(1, u));
+  input->supply_pressure = m->input[FMU_INPUT_SUPPLY];
+  input->force = m->input[FMU_INPUT_FORCE];
+}
+
+void fmu_within(const fmu_instance *i, pneu_state *s)
+{
+  const pneu_params *p = &i->m.params;
+  const double swept = p->area * p->swept_ratio;
+  s->p = fmax(s->p, -0.999 * p->ambient_pressure);
+  s->T = fmax(s->T, 0.01 * p->ambient_temperature);
+  if (swept > 0)
+    s->x = fmax(s->x, i->model.lower_stop - 0.5 * pneu_volume(&i->model, i->model.lower_stop) / swept);
+}
+
+void fmu_pass_to(fmu_instance *i, double time)
+{
+  i->m.time = time;
+  if (i->model.clock >= 0)
+    i->m.state.extra[i->model.clock] = time;
+}
+
+/* The event functions of the present mode; those that it does not have are far below 0. */
+static int event_functions(const fmu_instance *i, double *g)
+{
+  pneu_state state = i->m.state;
+  pneu_input input;
+  double y[PNEU_STATE_MAX];
+  int n, k;
+  fmu_within(i, &state);
+  fmu_drive(i, &input);
+  pneu_pack(&i->model, &state, y);
+  n = pneu_events(&i->model, &state, &input, y, g);
+  for (k = n; k < PNEU_EVENT_MAX; k++)
+    g[k] = -1;
+  return n;
+}
+
+static int is_choked(const fmu_instance *i)
+{
+  pneu_state state = i->m.state;
+  pneu_input input;
+  pneu_output out;
+  fmu_within(i, &state);
+  fmu_drive(i, &input);
+  return pneu_observe(&i->model, &state, &input, &out) == PNEU_OK ? out.choked : i->m.choked;
+}
+
+/* What event function k measures decides its margin: forces at rest, else speed and then travel; with a bristle travel
+ * alone. */
+static double margin(const fmu_instance *i, int k)
+{
+  switch (i->m.state.mode) {
+  case PNEU_MODE_UP:
+  case PNEU_MODE_DOWN:
+    return k == 0 ? SPEED_MARGIN * i->model.scale[3] : TRAVEL_MARGIN * i->model.scale[2];
+  case PNEU_MODE_FREE:
+    return TRAVEL_MARGIN * i->model.scale[2];
+  default:
+    return i->model.force_noise;
+  }
+}
+
+void fmu_arm(fmu_instance *i)
+{
+  double g[PNEU_EVENT_MAX];
+  int k;
+  event_functions(i, g);
+  for (k = 0; k < PNEU_EVENT_MAX; k++)
+    i->m.threshold[k] = fmax(g[k], 0) + margin(i, k);
+  i->m.choked = is_choked(i);
+}
+
+void fmu_indicators(const fmu_instance *i, double *z)
+{
+  int k;
+  event_functions(i, z);
+  for (k = 0; k < PNEU_EVENT_MAX; k++)
+    z[k] -= i->m.threshold[k];
+  /* the library tells whether flow is choked, not how far from it: a step, which root finders bisect */
+  z[PNEU_EVENT_MAX] = is_choked(i) == i->m.choked ? -1 : 1;
+}
+
+int fmu_fired(const fmu_instance *i)
+{
+  double g[PNEU_EVENT_MAX];
+  int k, n = event_functions(i, g);
+  for (k = n - 1; k >= 0; k--) /* a stop before a reversal: who is beyond the stop has hit it */
+    if (g[k] >= i->m.threshold[k])
+      return k;
+  return -1;
+}
+
+int fmu_rates(const fmu_instance *i, double *rate)
+{
+  pneu_state state = i->m.state;
+  pneu_input input;
+  double y[PNEU_STATE_MAX], dydt[PNEU_STATE_MAX];
+  int k, at;
+  fmu_within(i, &state);
+  fmu_drive(i, &input);
+  pneu_pack(&i->model, &state, y);
+  if (pneu_rhs(&i->model, &state, &input, y, dydt) != PNEU_OK)
+    return FMU_DISCARD;
+  for (k = 0; k < i->shape.n; k++) {
+    at = fmu_packed_at(&i->model, state.mode, i->shape.kind[k]);
+    rate[k] = at < 0 ? 0 : dydt[at];
+  }
+  return FMU_OK;
+}

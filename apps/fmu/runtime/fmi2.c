@@ -1,0 +1,262 @@
+/* FMI 2.0: each function of the standard in terms of instance.h. */
+#include "fmi2.h"
+
+#include <math.h>
+
+#include "instance.h"
+
+static void say(const fmu_instance *instance, int status, const char *text)
+{
+  const fmi2CallbackLogger logger = (fmi2CallbackLogger)instance->logger;
+  if (logger)
+    logger(instance->environment, instance->name, (fmi2Status)status, "logStatusError", "%s", text);
+}
+
+/* ---- Life ---- */
+
+FMI2_EXPORT(const char *, fmi2GetTypesPlatform, (void))
+{
+  return "default";
+}
+
+FMI2_EXPORT(const char *, fmi2GetVersion, (void))
+{
+  return "2.0";
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]))
+{
+  (void)on, (void)n, (void)categories; /* only errors are told, and always */
+  return c ? fmi2OK : fmi2Error;
+}
+
+FMI2_EXPORT(fmi2Component, fmi2Instantiate,
+            (fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+             const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging))
+{
+  (void)resources, (void)visible, (void)logging;
+  return fmu_new(type == fmi2CoSimulation ? FMU_CO_SIMULATION : FMU_MODEL_EXCHANGE, name, guid,
+                 functions ? functions->componentEnvironment : NULL,
+                 functions ? (void (*)(void))functions->logger : NULL, say);
+}
+
+FMI2_EXPORT(void, fmi2FreeInstance, (fmi2Component c))
+{
+  fmu_free(c);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetupExperiment,
+            (fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start, fmi2Boolean has_stop,
+             fmi2Real stop))
+{
+  return (fmi2Status)fmu_setup(c, has_tolerance ? tolerance : 0, start, has_stop ? stop : HUGE_VAL);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2EnterInitializationMode, (fmi2Component c))
+{
+  return (fmi2Status)fmu_enter_initialization(c);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2ExitInitializationMode, (fmi2Component c))
+{
+  return (fmi2Status)fmu_exit_initialization(c);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2Terminate, (fmi2Component c))
+{
+  return (fmi2Status)fmu_terminate(c);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2Reset, (fmi2Component c))
+{
+  return (fmi2Status)fmu_reset(c);
+}
+
+/* ---- Values ---- */
+
+FMI2_EXPORT(fmi2Status, fmi2GetReal, (fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Real value[]))
+{
+  return (fmi2Status)fmu_get_real(c, r, n, value);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetInteger, (fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Integer value[]))
+{
+  return (fmi2Status)fmu_get_integer(c, r, n, value);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetReal, (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Real value[]))
+{
+  return (fmi2Status)fmu_set_real(c, r, n, value);
+}
+
+/* Types of which there is no variable: only an empty list is right. */
+#define NO_VARIABLE(name, type)                                                                                        \
+  FMI2_EXPORT(fmi2Status, name, (fmi2Component c, const fmi2ValueReference r[], size_t n, type value[]))               \
+  {                                                                                                                    \
+    (void)r, (void)value;                                                                                              \
+    return c && n == 0 ? fmi2OK : (fmi2Status)fmu_absent(c, #name);                                                    \
+  }
+NO_VARIABLE(fmi2GetBoolean, fmi2Boolean)
+NO_VARIABLE(fmi2GetString, fmi2String)
+NO_VARIABLE(fmi2SetInteger, const fmi2Integer)
+NO_VARIABLE(fmi2SetBoolean, const fmi2Boolean)
+NO_VARIABLE(fmi2SetString, const fmi2String)
+
+/* ---- FMU state ---- */
+
+FMI2_EXPORT(fmi2Status, fmi2GetFMUstate, (fmi2Component c, fmi2FMUstate *state))
+{
+  return (fmi2Status)fmu_get_memory(c, state);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetFMUstate, (fmi2Component c, fmi2FMUstate state))
+{
+  return (fmi2Status)fmu_set_memory(c, state);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2FreeFMUstate, (fmi2Component c, fmi2FMUstate *state))
+{
+  return (fmi2Status)fmu_free_memory(c, state);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SerializedFMUstateSize, (fmi2Component c, fmi2FMUstate state, size_t *size))
+{
+  return (fmi2Status)fmu_memory_size(c, state, size);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SerializeFMUstate, (fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size))
+{
+  return (fmi2Status)fmu_write_memory(c, state, bytes, size);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2DeSerializeFMUstate,
+            (fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state))
+{
+  return (fmi2Status)fmu_read_memory(c, bytes, size, state);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetDirectionalDerivative,
+            (fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
+             size_t n_known, const fmi2Real seed[], fmi2Real sensitivity[]))
+{
+  (void)unknown, (void)n_unknown, (void)known, (void)n_known, (void)seed, (void)sensitivity;
+  return (fmi2Status)fmu_absent(c, "fmi2GetDirectionalDerivative");
+}
+
+/* ---- Model exchange ---- */
+
+FMI2_EXPORT(fmi2Status, fmi2EnterEventMode, (fmi2Component c))
+{
+  return (fmi2Status)fmu_enter_event(c);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2NewDiscreteStates, (fmi2Component c, fmi2EventInfo *info))
+{
+  fmu_event event;
+  const int status = fmu_update(c, &event);
+  if (status != FMU_OK)
+    return (fmi2Status)status;
+  info->newDiscreteStatesNeeded = info->terminateSimulation = info->nominalsOfContinuousStatesChanged = 0;
+  info->valuesOfContinuousStatesChanged = event.states_changed;
+  info->nextEventTimeDefined = event.next_time < HUGE_VAL;
+  info->nextEventTime = event.next_time < HUGE_VAL ? event.next_time : 0;
+  return fmi2OK;
+}
+
+FMI2_EXPORT(fmi2Status, fmi2EnterContinuousTimeMode, (fmi2Component c))
+{
+  return (fmi2Status)fmu_enter_continuous(c);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2CompletedIntegratorStep,
+            (fmi2Component c, fmi2Boolean no_set_before, fmi2Boolean *enter_event, fmi2Boolean *terminate))
+{
+  (void)no_set_before;
+  *terminate = 0;
+  return (fmi2Status)fmu_completed_step(c, enter_event);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetTime, (fmi2Component c, fmi2Real time))
+{
+  return (fmi2Status)fmu_set_time(c, time);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetContinuousStates, (fmi2Component c, const fmi2Real x[], size_t n))
+{
+  return (fmi2Status)fmu_set_states(c, x, n);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetDerivatives, (fmi2Component c, fmi2Real dx[], size_t n))
+{
+  return (fmi2Status)fmu_get_rates(c, dx, n);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetEventIndicators, (fmi2Component c, fmi2Real z[], size_t n))
+{
+  return (fmi2Status)fmu_get_indicators(c, z, n);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetContinuousStates, (fmi2Component c, fmi2Real x[], size_t n))
+{
+  return (fmi2Status)fmu_get_states(c, x, n);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetNominalsOfContinuousStates, (fmi2Component c, fmi2Real x[], size_t n))
+{
+  return (fmi2Status)fmu_get_nominals(c, x, n);
+}
+
+/* ---- Co-simulation ---- */
+
+FMI2_EXPORT(fmi2Status, fmi2DoStep, (fmi2Component c, fmi2Real from, fmi2Real length, fmi2Boolean no_set_before))
+{
+  (void)no_set_before;
+  return (fmi2Status)fmu_step(c, from, length);
+}
+
+FMI2_EXPORT(fmi2Status, fmi2SetRealInputDerivatives,
+            (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[],
+             const fmi2Real value[]))
+{
+  (void)r, (void)n, (void)order, (void)value;
+  return (fmi2Status)fmu_absent(c, "fmi2SetRealInputDerivatives");
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetRealOutputDerivatives,
+            (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[], fmi2Real value[]))
+{
+  (void)r, (void)n, (void)order, (void)value;
+  return (fmi2Status)fmu_absent(c, "fmi2GetRealOutputDerivatives");
+}
+
+FMI2_EXPORT(fmi2Status, fmi2CancelStep, (fmi2Component c))
+{
+  return (fmi2Status)fmu_absent(c, "fmi2CancelStep");
+}
+
+/* A step that is discarded leaves the instance where it was before it. */
+FMI2_EXPORT(fmi2Status, fmi2GetRealStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Real *value))
+{
+  if (!c || kind != fmi2LastSuccessfulTime)
+    return (fmi2Status)fmu_absent(c, "this status");
+  *value = ((fmu_instance *)c)->m.time;
+  return fmi2OK;
+}
+
+FMI2_EXPORT(fmi2Status, fmi2GetBooleanStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value))
+{
+  if (!c || kind != fmi2Terminated)
+    return (fmi2Status)fmu_absent(c, "this status");
+  *value = 0;
+  return fmi2OK;
+}
+
+#define NO_STATUS(name, type)                                                                                          \
+  FMI2_EXPORT(fmi2Status, name, (fmi2Component c, const fmi2StatusKind kind, type *value))                             \
+  {                                                                                                                    \
+    (void)kind, (void)value;                                                                                           \
+    return (fmi2Status)fmu_absent(c, "this status");                                                                   \
+  }
+NO_STATUS(fmi2GetStatus, fmi2Status)
+NO_STATUS(fmi2GetIntegerStatus, fmi2Integer)
+NO_STATUS(fmi2GetStringStatus, fmi2String)

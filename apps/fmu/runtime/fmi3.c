@@ -1,0 +1,227 @@
+/* FMI 3.0: each function of the standard in terms of instance.h; what this FMU does not have is in fmi3_absent.c. */
+#include "fmi3.h"
+
+#include <math.h>
+
+#include "instance.h"
+
+static void say(const fmu_instance *instance, int status, const char *text)
+{
+  const fmi3LogMessageCallback logger = (fmi3LogMessageCallback)instance->logger;
+  if (logger)
+    logger(instance->environment, (fmi3Status)status, "logStatusError", text);
+}
+
+/* ---- Life ---- */
+
+FMU_EXPORT const char *FMI3_NAME(fmi3GetVersion)(void);
+const char *FMI3_NAME(fmi3GetVersion)(void)
+{
+  return "3.0";
+}
+
+FMI3_EXPORT(fmi3SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String categories[]))
+{
+  (void)on, (void)n, (void)categories; /* only errors are told, and always */
+  return c ? fmi3OK : fmi3Error;
+}
+
+FMU_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateModelExchange)(fmi3String name, fmi3String token, fmi3String resources,
+                                                                fmi3Boolean visible, fmi3Boolean logging,
+                                                                fmi3InstanceEnvironment environment,
+                                                                fmi3LogMessageCallback logger);
+fmi3Instance FMI3_NAME(fmi3InstantiateModelExchange)(fmi3String name, fmi3String token, fmi3String resources,
+                                                     fmi3Boolean visible, fmi3Boolean logging,
+                                                     fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger)
+{
+  (void)resources, (void)visible, (void)logging;
+  return fmu_new(FMU_MODEL_EXCHANGE, name, token, environment, (void (*)(void))logger, say);
+}
+
+FMU_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3Boolean event_mode, fmi3Boolean early_return, const fmi3ValueReference intermediate[], size_t n_intermediate,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger, fmi3IntermediateUpdateCallback update);
+fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(fmi3String name, fmi3String token, fmi3String resources,
+                                                    fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean event_mode,
+                                                    fmi3Boolean early_return, const fmi3ValueReference intermediate[],
+                                                    size_t n_intermediate, fmi3InstanceEnvironment environment,
+                                                    fmi3LogMessageCallback logger,
+                                                    fmi3IntermediateUpdateCallback update)
+{
+  (void)resources, (void)visible, (void)logging, (void)early_return, (void)intermediate, (void)n_intermediate;
+  (void)update;
+  return event_mode ? NULL /* hasEventMode is false */
+                    : fmu_new(FMU_CO_SIMULATION, name, token, environment, (void (*)(void))logger, say);
+}
+
+FMU_EXPORT void FMI3_NAME(fmi3FreeInstance)(fmi3Instance c);
+void FMI3_NAME(fmi3FreeInstance)(fmi3Instance c)
+{
+  fmu_free(c);
+}
+
+FMI3_EXPORT(fmi3EnterInitializationMode, (fmi3Instance c, fmi3Boolean has_tolerance, fmi3Float64 tolerance,
+                                          fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop))
+{
+  const int status = fmu_setup(c, has_tolerance ? tolerance : 0, start, has_stop ? stop : HUGE_VAL);
+  return (fmi3Status)(status == FMU_OK ? fmu_enter_initialization(c) : status);
+}
+
+FMI3_EXPORT(fmi3ExitInitializationMode, (fmi3Instance c))
+{
+  return (fmi3Status)fmu_exit_initialization(c);
+}
+
+FMI3_EXPORT(fmi3Terminate, (fmi3Instance c))
+{
+  return (fmi3Status)fmu_terminate(c);
+}
+
+FMI3_EXPORT(fmi3Reset, (fmi3Instance c))
+{
+  return (fmi3Status)fmu_reset(c);
+}
+
+/* ---- Values: all are scalars ---- */
+
+FMI3_EXPORT(fmi3GetFloat64,
+            (fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Float64 value[], size_t n_values))
+{
+  return (fmi3Status)(n == n_values ? fmu_get_real(c, r, n, value) : fmu_absent(c, "an array"));
+}
+
+FMI3_EXPORT(fmi3GetInt32, (fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Int32 value[], size_t n_values))
+{
+  return (fmi3Status)(n == n_values ? fmu_get_integer(c, r, n, value) : fmu_absent(c, "an array"));
+}
+
+FMI3_EXPORT(fmi3SetFloat64,
+            (fmi3Instance c, const fmi3ValueReference r[], size_t n, const fmi3Float64 value[], size_t n_values))
+{
+  return (fmi3Status)(n == n_values ? fmu_set_real(c, r, n, value) : fmu_absent(c, "an array"));
+}
+
+/* ---- FMU state ---- */
+
+FMI3_EXPORT(fmi3GetFMUState, (fmi3Instance c, fmi3FMUState *state))
+{
+  return (fmi3Status)fmu_get_memory(c, state);
+}
+
+FMI3_EXPORT(fmi3SetFMUState, (fmi3Instance c, fmi3FMUState state))
+{
+  return (fmi3Status)fmu_set_memory(c, state);
+}
+
+FMI3_EXPORT(fmi3FreeFMUState, (fmi3Instance c, fmi3FMUState *state))
+{
+  return (fmi3Status)fmu_free_memory(c, state);
+}
+
+FMI3_EXPORT(fmi3SerializedFMUStateSize, (fmi3Instance c, fmi3FMUState state, size_t *size))
+{
+  return (fmi3Status)fmu_memory_size(c, state, size);
+}
+
+FMI3_EXPORT(fmi3SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size))
+{
+  return (fmi3Status)fmu_write_memory(c, state, bytes, size);
+}
+
+FMI3_EXPORT(fmi3DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state))
+{
+  return (fmi3Status)fmu_read_memory(c, bytes, size, state);
+}
+
+/* ---- Model exchange ---- */
+
+FMI3_EXPORT(fmi3EnterEventMode, (fmi3Instance c))
+{
+  return (fmi3Status)fmu_enter_event(c);
+}
+
+FMI3_EXPORT(fmi3UpdateDiscreteStates,
+            (fmi3Instance c, fmi3Boolean *update_again, fmi3Boolean *terminate, fmi3Boolean *nominals_changed,
+             fmi3Boolean *states_changed, fmi3Boolean *has_next_time, fmi3Float64 *next_time))
+{
+  fmu_event event;
+  const int status = fmu_update(c, &event);
+  if (status != FMU_OK)
+    return (fmi3Status)status;
+  *update_again = *terminate = *nominals_changed = false;
+  *states_changed = event.states_changed != 0;
+  *has_next_time = event.next_time < HUGE_VAL;
+  *next_time = event.next_time < HUGE_VAL ? event.next_time : 0;
+  return fmi3OK;
+}
+
+FMI3_EXPORT(fmi3EnterContinuousTimeMode, (fmi3Instance c))
+{
+  return (fmi3Status)fmu_enter_continuous(c);
+}
+
+FMI3_EXPORT(fmi3CompletedIntegratorStep,
+            (fmi3Instance c, fmi3Boolean no_set_before, fmi3Boolean *enter_event, fmi3Boolean *terminate))
+{
+  int enter = 0;
+  const int status = fmu_completed_step(c, &enter);
+  (void)no_set_before;
+  *enter_event = enter != 0;
+  *terminate = false;
+  return (fmi3Status)status;
+}
+
+FMI3_EXPORT(fmi3SetTime, (fmi3Instance c, fmi3Float64 time))
+{
+  return (fmi3Status)fmu_set_time(c, time);
+}
+
+FMI3_EXPORT(fmi3SetContinuousStates, (fmi3Instance c, const fmi3Float64 x[], size_t n))
+{
+  return (fmi3Status)fmu_set_states(c, x, n);
+}
+
+FMI3_EXPORT(fmi3GetContinuousStateDerivatives, (fmi3Instance c, fmi3Float64 dx[], size_t n))
+{
+  return (fmi3Status)fmu_get_rates(c, dx, n);
+}
+
+FMI3_EXPORT(fmi3GetEventIndicators, (fmi3Instance c, fmi3Float64 z[], size_t n))
+{
+  return (fmi3Status)fmu_get_indicators(c, z, n);
+}
+
+FMI3_EXPORT(fmi3GetContinuousStates, (fmi3Instance c, fmi3Float64 x[], size_t n))
+{
+  return (fmi3Status)fmu_get_states(c, x, n);
+}
+
+FMI3_EXPORT(fmi3GetNominalsOfContinuousStates, (fmi3Instance c, fmi3Float64 x[], size_t n))
+{
+  return (fmi3Status)fmu_get_nominals(c, x, n);
+}
+
+FMI3_EXPORT(fmi3GetNumberOfEventIndicators, (fmi3Instance c, size_t *n))
+{
+  return (fmi3Status)fmu_count(c, NULL, n);
+}
+
+FMI3_EXPORT(fmi3GetNumberOfContinuousStates, (fmi3Instance c, size_t *n))
+{
+  return (fmi3Status)fmu_count(c, n, NULL);
+}
+
+/* ---- Co-simulation ---- */
+
+/* A step that is discarded leaves the instance where it was before it. */
+FMI3_EXPORT(fmi3DoStep, (fmi3Instance c, fmi3Float64 from, fmi3Float64 length, fmi3Boolean no_set_before,
+                         fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early_return, fmi3Float64 *last_time))
+{
+  const int status = fmu_step(c, from, length);
+  (void)no_set_before;
+  *event = *terminate = *early_return = false;
+  if (c)
+    *last_time = ((fmu_instance *)c)->m.time;
+  return (fmi3Status)status;
+}

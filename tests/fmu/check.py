@@ -1,0 +1,524 @@
+#!/usr/bin/env python3
+"""Exported FMUs by FMPy: valid, and the same answers as without an FMU.
+
+  check.py VENV SCRATCH NATIVE CC      NATIVE: tests/fmu/native, built
+
+Installs FMPy from PyPI into VENV at the first time; ends with status 3 where that cannot be.
+"""
+import contextlib
+import os
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+
+PACKAGES = ["FMPy==0.3.32", "numpy==2.4.6"]
+
+
+def in_venv(folder):
+    """Go on in the virtual environment, which is made if it is not there."""
+    python = Path(folder).absolute() / "bin" / "python"
+    ready = Path(folder) / "ready"
+    try:
+        if not ready.exists():
+            subprocess.run([sys.executable, "-m", "venv", folder], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([python, "-m", "pip", "install", "--quiet", *PACKAGES], check=True)
+            ready.touch()
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"absent: FMPy: {error}", file=sys.stderr)
+        sys.exit(3)
+    if Path(sys.prefix).resolve() != Path(folder).resolve():
+        os.execv(python, [str(python), *sys.argv])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 5:
+        sys.exit(__doc__)
+    in_venv(sys.argv[1])
+
+import numpy as np  # noqa: E402
+from fmpy import extract, read_model_description, simulate_fmu  # noqa: E402
+from fmpy.fmi1 import FMICallException  # noqa: E402
+from fmpy.fmi2 import FMU2Model, FMU2Slave  # noqa: E402
+from fmpy.fmi3 import FMU3Model, FMU3Slave  # noqa: E402
+from fmpy.validation import validate_fmu  # noqa: E402
+
+SCRATCH = Path(sys.argv[2]).absolute()
+NATIVE = sys.argv[3]
+CC = sys.argv[4]
+VERSIONS = (2, 3)
+WANTED = 1e-6  # of stroke
+WANTED_WARMTH = 1e-5  # of absolute temperature, which changes by 1e4 K/s when a chamber begins to fill
+KINDS = ("ModelExchange", "CoSimulation")
+TOLERANCE = {"ModelExchange": 1e-9, "CoSimulation": 1e-10}
+# FMPy's CVode may take 500 steps between two outputs: one in two is compared.
+INTERVAL = {"ModelExchange": 0.005, "CoSimulation": 0.01}
+COMMANDS = np.array(
+    [(0, 0), (0.5, 0), (0.5, 1), (15.5, 1), (15.5, -1), (40, -1)], dtype=[("time", np.float64), ("u", np.float64)]
+)
+
+EFFECTS = """effects = { chamber_leak = { leak_area = "0.02 mm^2"; }; dead_time = { dead_time = "0.0237 s"; };
+  transducer_lag = { transducer_time = "0.01 s"; }; heat_transfer = { film_resistance = "0.5 K/W"; };
+  stribeck_friction = { stribeck_excess = "0.05"; stribeck_velocity = "20 mm/s"; }; spring_hysteresis = { hysteresis_force = "60 N"; };
+  pressure_lag = { pressure_time = "0.02 s"; }; position_bias = { position_bias = "0.1 mm"; };
+  vent_restriction = { vent_restriction = "0.15"; }; };\n"""
+LUGRE = """effects = { presliding = { presliding_length = "0.05 mm"; }; connecting_tube = { tube_resistance = "1e7 Pa.s/kg"; };
+  stop_compliance = { stop_compliance = "1e-8 m/N"; }; };\n"""
+STICK_SLIP = 'effects = { stribeck_friction = { stribeck_excess = "0.3"; }; };\n'
+TERMS = """unlisted = (
+  { equation = "friction"; argument = "x"; from = "0 mm"; to = "20 mm"; values = [ 0, 60, 150, 60, 0 ]; unit = "N"; },
+  { equation = "force"; argument = "t"; from = "0 s"; to = "7 s"; values = [ 120, 80, 0, 40 ]; unit = "N"; } );\n"""
+
+failed = 0
+FOLDERS = {}
+
+
+def check(what, good, figure=""):
+    """One line for each check."""
+    global failed
+    failed += not good
+    print(f"{'ok    ' if good else 'WRONG '} {what}{': ' if figure else ''}{figure}")
+
+
+def refused(call, *arguments, **named):
+    """Whether a call returns an error."""
+    try:
+        call(*arguments, **named)
+    except FMICallException:
+        return True
+    return False
+
+
+def alike(a, b):
+    """Whether two lists of values are the same but for rounding."""
+    return np.allclose(a, b, rtol=1e-9, atol=1e-12)
+
+
+# ---- Models, FMUs, references ----
+
+
+def model(name, actuator="r1-400", gas="isothermal", flow="paper", more=""):
+    """A model file in SCRATCH."""
+    text = Path(f"study/actuators/{actuator}.cfg").read_text()
+    text = text.replace('gas = "isothermal"', f'gas = "{gas}"').replace('flow = "paper"', f'flow = "{flow}"')
+    path = SCRATCH / f"{name}.cfg"
+    path.write_text(text + more)
+    return path
+
+
+def export(path, version, name=None):
+    fmu = SCRATCH / f"{name or path.stem}-{version}.fmu"
+    subprocess.run(["./export-fmu", path, "--fmi", str(version), "--out", fmu], check=True)
+    return str(fmu)
+
+
+def native(path, tolerance=1e-10):
+    out = subprocess.run([NATIVE, path, str(tolerance)], check=True, capture_output=True, text=True).stdout
+    return np.array([[float(cell) for cell in line.split(",")] for line in out.splitlines()])
+
+
+def stroke_of(fmu):
+    return next(float(v.start) for v in read_model_description(fmu).modelVariables if v.name == "stroke")
+
+
+def standard(fmu, kind):
+    """The standard experiment, at the times of the reference."""
+    with contextlib.redirect_stdout(None):  # it warns of inputs that keep their start values
+        result = simulate_fmu(
+            fmu,
+            fmi_type=kind,
+            start_time=0,
+            stop_time=30.5,
+            output_interval=INTERVAL[kind],
+            relative_tolerance=TOLERANCE[kind],
+            input=COMMANDS,
+            record_events=False,
+            output=["shown_position", "shown_pressure", "shown_temperature", "mode"],
+        )
+    return result[:: round(0.01 / INTERVAL[kind])]
+
+
+def deviation(result, reference, stroke):
+    return np.abs(result["shown_position"] - reference[:, 2]).max() / stroke
+
+
+class Instance:
+    """An FMU with its functions under one name for both versions, by names of variables."""
+
+    def __init__(self, fmu, kind="CoSimulation", token=None):
+        self.description = read_model_description(fmu)
+        self.version = int(self.description.fmiVersion[0])
+        folder = FOLDERS.setdefault(fmu, SCRATCH / (Path(fmu).stem + ".folder"))
+        if not folder.exists():  # never over a library that is loaded
+            extract(fmu, str(folder))
+        self.reference = {v.name: v.valueReference for v in self.description.modelVariables}
+        interface = self.description.coSimulation if kind == "CoSimulation" else self.description.modelExchange
+        make = {
+            (2, "CoSimulation"): FMU2Slave,
+            (2, "ModelExchange"): FMU2Model,
+            (3, "CoSimulation"): FMU3Slave,
+            (3, "ModelExchange"): FMU3Model,
+        }[self.version, kind]
+        self.fmu = make(
+            guid=token or self.description.guid,
+            instanceName="test",
+            unzipDirectory=str(folder),
+            modelIdentifier=interface.modelIdentifier,
+        )
+        self.fmu.instantiate()
+
+    def initialize(self, tolerance=1e-10, **values):
+        if self.version == 2:
+            self.fmu.setupExperiment(tolerance=tolerance, startTime=0.0)
+            self.fmu.enterInitializationMode()
+        else:
+            self.fmu.enterInitializationMode(tolerance=tolerance, startTime=0.0)
+        self.set(**values)
+        self.fmu.exitInitializationMode()
+        return self
+
+    def set(self, **values):
+        for name, value in values.items():
+            name = name.replace("__", ".")
+            (self.fmu.setReal if self.version == 2 else self.fmu.setFloat64)([self.reference[name]], [value])
+
+    def get(self, *names):
+        references = [self.reference[name] for name in names]
+        return (self.fmu.getReal if self.version == 2 else self.fmu.getFloat64)(references)
+
+    def step(self, t, h):
+        self.fmu.doStep(currentCommunicationPoint=t, communicationStepSize=h)
+
+    def run(self, t, end, n):
+        """n equal steps; what is seen at the end."""
+        for i in range(n):
+            self.step(t + (end - t) * i / n, (end - t) / n)
+        return self.get("pressure", "temperature", "position", "velocity")
+
+    def save(self):
+        return self.fmu.getFMUState() if self.version == 3 else self.fmu.getFMUstate()
+
+    def restore(self, state):
+        (self.fmu.setFMUState if self.version == 3 else self.fmu.setFMUstate)(state)
+
+    def serialize(self, state):
+        return self.fmu.serializeFMUState(state) if self.version == 3 else self.fmu.serializeFMUstate(state)
+
+    def deserialize(self, content):
+        return self.fmu.deserializeFMUState(content) if self.version == 3 else self.fmu.deSerializeFMUstate(content)
+
+    def forget(self, state):
+        (self.fmu.freeFMUState if self.version == 3 else self.fmu.freeFMUstate)(state)
+
+    def close(self):
+        self.fmu.freeInstance()
+
+
+# ---- Checks ----
+
+
+def check_agreement():
+    cases = [
+        (f"{actuator} {gas} {flow}", model(f"{actuator}-{gas}-{flow}", actuator, gas, flow))
+        for actuator in ("r1-400", "37-13")
+        for gas in ("isothermal", "energy")
+        for flow in ("paper", "choked")
+    ]
+    cases += [
+        ("several effects", model("effects", flow="choked", more=EFFECTS)),
+        ("LuGre friction, tube, soft stops", model("lugre", flow="iso6358", more=LUGRE)),
+        ("stick and slip", model("slips", flow="choked", more=STICK_SLIP)),
+        ("free terms", model("terms", gas="polytropic", flow="choked", more=TERMS)),
+    ]
+    worst = {}
+    for name, path in cases:
+        reference = native(path)
+        for version in VERSIONS:
+            fmu = export(path, version)
+            problems = validate_fmu(fmu)
+            check(f"{name}, FMI {version}: valid", not problems, "; ".join(problems))
+            for kind in KINDS:
+                what = f"{name}, FMI {version}, {kind}"
+                result = standard(fmu, kind)
+                error = deviation(result, reference, stroke_of(fmu))
+                warmth = np.abs(result["shown_temperature"] / reference[:, 3] - 1).max()
+                check(f"{what}: temperature", warmth <= WANTED_WARMTH, f"{warmth:.1e} of itself")
+                wrong = np.count_nonzero(result["mode"] != reference[:, 4])
+                check(f"{what}: modes", wrong <= 2, f"{wrong} of {len(reference)} rows differ")
+                if name == "stick and slip" and kind == "ModelExchange":
+                    # each slip begins where the last one ended, and errors grow with them; but none may be missed
+                    slips = np.count_nonzero(np.diff((result["mode"] == 1).astype(int)) == 1)
+                    check(f"{what}: events", slips > 20, f"{slips} slips, {error:.1e} of stroke")
+                else:
+                    check(what, error <= WANTED, f"{error:.1e} of stroke")
+                    worst[version, kind] = max(error, worst.get((version, kind), 0))
+    for (version, kind), error in sorted(worst.items()):
+        print(f"worst FMI {version} {kind}: {error:.1e} of stroke")
+
+
+def check_inputs(fmu):
+    """Supply and force act as the parameters do of which they take the place, or to which they are added."""
+    plain = Instance(fmu).initialize(u=1).run(0, 1, 100)
+    pushed = Instance(fmu).initialize(u=1, force=500).run(0, 1, 100)
+    built = Instance(fmu).initialize(u=1, external_force=500).run(0, 1, 100)
+    check("force is external_force", alike(pushed, built) and pushed[2] < plain[2], f"{plain[2]:.6f} m, {pushed[2]:.6f} m")
+    path = model("weak", flow="choked")
+    path.write_text(path.read_text().replace('"400 kPa"', '"250 kPa"'))
+    weak = Instance(export(path, 3)).initialize(u=1).run(0, 1, 100)
+    lowered = Instance(fmu).initialize(u=1, supply=250e3).run(0, 1, 100)
+    error = abs(weak[2] - lowered[2]) / 0.02
+    check("supply is supply_pressure", error < 1e-8 and lowered[2] < plain[2], f"{error:.1e} of stroke")
+    over = Instance(fmu).initialize(u=1.5).run(0, 1, 100)
+    check("a command beyond 1 counts as 1", over == plain)
+
+
+def check_description(fmu):
+    """Units in base units, bounds and start values, and what depends on what."""
+    description = read_model_description(fmu)
+    unit = {u.name: u.baseUnit for u in description.unitDefinitions}
+    wanted = {
+        "1": (0, 0, 0, 0),
+        "m2": (0, 2, 0, 0),
+        "N/m": (1, 0, -2, 0),
+        "N.s/m": (1, 0, -1, 0),
+        "Pa": (1, -1, -2, 0),
+        "J/kg/K": (0, 2, -2, -1),
+        "kg/s": (1, 0, -1, 0),
+        "kg/s/Pa2": (-1, 2, 3, 0),
+        "W/K": (1, 2, -3, -1),
+    }
+    found = {name: (u.kg, u.m, u.s, u.K) for name, u in unit.items() if name in wanted and u}
+    check("units in base units", found == wanted, "" if found == wanted else str(found))
+    variable = {v.name: v for v in description.modelVariables}
+    area = variable["area"]
+    seen = (area.causality, area.variability, area.initial, area.unit, float(area.start), float(area.min), float(area.max))
+    check("a parameter", seen == ("parameter", "fixed", "exact", "m2", 0.04, 1e-6, 10), str(seen))
+    depends = {o.variable.name: o.dependencies for o in description.outputs}
+    names = [v.name for v in depends["shown_position"]]
+    check("no way from input to position at once", depends["position"] == [variable["position"]] and "u" not in names)
+    check("one from input to mass flow", depends["mass_flow"] is None)
+
+
+def check_parameters(fmu):
+    """What is set before initialisation ends counts, as in a file; later it is refused, and changes nothing."""
+    path = model("leak", flow="choked", more='effects = { chamber_leak = { leak_area = "0.05 mm^2"; }; };\n')
+    built = Instance(export(path, 3)).initialize(u=1).run(0, 1, 100)
+    found = Instance(fmu).initialize(u=1, chamber_leak__leak_area=0.05e-6).run(0, 1, 100)
+    check("an effect switched on by its parameter", alike(built, found))
+    a = Instance(fmu)
+    plain = Instance(fmu).initialize(u=1).run(0, 1, 100)
+    check("out of bounds: refused", refused(a.set, area=-1.0))
+    check("NaN: refused", refused(a.set, area=float("nan")) and refused(a.set, u=float("nan")))
+    a.initialize(u=1)
+    for name in ("area", "chamber_leak__leak_area", "start_position", "pressure", "time"):
+        check(f"{name} after initialisation: refused", refused(a.set, **{name: 0.01}))
+    check("nothing came of it", a.run(0, 1, 100) == plain)
+    check("an unknown reference: refused", refused(a.fmu.getReal if a.version == 2 else a.fmu.getFloat64, [77777]))
+    late = Instance(fmu)
+    check("stop before start: refused", refused(late.initialize, start_position=1.0))
+    names = set(a.reference)
+    check("no effect with a state that is not there", not any(name.startswith("presliding") for name in names))
+    check("another token: refused", refused_instance(fmu))
+    middle = Instance(fmu).initialize(start_position=0.01, start_pressure=0.2e6).get("position", "pressure", "velocity")
+    check("start values", middle == [0.01, 0.2e6, 0.0], str(middle))
+
+
+def refused_instance(fmu):
+    try:
+        Instance(fmu, token="{0}")
+    except Exception:
+        return True
+    return False
+
+
+def check_state(fmu):
+    """FMU state: a step repeated is the same to the bit, in the instance and in another one."""
+    a = Instance(fmu).initialize(u=1)
+    a.run(0, 0.31, 31)
+    state = a.save()
+    first = a.run(0.31, 0.6, 29)
+    a.restore(state)
+    check(f"FMI {a.version}: back to a state", a.run(0.31, 0.6, 29) == first)
+    content = a.serialize(state)
+    b = Instance(fmu)
+    b.restore(b.deserialize(content))
+    check(f"FMI {a.version}: a state written and read by another instance", b.run(0.31, 0.6, 29) == first, f"{len(content)} bytes")
+    check(f"FMI {a.version}: half a state: refused", refused(b.deserialize, content[: len(content) // 2]))
+    a.forget(state)
+    a.close()
+    b.close()
+
+
+def check_instances(fmu):
+    """Instances side by side are as alone."""
+    force = (0.0, 300.0, 900.0)
+    alone = [Instance(fmu).initialize(u=1, force=f).run(0, 0.5, 50) for f in force]
+    together = [Instance(fmu).initialize(u=1, force=f) for f in force]
+    for i in range(50):
+        for c in together:
+            c.step(0.5 * i / 50, 0.5 / 50)
+    seen = [c.get("pressure", "temperature", "position", "velocity") for c in together]
+    check("three instances in turn", seen == alone)
+
+
+def check_steps(fmu):
+    """The answer does not depend on the communication step; a dead time is kept to the instant."""
+    for path in (Path(fmu), Path(export(model("delay", flow="choked", more='effects = { dead_time = { dead_time = "33 ms"; }; };\n'), 3))):
+        even = Instance(str(path)).initialize(u=1).run(0, 2, 200)
+        random = np.random.default_rng(1)
+        uneven = Instance(str(path)).initialize(u=1)
+        edges = np.sort(np.concatenate(([0, 2], random.uniform(0, 2, 37))))
+        for t, end in zip(edges[:-1], edges[1:]):
+            uneven.step(t, end - t)
+        one = Instance(str(path)).initialize(u=1)
+        one.step(0.0, 2.0)
+        at = [even[2], uneven.get("position")[0], one.get("position")[0]]
+        spread = (max(at) - min(at)) / 0.02
+        check(f"{path.stem}: 200, 38 and 1 steps", spread < 1e-8, f"{spread:.1e} of stroke")
+
+
+def check_ramp():
+    """A set pressure that runs, through a dead time: as it is in model exchange, in steps in co-simulation, whose answers
+    for two lengths of step are extrapolated to none."""
+    path = model("ramp", more='effects = { dead_time = { dead_time = "0.05 s"; }; };\n')
+    path.write_text(path.read_text().replace("fill_area", 'proportional_band = "20 kPa"; fill_area', 1))
+    t = np.arange(0, 3001) * 0.001
+    signal = np.array(list(zip(t, 200e3 + 50e3 * np.sin(2 * t))), dtype=COMMANDS.dtype)
+    for version in VERSIONS:
+        fmu = export(path, version)
+        x = []
+        for kind, h in (("ModelExchange", 0.001), ("CoSimulation", 0.001), ("CoSimulation", 0.0005)):
+            with contextlib.redirect_stdout(None):
+                result = simulate_fmu(
+                    fmu,
+                    fmi_type=kind,
+                    start_time=0,
+                    stop_time=3,
+                    output_interval=h,
+                    relative_tolerance=1e-8,
+                    input=signal,
+                    record_events=False,
+                    output=["position"],
+                )
+            x.append(result["position"][:: round(0.01 / h)])
+        error = np.abs(x[0] - (2 * x[2] - x[1])).max() / 0.02
+        check(f"FMI {version}: a set pressure that runs, delayed", error < 1e-5, f"{error:.1e} of stroke")
+
+
+def check_life(fmu):
+    """Ends and new beginnings in any order."""
+    for kind in KINDS:
+        a = Instance(fmu, kind)
+        check(f"{kind}: terminated before it ran: refused", refused(a.fmu.terminate))
+        a.fmu.reset()
+        a.initialize(u=1)
+        check(f"{kind}: initialised twice: refused", refused(a.fmu.enterInitializationMode))
+        a.fmu.terminate()
+        check(f"{kind}: terminated twice: refused", refused(a.fmu.terminate))
+        a.get("position")
+        a.fmu.reset()
+        a.initialize(u=1)
+        if kind == "CoSimulation":
+            fresh = Instance(fmu).initialize(u=1).run(0, 0.5, 50)
+            check("after a reset as fresh", a.run(0, 0.5, 50) == fresh)
+            check("a step back: refused", refused(a.step, 0.5, -0.1))
+            if a.version == 3:  # FMPy does not offer this for FMI 2
+                check("event mode in co-simulation: refused", refused(a.fmu.enterEventMode))
+        a.fmu.reset()
+        a.close()
+        for ready in (lambda i: None, lambda i: i.initialize()):
+            b = Instance(fmu, kind)
+            ready(b)
+            b.close()
+
+
+def built_again(fmu, options, out, more=()):
+    """Compile what the FMU lists, in a clean folder.  Returns: that folder"""
+    folder = SCRATCH / "again"
+    shutil.rmtree(folder, ignore_errors=True)
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+        text = archive.read("modelDescription.xml")
+        listed = archive.read("sources/buildDescription.xml") if b'fmiVersion="3.0"' in text else text
+    tag = "SourceFile" if b'fmiVersion="3.0"' in text else "CoSimulation/SourceFiles/File"
+    root = ElementTree.fromstring(listed)
+    names = [str(folder / "sources" / e.get("name")) for e in root.iterfind(f".//{tag}")]
+    subprocess.run([CC, "-std=c99", *options, *more, *names, "-lm", "-o", folder / out], check=True)
+    return folder
+
+
+def check_sources(path):
+    """Built from the sources inside, an FMU gives the same numbers."""
+    for version in VERSIONS:
+        fmu = export(path, version)
+        before = Instance(fmu).initialize(u=1).run(0, 1, 100)
+        binary = next(n for n in zipfile.ZipFile(fmu).namelist() if n.endswith(".so"))
+        folder = SCRATCH / "again"
+        built_again(fmu, ["-O2", "-fPIC", "-shared", "-Wall", "-Wextra", "-Werror"], binary)
+        again = SCRATCH / f"{path.stem}-again-{version}.fmu"
+        with zipfile.ZipFile(again, "w") as archive:
+            for file in sorted(p for p in folder.rglob("*") if p.is_file()):
+                archive.write(file, file.relative_to(folder))
+        after = Instance(str(again)).initialize(u=1).run(0, 1, 100)
+        error = max(abs(a - b) / (abs(b) + 1e-9) for a, b in zip(after, before))
+        check(f"FMI {version}: rebuilt from its sources", error < 1e-9, f"{error:.1e} of each value")
+
+
+def check_disorder(path, calls=100000):
+    """Calls in any order, under the sanitizers; then an importer with steps of fixed length."""
+    fmu = export(path, 3)
+    options = ["-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+    folder = built_again(fmu, options, "orders", ["tests/fmu/orders.c"])
+    token = read_model_description(fmu).guid
+    for seed in ("1", "2"):
+        run = subprocess.run([folder / "orders", token, str(calls), seed], capture_output=True, text=True)
+        check(f"{calls} calls in any order", run.returncode == 0, run.stderr[-2000:].strip() or run.stdout)
+    rows = [[float(cell) for cell in line.split(",")] for line in run.stdout.splitlines()]
+    a = Instance(fmu).initialize(u=1)
+    worst, t = 0, 0
+    for end, position, _ in rows:
+        for stop in ([1.0] if t < 1 < end else []) + [end]:
+            a.step(t, stop - t)
+            t = stop
+            if t == 1.0:
+                a.set(u=-1)
+        worst = max(worst, abs(a.get("position")[0] - position) / 0.02)
+    check("forward Euler, 2 us", worst < 1e-4 and len(rows) > 20, f"{worst:.1e} of stroke")
+
+
+def check_bytes(path):
+    """The same model gives the same file, wherever and whenever."""
+    for version in VERSIONS:
+        first = Path(export(path, version, "first")).read_bytes()
+        second = SCRATCH / "second.fmu"
+        environment = {**os.environ, "TZ": "Asia/Kathmandu"}
+        subprocess.run(["./export-fmu", path, "--fmi", str(version), "--out", second], check=True, env=environment)
+        check(f"FMI {version}: the same bytes again", second.read_bytes() == first, f"{len(first)} bytes")
+
+
+def main():
+    shutil.rmtree(SCRATCH, ignore_errors=True)
+    SCRATCH.mkdir(parents=True)
+    plain = model("plain", flow="choked")
+    fmus = [export(plain, version) for version in VERSIONS]
+    for fmu in fmus:
+        check_description(fmu)
+        check_inputs(fmu)
+        check_parameters(fmu)
+        check_state(fmu)
+        check_instances(fmu)
+        check_steps(fmu)
+        check_life(fmu)
+    check_sources(SCRATCH / "plain.cfg")
+    check_bytes(plain)
+    check_ramp()
+    check_agreement()
+    check_sources(SCRATCH / "terms.cfg")
+    check_disorder(SCRATCH / "effects.cfg")
+    print(f"{failed} wrong")
+    sys.exit(failed != 0)
+
+
+main()
