@@ -102,10 +102,9 @@ $(BUILD)/packaging/%.o: packaging/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-# A line "@TABLE name" of a page stands for a table.
-$(MAN:%=$(READY)/man/%): $(READY)/man/%: packaging/man/%.in $(BUILD)/packaging/man/tables
+$(MAN:%=$(READY)/man/%): $(READY)/man/%: packaging/man/%.in packaging/man/fill.awk $(BUILD)/packaging/man/tables
 	@mkdir -p $(@D)
-	awk '/^@TABLE /{if (system("$(BUILD)/packaging/man/tables " $$2)) exit 1; next} {print; fflush()}' $< > $@
+	awk -v TABLES=$(BUILD)/packaging/man/tables -f packaging/man/fill.awk $< > $@
 
 ## Make the pages of the manual: build/ready/man
 man: $(MAN:%=$(READY)/man/%)

@@ -4,7 +4,7 @@
 
 # Options with their arguments, one a line: "--out DIR".
 _pneu_options() {
-  "$1" --help 2>/dev/null | sed -n 's/^  \(--[a-z-]*\)\( [A-Z][^ ]*\)\{0,1\}  .*/\1\2/p; s/^  \(--[a-z-]*\)\( [A-Z][^ ]*\)\{0,1\}$/\1\2/p'
+  "$1" --help 2>/dev/null | sed -n 's/^  \(--[a-z-]*\)\( [A-Z][^ ]*\)\{0,1\} .*/\1\2/p'
 }
 
 # Files with an ending, and folders on the way to them: _pneu_files WORD ENDING...

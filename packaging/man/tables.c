@@ -6,7 +6,7 @@
 
 #include "../../apps/lab/rigkeys.h"
 
-/* Text as roff takes it: these characters are others in print. */
+/* Text as roff takes it: some characters are others in print, and a point within a line ends no sentence. */
 static void put(const char *text)
 {
   static const struct {
@@ -21,6 +21,8 @@ static void put(const char *text)
       fputs(special[i].roff, stdout);
     else
       putchar(*text);
+    if (*text == '.' && text[1] == ' ')
+      fputs("\\&", stdout);
   }
 }
 
@@ -74,7 +76,7 @@ static void effect(int i)
   int k, count, first = pneu_effect_params(i, &count);
   printf(".It Ic %s\n", e->name);
   put(e->what);
-  fputs("\nIn the equation of ", stdout);
+  fputs("\nEquation: ", stdout);
   put(e->equation);
   fputs(".\nIts absence shows as: ", stdout);
   put(e->footprint);
@@ -165,7 +167,7 @@ static int list(const char *name)
       fputs(".It Ic ", stdout);
       put(w->key);
       if (*w->unit)
-        printf(" Bq %s", w->unit);
+        printf(" Bq \\&%s", w->unit); /* "Pa" is a macro too */
       putchar('\n');
       put(w->text);
       fputs(".\n", stdout);
