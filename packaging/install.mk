@@ -110,6 +110,19 @@ $(MAN:%=$(READY)/man/%): $(READY)/man/%: packaging/man/%.in packaging/man/fill.a
 man: $(MAN:%=$(READY)/man/%)
 .PHONY: man
 
+# ---- Pages on the interface ----
+
+## Make pages on the interface from lib/pneu.h, by Doxygen, which it installs: build/docs/html
+docs:
+	@command -v doxygen >/dev/null || sh study/install-packages.sh doxygen
+	@rm -rf $(BUILD)/docs
+	@mkdir -p $(BUILD)/docs
+	@{ cat packaging/doxygen/Doxyfile; echo 'PROJECT_NUMBER = $(VERSION)'; echo 'OUTPUT_DIRECTORY = "$(BUILD)/docs"'; \
+	  echo 'FILTER_PATTERNS = "*.h=awk -f packaging/doxygen/filter.awk"'; } > $(BUILD)/docs/Doxyfile
+	@doxygen $(BUILD)/docs/Doxyfile
+	@echo "docs: $(BUILD)/docs/html/index.html"
+.PHONY: docs
+
 # ---- Install ----
 
 INSTALLED_PROGS := $(filter-out sweep,$(PROGS)) $(READY)/sweep

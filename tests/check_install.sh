@@ -180,6 +180,18 @@ while read -r name; do
   grep -q "^\.F[no] $name\b" "$prefix/share/man/man3/libpneu.3" || wrong "libpneu(3) does not have $name"
 done <"$folder/declared"
 
+# ---- Pages on the interface: Doxygen is told to fail on a warning ----
+
+if have doxygen; then
+  $MAKE --no-print-directory BUILD="$folder" docs >"$folder/docs.log" 2>&1 || { cat "$folder/docs.log" >&2; wrong "make docs"; }
+  for name in pneu_model_init pneu_run pneu_jacobian; do
+    grep -q "paramname.*$name\|$name.*(" "$folder"/docs/html/group__*.html || wrong "no page has $name"
+  done
+  grep -q '<td class="paramname">law</td>' "$folder"/docs/html/group__*.html || wrong "arguments are not documented"
+else
+  echo "absent: doxygen"
+fi
+
 # ---- Completion ----
 
 PATH=$prefix/bin:$PATH sh tests/check_completion.sh "$prefix/share" "$folder/completion" || wrong "completion"
