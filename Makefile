@@ -192,7 +192,7 @@ $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
-include tests/fuzz/fuzz.mk tests/trust.mk packaging/install.mk
+include tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk packaging/install.mk
 
 ## Remove what was built, but no results
 clean:

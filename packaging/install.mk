@@ -164,3 +164,20 @@ install: stage
 uninstall:
 	@sh packaging/install.sh uninstall '$(DESTDIR)' '$(INSTALLED_LIST)'
 .PHONY: install uninstall
+
+# ---- Debian packages ----
+
+DEB_TOOLS := debhelper dpkg-dev fakeroot lintian doxygen
+
+## Build packages for Debian (libpneu0, -dev, -doc, pneu-tools) and check them by lintian: build/deb; installs the tools
+deb:
+	@sh study/install-packages.sh
+	@sh study/install-packages.sh $(DEB_TOOLS)
+	@sh packaging/deb.sh $(BUILD)/deb $(VERSION)
+.PHONY: deb
+
+## Install these packages in a fresh Debian, made by debootstrap, and run the README's examples there; needs root
+deb-check: deb
+	@sh study/install-packages.sh debootstrap
+	@sh tests/check_deb.sh $(BUILD)/deb $(BUILD)/fresh
+.PHONY: deb-check

@@ -101,7 +101,7 @@ function give_block(first, last,    i, text, columns) {
       print ""
     }
     # the head of the file: "  Units      SI. ..."
-    if (is_head && match(text, /^   ?[A-Z][a-z]+( terms)?  +/)) {
+    if (is_head && match(text, /^   ?[A-Z][a-z]+(  +| terms +)/)) {
       columns = substr(text, 1, RLENGTH)
       gsub(/^ +| +$/, "", columns)
       print " * \\li \\b " columns ": " substr(text, RLENGTH + 1)
