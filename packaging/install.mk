@@ -1,5 +1,7 @@
 # What leaves this folder: make install, uninstall, docs, deb; the shared library and what other builds find it by.
 
+override PREFIX := $(abspath $(PREFIX))
+
 DESTDIR    ?=
 BINDIR     ?= $(PREFIX)/bin
 LIBDIR     ?= $(PREFIX)/lib
@@ -71,14 +73,14 @@ FILL_IN = sed -e 's|@VERSION@|$(VERSION)|g' -e 's|@MAJOR@|$(MAJOR)|g' -e 's|@MIN
   -e 's|@PC_PREFIX@|$(call from_to_prefix,$(LIBDIR)/pkgconfig,$${pcfiledir})|' \
   -e 's|@CMAKE_PREFIX@|$(call from_to_prefix,$(LIBDIR)/cmake/pneu,$${CMAKE_CURRENT_LIST_DIR})|' \
   -e 's|@INCLUDEDIR@|$(call below_prefix,$(INCLUDEDIR))|' -e 's|@LIBDIR@|$(call below_prefix,$(LIBDIR))|' \
-  -e 's|@SHARED@|$(SHARED_NAME)|' -e 's|@SONAME@|$(SONAME)|' \
+  -e 's|@PROGRAMS@|$(PROGS)|' -e 's|@SHARED@|$(SHARED_NAME)|' -e 's|@SONAME@|$(SONAME)|' \
   -e "s|@POINTER@|$$(echo __SIZEOF_POINTER__ | $(CC) -E -P -)|"
 
 # Made again when the places change.
 $(READY)/places: FORCE
 	@mkdir -p $(@D)
-	@echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR)' | cmp -s - $@ || \
-	  echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR)' > $@
+	@echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR) $(PROGS)' | cmp -s - $@ || \
+	  echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR) $(PROGS)' > $@
 
 $(READY)/%: packaging/%.in $(READY)/places
 	@mkdir -p $(@D)
@@ -129,7 +131,8 @@ INSTALLED_PROGS := $(filter-out sweep,$(PROGS)) $(READY)/sweep
 STUDY_DIRS      := actuators figures measured
 
 # Everything in its place below a folder of its own.
-stage: $(STATIC) $(SHARED) $(INSTALLED_PROGS) man $(READY)/pneu.pc $(READY)/pneuConfig.cmake $(READY)/pneuConfigVersion.cmake
+stage: $(STATIC) $(SHARED) $(INSTALLED_PROGS) man $(READY)/pneu.pc $(READY)/pneuConfig.cmake $(READY)/pneuConfigVersion.cmake \
+       $(READY)/completion/pneu.bash $(READY)/completion/_pneu
 	@rm -rf $(STAGE)
 	@$(INSTALL) -d $(addprefix $(STAGE),$(BINDIR) $(LIBDIR)/pkgconfig $(LIBDIR)/cmake/pneu $(INCLUDEDIR) $(DOCDIR)/examples \
 	  $(MANDIR)/man1 $(MANDIR)/man3 $(MANDIR)/man5 $(STUDY_DIRS:%=$(DATADIR)/pneu/study/%) \
@@ -144,8 +147,8 @@ stage: $(STATIC) $(SHARED) $(INSTALLED_PROGS) man $(READY)/pneu.pc $(READY)/pneu
 	@for page in $(MAN); do $(INSTALL) -m 644 $(READY)/man/$$page $(STAGE)$(MANDIR)/man$${page##*.} || exit 1; done
 	@ln -s libpneu.3 $(STAGE)$(MANDIR)/man3/pneu.3
 	@for program in $(PROGS); do \
-	  $(INSTALL) -m 644 packaging/completion/pneu.bash $(STAGE)$(DATADIR)/bash-completion/completions/$$program || exit 1; done
-	@$(INSTALL) -m 644 packaging/completion/_pneu $(STAGE)$(DATADIR)/zsh/site-functions
+	  $(INSTALL) -m 644 $(READY)/completion/pneu.bash $(STAGE)$(DATADIR)/bash-completion/completions/$$program || exit 1; done
+	@$(INSTALL) -m 644 $(READY)/completion/_pneu $(STAGE)$(DATADIR)/zsh/site-functions
 	@$(INSTALL) -m 644 study/hypotheses.cfg study/PAPER.md $(STAGE)$(DATADIR)/pneu/study
 	@for folder in $(STUDY_DIRS); do \
 	  $(INSTALL) -m 644 study/$$folder/* $(STAGE)$(DATADIR)/pneu/study/$$folder || exit 1; done
@@ -179,5 +182,5 @@ deb:
 ## Install these packages in a fresh Debian, made by debootstrap, and run the README's examples there; needs root
 deb-check: deb
 	@sh study/install-packages.sh debootstrap
-	@sh tests/check_deb.sh $(BUILD)/deb $(BUILD)/fresh
+	@sh tests/check_deb.sh $(BUILD)/deb
 .PHONY: deb-check

@@ -1,20 +1,18 @@
 #!/bin/sh
 # The packages of `make deb` in a fresh Debian: install, run the README's examples, build a user, remove.
-#   check_deb.sh PACKAGES FOLDER      as root; FOLDER is where debootstrap makes the system, removed afterwards
+#   check_deb.sh PACKAGES      as root; the system is made by debootstrap in a folder below TMPDIR, and removed afterwards
 # SUITE: which Debian (bookworm); MIRROR: where from (that of this system).
 set -eu
 packages=$1
-root=$2
 : "${SUITE:=bookworm}"
 [ "$(id -u)" -eq 0 ] || { echo "check_deb: debootstrap needs root" >&2; exit 1; }
 mirror=${MIRROR:-$(sed -n 's/^URIs: *//p; s/^deb  *\(\[[^]]*\] *\)\{0,1\}\([a-z]*:[^ ]*\).*/\2/p' \
   /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | grep -v security | head -n 1)}
 
-rm -rf "$root"
-mkdir -p "$root"
-root=$(cd "$root" && pwd)
-log=$root.log
-trap 'rm -rf "$root"' EXIT
+scratch=$(mktemp -d)
+root=$scratch/root
+log=$scratch/log
+trap 'rm -rf "$scratch"' EXIT
 
 wrong() {
   tail -n 30 "$log" >&2
