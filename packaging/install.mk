@@ -50,12 +50,12 @@ $(BUILD)/shared/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) -fPIC $(DEPS) $(CFLAGS) -c $< -o $@
 
-# The functions of pneu.h; version.map needs their version, which is that of the structs' layout.
-$(READY)/pneu.exports: lib/pneu.h packaging/functions.awk
+# The functions of pneu.h, with a version that is that of the structs' layout.
+$(READY)/pneu.exports: lib/pneu.h packaging/functions.awk packaging/install.mk
 	@mkdir -p $(@D)
 	awk -f packaging/functions.awk lib/pneu.h | sed 's/^/_/' > $@
 
-$(READY)/pneu.map: lib/pneu.h packaging/functions.awk
+$(READY)/pneu.map: lib/pneu.h packaging/functions.awk packaging/install.mk
 	@mkdir -p $(@D)
 	{ echo 'PNEU_$(MAJOR).$(MINOR) {'; echo '  global:'; awk -f packaging/functions.awk lib/pneu.h | sed 's/.*/    &;/'; \
 	  echo '  local: *;'; echo '};'; } > $@
