@@ -67,7 +67,7 @@ function give_line(text,    names, n, part, i) {
 }
 
 # A line of a comment: sections may begin at its start or within it.
-function give_text(text,    word, before) {
+function give_text(text,    word, before, at) {
   while (match(text, /(^|[.)a-z]  ?)(In|Out|In\/out|Returns|Error|Method|Omits|Domain|Source): +/)) {
     before = substr(text, 1, RSTART - 1)
     word = substr(text, RSTART, RLENGTH)
@@ -83,6 +83,11 @@ function give_text(text,    word, before) {
     print " *"
   }
   sub(/^ +/, "", text)
+  # two spaces after a semicolon part arguments on one line
+  while (section in direction && (at = index(text, ";  "))) {
+    give_line(substr(text, 1, at - 1))
+    text = substr(text, at + 3)
+  }
   give_line(text)
 }
 
@@ -95,6 +100,7 @@ function give_block(first, last,    i, text, columns) {
     text = line[i]
     sub(/^ *\/?\*\/?/, "", text)
     sub(/ *\*\/ *$/, "", text)
+    gsub(/Eq\. /, "Eq.\\&nbsp;", text) # ends no sentence
     if (i == first) {
       printf "/**"
       if (is_head) printf " \\file"
