@@ -47,7 +47,7 @@ function leading_arguments(text,    names, name) {
     names = names (names == "" ? "" : ",") name
     rest = substr(rest, RLENGTH + 1)
   }
-  if (rest !~ /^(  .*|,.*| \(.*|\.)?$/) return ""
+  if (rest !~ /^(  .*|,.*| [([].*|\.)?$/) return ""
   sub(/^[, .]+/, "", rest)
   return names
 }
