@@ -1,7 +1,8 @@
 #!/bin/sh
 # Debian packages from a copy of this tree, into FOLDER; what lintian says of them ends it.
 #   deb.sh FOLDER VERSION      VERSION: MAJOR.MINOR.PATCH, as lib/pneu.h has it
-# Version, date and licence are filled in from lib/pneu.h, the last commit and LICENSE.
+# Version, date and licence are filled in from lib/pneu.h, the last commit and LICENSE; MAINTAINER="Name <address>" says who
+# answers for the packages.
 set -eu
 folder=$1
 version=$2
@@ -34,6 +35,7 @@ sed -e "s/@VERSION@/$version/" -e "s/@DATE@/$(date -u -R -d "@$SOURCE_DATE_EPOCH
 sed -i "s/@NEXT@/$major.$((minor + 1))/" rules
 sed "s/@COPYRIGHT@/$(sed -n 's/^Copyright (c) //p' ../LICENSE)/" copyright.in >copyright
 sed -n '/^Permission/,$p' ../LICENSE | sed -e 's/^$/./' -e 's/^/ /' >>copyright
+[ -z "${MAINTAINER:-}" ] || sed -i "s/libpneu authors <libpneu@example.org>/$MAINTAINER/" control changelog
 rm changelog.in copyright.in
 cd ..
 # the build begins afresh, without what this make was told

@@ -172,11 +172,11 @@ uninstall:
 
 DEB_TOOLS := debhelper dpkg-dev fakeroot lintian doxygen
 
-## Build packages for Debian (libpneu0, -dev, -doc, pneu-tools) and check them by lintian: build/deb; installs the tools
+## Build packages for Debian (libpneu0, -dev, -doc, pneu-tools) and check them by lintian: build/deb; MAINTAINER="Name <address>"; installs the tools
 deb:
 	@sh study/install-packages.sh
 	@sh study/install-packages.sh $(DEB_TOOLS)
-	@sh packaging/deb.sh $(BUILD)/deb $(VERSION)
+	@MAINTAINER='$(MAINTAINER)' sh packaging/deb.sh $(BUILD)/deb $(VERSION)
 .PHONY: deb
 
 ## Install these packages in a fresh Debian, made by debootstrap, and run the README's examples there; needs root

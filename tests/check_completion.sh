@@ -10,6 +10,7 @@ cd "$scratch"
 : >rig.cfg
 : >log.csv
 : >login.txt
+: >fog.txt
 
 wrong() {
   echo "check_completion: $1" >&2
@@ -48,7 +49,7 @@ for file in "$share"/bash-completion/completions/*; do
 done
 expect "folder" sweep --results ""
 expect "log.csv" simulate l
-expect "folder log.csv login.txt rig.cfg" simulate --out ""
+expect "fog.txt folder log.csv login.txt rig.cfg" simulate --out ""
 expect "folder" closeloop --out ""
 expect "folder log.csv" closeloop --batch ""
 expect "folder log.csv" closeloop rig.cfg log.csv --holdout ""
