@@ -59,7 +59,7 @@ all: $(STATIC) $(PROGS) export-fmu
 
 ## Show this list
 help:
-	@awk '/^## /{text=substr($$0,4)} /^[a-z-]+:/{if(text){name=$$1;sub(":.*","",name);printf "  make %-18s %s\n",name,text};text=""}' Makefile
+	@awk '/^## /{text=substr($$0,4)} /^[a-z-]+:/{if(text){name=$$1;sub(":.*","",name);printf "  make %-18s %s\n",name,text};text=""}' $(filter %akefile %.mk,$(MAKEFILE_LIST))
 
 ## Run the study: installs missing packages, then writes tables, figures and report to results/
 study: install-packages
@@ -197,7 +197,7 @@ $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
-include apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk
+include apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk packaging/install.mk
 
 ## Remove what was built, but no results
 clean:

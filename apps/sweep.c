@@ -9,6 +9,11 @@
 #include "lab/interrupt.h"
 #include "study/products.h"
 
+/* Where make install puts the study. */
+#ifndef SWEEP_INSTALLED
+#define SWEEP_INSTALLED "/usr/local/share/pneu/study"
+#endif
+
 static int force, no_figures;
 static const char *results;
 
@@ -22,18 +27,25 @@ static const lab_program program = {
     "sweep",
     "STUDY.cfg",
     "Run a study: the hypotheses on the asymmetry of a single-acting actuator, in every chamber and flow law, with "
-    "tables (CSV), figures (SVG) and a report. A bare name that is no file is looked up in study/.",
+    "tables (CSV), figures (SVG) and a report. A bare name that is no file is looked up in study/, and then in the "
+    "installed study.",
     options,
     1,
     1};
 
-/* A bare name that is not a file is looked up in study/. */
+/* A bare name that is not a file is looked up in study/, in the working directory and where it is installed. */
 static const char *find_study(const char *name, char *path, size_t size)
 {
+  static const char *const folders[] = {"study", SWEEP_INSTALLED};
+  size_t i;
   if (access(name, F_OK) == 0 || strchr(name, '/'))
     return name;
-  snprintf(path, size, "study/%s", name);
-  return access(path, F_OK) == 0 ? path : name;
+  for (i = 0; i < sizeof folders / sizeof *folders; i++) {
+    snprintf(path, size, "%s/%s", folders[i], name);
+    if (access(path, F_OK) == 0)
+      return path;
+  }
+  return name;
 }
 
 static int sweep(const lab_cli *cli, lab_error *error)

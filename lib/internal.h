@@ -28,6 +28,11 @@
  * asks for beyond friction; PNEU_FORCE_RESOLVED, below which a stem that has just come to rest stays there, lest it
  * chatter where it stops in equilibrium. */
 
+/* The record of each effect of the catalogue, in lib/effects/. */
+#define PNEU_EFFECT(name, n_param, n_state) extern const pneu_effect pneu_effect_record_##name;
+#include PNEU_EFFECTS_FILE
+#undef PNEU_EFFECT
+
 /* Relative distance from equal pressures below which flow is nearly linear in the difference. */
 #define PNEU_BLEND PNEU_C(5e-4)
 

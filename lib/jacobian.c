@@ -17,8 +17,10 @@ static void differences(const pneu_model *model, const pneu_state *state, const 
     const int of_effect = j > model->thermal && j < model->n_gas;
     const pneu_real size = PNEU_M(fabs)(y[j]), floor = (of_effect ? PNEU_C(0.1) : PNEU_C(1e-3)) * scale[j];
     z[j] = y[j] + small * (size > floor ? size : floor);
-    if (pneu_rhs(model, state, input, z, f) != PNEU_OK)
-      z[j] = y[j], pneu_rhs(model, state, input, z, f);
+    if (pneu_rhs(model, state, input, z, f) != PNEU_OK) {
+      z[j] = y[j];
+      pneu_rhs(model, state, input, z, f);
+    }
     for (i = 0; i < n; i++)
       jac[i][j] = z[j] == y[j] ? 0 : (f[i] - f0[i]) / (z[j] - y[j]);
     z[j] = y[j];

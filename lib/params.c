@@ -3,10 +3,6 @@
 
 #include "internal.h"
 
-#define PNEU_EFFECT(name, n_param, n_state) extern const pneu_effect pneu_effect_record_##name;
-#include PNEU_EFFECTS_FILE
-#undef PNEU_EFFECT
-
 static const pneu_effect *const records[PNEU_EFFECT_COUNT + 1] = {
 #define PNEU_EFFECT(name, n_param, n_state) &pneu_effect_record_##name,
 #include PNEU_EFFECTS_FILE

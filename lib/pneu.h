@@ -25,7 +25,14 @@
 #ifndef PNEU_H
 #define PNEU_H
 
-#define PNEU_VERSION "0.1.0"
+/* Version of header and library. What uses another MAJOR.MINOR is compiled again: structs may have grown. */
+#define PNEU_VERSION_MAJOR 0
+#define PNEU_VERSION_MINOR 1
+#define PNEU_VERSION_PATCH 0
+
+#define PNEU_VERSION_WORDS(a, b, c) #a "." #b "." #c
+#define PNEU_VERSION_TEXT(a, b, c)  PNEU_VERSION_WORDS(a, b, c)
+#define PNEU_VERSION                PNEU_VERSION_TEXT(PNEU_VERSION_MAJOR, PNEU_VERSION_MINOR, PNEU_VERSION_PATCH)
 
 #ifdef PNEU_SINGLE
 typedef float pneu_real;

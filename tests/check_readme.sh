@@ -13,7 +13,8 @@ $CC -std=c90 -pedantic-errors -Wall -Wextra -Werror -Ilib "$folder/example.c" "$
 ./simulate study/actuators/r1-400.cfg "$folder/step.csv" >"$folder/again.csv"
 [ "$(wc -l <"$folder/again.csv")" -eq 3052 ]
 for target in $(sed -n 's/^make \([a-z-]*\).*/\1/p' README.md); do
-  grep -q "^$target:" Makefile
+  # shellcheck disable=SC2046
+  grep -q "^$target:" Makefile $(sed -n 's/^include //p' Makefile)
 done
 # every file that the README points to is there
 for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' README.md); do

@@ -121,7 +121,9 @@ pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/sing
 pass "guides: every command, and what it prints" sh tests/check_guides.sh study/guides
 pass "gallery: every figure of results/" sh -c 'sh study/gallery.sh | cmp - results/GALLERY.md'
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
+pass "installed: users, symbols, manual, completion, uninstall" sh tests/check_install.sh && { grep '^absent:' "$log" || true; }
 pass "memory that runs out, call by call" $MAKE --no-print-directory BUILD="$BUILD" alloc
+command -v clang >/dev/null && pass "clang: every warning on lib/" $MAKE --no-print-directory strict
 command -v valgrind >/dev/null && pass "valgrind: a part of the tests" $MAKE --no-print-directory BUILD="$BUILD" \
   GRIND="test_params test_flow test_jacobian test_number test_finds" valgrind
 pass "closeloop: its folder, full disk, interrupted runs" sh tests/check_closeloop.sh

@@ -222,7 +222,7 @@ static void test_measured_damadics__steps__fall_is_the_faster_one(void **state)
   (void)state;
   if (!loop_path)
     return;
-  succeed(measured_damadics(measured_folder(), scratch_folder, &error));
+  succeed(measured_damadics("study", measured_folder(), scratch_folder, &error));
   assert_true(scratch_exists(scratch_path("measured_damadics_static.csv")));
   assert_true(scratch_exists(scratch_path("measured_damadics_loop.csv")));
   assert_true(scratch_exists(scratch_path("measured_damadics_catalogue.csv")));
@@ -240,7 +240,7 @@ static void test_measured_vessel__whole__tables_written(void **state)
   (void)state;
   if (!vessel_path)
     return;
-  succeed(measured_vessel(measured_folder(), scratch_folder, &error));
+  succeed(measured_vessel("study", measured_folder(), scratch_folder, &error));
   assert_true(scratch_exists(scratch_path("measured_vessel.csv")));
   assert_true(scratch_exists(scratch_path("measured_vessel_parameters.csv")));
   assert_true(scratch_exists(scratch_path("measured_vessel_curves.csv")));
@@ -256,8 +256,8 @@ static void test_measured__no_data__absent_and_nothing_written(void **state)
   snprintf(empty, sizeof empty, "%s", scratch_path("empty"));
   fflush(stderr);
   assert_true(dup2(open("/dev/null", O_WRONLY), STDERR_FILENO) >= 0); /* what is said here is no news */
-  vessel_status = measured_vessel(nowhere, empty, &error);
-  servo_status = measured_damadics(nowhere, empty, &error);
+  vessel_status = measured_vessel("study", nowhere, empty, &error);
+  servo_status = measured_damadics("study", nowhere, empty, &error);
   assert_true(dup2(shown, STDERR_FILENO) >= 0);
   assert_int_equal(vessel_status, MEASURED_ABSENT);
   assert_int_equal(servo_status, MEASURED_ABSENT);

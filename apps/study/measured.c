@@ -17,7 +17,7 @@ const char *measured_folder(void)
   return named && *named ? named : "../shared/data";
 }
 
-static int join(const char *folder, const char *name, char *path, size_t size, lab_error *error)
+int measured_join(const char *folder, const char *name, char *path, size_t size, lab_error *error)
 {
   if ((size_t)snprintf(path, size, "%s/%s", folder, name) < size)
     return LAB_OK;
@@ -26,7 +26,7 @@ static int join(const char *folder, const char *name, char *path, size_t size, l
 
 int measured_path(const char *folder, const char *name, char *path, size_t size, lab_error *error)
 {
-  if (join(folder, name, path, size, error))
+  if (measured_join(folder, name, path, size, error))
     return error->status;
   if (access(path, R_OK) == 0)
     return LAB_OK;
@@ -48,7 +48,7 @@ int measured_save(const char *results_dir, const char *name, const table *t, lab
 {
   char path[PATH_BYTES];
   lab_outfile out;
-  if (join(results_dir, name, path, sizeof path, error) || lab_out_open(&out, path, error))
+  if (measured_join(results_dir, name, path, sizeof path, error) || lab_out_open(&out, path, error))
     return error->status;
   if (table_write(t, out.file, error)) {
     lab_out_abandon(&out);

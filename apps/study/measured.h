@@ -12,6 +12,9 @@
 /* Result of a comparison whose data are not on this machine: not an error. */
 enum { MEASURED_ABSENT = -1 };
 
+/* Path of a file in a folder.  Returns: LAB_OK, LAB_DATA for one that is too long. */
+int measured_join(const char *folder, const char *name, char *path, size_t size, lab_error *error);
+
 /* Folder of the public data: environment variable MEASURED, else ../shared/data. */
 const char *measured_folder(void);
 

@@ -7,7 +7,7 @@
 #include "measured.h"
 #include "servomotor.h"
 
-static const char rig_path[] = "study/measured/damadics.cfg";
+static const char rig_name[] = "measured/damadics.cfg";
 static const char loop_name[] = "damadics-servomotor-static-step/static_hysteresis_fig5.csv";
 
 /* The law that is kept: the lowest error among those whose terms have a size that packing and spring can have. */
@@ -317,7 +317,7 @@ static int save(const outputs *out, const char *results_dir, lab_error *error)
   return measured_save(results_dir, "measured_damadics_catalogue.csv", &out->catalogue, error);
 }
 
-static int compare_loop(const char *loop_path, const char *results_dir, lab_error *error)
+static int compare_loop(const char *rig_path, const char *loop_path, const char *results_dir, lab_error *error)
 {
   servomotor s;
   outputs out;
@@ -336,11 +336,13 @@ static int compare_loop(const char *loop_path, const char *results_dir, lab_erro
   return status;
 }
 
-int measured_damadics(const char *data_dir, const char *results_dir, lab_error *error)
+int measured_damadics(const char *study_dir, const char *data_dir, const char *results_dir, lab_error *error)
 {
-  char path[1024];
+  char path[1024], rig[1024];
   int status = measured_path(data_dir, loop_name, path, sizeof path, error);
   if (status == LAB_OK)
-    status = compare_loop(path, results_dir, error);
-  return status == LAB_OK ? measured_damadics_steps(data_dir, results_dir, error) : status;
+    status = measured_join(study_dir, rig_name, rig, sizeof rig, error);
+  if (status == LAB_OK)
+    status = compare_loop(rig, path, results_dir, error);
+  return status == LAB_OK ? measured_damadics_steps(study_dir, data_dir, results_dir, error) : status;
 }

@@ -14,11 +14,12 @@
  * (points, models, residuals), measured_damadics_catalogue.csv (hysteresis, linearity, bench set),
  * measured_damadics_steps.csv (asymmetry and time constants of the two steps, beside the 37-13 of the paper) and
  * measured_damadics_edges.csv (the steps and the two shapes fitted to each).
- * In:      data_dir  folder of the public data sets (see measured.h)
+ * In:      study_dir  folder of the study, with its rig files
+ *          data_dir   folder of the public data sets (see measured.h)
  * Returns: LAB_OK; MEASURED_ABSENT, announced on stderr, without the data; LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
-int measured_damadics(const char *data_dir, const char *results_dir, lab_error *error);
+int measured_damadics(const char *study_dir, const char *data_dir, const char *results_dir, lab_error *error);
 
 /* The steps' share of it; made by measured_damadics. */
-int measured_damadics_steps(const char *data_dir, const char *results_dir, lab_error *error);
+int measured_damadics_steps(const char *study_dir, const char *data_dir, const char *results_dir, lab_error *error);
 
 #endif

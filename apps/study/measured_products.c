@@ -17,15 +17,19 @@ static int note(const study *s, int status, const char *const *file, int n)
 
 int measured_vessel_product(const study *s, lab_error *error)
 {
+  char folder[STUDY_PATH_TEXT];
   static const char *const files[] = {"measured_vessel.csv", "measured_vessel_parameters.csv",
                                       "measured_vessel_curves.csv"};
-  return note(s, measured_vessel(s->measured, s->results, error), files, 3);
+  study_folder(s, folder);
+  return note(s, measured_vessel(folder, s->measured, s->results, error), files, 3);
 }
 
 int measured_damadics_product(const study *s, lab_error *error)
 {
+  char folder[STUDY_PATH_TEXT];
   static const char *const files[] = {"measured_damadics_static.csv", "measured_damadics_loop.csv",
                                       "measured_damadics_catalogue.csv", "measured_damadics_steps.csv",
                                       "measured_damadics_edges.csv"};
-  return note(s, measured_damadics(s->measured, s->results, error), files, 5);
+  study_folder(s, folder);
+  return note(s, measured_damadics(folder, s->measured, s->results, error), files, 5);
 }

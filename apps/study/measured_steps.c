@@ -12,7 +12,7 @@
 
 static const char up_name[] = "damadics-servomotor-static-step/step_up_fig6.csv";
 static const char down_name[] = "damadics-servomotor-static-step/step_down_fig7.csv";
-static const char beside_path[] = "study/actuators/37-13.cfg"; /* the paper's actuator of the same kind and stroke */
+static const char beside_name[] = "actuators/37-13.cfg"; /* the paper's actuator of the same kind and stroke */
 
 enum { STEP_POINTS = 512 };
 
@@ -101,7 +101,7 @@ static int add_model(table *t, const lab_rig *rig, int gas, int flow, lab_error 
   return status;
 }
 
-static int add_models(table *t, lab_error *error)
+static int add_models(const char *beside_path, table *t, lab_error *error)
 {
   static const int gas[] = {PNEU_GAS_ISOTHERMAL, PNEU_GAS_POLYTROPIC}, flow[] = {PNEU_FLOW_PAPER, PNEU_FLOW_CHOKED};
   lab_rig rig;
@@ -161,26 +161,28 @@ static void add_edge(table *t, const char *name, const edge *e)
 
 /* ---- All of it ---- */
 
-static int fill(const record *up, const record *down, table *steps, table *edges, lab_error *error)
+static int fill(const char *beside_path, const record *up, const record *down, table *steps, table *edges,
+                lab_error *error)
 {
   const record cut = cut_at_zero(down);
   const edge rise = edge_of(up), fall = edge_of(&cut), whole = edge_of(down);
   if (add_pair(steps, "measured", "", "", &rise, &fall, "fall taken to 0, where the travel ends", error) ||
       add_pair(steps, "measured", "", "", &rise, &whole, "fall as drawn, to -0.25 of 10", error) ||
-      add_models(steps, error))
+      add_models(beside_path, steps, error))
     return error->status;
   add_edge(edges, "up", &rise);
   add_edge(edges, "down", &fall);
   return LAB_OK;
 }
 
-static int make(const record *up, const record *down, const char *results_dir, lab_error *error)
+static int make(const char *beside_path, const record *up, const record *down, const char *results_dir,
+                lab_error *error)
 {
   table steps, edges;
   int status;
   table_open(&steps, steps_header);
   table_open(&edges, "edge,t [s],x [1],x_lag [1],x_ramp [1],lag_residual [1],ramp_residual [1]");
-  status = fill(up, down, &steps, &edges, error);
+  status = fill(beside_path, up, down, &steps, &edges, error);
   if (status == LAB_OK)
     status = measured_save(results_dir, "measured_damadics_steps.csv", &steps, error);
   if (status == LAB_OK)
@@ -190,15 +192,16 @@ static int make(const record *up, const record *down, const char *results_dir, l
   return status;
 }
 
-int measured_damadics_steps(const char *data_dir, const char *results_dir, lab_error *error)
+int measured_damadics_steps(const char *study_dir, const char *data_dir, const char *results_dir, lab_error *error)
 {
-  char up_path[1024], down_path[1024];
+  char up_path[1024], down_path[1024], beside_path[1024];
   record up, down;
   int status;
   if ((status = measured_path(data_dir, up_name, up_path, sizeof up_path, error)) != LAB_OK ||
       (status = measured_path(data_dir, down_name, down_path, sizeof down_path, error)) != LAB_OK)
     return status;
-  if (read_record(up_path, &up, error) || read_record(down_path, &down, error))
+  if (measured_join(study_dir, beside_name, beside_path, sizeof beside_path, error) ||
+      read_record(up_path, &up, error) || read_record(down_path, &down, error))
     return error->status;
-  return make(&up, &down, results_dir, error);
+  return make(beside_path, &up, &down, results_dir, error);
 }

@@ -7,7 +7,7 @@
 #include "measured.h"
 #include "vessel.h"
 
-static const char rig_path[] = "study/measured/vessel.cfg";
+static const char rig_name[] = "measured/vessel.cfg";
 static const char log_name[] = "vessel-air-charge-discharge/Air_790kPa_21mm.csv";
 
 static const double source_diameter = 2.71e-3; /* [m] orifice in the source file */
@@ -221,12 +221,14 @@ static int compare(const vessel *v, const char *results_dir, lab_error *error)
   return status;
 }
 
-int measured_vessel(const char *data_dir, const char *results_dir, lab_error *error)
+int measured_vessel(const char *study_dir, const char *data_dir, const char *results_dir, lab_error *error)
 {
-  char path[1024];
+  char path[1024], rig[1024];
   vessel v;
   int status = measured_path(data_dir, log_name, path, sizeof path, error);
-  if (status != LAB_OK || (status = vessel_open(rig_path, path, &v, error)) != LAB_OK)
+  if (status == LAB_OK)
+    status = measured_join(study_dir, rig_name, rig, sizeof rig, error);
+  if (status != LAB_OK || (status = vessel_open(rig, path, &v, error)) != LAB_OK)
     return status;
   status = compare(&v, results_dir, error);
   vessel_close(&v);

@@ -25,8 +25,9 @@
 
 /* Fit every law and write to results_dir: measured_vessel.csv (a row a law), measured_vessel_parameters.csv (a row a
  * fitted parameter) and measured_vessel_curves.csv (data, models, residuals over time).
- * In:      data_dir  folder of the public data sets (see measured.h)
+ * In:      study_dir  folder of the study, with its rig files
+ *          data_dir   folder of the public data sets (see measured.h)
  * Returns: LAB_OK; MEASURED_ABSENT, announced on stderr, without the data; LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
-int measured_vessel(const char *data_dir, const char *results_dir, lab_error *error);
+int measured_vessel(const char *study_dir, const char *data_dir, const char *results_dir, lab_error *error);
 
 #endif

@@ -200,6 +200,15 @@ int study_read(const char *path, study *s, lab_error *error)
   return status;
 }
 
+void study_folder(const study *s, char folder[STUDY_PATH_TEXT])
+{
+  const char *slash = strrchr(s->file, '/');
+  if (slash)
+    snprintf(folder, STUDY_PATH_TEXT, "%.*s", (int)(slash - s->file), s->file);
+  else
+    strcpy(folder, ".");
+}
+
 int study_save(const study *s, const char *name, const table *t, lab_error *error)
 {
   char path[STUDY_PATH_TEXT + 64];

@@ -44,6 +44,9 @@ typedef struct study {
  * Returns: LAB_OK; LAB_DATA with file, line, key; LAB_WORLD. */
 int study_read(const char *path, study *s, lab_error *error);
 
+/* The folder of the study file, where its rig files and figures are; "." if its path has none.  Out: folder */
+void study_folder(const study *s, char folder[STUDY_PATH_TEXT]);
+
 /* Write a table to a file of the results folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
 int study_save(const study *s, const char *name, const table *t, lab_error *error);
 

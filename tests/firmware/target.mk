@@ -30,8 +30,11 @@ else ifeq ($(TARGET),i386) # headers of the kernel lie beside those of the 64-bi
 else ifeq ($(TARGET),s390x)
   CC := $(S390X)
   LINK := -static
+else ifeq ($(TARGET),windows)
+  CC := x86_64-w64-mingw32-gcc
+  LINK := -static
 else
-  $(error TARGET: host, m4f, m0, i386 or s390x)
+  $(error TARGET: host, m4f, m0, i386, s390x or windows)
 endif
 
 LIB_O := $(patsubst lib/%.c,$(OUT)/lib/%.o,$(wildcard lib/*.c lib/effects/*.c))
@@ -47,12 +50,15 @@ $(OUT)/demo $(OUT)/count:
 
 # The core's tests, with a small stand-in for cmocka.
 TEST_FLAGS := -D_POSIX_C_SOURCE=200809L -Itests/firmware/cmocka
-$(OUT)/test_%: $(OUT)/tests/test_%.o $(OUT)/tests/fixture.o $(OUT)/tests/second/rig.o $(OUT)/libpneu.a
+TEST_NEEDS := $(OUT)/tests/fixture.o $(OUT)/tests/second/rig.o $(OUT)/libpneu.a
+$(OUT)/test_%: $(OUT)/tests/test_%.o $(TEST_NEEDS)
+	$(CC) $(FLAGS) $(LINK) $^ -lm -o $@
+$(OUT)/test_%.exe: $(OUT)/tests/test_%.o $(TEST_NEEDS)
 	$(CC) $(FLAGS) $(LINK) $^ -lm -o $@
 
 $(OUT)/libpneu.a: $(LIB_O)
 	@rm -f $@
-	$(if $(filter arm%,$(CC)),arm-none-eabi-ar,$(if $(filter s390x,$(TARGET)),s390x-linux-gnu-ar,ar)) rcs $@ $^
+	$(if $(filter arm%,$(CC)),arm-none-eabi-ar,$(if $(filter s390x,$(TARGET)),s390x-linux-gnu-ar,$(if $(filter windows,$(TARGET)),x86_64-w64-mingw32-ar,ar))) rcs $@ $^
 
 $(OUT)/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
