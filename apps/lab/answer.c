@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "outfile.h"
 #include "report_html.h"
+#include "tape.h"
 
 static double seconds(void)
 {
@@ -127,6 +128,28 @@ static int hold_out(lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
+/* ---- Figures of merit ---- */
+
+static int measure(int predicted, const lab_unknowns *u, lab_metrics *metrics, lab_error *error)
+{
+  lab_tape tape;
+  int status = (predicted ? lab_tape_predicted : lab_tape_measured)(u, &tape, error);
+  if (status == LAB_OK)
+    status = lab_metrics_measure(&tape.record, metrics, error);
+  lab_tape_close(&tape);
+  return status;
+}
+
+/* Of what was measured, and of what the completed model makes of the same commands. */
+static int appraise(lab_answer *a, lab_error *error)
+{
+  if (measure(0, &a->completed, &a->measured, error) || measure(1, &a->completed, &a->predicted, error))
+    return error->status;
+  a->story.measured = &a->measured;
+  a->story.predicted = &a->predicted;
+  return LAB_OK;
+}
+
 /* ---- The loop ---- */
 
 /* The loop's result where the log cannot carry a name: the fit, and nothing traced. */
@@ -169,7 +192,7 @@ static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
     return error->status;
   a->story.trace_s = a->result.trace_s;
   tell(q, "judging");
-  if (retrace(a, error) || hold_out(a, error))
+  if (retrace(a, error) || hold_out(a, error) || appraise(a, error))
     return error->status;
   tell(q, "looking for the test to record next");
   if (lab_advise(&a->story, error))

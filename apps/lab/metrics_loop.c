@@ -10,6 +10,7 @@ static const double inside = 0.02; /* share of the stroke that counts as the sto
 /* Two neighbouring legs, and their positions over the signal that they share. */
 typedef struct loop {
   const lab_leg *up, *down;
+  double low, high; /* signals between which every point of both is off the stops */
   double s[GRID], x_up[GRID], x_down[GRID];
 } loop;
 
@@ -31,12 +32,34 @@ static double position_at(const lab_path *path, const lab_leg *leg, double s)
   return at[i - 1].x + (at[i].x - at[i - 1].x) * fmin(fmax((s - at[i - 1].s) / (at[i].s - at[i - 1].s), 0), 1);
 }
 
-static void sample(const lab_path *path, loop *l)
+/* Narrow a range of signals to that of a leg's points off the stops. */
+static void narrow(const lab_measuring *m, const lab_leg *leg, loop *l)
 {
+  const double stroke = m->record->stroke;
+  double low = (double)INFINITY, high = -(double)INFINITY;
+  size_t i;
+  for (i = leg->begin; i < leg->end; i++) {
+    const lab_point *at = &m->path.point[i];
+    if (at->x <= inside * stroke || at->x >= (1 - inside) * stroke)
+      continue;
+    low = fmin(low, at->s);
+    high = fmax(high, at->s);
+  }
+  l->low = fmax(l->low, low);
+  l->high = fmin(l->high, high);
+}
+
+static void sample(const lab_measuring *m, loop *l)
+{
+  const lab_path *path = &m->path;
   const lab_point *at = path->point;
   const double low = fmax(at[l->up->begin].s, at[l->down->end - 1].s);
   const double high = fmin(at[l->up->end - 1].s, at[l->down->begin].s);
   int i;
+  l->low = -(double)INFINITY;
+  l->high = (double)INFINITY;
+  narrow(m, l->up, l);
+  narrow(m, l->down, l);
   for (i = 0; i < GRID; i++) {
     l->s[i] = low + (high - low) * i / (GRID - 1);
     l->x_up[i] = position_at(path, l->up, l->s[i]);
@@ -70,15 +93,14 @@ static int find_loop(const lab_path *path, loop *l, double *cover, double *cover
 /* ---- The straight line that suits best ---- */
 
 /* Half the spread of x - slope s over the grid; the mean branch off the stops.  Out: n, points taken */
-static double misfit(const lab_measuring *m, const loop *l, double slope, int *n)
+static double misfit(const loop *l, double slope, int *n)
 {
-  const double low = inside * m->record->stroke, high = (1 - inside) * m->record->stroke;
   double least = (double)INFINITY, most = -(double)INFINITY;
   int i;
   *n = 0;
   for (i = 0; i < GRID; i++) {
     const double left = (l->x_up[i] + l->x_down[i]) / 2 - slope * l->s[i];
-    if (fmin(l->x_up[i], l->x_down[i]) < low || fmax(l->x_up[i], l->x_down[i]) > high)
+    if (l->s[i] < l->low || l->s[i] > l->high)
       continue;
     least = fmin(least, left);
     most = fmax(most, left);
@@ -95,13 +117,13 @@ static double best_line(const lab_measuring *m, const loop *l, double *slope, in
   int i;
   for (i = 0; i < SEARCH; i++) {
     const double c = b - golden * (b - a), d = a + golden * (b - a);
-    if (misfit(m, l, c, n) < misfit(m, l, d, n))
+    if (misfit(l, c, n) < misfit(l, d, n))
       b = d;
     else
       a = c;
   }
   *slope = (a + b) / 2;
-  return misfit(m, l, *slope, n);
+  return misfit(l, *slope, n);
 }
 
 /* ---- Figures ---- */
@@ -166,6 +188,6 @@ void lab_loop_measure(lab_measuring *m)
     deny(m, cover, cover_any);
     return;
   }
-  sample(&m->path, &l);
+  sample(m, &l);
   report(m, &l, cover);
 }

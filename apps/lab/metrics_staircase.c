@@ -68,6 +68,21 @@ static double sort_gaps(gaps *g)
   return most;
 }
 
+/* Of a staircase, keep the movements that came with its smallest steps: they tell most. */
+static void keep_smallest(const lab_path *path, gaps *g)
+{
+  double least = (double)INFINITY;
+  int i, n = 0;
+  if (!path->held)
+    return;
+  for (i = 0; i < g->n; i++)
+    least = fmin(least, g->gap[i].last);
+  for (i = 0; i < g->n; i++)
+    if (g->gap[i].last <= small_steps * least)
+      g->gap[n++] = g->gap[i];
+  g->n = n;
+}
+
 /* Set a figure to the median, over the span. */
 static void give_median(lab_measuring *m, int metric, const gaps *g, double error, const char *of)
 {
@@ -119,6 +134,7 @@ static void report_dead_band(lab_measuring *m)
                     signal, at_stop ? "; on a stop it does" : "");
   if (g.n == 0)
     return;
+  keep_smallest(&m->path, &g);
   error = sort_gaps(&g) + seen(m);
   give_median(m, LAB_METRIC_DEAD_BAND, &g, error, g.n == 1 ? "turn" : "turns");
   m->metrics->metric[LAB_METRIC_DEAD_BAND].at_most = g.gap[g.n / 2].size <= error;
@@ -138,19 +154,6 @@ static void collect_moves(const lab_measuring *m, const lab_leg *leg, gaps *g)
     add_gap(m, g, path->point[at].s, next,
             next == at + 1 || fabs(path->point[next].s - path->point[at].s) <= 2 * seen(m));
   }
-}
-
-/* Of a staircase, keep the movements that came with its smallest steps. */
-static void keep_smallest(gaps *g)
-{
-  double least = (double)INFINITY;
-  int i, n = 0;
-  for (i = 0; i < g->n; i++)
-    least = fmin(least, g->gap[i].last);
-  for (i = 0; i < g->n; i++)
-    if (g->gap[i].last <= small_steps * least)
-      g->gap[n++] = g->gap[i];
-  g->n = n;
 }
 
 /* Where most of the smallest changes moved the stem, they are all that is known. */
@@ -182,8 +185,7 @@ static void report_resolution(lab_measuring *m)
       collect_moves(m, &m->path.leg[k], &g);
     else
       fast++;
-  if (m->path.held)
-    keep_smallest(&g);
+  keep_smallest(&m->path, &g);
   if (g.n > 0)
     give_resolution(m, &g);
   else if (fast > 0)

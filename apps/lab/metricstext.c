@@ -86,11 +86,15 @@ cJSON *lab_metrics_object(const lab_metrics *metrics)
     const lab_metric_info *info = &lab_metric_infos[i];
     cJSON *o = cJSON_AddObjectToObject(all, info->key);
     add_number(o, "value", metric->value);
+    cJSON_AddStringToObject(o, "unit", info->unit);
+    if (isnan(metric->value)) {
+      cJSON_AddStringToObject(o, "reason", metric->text);
+      continue;
+    }
     add_number(o, "uncertainty", metric->uncertainty);
     cJSON_AddBoolToObject(o, "at_most", metric->at_most);
-    cJSON_AddStringToObject(o, "unit", info->unit);
     cJSON_AddStringToObject(o, "standard", info->standard);
-    cJSON_AddStringToObject(o, isnan(metric->value) ? "reason" : "basis", metric->text);
+    cJSON_AddStringToObject(o, "basis", metric->text);
   }
   return all;
 }

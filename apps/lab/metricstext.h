@@ -18,7 +18,8 @@ const char *lab_metric_value(const lab_metric *metric, char text[LAB_METRIC_SHOW
 /* Write a table of all figures, and of the steps. */
 void lab_metrics_print(FILE *file, const lab_metrics *metrics);
 
-/* { "<key>": { "value":, "uncertainty":, "at_most":, "unit":, "standard":, "basis": or "reason": }, ... } */
+/* { "<key>": { "value":, "unit":, "uncertainty":, "at_most":, "standard":, "basis": }, ... }, or
+ * { "<key>": { "value": null, "unit":, "reason": } } */
 cJSON *lab_metrics_object(const lab_metrics *metrics);
 
 /* Write an object with the signals, the figures and the steps.  Returns: LAB_OK, LAB_WORLD. */

@@ -7,6 +7,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "metricstext.h"
 #include "outfile.h"
 #include "quantile.h"
 #include "shown.h"
@@ -461,6 +462,40 @@ static void put_candidates(const telling *t, cJSON *page)
       t->story->result->level > 0 ? lab_shown_number(lab_chi2_threshold(t->story->result->level), 3, threshold) : "-");
 }
 
+/* ---- Figures of merit ---- */
+
+static void put_merit(const telling *t, cJSON *page)
+{
+  const lab_metrics *of[] = {t->story->measured, t->story->predicted};
+  cJSON *list = cJSON_AddArrayToObject(page, "merit"), *missing = cJSON_AddArrayToObject(page, "without_merit");
+  int i, k;
+  if (!of[0])
+    return;
+  put(page, "step_signal", "%s", lab_metrics_step_signal(of[0]->command));
+  put(page, "static_signal", "%s", lab_metrics_static_signal(of[0]->command));
+  for (i = 0; i < LAB_METRIC_COUNT; i++) {
+    const lab_metric_info *info = &lab_metric_infos[i];
+    cJSON *row, *cells;
+    if (isnan(of[0]->metric[i].value))
+      say(missing, "%s: %s.", info->key, of[0]->metric[i].text);
+    if (isnan(of[0]->metric[i].value) && isnan(of[1]->metric[i].value))
+      continue;
+    row = append(list);
+    put(row, "meaning", "%s", info->meaning);
+    put(row, "standard", "%s", info->standard);
+    cells = cJSON_AddArrayToObject(row, "cells");
+    for (k = 0; k < 2; k++) {
+      const lab_metric *metric = &of[k]->metric[i];
+      cJSON *cell = append(cells);
+      char value[LAB_METRIC_SHOWN];
+      put(cell, "value", "%s%s%s", lab_metric_value(metric, value), strcmp(info->unit, "1") ? " " : "",
+          strcmp(info->unit, "1") ? info->unit : "");
+      if (isfinite(metric->value))
+        put_number(cell, "uncertainty", metric->uncertainty, 2);
+    }
+  }
+}
+
 /* ---- The page ---- */
 
 /* Figures in order: the first one stands beside the errors.  Returns: 0 without memory. */
@@ -497,6 +532,7 @@ static cJSON *values_of(const telling *t)
   put_parameters(t, page);
   put_whiteness(t, cJSON_AddArrayToObject(page, "whiteness"));
   put_candidates(t, page);
+  put_merit(t, page);
   if (put_figures(t, page))
     return page;
   cJSON_Delete(page);

@@ -148,6 +148,8 @@ int lab_tape_simulate(const pneu_model *model, const lab_rig *rig, const lab_log
     rows += fill_times(log, run, step, NULL);
   if (lab_tape_open(rig, rows, log->n_runs, tape, error))
     return error->status;
+  if (rig->laws.pressure_input && (!isnan(rig->noise[LAB_CHANNEL_P]) || rows < 2 * log->n))
+    tape->record.noise_p = rig->noise[LAB_CHANNEL_P]; /* a measured one; a schedule of few rows has none */
   for (run = 0; run < log->n_runs; run++)
     if (simulate_run(model, rig, log, run, step, options, tape, error))
       return error->status;
@@ -156,12 +158,12 @@ int lab_tape_simulate(const pneu_model *model, const lab_rig *rig, const lab_log
 
 /* ---- Runs of a bench ---- */
 
-static size_t rows_of(const lab_experiment *experiment, int n)
+static size_t rows_of(const lab_unknowns *u)
 {
   size_t rows = 0;
   int e;
-  for (e = 0; e < n; e++)
-    rows += experiment[e].n;
+  for (e = 0; e < u->n_experiments; e++)
+    rows += u->experiment[e].n;
   return rows;
 }
 
@@ -171,50 +173,71 @@ static const double *channel_of(const lab_experiment *e, int channel)
   return value ? value + e->first : NULL;
 }
 
-/* Noise of a channel in the first run that has it as an output; NaN: an input, to be estimated. */
-static double noise_of(const lab_experiment *experiment, int n, int channel)
+/* Noise of a channel in the first run that has it as an output; of an input, what is declared, or NaN. */
+static double noise_of(const lab_unknowns *u, int channel)
 {
   int e, c;
-  for (e = 0; e < n; e++)
-    for (c = 0; c < experiment[e].n_channels; c++)
-      if (experiment[e].channel[c] == channel)
-        return experiment[e].sigma[c];
-  return n > 0 ? experiment[0].rig->noise[channel] : (double)NAN;
+  for (e = 0; e < u->n_experiments; e++)
+    for (c = 0; c < u->experiment[e].n_channels; c++)
+      if (u->experiment[e].channel[c] == channel)
+        return u->experiment[e].sigma[c];
+  return u->rig.noise[channel];
 }
 
-int lab_tape_measured(const lab_rig *rig, const lab_experiment *experiment, int n, lab_tape *tape, lab_error *error)
+int lab_tape_measured(const lab_unknowns *u, lab_tape *tape, lab_error *error)
 {
   int e;
-  if (lab_tape_open(rig, rows_of(experiment, n), (size_t)n, tape, error))
+  if (lab_tape_open(&u->rig, rows_of(u), (size_t)u->n_experiments, tape, error))
     return error->status;
   tape->record.bracketed = 1;
-  tape->record.noise_p = noise_of(experiment, n, LAB_CHANNEL_P);
-  tape->record.noise_x = noise_of(experiment, n, LAB_CHANNEL_X);
-  for (e = 0; e < n; e++) {
-    const double *const value[] = {
-        channel_of(&experiment[e], LAB_CHANNEL_TIME), command_of(tape, channel_of(&experiment[e], LAB_CHANNEL_U)),
-        channel_of(&experiment[e], LAB_CHANNEL_P), channel_of(&experiment[e], LAB_CHANNEL_X), NULL};
-    add_run(tape, experiment[e].n, value);
+  tape->record.noise_p = noise_of(u, LAB_CHANNEL_P);
+  tape->record.noise_x = noise_of(u, LAB_CHANNEL_X);
+  for (e = 0; e < u->n_experiments; e++) {
+    const lab_experiment *x = &u->experiment[e];
+    const double *const value[] = {channel_of(x, LAB_CHANNEL_TIME), command_of(tape, channel_of(x, LAB_CHANNEL_U)),
+                                   channel_of(x, LAB_CHANNEL_P), channel_of(x, LAB_CHANNEL_X), NULL};
+    add_run(tape, x->n, value);
   }
   return LAB_OK;
 }
 
-int lab_tape_predicted(const lab_rig *rig, const lab_experiment *experiment, int n, double tol, lab_tape *tape,
-                       lab_error *error)
+/* The model of one run: what it has for itself in the place of what all share. */
+static void rig_of(const lab_unknowns *u, int experiment, lab_rig *rig)
 {
-  lab_response_options options = {LAB_STEPPER, 0, 0, 0, 0, 0};
+  double theta[LAB_FIT_MAX];
+  int j;
+  for (j = 0; j < u->n; j++)
+    theta[j] = u->unknown[j].value;
+  *rig = u->rig;
+  lab_unknowns_apply(u, theta, LAB_ALL_EXPERIMENTS, rig);
+  lab_unknowns_apply(u, theta, experiment, rig);
+}
+
+static int predict_run(const lab_unknowns *u, int experiment, lab_tape *tape, lab_error *error)
+{
+  const lab_response_options options = {LAB_STEPPER, u->tol, 0, 0, 0, 0};
+  const lab_experiment *x = &u->experiment[experiment];
   pneu_model model;
   lab_trace trace;
-  int e;
-  options.tol = tol;
-  if (lab_tape_open(rig, rows_of(experiment, n), (size_t)n, tape, error) || lab_rig_model(rig, &model, error))
+  lab_rig rig;
+  rig_of(u, experiment, &rig);
+  if (lab_rig_model(&rig, &model, error) ||
+      lab_follow(&model, &rig, x->log, x->run, channel_of(x, LAB_CHANNEL_TIME), x->n, &options, &trace, error))
     return error->status;
-  for (e = 0; e < n; e++) {
-    const lab_experiment *x = &experiment[e];
-    if (lab_follow(&model, rig, x->log, x->run, channel_of(x, LAB_CHANNEL_TIME), x->n, &options, &trace, error))
+  lab_tape_add_trace(tape, &trace);
+  lab_trace_free(&trace);
+  return LAB_OK;
+}
+
+int lab_tape_predicted(const lab_unknowns *u, lab_tape *tape, lab_error *error)
+{
+  int e;
+  if (lab_tape_open(&u->rig, rows_of(u), (size_t)u->n_experiments, tape, error))
+    return error->status;
+  if (u->rig.laws.pressure_input) /* the pressure is the measured one */
+    tape->record.noise_p = noise_of(u, LAB_CHANNEL_P);
+  for (e = 0; e < u->n_experiments; e++)
+    if (predict_run(u, e, tape, error))
       return error->status;
-    lab_tape_add_trace(tape, &trace);
-    lab_trace_free(&trace);
-  }
   return LAB_OK;
 }

@@ -3,9 +3,9 @@
 #ifndef LAB_TAPE_H
 #define LAB_TAPE_H
 
-#include "experiment.h"
 #include "metrics.h"
 #include "response.h"
+#include "unknowns.h"
 
 typedef struct lab_tape {
   lab_record record;
@@ -29,13 +29,13 @@ void lab_tape_add_trace(lab_tape *tape, const lab_trace *trace);
 int lab_tape_simulate(const pneu_model *model, const lab_rig *rig, const lab_log *log,
                       const lab_response_options *options, lab_tape *tape, lab_error *error);
 
-/* What was measured in some runs.  Out: tape, to be closed, also after an error.  Returns: LAB_OK, LAB_WORLD. */
-int lab_tape_measured(const lab_rig *rig, const lab_experiment *experiment, int n, lab_tape *tape, lab_error *error);
+/* What was measured in the runs of a fit.  Out: tape, to be closed, also after an error.  Returns: LAB_OK, LAB_WORLD.
+ */
+int lab_tape_measured(const lab_unknowns *u, lab_tape *tape, lab_error *error);
 
-/* What a model does in the same runs, at the same times; commands act at the rows that show them.
+/* What the fitted model does in the same runs, at the same times; commands act at the rows that show them.
  * Out:     tape  to be closed, also after an error
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
-int lab_tape_predicted(const lab_rig *rig, const lab_experiment *experiment, int n, double tol, lab_tape *tape,
-                       lab_error *error);
+int lab_tape_predicted(const lab_unknowns *u, lab_tape *tape, lab_error *error);
 
 #endif
