@@ -106,7 +106,7 @@ typedef struct lab_metric {
 /* What became of a step. */
 enum lab_step_fate {
   LAB_STEP_GOOD,
-  LAB_STEP_NO_SIGNAL,   /* takes the signal longer than the position may */
+  LAB_STEP_NO_SIGNAL,   /* the signal takes too long to be a step */
   LAB_STEP_GAP,         /* too few values before or after it */
   LAB_STEP_NOT_AT_REST, /* still moving when it came */
   LAB_STEP_NOT_SETTLED, /* still moving when the next one came */

@@ -26,7 +26,7 @@ static void commands_of_run(lab_measuring *m, int run)
   for (i = first; i < end; i = next) {
     lab_hold *hold = &m->hold[m->n_holds++];
     next = held_until(r->u, i, end);
-    *hold = (lab_hold){run, i, next, r->u[i], r->t[i], 0, 0, 1};
+    *hold = (lab_hold){run, i, next, r->u[i], r->t[i], 0, 0, 0};
     if (r->bracketed && i > first)
       hold->bracket = r->t[i] - r->t[i - 1];
   }
@@ -61,7 +61,7 @@ static void pressures_of_run(lab_measuring *m, int run)
       continue;
     }
     hold = &m->hold[m->n_holds++];
-    *hold = (lab_hold){run, i, i, level, r->t[left], 0, r->t[i] - r->t[left], 1};
+    *hold = (lab_hold){run, i, i, level, r->t[left], 0, r->t[i] - r->t[left], 0};
     while (i < end && !(fabs(r->p[i] - level) > band))
       i++;
     hold->end = i;
@@ -69,16 +69,34 @@ static void pressures_of_run(lab_measuring *m, int run)
   }
 }
 
-/* A level that drifts by a good part of the step is a ramp. */
-static void judge_levels(lab_measuring *m)
+/* Whether a level drifts by a good part of its step from or to a neighbour, as pieces of a ramp do. */
+static int drifts(const lab_measuring *m, size_t k)
 {
-  size_t k;
-  for (k = 1; k < m->n_holds; k++) {
-    lab_hold *hold = &m->hold[k];
-    const lab_quarter first = lab_quarter_mean(m->record, m->record->p, hold->begin, hold->end, 0);
-    const lab_quarter last = lab_quarter_mean(m->record, m->record->p, hold->begin, hold->end, 3);
-    hold->steady = !(fabs(last.mean - first.mean) > drift * fabs(hold->level - m->hold[k - 1].level));
+  const lab_hold *hold = &m->hold[k], *other = k > 0 ? hold - 1 : hold + 1;
+  const lab_quarter first = lab_quarter_mean(m->record, m->record->p, hold->begin, hold->end, 0);
+  const lab_quarter last = lab_quarter_mean(m->record, m->record->p, hold->begin, hold->end, 3);
+  return m->n_holds > 1 && fabs(last.mean - first.mean) > drift * fabs(hold->level - other->level);
+}
+
+/* Drop the pieces of ramps; what is left of the signal takes as long as they did. */
+static void drop_ramps(lab_measuring *m)
+{
+  const double *t = m->record->t;
+  size_t k, n = 0;
+  for (k = 0; k < m->n_holds; k++)
+    m->hold[k].dropped = drifts(m, k);
+  for (k = 0; k < m->n_holds; k++) {
+    lab_hold *hold = &m->hold[n];
+    if (m->hold[k].dropped)
+      continue;
+    *hold = m->hold[k];
+    if (n > 0 && hold->run == hold[-1].run) {
+      hold->t = t[hold[-1].end - 1];
+      hold->rise = t[hold->begin] - hold->t;
+    }
+    n++;
   }
+  m->n_holds = n;
 }
 
 int lab_holds_find(lab_measuring *m, lab_error *error)
@@ -92,6 +110,6 @@ int lab_holds_find(lab_measuring *m, lab_error *error)
   for (run = 0; run < r->n_runs && signal; run++)
     (r->command == LAB_COMMAND_PRESSURE ? pressures_of_run : commands_of_run)(m, run);
   if (r->command == LAB_COMMAND_PRESSURE)
-    judge_levels(m);
+    drop_ramps(m);
   return LAB_OK;
 }

@@ -40,7 +40,7 @@ static int add_held(const lab_measuring *m, const double *signal, double noise, 
     lab_point *at = &path->point[path->n];
     const int s = lab_at_rest(r, signal, hold->begin, hold->end, noise, rest_share * lab_span(r), &at->s);
     const int x = lab_at_rest(r, r->x, hold->begin, hold->end, m->noise_x, rest_share * r->stroke, &at->x);
-    if (s != 1 || x != 1 || !hold->steady)
+    if (s != 1 || x != 1)
       continue;
     at->run = hold->run;
     at->t = r->t[hold->end - 1];

@@ -13,7 +13,7 @@ typedef struct lab_hold {
   double t;       /* [s] at which the signal left the level before */
   double bracket; /* [s] by which that may be late */
   double rise;    /* [s] that the signal took to get here */
-  int steady;     /* 0: a ramp, not a level */
+  int dropped;    /* a piece of a ramp, not a level */
 } lab_hold;
 
 /* A point of the static characteristic. */

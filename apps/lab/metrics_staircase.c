@@ -7,6 +7,7 @@
 enum { GAPS = 512 };
 static const double inside = 0.02;      /* share of the stroke that counts as the stop, at either end */
 static const double moved_share = 0.01; /* of the stroke: a leg that moves less says nothing of what comes after it */
+static const double coarse = 0.1;       /* of the span: a dead band that is not known better is not known */
 static const double small_steps = 1.5;  /* times the smallest step of a staircase, up to which steps count as small */
 
 /* A change of signal that it took to move the stem [Pa]. */
@@ -92,6 +93,14 @@ static void give_median(lab_measuring *m, int metric, const gaps *g, double erro
                   g->gap[g->n - 1].size / 1e3, span / 1e3);
 }
 
+/* Set a figure that is at most `size` [Pa]. */
+static void give_bound(lab_measuring *m, int metric, double size, const char *words)
+{
+  const double span = lab_span(m->record);
+  lab_metric_give(m, metric, 100 * size / span, 0, "%.3g kPa of %.4g kPa %s", size / 1e3, span / 1e3, words);
+  m->metrics->metric[metric].at_most = 1;
+}
+
 /* ---- Dead band ---- */
 
 static void collect_turns(const lab_measuring *m, gaps *g, int *fast, int *at_stop)
@@ -136,8 +145,14 @@ static void report_dead_band(lab_measuring *m)
     return;
   keep_smallest(&m->path, &g);
   error = sort_gaps(&g) + seen(m);
-  give_median(m, LAB_METRIC_DEAD_BAND, &g, error, g.n == 1 ? "turn" : "turns");
-  m->metrics->metric[LAB_METRIC_DEAD_BAND].at_most = g.gap[g.n / 2].size <= error;
+  if (error > coarse * lab_span(m->record))
+    lab_metric_deny(m, LAB_METRIC_DEAD_BAND,
+                    "the %s runs through the dead band between rows: these tell it within %.3g kPa either way", signal,
+                    error / 1e3);
+  else if (g.gap[g.n / 2].size > error)
+    give_median(m, LAB_METRIC_DEAD_BAND, &g, error, g.n == 1 ? "turn" : "turns");
+  else
+    give_bound(m, LAB_METRIC_DEAD_BAND, g.gap[g.n / 2].size + error, "are enough to move the stem back");
 }
 
 /* ---- Resolution ---- */
@@ -159,7 +174,7 @@ static void collect_moves(const lab_measuring *m, const lab_leg *leg, gaps *g)
 /* Where most of the smallest changes moved the stem, they are all that is known. */
 static void give_resolution(lab_measuring *m, gaps *g)
 {
-  const double span = lab_span(m->record), error = sort_gaps(g);
+  const double error = sort_gaps(g);
   const gap *median = &g->gap[g->n / 2];
   int i, single = 0;
   for (i = 0; i < g->n; i++)
@@ -168,10 +183,8 @@ static void give_resolution(lab_measuring *m, gaps *g)
     give_median(m, LAB_METRIC_RESOLUTION, g, error, "movements");
     return;
   }
-  lab_metric_give(m, LAB_METRIC_RESOLUTION, 100 * (median->size + median->error) / span, 0,
-                  "the smallest changes of this record, %.3g kPa of %.4g kPa, move the stem",
-                  (median->size + median->error) / 1e3, span / 1e3);
-  m->metrics->metric[LAB_METRIC_RESOLUTION].at_most = 1;
+  give_bound(m, LAB_METRIC_RESOLUTION, median->size + median->error,
+             "move the stem; smaller changes were not tried, or cannot be seen");
 }
 
 static void report_resolution(lab_measuring *m)

@@ -66,8 +66,8 @@ static instant solve(const stepping *s, size_t lo, size_t hi, double level)
   return at;
 }
 
-/* When the response first passes a level for good: beyond it by more than noise, from below it by as much.
- * Returns: NaN where it never does. */
+/* When the response first passes a level for good: beyond it by more than noise, from below it by as much. A level
+ * that is four standard deviations below the final position is passed. */
 static instant pass(const stepping *s, double level)
 {
   const double margin = fmin(level_noise * s->noise, level);
@@ -100,18 +100,27 @@ static void measure_level(const stepping *s, double share, double *time, double 
   *error = at.error + s->hold->bracket;
 }
 
-static void measure_settling(const stepping *s, lab_step_response *step)
+/* Last row that is further from the final position than `band`. */
+static size_t last_outside(const stepping *s, double band)
 {
-  const double band = fmax(settled_share * s->change, (level_noise + 2) * s->noise);
-  size_t i, last = s->begin, next;
+  size_t i, last = s->begin;
   for (i = s->begin; i < s->end; i++)
     if (fabs(height(s, i) - s->change) > band)
       last = i;
-  for (next = last + 1; next < s->end && isnan(s->r->x[next]); next++)
-    ;
-  next = next < s->end ? next : last;
-  step->settling_time = (s->r->t[last] + s->r->t[next]) / 2 - s->hold->t;
-  step->settling_error = (s->r->t[next] - s->r->t[last]) / 2 + s->hold->bracket;
+  return last;
+}
+
+/* Between the last row that is outside for certain and the first from which on all may be inside. */
+static void measure_settling(const stepping *s, lab_step_response *step)
+{
+  const double band = fmax(settled_share * s->change, (level_noise + 2) * s->noise), margin = level_noise * s->noise;
+  const size_t sure = last_outside(s, band + margin);
+  size_t next = last_outside(s, band - margin) + 1;
+  while (next + 1 < s->end && isnan(s->r->x[next]))
+    next++;
+  next = next < s->end ? next : s->end - 1;
+  step->settling_time = (s->r->t[sure] + s->r->t[next]) / 2 - s->hold->t;
+  step->settling_error = (s->r->t[next] - s->r->t[sure]) / 2 + s->hold->bracket;
 }
 
 static void measure_overshoot(const stepping *s, lab_step_response *step)
@@ -153,7 +162,7 @@ static int judge(const lab_measuring *m, const lab_hold *before, const lab_hold 
   if (rest >= 0)
     rest = lab_at_rest(r, r->x, before->begin, before->end, m->noise_x, allowed, &step->x_from);
   settled = lab_at_rest(r, r->x, hold->begin, hold->end, m->noise_x, allowed, &step->x_to);
-  if (!hold->steady || hold->rise > fmax(rise_share * (r->t[hold->end - 1] - hold->t), 0))
+  if (hold->rise > rise_share * (r->t[hold->end - 1] - hold->t))
     return LAB_STEP_NO_SIGNAL;
   if (rest == 0)
     return LAB_STEP_NOT_AT_REST;
@@ -204,7 +213,7 @@ static int goes_up(const lab_step_response *step)
 void lab_steps_deny(lab_measuring *m, int metric, int up)
 {
   static const char *const fate[] = {NULL,
-                                     "with a signal that ramps",
+                                     "with a signal that takes its time",
                                      "in a gap of the record",
                                      "before the stem was at rest",
                                      "not settled before the next step",
@@ -293,15 +302,10 @@ static void report_figure(lab_measuring *m, const figure *f, int up, double *val
     return;
   }
   for (i = 0; i < m->n_steps; i++)
-    if (m->step[i].fate == LAB_STEP_GOOD && goes_up(&m->step[i]) == up && change_of(&m->step[i]) >= least &&
-        isfinite(field(&m->step[i], f->value))) {
+    if (m->step[i].fate == LAB_STEP_GOOD && goes_up(&m->step[i]) == up && change_of(&m->step[i]) >= least) {
       value[n++] = field(&m->step[i], f->value);
       error = fmax(error, field(&m->step[i], f->error));
     }
-  if (n == 0) {
-    lab_metric_deny(m, metric, "the response does not pass the level for good");
-    return;
-  }
   qsort(value, (size_t)n, sizeof *value, ascending);
   if (n > 1)
     lab_metric_give(m, metric, value[n / 2], fmax(error, (value[n - 1] - value[0]) / 2),

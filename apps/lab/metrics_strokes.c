@@ -7,7 +7,7 @@
 
 static const double full = 0.9; /* of the rated travel, from which on a stroke is a full one */
 
-/* The k-th full stroke up or down, NULL where there are no more; with the largest change of any step that way. */
+/* The first full stroke up or down, NULL where there is none; with the largest change of any step that way. */
 static const lab_step_response *full_stroke(const lab_measuring *m, int up, double *largest)
 {
   const lab_step_response *found = NULL;
@@ -46,8 +46,6 @@ static void report_time(lab_measuring *m, int metric, int up, const lab_step_res
 {
   if (!step)
     deny(m, metric, up, largest);
-  else if (isnan(step->stroke_time))
-    lab_metric_deny(m, metric, "noise hides the end of the stroke");
   else
     lab_metric_give(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s",
                     up ? "up" : "down", step->t);
@@ -70,17 +68,14 @@ static size_t samples(const lab_record *r, const lab_step_response *step, const 
   return n;
 }
 
-static void report_shape(lab_measuring *m, const lab_edge *up, const lab_edge *down, const lab_step_response *rise)
+static int report_shape(lab_measuring *m, const lab_edge *up, const lab_edge *down, const lab_step_response *rise,
+                        lab_error *error)
 {
   const double noise = m->noise_x / fabs(rise->x_to - rise->x_from);
   lab_asymmetry a;
-  lab_error ignored;
   double spacing;
-  if (lab_asymmetry_measure(up, down, &a, &ignored)) {
-    lab_metric_deny(m, LAB_METRIC_DURATION_RATIO, "%.150s", ignored.text);
-    lab_metric_deny(m, LAB_METRIC_ASYMMETRY, "%.150s", ignored.text);
-    return;
-  }
+  if (lab_asymmetry_measure(up, down, &a, error))
+    return error->status;
   spacing = (up->t[up->n - 1] - up->t[0]) / (double)(up->n - 1);
   lab_metric_give(m, LAB_METRIC_DURATION_RATIO, a.duration_ratio,
                   a.duration_ratio * (spacing / a.rise_time + spacing / a.fall_time + 4 * noise),
@@ -89,6 +84,7 @@ static void report_shape(lab_measuring *m, const lab_edge *up, const lab_edge *d
   lab_metric_give(m, LAB_METRIC_ASYMMETRY, a.asymmetry,
                   1.13 * noise / 0.9 + spacing / a.rise_time + spacing / a.fall_time,
                   "first full stroke up and first full stroke down");
+  return LAB_OK;
 }
 
 static int compare(lab_measuring *m, const lab_step_response *rise, const lab_step_response *fall, lab_error *error)
@@ -97,14 +93,15 @@ static int compare(lab_measuring *m, const lab_step_response *rise, const lab_st
   const size_t n_up = up->end - up->begin + 2, n_down = down->end - down->begin + 2;
   double *memory = malloc(2 * (n_up + n_down) * sizeof *memory);
   lab_edge rising, falling;
+  int status;
   if (!memory)
     return lab_fail_memory(error, "figures of merit");
   rising = (lab_edge){samples(m->record, rise, up, memory, memory + n_up), memory, memory + n_up};
   falling = (lab_edge){samples(m->record, fall, down, memory + 2 * n_up, memory + 2 * n_up + n_down), memory + 2 * n_up,
                        memory + 2 * n_up + n_down};
-  report_shape(m, &rising, &falling, rise);
+  status = report_shape(m, &rising, &falling, rise, error);
   free(memory);
-  return LAB_OK;
+  return status;
 }
 
 int lab_strokes_measure(lab_measuring *m, lab_error *error)

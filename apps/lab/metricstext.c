@@ -5,7 +5,7 @@
 #include "shown.h"
 
 static const char *const fates[] = {"",
-                                    "the signal ramps",
+                                    "the signal takes its time",
                                     "gap",
                                     "the stem was not at rest before it",
                                     "not settled before the next step",
