@@ -9,8 +9,7 @@
 
 enum { RECORD_ROWS = 60000 };
 
-static double record_t[RECORD_ROWS], record_u[RECORD_ROWS], record_p[RECORD_ROWS], record_x[RECORD_ROWS],
-    record_flow[RECORD_ROWS];
+static double record_t[RECORD_ROWS], record_u[RECORD_ROWS], record_p[RECORD_ROWS], record_x[RECORD_ROWS];
 static size_t record_first[8];
 static lab_record record;
 static lab_metrics metrics;

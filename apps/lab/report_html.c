@@ -471,6 +471,7 @@ static void put_merit(const telling *t, cJSON *page)
   int i, k;
   if (!of[0])
     return;
+  put(page, "merit_model", "%s", has_completed(t) ? "completed model" : "declared model, fitted");
   put(page, "step_signal", "%s", lab_metrics_step_signal(of[0]->command));
   put(page, "static_signal", "%s", lab_metrics_static_signal(of[0]->command));
   for (i = 0; i < LAB_METRIC_COUNT; i++) {
