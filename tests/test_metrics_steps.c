@@ -35,7 +35,7 @@ static void test_metrics__first_order_lag__its_times(void **state)
   assert_metric(LAB_METRIC_T86_UP, Td - T * log(1 - 0.865), 1e-6, 0);
   assert_metric(LAB_METRIC_T86_DOWN, Td - T * log(1 - 0.865), 1e-6, 0);
   assert_metric(LAB_METRIC_SETTLING_TIME_UP, Td - T * log(0.02), 1e-3, 0);
-  assert_close(metrics.metric[LAB_METRIC_T63_UP].uncertainty, 0.0005, 1e-9, 0);
+  assert_close(metrics.metric[LAB_METRIC_T63_UP].uncertainty, 0.0005, 1e-6, 0);
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 0, 0, 0);
 }
 
@@ -155,7 +155,7 @@ static void test_metrics__gap_before_the_step__says_so(void **state)
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   add_lag(1, 16, 0.01, 0.004, 0.014);
-  for (i = 0; record_t[i] < 1.99; i++)
+  for (i = 0; record_t[i] < 1.2; i++)
     record_x[i] = (double)NAN;
   record_measure();
   assert_metric(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 1e-4, 0);

@@ -55,32 +55,34 @@ void lab_metric_deny(lab_measuring *m, int metric, const char *format, ...)
   va_end(list);
 }
 
-lab_quarter lab_quarter_mean(const lab_record *r, const double *value, size_t begin, size_t end, int q)
+lab_part lab_part_mean(const lab_record *r, const double *value, size_t begin, size_t end, int k)
 {
   const double from = r->t[begin], whole = r->t[end - 1] - from;
-  lab_quarter quarter = {0, 0};
+  lab_part part = {0, 0};
   size_t i;
   for (i = begin; i < end; i++) {
     const double share = whole > 0 ? (r->t[i] - from) / whole : 1;
-    if (isnan(value[i]) || (int)fmin(4 * share, 3) != q)
+    if (isnan(value[i]) || (int)fmin(LAB_PARTS * share, LAB_PARTS - 1) != k)
       continue;
-    quarter.mean += value[i];
-    quarter.n++;
+    part.mean += value[i];
+    part.n++;
   }
-  quarter.mean = quarter.n ? quarter.mean / (double)quarter.n : (double)NAN;
-  return quarter;
+  part.mean = part.n ? part.mean / (double)part.n : (double)NAN;
+  return part;
 }
 
-int lab_at_rest(const lab_record *r, const double *value, size_t begin, size_t end, double noise, double allowed,
-                double *level)
+lab_rest lab_rest_of(const lab_record *r, const double *value, size_t begin, size_t end, double noise)
 {
-  const lab_quarter third = lab_quarter_mean(r, value, begin, end, 2);
-  const lab_quarter last = lab_quarter_mean(r, value, begin, end, 3);
-  *level = last.mean;
-  if (last.n == 0 || third.n == 0)
-    return -1;
-  noise *= seen_noise * sqrt(1 / (double)third.n + 1 / (double)last.n);
-  return fabs(last.mean - third.mean) <= fmax(noise, allowed);
+  const lab_part before = lab_part_mean(r, value, begin, end, LAB_PARTS - 2);
+  const lab_part last = lab_part_mean(r, value, begin, end, LAB_PARTS - 1);
+  lab_rest rest = {(double)NAN, (double)NAN, (double)NAN};
+  if (last.n == 0 || before.n == 0)
+    return rest;
+  rest.level = last.mean;
+  rest.error = 2 * noise / sqrt((double)last.n);
+  noise *= seen_noise * sqrt(1 / (double)before.n + 1 / (double)last.n);
+  rest.drift = fmax(fabs(last.mean - before.mean) - noise, 0);
+  return rest;
 }
 
 /* Noise of a channel: declared, or estimated; 0 where there is too little to tell. */

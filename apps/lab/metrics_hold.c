@@ -73,8 +73,8 @@ static void pressures_of_run(lab_measuring *m, int run)
 static int drifts(const lab_measuring *m, size_t k)
 {
   const lab_hold *hold = &m->hold[k], *other = k > 0 ? hold - 1 : hold + 1;
-  const lab_quarter first = lab_quarter_mean(m->record, m->record->p, hold->begin, hold->end, 0);
-  const lab_quarter last = lab_quarter_mean(m->record, m->record->p, hold->begin, hold->end, 3);
+  const lab_part first = lab_part_mean(m->record, m->record->p, hold->begin, hold->end, 0);
+  const lab_part last = lab_part_mean(m->record, m->record->p, hold->begin, hold->end, LAB_PARTS - 1);
   return m->n_holds > 1 && fabs(last.mean - first.mean) > drift * fabs(hold->level - other->level);
 }
 

@@ -38,10 +38,12 @@ static int add_held(const lab_measuring *m, const double *signal, double noise, 
   for (k = 0; k < m->n_holds; k++) {
     const lab_hold *hold = &m->hold[k];
     lab_point *at = &path->point[path->n];
-    const int s = lab_at_rest(r, signal, hold->begin, hold->end, noise, rest_share * lab_span(r), &at->s);
-    const int x = lab_at_rest(r, r->x, hold->begin, hold->end, m->noise_x, rest_share * r->stroke, &at->x);
-    if (s != 1 || x != 1)
+    const lab_rest s = lab_rest_of(r, signal, hold->begin, hold->end, noise);
+    const lab_rest x = lab_rest_of(r, r->x, hold->begin, hold->end, m->noise_x);
+    if (!(s.drift <= rest_share * lab_span(r)) || !(x.drift <= rest_share * r->stroke))
       continue;
+    at->s = s.level;
+    at->x = x.level;
     at->run = hold->run;
     at->t = r->t[hold->end - 1];
     path->n++;

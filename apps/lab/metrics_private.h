@@ -53,11 +53,13 @@ typedef struct lab_measuring {
   lab_path rows; /* every row as a point of pressure and position */
 } lab_measuring;
 
-/* A level of the signal, and a range of its rows. */
-typedef struct lab_quarter {
+/* Mean of a part of some rows. */
+typedef struct lab_part {
   size_t n;
   double mean;
-} lab_quarter;
+} lab_part;
+
+enum { LAB_PARTS = 8 }; /* in which a hold is looked at */
 
 /* Set a figure. */
 void lab_metric_give(lab_measuring *m, int metric, double value, double uncertainty, const char *format, ...)
@@ -65,14 +67,17 @@ void lab_metric_give(lab_measuring *m, int metric, double value, double uncertai
 /* Say why there is none. */
 void lab_metric_deny(lab_measuring *m, int metric, const char *format, ...) LAB_PRINTF(3, 4);
 
-/* Mean of the finite values over the q-th quarter (0..3) of the time of rows begin..end. */
-lab_quarter lab_quarter_mean(const lab_record *r, const double *value, size_t begin, size_t end, int q);
+/* Mean of the finite values over the k-th of the parts of equal time of rows begin..end. */
+lab_part lab_part_mean(const lab_record *r, const double *value, size_t begin, size_t end, int k);
 
-/* Whether a channel stands still over rows begin..end: its last two quarters agree within noise and `allowed`.
- * Out:     level  its mean at the end
- * Returns: 1, 0, or -1 where there are too few values. */
-int lab_at_rest(const lab_record *r, const double *value, size_t begin, size_t end, double noise, double allowed,
-                double *level);
+/* How a channel stands at the end of some rows. */
+typedef struct lab_rest {
+  double level; /* mean of the last part; NaN where there are too few values */
+  double drift; /* of the last part from the one before, beyond what noise makes */
+  double error; /* of the level, by noise: two standard deviations */
+} lab_rest;
+
+lab_rest lab_rest_of(const lab_record *r, const double *value, size_t begin, size_t end, double noise);
 
 int lab_holds_find(lab_measuring *m, lab_error *error);    /* levels of the command */
 int lab_steps_measure(lab_measuring *m, lab_error *error); /* responses to steps */

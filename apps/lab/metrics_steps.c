@@ -25,6 +25,7 @@ typedef struct stepping {
   size_t begin, end;
   double sign, change, from, noise;
   double least; /* movement that can be seen */
+  double doubt; /* of the change: noise, and twice what crept still, as a lag does */
 } stepping;
 
 /* A time and how well it is known. */
@@ -62,7 +63,7 @@ static instant solve(const stepping *s, size_t lo, size_t hi, double level)
     return at;
   }
   at.t = origin + (st + (n * level - sy) / slope) / n;
-  at.error = widest / 2 + 2 * s->noise / (slope * sqrt(n));
+  at.error = widest / 2 + (2 * s->noise / sqrt(n) + level / s->change * s->doubt) / slope;
   return at;
 }
 
@@ -147,42 +148,38 @@ static void measure_times(const stepping *s, lab_step_response *step)
   measure_overshoot(s, step);
 }
 
-/* Whether a step can be measured; sets where it goes from and to. */
-static int judge(const lab_measuring *m, const lab_hold *before, const lab_hold *hold, lab_step_response *step)
+/* Whether a step can be measured. */
+static int judge(const lab_measuring *m, const lab_hold *hold, const lab_rest *before, const lab_rest *after)
 {
-  const lab_record *r = m->record;
-  const double least = size_share * r->stroke;
-  double allowed = least / 4;
-  int rest, settled;
-  rest = lab_at_rest(r, r->x, before->begin, before->end, m->noise_x, allowed, &step->x_from);
-  settled = lab_at_rest(r, r->x, hold->begin, hold->end, m->noise_x, allowed, &step->x_to);
-  if (isnan(step->x_from) || isnan(step->x_to) || settled < 0)
+  const double *t = m->record->t, change = fabs(after->level - before->level);
+  const double least = size_share * m->record->stroke, allowed = fmax(least / 4, rest_share * change);
+  if (isnan(change))
     return LAB_STEP_GAP;
-  allowed = fmax(allowed, rest_share * fabs(step->x_to - step->x_from));
-  if (rest >= 0)
-    rest = lab_at_rest(r, r->x, before->begin, before->end, m->noise_x, allowed, &step->x_from);
-  settled = lab_at_rest(r, r->x, hold->begin, hold->end, m->noise_x, allowed, &step->x_to);
-  if (hold->rise > rise_share * (r->t[hold->end - 1] - hold->t))
+  if (hold->rise > rise_share * (t[hold->end - 1] - hold->t))
     return LAB_STEP_NO_SIGNAL;
-  if (rest == 0)
+  if (before->drift > allowed)
     return LAB_STEP_NOT_AT_REST;
-  if (settled == 0)
+  if (after->drift > allowed)
     return LAB_STEP_NOT_SETTLED;
-  return fabs(step->x_to - step->x_from) < fmax(size_noise * m->noise_x, least) ? LAB_STEP_TOO_SMALL : LAB_STEP_GOOD;
+  return change < fmax(size_noise * m->noise_x, least) ? LAB_STEP_TOO_SMALL : LAB_STEP_GOOD;
 }
 
-static void measure_step(const lab_measuring *m, const lab_hold *before, const lab_hold *hold, lab_step_response *step)
+static void measure_step(const lab_measuring *m, const lab_hold *from, const lab_hold *hold, lab_step_response *step)
 {
   const lab_record *r = m->record;
-  stepping s = {r, hold, 0, hold->end, 0, 0, 0, m->noise_x, m->least};
+  const lab_rest before = lab_rest_of(r, r->x, from->begin, from->end, m->noise_x);
+  const lab_rest after = lab_rest_of(r, r->x, hold->begin, hold->end, m->noise_x);
+  stepping s = {r, hold, from->end, hold->end, 0, 0, 0, m->noise_x, m->least, 0};
   step->t = hold->t;
-  step->from = before->level;
+  step->from = from->level;
   step->to = hold->level;
+  step->x_from = before.level;
+  step->x_to = after.level;
   step->dead_time = step->t63 = step->t86 = step->settling_time = step->overshoot = step->stroke_time = (double)NAN;
-  step->fate = judge(m, before, hold, step);
+  step->fate = judge(m, hold, &before, &after);
   if (step->fate != LAB_STEP_GOOD)
     return;
-  s.begin = before->end; /* the first row off the level before */
+  s.doubt = before.error + after.error + 2 * (before.drift + after.drift);
   s.sign = step->x_to > step->x_from ? 1 : -1;
   s.change = fabs(step->x_to - step->x_from);
   s.from = step->x_from;
@@ -216,7 +213,7 @@ void lab_steps_deny(lab_measuring *m, int metric, int up)
                                      "with a signal that takes its time",
                                      "in a gap of the record",
                                      "before the stem was at rest",
-                                     "not settled before the next step",
+                                     "not settled before the next step or the end",
                                      "too small a movement"};
   int count[sizeof fate / sizeof *fate] = {0}, all = 0;
   char words[LAB_METRIC_TEXT] = "";

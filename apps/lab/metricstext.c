@@ -8,7 +8,7 @@ static const char *const fates[] = {"",
                                     "the signal takes its time",
                                     "gap",
                                     "the stem was not at rest before it",
-                                    "not settled before the next step",
+                                    "not settled before the next step or the end",
                                     "too small a movement"};
 
 /* ---- For people ---- */
