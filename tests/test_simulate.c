@@ -146,6 +146,43 @@ static void test_simulate__metrics_of_a_log__sampled_finely(void **state)
   assert_non_null(strstr(out, "there is no stem"));
 }
 
+/* A figure of the table just printed. */
+static double figure(const char *name)
+{
+  char line[64];
+  snprintf(line, sizeof line, "\n%s ", name);
+  check_note("%s", name);
+  assert_non_null(strstr(out, line));
+  return strtod(strstr(out, line) + strlen(line), NULL);
+}
+
+/* 480 N of friction both ways on 0.04 m2 are 24 kPa of a bench set of 200 kPa, whatever drives the model. */
+static void test_simulate__schedules__show_the_friction_that_is_declared(void **state)
+{
+  static const struct {
+    const char *arguments;
+    double tolerance;
+  } drives[] = {{"study/actuators/r1-400.cfg study/schedules/slow-loop.csv", 0.3},
+                {"study/schedules/r1-400-regulated.cfg study/schedules/staircase.csv", 0.6},
+                {"study/schedules/r1-400-pressure.cfg study/schedules/pressure-loop.csv", 0.3}};
+  char line[256];
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof drives / sizeof *drives; i++) {
+    snprintf(line, sizeof line, "%s --metrics", drives[i].arguments);
+    assert_int_equal(run(line), 0);
+    assert_close(figure("dead_band"), 12, drives[i].tolerance, 0);
+    assert_close(figure("hysteresis_dead_band"), 12, 0.1, 0);
+    assert_close(figure("linearity"), 0, 0.01, 0);
+    assert_close(figure("energy_lost"), 2 * 480 * 0.02, 0, 0.01);
+  }
+  assert_int_equal(run("study/schedules/r1-400-regulated.cfg study/schedules/small-steps.csv --metrics"), 0);
+  assert_close(figure("dead_band"), 12, 1.2, 0);
+  assert_non_null(strstr(out, "<= 0.2500"));
+  assert_int_equal(run("study/actuators/r1-400.cfg study/schedules/strokes.csv --metrics"), 0);
+  assert_close(figure("energy_in"), 0.04 * 4e5 * 0.02, 0, 1e-6);
+}
+
 static void test_simulate__json_alone__is_refused(void **state)
 {
   (void)state;
@@ -274,6 +311,7 @@ int main(void)
       cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
       cmocka_unit_test(test_simulate__metrics__those_of_the_response),
       cmocka_unit_test(test_simulate__metrics_of_a_log__sampled_finely),
+      cmocka_unit_test(test_simulate__schedules__show_the_friction_that_is_declared),
       cmocka_unit_test(test_simulate__json_alone__is_refused),
       cmocka_unit_test(test_simulate__runs__start_afresh),
       cmocka_unit_test(test_simulate__vessel__fills),

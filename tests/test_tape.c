@@ -4,6 +4,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "../apps/lab/appraise.h"
 #include "../apps/lab/metricstext.h"
 #include "../apps/lab/tape.h"
 #include "../apps/study/measured.h"
@@ -58,7 +59,6 @@ static const char *write_log(void)
 /* Once for all tests. */
 static int measure_strokes(void **state)
 {
-  lab_tape tape;
   if (scratch_open(state))
     return -1;
   lab_rig_default(&rig);
@@ -68,12 +68,7 @@ static int measure_strokes(void **state)
   succeed(lab_log_read(write_log(), &rig.log, 101325, &logged, &error));
   succeed(lab_experiment_open(&rig, &logged, 0, &experiment, &error));
   succeed(lab_unknowns_open(&rig, &experiment, 1, &u, &error));
-  succeed(lab_tape_measured(&u, &tape, &error));
-  succeed(lab_metrics_measure(&tape.record, &measured, &error));
-  lab_tape_close(&tape);
-  succeed(lab_tape_predicted(&u, &tape, &error));
-  succeed(lab_metrics_measure(&tape.record, &predicted, &error));
-  lab_tape_close(&tape);
+  succeed(lab_appraise(&u, &measured, &predicted, &error));
   return 0;
 }
 
@@ -112,6 +107,21 @@ static void test_lab_tape__air__what_the_chamber_takes(void **state)
   (void)state;
   assert_close(predicted.metric[LAB_METRIC_AIR_MASS].value, whole - empty,
                predicted.metric[LAB_METRIC_AIR_MASS].uncertainty, 2e-3);
+}
+
+static void test_lab_appraise__model_that_fails__its_error_is_the_reason(void **state)
+{
+  static lab_metrics got, none;
+  lab_unknowns broken = u;
+  int i;
+  (void)state;
+  for (i = 0; i < broken.n; i++)
+    if (broken.unknown[i].kind == LAB_UNKNOWN_PARAM)
+      broken.unknown[i].value = -1; /* an area */
+  succeed(lab_appraise(&broken, &got, &none, &error));
+  assert_close(got.metric[LAB_METRIC_T63_UP].value, measured.metric[LAB_METRIC_T63_UP].value, 0, 0);
+  assert_true(isnan(none.metric[LAB_METRIC_T63_UP].value));
+  assert_non_null(strstr(none.metric[LAB_METRIC_T63_UP].text, "area"));
 }
 
 static void test_lab_tape__driven_position__gives_nothing(void **state)
@@ -243,6 +253,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_tape__measured_and_predicted__agree_within_what_is_said),
       cmocka_unit_test(test_lab_tape__air__what_the_chamber_takes),
+      cmocka_unit_test(test_lab_appraise__model_that_fails__its_error_is_the_reason),
       cmocka_unit_test(test_lab_tape__driven_position__gives_nothing),
       cmocka_unit_test(test_lab_tape__force_and_preload__set_the_bench_set),
       cmocka_unit_test(test_lab_metrics_json__read_back__every_figure_or_its_reason),

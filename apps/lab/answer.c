@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include "advise.h"
+#include "appraise.h"
 #include "interrupt.h"
 #include "outfile.h"
 #include "report_html.h"
-#include "tape.h"
 
 static double seconds(void)
 {
@@ -130,24 +130,12 @@ static int hold_out(lab_answer *a, lab_error *error)
 
 /* ---- Figures of merit ---- */
 
-static int measure(int predicted, const lab_unknowns *u, lab_metrics *metrics, lab_error *error)
-{
-  lab_tape tape;
-  int status = (predicted ? lab_tape_predicted : lab_tape_measured)(u, &tape, error);
-  if (status == LAB_OK)
-    status = lab_metrics_measure(&tape.record, metrics, error);
-  lab_tape_close(&tape);
-  return status;
-}
-
 /* Of what was measured, and of what the completed model makes of the same commands. */
 static int appraise(lab_answer *a, lab_error *error)
 {
-  if (measure(0, &a->completed, &a->measured, error) || measure(1, &a->completed, &a->predicted, error))
-    return error->status;
   a->story.measured = &a->measured;
   a->story.predicted = &a->predicted;
-  return LAB_OK;
+  return lab_appraise(&a->completed, &a->measured, &a->predicted, error);
 }
 
 /* ---- The loop ---- */

@@ -30,7 +30,8 @@ static void print_figures(FILE *file, const lab_metrics *metrics)
     const lab_metric_info *info = &lab_metric_infos[i];
     char value[LAB_METRIC_SHOWN], error[LAB_SHOWN_TEXT];
     fprintf(file, "%-21s %10s %9s %-4s %-39s %s\n", info->key, lab_metric_value(metric, value),
-            lab_shown_number(metric->uncertainty, 2, error), info->unit, info->standard, metric->text);
+            lab_shown_number(metric->at_most ? (double)NAN : metric->uncertainty, 2, error), info->unit, info->standard,
+            metric->text);
   }
 }
 

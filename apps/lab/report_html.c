@@ -464,35 +464,47 @@ static void put_candidates(const telling *t, cJSON *page)
 
 /* ---- Figures of merit ---- */
 
+/* A figure, as measured and as the model has it. */
+static void put_figure(const telling *t, int i, cJSON *list)
+{
+  const lab_metric *const both[] = {&t->story->measured->metric[i], &t->story->predicted->metric[i]};
+  const lab_metric_info *info = &lab_metric_infos[i];
+  const char *unit = strcmp(info->unit, "1") ? info->unit : "";
+  cJSON *row, *cells;
+  char value[LAB_METRIC_SHOWN];
+  int k;
+  if (isnan(both[0]->value) && isnan(both[1]->value))
+    return;
+  row = append(list);
+  put(row, "meaning", "%s", info->meaning);
+  put(row, "standard", "%s", info->standard);
+  cells = cJSON_AddArrayToObject(row, "cells");
+  for (k = 0; k < 2; k++) {
+    cJSON *cell = append(cells);
+    put(cell, "value", "%s%s%s", lab_metric_value(both[k], value), *unit ? " " : "", unit);
+    if (isfinite(both[k]->value) && !both[k]->at_most)
+      put_number(cell, "uncertainty", both[k]->uncertainty, 2);
+  }
+}
+
 static void put_merit(const telling *t, cJSON *page)
 {
-  const lab_metrics *of[] = {t->story->measured, t->story->predicted};
-  cJSON *list = cJSON_AddArrayToObject(page, "merit"), *missing = cJSON_AddArrayToObject(page, "without_merit");
-  int i, k;
-  if (!of[0])
+  const lab_metrics *measured = t->story->measured;
+  cJSON *list, *missing;
+  int i;
+  if (!measured)
     return;
   put(page, "merit_model", "%s", has_completed(t) ? "completed model" : "declared model, fitted");
-  put(page, "step_signal", "%s", lab_metrics_step_signal(of[0]->command));
-  put(page, "static_signal", "%s", lab_metrics_static_signal(of[0]->command));
+  put(page, "step_signal", "%s", lab_metrics_step_signal(measured->command));
+  put(page, "static_signal", "%s", lab_metrics_static_signal(measured->command));
+  list = cJSON_AddArrayToObject(page, "merit");
+  missing = cJSON_AddArrayToObject(page, "without_merit");
   for (i = 0; i < LAB_METRIC_COUNT; i++) {
-    const lab_metric_info *info = &lab_metric_infos[i];
-    cJSON *row, *cells;
-    if (isnan(of[0]->metric[i].value))
-      say(missing, "%s: %s.", info->key, of[0]->metric[i].text);
-    if (isnan(of[0]->metric[i].value) && isnan(of[1]->metric[i].value))
-      continue;
-    row = append(list);
-    put(row, "meaning", "%s", info->meaning);
-    put(row, "standard", "%s", info->standard);
-    cells = cJSON_AddArrayToObject(row, "cells");
-    for (k = 0; k < 2; k++) {
-      const lab_metric *metric = &of[k]->metric[i];
-      cJSON *cell = append(cells);
-      char value[LAB_METRIC_SHOWN];
-      put(cell, "value", "%s%s%s", lab_metric_value(metric, value), strcmp(info->unit, "1") ? " " : "",
-          strcmp(info->unit, "1") ? info->unit : "");
-      if (isfinite(metric->value))
-        put_number(cell, "uncertainty", metric->uncertainty, 2);
+    put_figure(t, i, list);
+    if (isnan(measured->metric[i].value)) {
+      cJSON *item = append(missing);
+      put(item, "figure", "%s", lab_metric_infos[i].key);
+      put(item, "reason", "%s", measured->metric[i].text);
     }
   }
 }
