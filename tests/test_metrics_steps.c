@@ -62,6 +62,43 @@ static void test_metrics__noise_gaps_uneven_rows__within_what_is_said(void **sta
   assert_covers(LAB_METRIC_OVERSHOOT_UP, 0, 1.2);
 }
 
+/* Of many draws of noise of 0.5 % of the change, nearly all leave a time within its uncertainty, and that is no more
+ * than it has to be. */
+static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state)
+{
+  enum { DRAWS = 100 };
+  static const struct {
+    int metric;
+    double share, most; /* largest uncertainty over the rms of the errors */
+  } times[] = {{LAB_METRIC_T63_UP, 0.632, 6}, {LAB_METRIC_T86_UP, 0.865, 6}, {LAB_METRIC_SETTLING_TIME_UP, 0.98, 12}};
+  double square[3] = {0}, said[3] = {0};
+  int within[3] = {0}, dead = 0, draw;
+  size_t i;
+  (void)state;
+  for (draw = 0; draw < DRAWS; draw++) {
+    record_new(LAB_COMMAND_SET_PRESSURE);
+    record_seed = (uint64_t)draw + 1;
+    add_lag(1, 16, 0.002, 0.004, 0.014);
+    record.noise_x = 5e-5;
+    record_noise(record_x, record.noise_x);
+    record_measure();
+    for (i = 0; i < 3; i++) {
+      const lab_metric *got = metric_of(times[i].metric);
+      const double off = got->value - (Td - T * log(1 - times[i].share));
+      square[i] += off * off / DRAWS;
+      said[i] += got->uncertainty / DRAWS;
+      within[i] += fabs(off) <= got->uncertainty;
+    }
+    dead += fabs(metric_of(LAB_METRIC_DEAD_TIME_UP)->value - Td) <= metrics.metric[LAB_METRIC_DEAD_TIME_UP].uncertainty;
+  }
+  for (i = 0; i < 3; i++) {
+    check_note("%s: rms %g, said %g", lab_metric_infos[times[i].metric].key, sqrt(square[i]), said[i]);
+    assert_between(within[i], 93, DRAWS);
+    assert_between(said[i] / sqrt(square[i]), 1.5, times[i].most);
+  }
+  assert_between(dead, 93, DRAWS);
+}
+
 static void test_metrics__logged_command__known_within_a_row(void **state)
 {
   double exact;
@@ -125,6 +162,18 @@ static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 }
 
 /* ---- Reasons ---- */
+
+static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
+{
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  add_lag(1, 16, 0.2, 0.004, 0.014);
+  record.noise_x = 2e-4;
+  record_noise(record_x, 2e-4);
+  record_measure();
+  assert_denied(LAB_METRIC_SETTLING_TIME_UP, "noise hides");
+  assert_covers(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 0.3);
+}
 
 static void test_metrics__unsettled__says_so(void **state)
 {
@@ -287,10 +336,12 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_metrics__first_order_lag__its_times),
       cmocka_unit_test(test_metrics__noise_gaps_uneven_rows__within_what_is_said),
+      cmocka_unit_test(test_metrics__many_draws_of_noise__uncertainty_is_right),
       cmocka_unit_test(test_metrics__logged_command__known_within_a_row),
       cmocka_unit_test(test_metrics__second_order__its_overshoot),
       cmocka_unit_test(test_metrics__overdamped_with_noise__no_overshoot),
       cmocka_unit_test(test_metrics__several_steps__median_of_the_large_ones),
+      cmocka_unit_test(test_metrics__few_noisy_rows__settling_is_hidden),
       cmocka_unit_test(test_metrics__unsettled__says_so),
       cmocka_unit_test(test_metrics__small_step__says_so),
       cmocka_unit_test(test_metrics__gap_before_the_step__says_so),

@@ -15,8 +15,9 @@ static const double size_share = 0.002;                 /* and this share of the
 static const double start_noise = 5;                    /* the start is seen at so many */
 static const double start_share = 0.005;                /* and at this share of the change */
 static const double level_noise = 3;                    /* a level is passed for good from so many on */
-static const double alike = 0.8;                        /* steps of this share of the largest count as large */
-static const double rise_share = 0.05;                  /* of the hold that a signal may take to step */
+static const double band_noise = 8;    /* the band of settling has at least so many, of means of rows */
+static const double alike = 0.8;       /* steps of this share of the largest count as large */
+static const double rise_share = 0.05; /* of the hold that a signal may take to step */
 
 /* A step being measured: rows from the last one before it, and the change as a positive number. */
 typedef struct stepping {
@@ -101,27 +102,39 @@ static void measure_level(const stepping *s, double share, double *time, double 
   *error = at.error + s->hold->bracket;
 }
 
-/* Last row that is further from the final position than `band`. */
-static size_t last_outside(const stepping *s, double band)
+/* Rows to average so that noise alone does not leave the band; 0 where the hold has not ten times as many. */
+static size_t rows_to_average(const stepping *s, double band)
 {
-  size_t i, last = s->begin;
-  for (i = s->begin; i < s->end; i++)
-    if (fabs(height(s, i) - s->change) > band)
-      last = i;
-  return last;
+  const double needed = fmax(ceil(pow(band_noise * s->noise / band, 2)), 1);
+  return 10 * needed <= (double)(s->end - s->begin) ? (size_t)needed : 0;
 }
 
-/* Between the last row that is outside for certain and the first from which on all may be inside. */
+/* Between the last mean of some rows that is outside for certain and the first from which on all may be inside. */
 static void measure_settling(const stepping *s, lab_step_response *step)
 {
-  const double band = fmax(settled_share * s->change, (level_noise + 2) * s->noise), margin = level_noise * s->noise;
-  const size_t sure = last_outside(s, band + margin);
-  size_t next = last_outside(s, band - margin) + 1;
-  while (next + 1 < s->end && isnan(s->r->x[next]))
-    next++;
-  next = next < s->end ? next : s->end - 1;
-  step->settling_time = (s->r->t[sure] + s->r->t[next]) / 2 - s->hold->t;
-  step->settling_error = (s->r->t[next] - s->r->t[sure]) / 2 + s->hold->bracket;
+  const double band = settled_share * s->change;
+  const size_t each = rows_to_average(s, band);
+  const double margin = level_noise * s->noise / sqrt((double)each);
+  double sure = s->r->t[s->begin], inside = sure, t = 0, y = 0;
+  size_t i, n = 0;
+  int out = 1; /* the last mean may have been outside */
+  for (i = s->begin; i < s->end && each > 0; i++) {
+    if (isnan(height(s, i)))
+      continue;
+    t += s->r->t[i] / (double)each;
+    y += height(s, i) / (double)each;
+    if (++n < each)
+      continue;
+    if (fabs(y - s->change) > band + margin)
+      sure = t;
+    if (out)
+      inside = t;
+    out = fabs(y - s->change) > band - margin;
+    t = y = 0;
+    n = 0;
+  }
+  step->settling_time = each > 0 ? (sure + inside) / 2 - s->hold->t : (double)NAN;
+  step->settling_error = (inside - sure) / 2 + s->hold->bracket;
 }
 
 static void measure_overshoot(const stepping *s, lab_step_response *step)
@@ -299,10 +312,15 @@ static void report_figure(lab_measuring *m, const figure *f, int up, double *val
     return;
   }
   for (i = 0; i < m->n_steps; i++)
-    if (m->step[i].fate == LAB_STEP_GOOD && goes_up(&m->step[i]) == up && change_of(&m->step[i]) >= least) {
+    if (m->step[i].fate == LAB_STEP_GOOD && goes_up(&m->step[i]) == up && change_of(&m->step[i]) >= least &&
+        !isnan(field(&m->step[i], f->value))) {
       value[n++] = field(&m->step[i], f->value);
       error = fmax(error, field(&m->step[i], f->error));
     }
+  if (n == 0) {
+    lab_metric_deny(m, metric, "noise hides when the stem comes to stay within 2 %% of the change");
+    return;
+  }
   qsort(value, (size_t)n, sizeof *value, ascending);
   if (n > 1)
     lab_metric_give(m, metric, value[n / 2], fmax(error, (value[n - 1] - value[0]) / 2),
