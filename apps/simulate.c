@@ -1,22 +1,29 @@
 /* simulate: what a model predicts for the commands of a log, or for the standard experiment.
  * SPDX-License-Identifier: MIT */
 #include "lab/cli.h"
+#include "lab/follow.h"
 #include "lab/interrupt.h"
 #include "lab/log.h"
 #include "lab/outfile.h"
 #include "lab/response.h"
 #include "lab/rig.h"
-#include "lab/schedule.h"
-#include "lab/standard.h"
-#include "lab/start.h"
 #include "lab/series.h"
+#include "lab/standard.h"
+#include "lab/tape.h"
+#include "lab/metricstext.h"
 
 static const char *out_path;
-static int standard;
+static int standard, figures, json;
 
 static const lab_option options[] = {
     {"out", LAB_OPTION_TEXT, &out_path, "FILE", "write there instead of standard output", 0, 0},
     {"step", LAB_OPTION_FLAG, &standard, NULL, "fill for 15 s and vent for 15 s instead of following a log", 0, 0},
+    {"metrics", LAB_OPTION_FLAG, &figures, NULL,
+     "figures of merit of the response instead of its rows: dead time, T63, T86,\n"
+     "dead band, hysteresis, stroke times, air and energy; study/schedules/ has\n"
+     "logs of commands for it",
+     0, 0},
+    {"json", LAB_OPTION_FLAG, &json, NULL, "with --metrics: as JSON", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {"simulate",
@@ -60,26 +67,6 @@ static int simulate_standard(const pneu_model *model, FILE *file, lab_error *err
   return LAB_OK;
 }
 
-/* Respond to one run of a log. */
-static int respond(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_trace *trace,
-                   lab_error *error)
-{
-  size_t first = log->run[run], end = log->run[run + 1];
-  lab_response_options own = accuracy;
-  lab_drive drive;
-  pneu_state start;
-  int status;
-  if (lab_drive_from_log(model, rig, log, run, &drive, error))
-    return error->status;
-  own.t_end = log->value[LAB_CHANNEL_TIME][end - 1];
-  status = lab_start_from_log(model, drive.input, log, run, &start, error);
-  if (status == LAB_OK)
-    status = lab_respond(model, &start, &drive.schedule, log->value[LAB_CHANNEL_TIME] + first, end - first, &own, trace,
-                         NULL, error);
-  lab_drive_free(&drive);
-  return status;
-}
-
 /* Predict what the log measures; a log that measures nothing gets pressure and position. */
 static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
 {
@@ -90,7 +77,8 @@ static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_l
     lab_series_column column[5];
     lab_trace trace;
     int n;
-    if (respond(model, rig, log, run, &trace, error))
+    if (lab_follow(model, rig, log, run, log->value[LAB_CHANNEL_TIME] + log->run[run],
+                   log->run[run + 1] - log->run[run], &accuracy, &trace, error))
       return error->status;
     n = columns(model, &trace, value[LAB_CHANNEL_U] ? value[LAB_CHANNEL_U] + log->run[run] : NULL,
                 nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
@@ -102,6 +90,48 @@ static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_l
   return LAB_OK;
 }
 
+/* ---- Figures of merit ---- */
+
+static int write_figures(const lab_tape *tape, FILE *file, lab_error *error)
+{
+  static lab_metrics metrics;
+  if (lab_metrics_measure(&tape->record, &metrics, error))
+    return error->status;
+  if (json)
+    return lab_metrics_json(file, &metrics, error);
+  lab_metrics_print(file, &metrics);
+  return LAB_OK;
+}
+
+static int figures_of_standard(const pneu_model *model, const lab_rig *rig, FILE *file, lab_error *error)
+{
+  lab_tape tape;
+  lab_trace trace;
+  int status;
+  if (lab_standard_experiment(model, &accuracy, &trace, error))
+    return error->status;
+  status = lab_tape_open(rig, trace.n, 1, &tape, error);
+  if (status == LAB_OK) {
+    lab_tape_add_trace(&tape, &trace);
+    status = write_figures(&tape, file, error);
+  }
+  lab_tape_close(&tape);
+  lab_trace_free(&trace);
+  return status;
+}
+
+static int figures_of_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
+{
+  lab_tape tape;
+  int status = lab_tape_simulate(model, rig, log, &accuracy, &tape, error);
+  if (status == LAB_OK)
+    status = write_figures(&tape, file, error);
+  lab_tape_close(&tape);
+  return status;
+}
+
+/* ---- The program ---- */
+
 static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const char *path, FILE *file,
                              lab_error *error)
 {
@@ -111,9 +141,16 @@ static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const 
     return status;
   if (log.dropped)
     fprintf(stderr, "%s: note: %s: %zu damaged rows left out\n", program.name, path, log.dropped);
-  status = simulate_log(model, rig, &log, file, error);
+  status = figures ? figures_of_log(model, rig, &log, file, error) : simulate_log(model, rig, &log, file, error);
   lab_log_free(&log);
   return status;
+}
+
+static int answer(const lab_cli *cli, const pneu_model *model, const lab_rig *rig, FILE *file, lab_error *error)
+{
+  if (!standard)
+    return read_and_simulate(model, rig, cli->operand[1], file, error);
+  return figures ? figures_of_standard(model, rig, file, error) : simulate_standard(model, file, error);
 }
 
 static int run(const lab_cli *cli, lab_error *error)
@@ -124,11 +161,12 @@ static int run(const lab_cli *cli, lab_error *error)
   int status;
   if (cli->n_operands + standard != 2)
     return lab_fail(error, LAB_USAGE, "expected either LOG.csv or --step; see --help");
+  if (json && !figures)
+    return lab_fail(error, LAB_USAGE, "--json: goes with --metrics; a response is CSV");
   if (lab_rig_read(cli->operand[0], &rig, error) || lab_rig_model(&rig, &model, error) ||
       lab_out_open(&out, out_path, error))
     return error->status;
-  status = standard ? simulate_standard(&model, out.file, error)
-                    : read_and_simulate(&model, &rig, cli->operand[1], out.file, error);
+  status = answer(cli, &model, &rig, out.file, error);
   if (status == LAB_OK)
     return lab_out_close(&out, error);
   lab_out_abandon(&out);

@@ -2,6 +2,7 @@
 #include "scratch.h"
 #include "second/rig.h"
 
+#include "../apps/lab/appraise.h"
 #include "../apps/lab/report_html.h"
 
 enum { ROWS = 1001 };
@@ -14,6 +15,7 @@ static lab_experiment experiment[2];
 static lab_unknowns declared, completed;
 static lab_loop_result result;
 static lab_story story;
+static lab_metrics measured, predicted;
 static char *page;
 
 /* ---- A story: the R1-400 with a leak that the rig file does not know of ---- */
@@ -82,6 +84,9 @@ static int tell_story(void **state)
   story.declared = &declared;
   story.completed = &completed;
   story.result = &result;
+  story.measured = &measured;
+  story.predicted = &predicted;
+  assert_int_equal(lab_appraise(&completed, &measured, &predicted, &error), LAB_OK);
   return 0;
 }
 
@@ -214,6 +219,22 @@ static void test_lab_report_html__leak__says_what_was_found(void **state)
   assert_contains(the_page(), "<td>absent</td>");
 }
 
+/* The log has no full stroke, so that its figures are reasons. */
+static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
+{
+  lab_story without = story;
+  char *text;
+  (void)state;
+  assert_contains(the_page(), "<h2>Figures of merit</h2>");
+  assert_contains(the_page(), "<code>air_mass</code>: the record has no mass flow");
+  assert_contains(the_page(), "Steps are of the opening of the transducer");
+  without.measured = NULL;
+  write_report(&without, scratch_path("without"));
+  text = scratch_read(scratch_path("without/report.html"));
+  assert_null(strstr(text, "Figures of merit"));
+  free(text);
+}
+
 static void test_lab_report_html__names_of_files_and_rigs__are_escaped(void **state)
 {
   (void)state;
@@ -300,6 +321,7 @@ int main(void)
       cmocka_unit_test(test_lab_report_html__leak__needs_nothing_from_outside),
       cmocka_unit_test(test_lab_report_html__six_figures__ids_are_single_and_all_have_words),
       cmocka_unit_test(test_lab_report_html__leak__says_what_was_found),
+      cmocka_unit_test(test_lab_report_html__figures_of_merit__or_why_not),
       cmocka_unit_test(test_lab_report_html__names_of_files_and_rigs__are_escaped),
       cmocka_unit_test(test_lab_report_html__twice__same_bytes),
       cmocka_unit_test(test_lab_report_html__nothing_found_two_runs__is_told_as_well),

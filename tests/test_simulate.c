@@ -114,6 +114,82 @@ static void test_simulate__log_of_position__gives_position_alone(void **state)
   assert_true(cell(3, 2) > 1);
 }
 
+/* The stroke of the standard experiment, by the rows and by the figures. */
+static void test_simulate__metrics__those_of_the_response(void **state)
+{
+  double rise = 0;
+  int row;
+  (void)state;
+  assert_int_equal(run("@/m.cfg --step"), 0);
+  for (row = 52; rise == 0; row++)
+    if (cell(row, 3) >= 0.865 * 20)
+      rise = cell(row, 0) - 0.5;
+  assert_int_equal(run("@/m.cfg --step --metrics"), 0);
+  assert_non_null(strstr(out, "t86_up"));
+  assert_close(strtod(strstr(out, "t86_up") + 6, NULL), rise, 0.01, 0);
+  assert_non_null(strstr(out, "no slow loop"));
+  assert_int_equal(run("@/m.cfg --step --metrics --json --out @/figures.json"), 0);
+  assert_string_equal(out, "");
+  load("figures.json", out);
+  assert_int_equal(out[0], '{');
+  assert_close(strtod(strchr(strstr(out, "\"value\":") + 8, '\t'), NULL), 0.01, 0.01, 0);
+  assert_non_null(strstr(out, "\"reason\":"));
+}
+
+static void test_simulate__metrics_of_a_log__sampled_finely(void **state)
+{
+  (void)state;
+  scratch_text("strokes.csv", "t [s],u [1]\n0,-1\n1,1\n16,-1\n31,-1\n");
+  assert_int_equal(run("@/m.cfg @/strokes.csv --metrics"), 0);
+  assert_non_null(strstr(out, "first full stroke up and down"));
+  assert_int_equal(run("@/vessel.cfg @/only_u.csv --metrics"), 0);
+  assert_non_null(strstr(out, "there is no stem"));
+}
+
+/* A figure of the table just printed. */
+static double figure(const char *name)
+{
+  char line[64];
+  snprintf(line, sizeof line, "\n%s ", name);
+  check_note("%s", name);
+  assert_non_null(strstr(out, line));
+  return strtod(strstr(out, line) + strlen(line), NULL);
+}
+
+/* 480 N of friction both ways on 0.04 m2 are 24 kPa of a bench set of 200 kPa, whatever drives the model. */
+static void test_simulate__schedules__show_the_friction_that_is_declared(void **state)
+{
+  static const struct {
+    const char *arguments;
+    double tolerance;
+  } drives[] = {{"study/actuators/r1-400.cfg study/schedules/slow-loop.csv", 0.3},
+                {"study/schedules/r1-400-regulated.cfg study/schedules/staircase.csv", 0.6},
+                {"study/schedules/r1-400-pressure.cfg study/schedules/pressure-loop.csv", 0.3}};
+  char line[256];
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof drives / sizeof *drives; i++) {
+    snprintf(line, sizeof line, "%s --metrics", drives[i].arguments);
+    assert_int_equal(run(line), 0);
+    assert_close(figure("dead_band"), 12, drives[i].tolerance, 0);
+    assert_close(figure("hysteresis_dead_band"), 12, 0.1, 0);
+    assert_close(figure("linearity"), 0, 0.01, 0);
+    assert_close(figure("energy_lost"), 2 * 480 * 0.02, 0, 0.01);
+  }
+  assert_int_equal(run("study/schedules/r1-400-regulated.cfg study/schedules/small-steps.csv --metrics"), 0);
+  assert_close(figure("dead_band"), 12, 1.2, 0);
+  assert_non_null(strstr(out, "<= 0.2500"));
+  assert_int_equal(run("study/actuators/r1-400.cfg study/schedules/strokes.csv --metrics"), 0);
+  assert_close(figure("energy_in"), 0.04 * 4e5 * 0.02, 0, 1e-6);
+}
+
+static void test_simulate__json_alone__is_refused(void **state)
+{
+  (void)state;
+  assert_int_equal(run("@/m.cfg --step --json"), 2);
+  assert_non_null(strstr(err, "--json: goes with --metrics"));
+}
+
 static void test_simulate__runs__start_afresh(void **state)
 {
   (void)state;
@@ -233,6 +309,10 @@ int main(void)
       cmocka_unit_test(test_simulate__log__predicts_at_its_times),
       cmocka_unit_test(test_simulate__log_without_outputs__gives_pressure_and_position),
       cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
+      cmocka_unit_test(test_simulate__metrics__those_of_the_response),
+      cmocka_unit_test(test_simulate__metrics_of_a_log__sampled_finely),
+      cmocka_unit_test(test_simulate__schedules__show_the_friction_that_is_declared),
+      cmocka_unit_test(test_simulate__json_alone__is_refused),
       cmocka_unit_test(test_simulate__runs__start_afresh),
       cmocka_unit_test(test_simulate__vessel__fills),
       cmocka_unit_test(test_simulate__flow_of_no_name__fills_while_shut),

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "advise.h"
+#include "appraise.h"
 #include "interrupt.h"
 #include "outfile.h"
 #include "report_html.h"
@@ -127,6 +128,16 @@ static int hold_out(lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
+/* ---- Figures of merit ---- */
+
+/* Of what was measured, and of what the completed model makes of the same commands. */
+static int appraise(lab_answer *a, lab_error *error)
+{
+  a->story.measured = &a->measured;
+  a->story.predicted = &a->predicted;
+  return lab_appraise(&a->completed, &a->measured, &a->predicted, error);
+}
+
 /* ---- The loop ---- */
 
 /* The loop's result where the log cannot carry a name: the fit, and nothing traced. */
@@ -169,7 +180,7 @@ static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
     return error->status;
   a->story.trace_s = a->result.trace_s;
   tell(q, "judging");
-  if (retrace(a, error) || hold_out(a, error))
+  if (retrace(a, error) || hold_out(a, error) || appraise(a, error))
     return error->status;
   tell(q, "looking for the test to record next");
   if (lab_advise(&a->story, error))

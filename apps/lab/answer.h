@@ -22,7 +22,8 @@ typedef struct lab_answer {
   lab_bench fitted, held; /* logs */
   lab_unknowns declared, completed;
   lab_loop_result result;
-  lab_story story; /* all of it; points into this struct */
+  lab_metrics measured, predicted; /* figures of merit of the runs fitted, and of the completed model there */
+  lab_story story;                 /* all of it; points into this struct */
 } lab_answer;
 
 /* Read, fit, trace, add, judge.

@@ -9,7 +9,7 @@
 #include "start.h"
 
 static const int most_steps = 20000; /* from one change of input to the next: a model that takes more chatters */
-static const double off = 6; /* times the scatter at rest: a value so far off is no noise */
+static const double off = 6;         /* times the scatter at rest: a value so far off is no noise */
 
 static int is_predicted(int channel)
 {

@@ -7,6 +7,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "metricstext.h"
 #include "outfile.h"
 #include "quantile.h"
 #include "rigterm.h"
@@ -196,6 +197,19 @@ static void add_limitations(cJSON *to, const lab_remarks *remarks)
     cJSON_AddItemToArray(list, cJSON_CreateString(remarks->text[i]));
 }
 
+/* Figures of merit of what was measured, and of what the completed model does in its place. */
+static void add_metrics(cJSON *to, const lab_story *story)
+{
+  cJSON *o;
+  if (!story->measured)
+    return;
+  o = cJSON_AddObjectToObject(to, "metrics");
+  cJSON_AddStringToObject(o, "step_signal", lab_metrics_step_signal(story->measured->command));
+  cJSON_AddStringToObject(o, "static_signal", lab_metrics_static_signal(story->measured->command));
+  cJSON_AddItemToObject(o, "measured", lab_metrics_object(story->measured));
+  cJSON_AddItemToObject(o, "predicted", lab_metrics_object(story->predicted));
+}
+
 static cJSON *json_of(const lab_story *story)
 {
   const lab_loop_result *result = story->result;
@@ -229,6 +243,7 @@ static cJSON *json_of(const lab_story *story)
     cJSON_AddStringToObject(root, "record_next", story->next.text);
   add_steps(root, story);
   add_limitations(root, story->remarks);
+  add_metrics(root, story);
   o = cJSON_AddObjectToObject(root, "timing");
   add_number(o, "fit_s", story->fit_s);
   add_number(o, "trace_s", story->trace_s);

@@ -4,6 +4,7 @@
 #define LAB_LOOPFILES_H
 
 #include "loop.h"
+#include "metrics.h"
 #include "remarks.h"
 #include "separate.h"
 
@@ -27,6 +28,7 @@ typedef struct lab_story {
   int n_held;                                                         /* logs held out */
   lab_held held[LAB_STORY_HELD];                                      /* each by itself */
   lab_advice separate[LAB_LOOP_EFFECTS]; /* of each found effect from the first that looks like it */
+  lab_metrics *measured, *predicted;     /* figures of merit of the runs fitted; NULL: not made */
   lab_advice next;                       /* the test that would tell most, where no effects are alike */
   double fit_s, trace_s, total_s;        /* [s] on the clock; trace_s: the scan of all effects */
   const lab_remarks *remarks;            /* what limits the conclusions; NULL: nothing */

@@ -7,6 +7,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "metricstext.h"
 #include "outfile.h"
 #include "quantile.h"
 #include "shown.h"
@@ -461,6 +462,53 @@ static void put_candidates(const telling *t, cJSON *page)
       t->story->result->level > 0 ? lab_shown_number(lab_chi2_threshold(t->story->result->level), 3, threshold) : "-");
 }
 
+/* ---- Figures of merit ---- */
+
+/* A figure, as measured and as the model has it. */
+static void put_figure(const telling *t, int i, cJSON *list)
+{
+  const lab_metric *const both[] = {&t->story->measured->metric[i], &t->story->predicted->metric[i]};
+  const lab_metric_info *info = &lab_metric_infos[i];
+  const char *unit = strcmp(info->unit, "1") ? info->unit : "";
+  cJSON *row, *cells;
+  char value[LAB_METRIC_SHOWN];
+  int k;
+  if (isnan(both[0]->value) && isnan(both[1]->value))
+    return;
+  row = append(list);
+  put(row, "meaning", "%s", info->meaning);
+  put(row, "standard", "%s", info->standard);
+  cells = cJSON_AddArrayToObject(row, "cells");
+  for (k = 0; k < 2; k++) {
+    cJSON *cell = append(cells);
+    put(cell, "value", "%s%s%s", lab_metric_value(both[k], value), *unit ? " " : "", unit);
+    if (isfinite(both[k]->value) && !both[k]->at_most)
+      put_number(cell, "uncertainty", both[k]->uncertainty, 2);
+  }
+}
+
+static void put_merit(const telling *t, cJSON *page)
+{
+  const lab_metrics *measured = t->story->measured;
+  cJSON *list, *missing;
+  int i;
+  if (!measured)
+    return;
+  put(page, "merit_model", "%s", has_completed(t) ? "completed model" : "declared model, fitted");
+  put(page, "step_signal", "%s", lab_metrics_step_signal(measured->command));
+  put(page, "static_signal", "%s", lab_metrics_static_signal(measured->command));
+  list = cJSON_AddArrayToObject(page, "merit");
+  missing = cJSON_AddArrayToObject(page, "without_merit");
+  for (i = 0; i < LAB_METRIC_COUNT; i++) {
+    put_figure(t, i, list);
+    if (isnan(measured->metric[i].value)) {
+      cJSON *item = append(missing);
+      put(item, "figure", "%s", lab_metric_infos[i].key);
+      put(item, "reason", "%s", measured->metric[i].text);
+    }
+  }
+}
+
 /* ---- The page ---- */
 
 /* Figures in order: the first one stands beside the errors.  Returns: 0 without memory. */
@@ -497,6 +545,7 @@ static cJSON *values_of(const telling *t)
   put_parameters(t, page);
   put_whiteness(t, cJSON_AddArrayToObject(page, "whiteness"));
   put_candidates(t, page);
+  put_merit(t, page);
   if (put_figures(t, page))
     return page;
   cJSON_Delete(page);

@@ -26,7 +26,7 @@ static int cell(const lab_rig *rig, int gas, int present, double *asymmetry, lab
 {
   pneu_params p = rig->params;
   pneu_laws laws = study_laws(rig, present >> TEMPERATURE & 1 ? gas : PNEU_GAS_ISOTHERMAL, flow_law(present));
-  asymmetry_result r;
+  lab_asymmetry r;
   if (!(present >> VOLUME & 1)) {
     p.dead_volume += p.area * p.stroke / 2;
     p.swept_ratio = 0;

@@ -120,7 +120,7 @@ double bench_scan_equal(const bench_scan *scan, const pneu_params *base, const p
   a = scan->from[i], b = scan->from[i + 1], fa = log(ratio[i]), fb = log(ratio[i + 1]);
   for (tries = 0; tries < 20; tries++) {
     pneu_params p = bench_params(base, at = a - fa * (b - a) / (fb - fa), scan->width);
-    asymmetry_result r;
+    lab_asymmetry r;
     lab_error ignored;
     double f;
     if (stroke_measure(&p, law, &r, &ignored))

@@ -14,7 +14,7 @@ enum scan_quantity {
   SCAN_FIRST_OVER, /* [1] smallest velocity of the falling edge over largest of the rising one */
   SCAN_LAST_OVER,  /* [1] smallest velocity of the rising edge over largest of the falling one */
   SCAN_DURATIONS,  /* [1] fall over rise */
-  SCAN_ASYMMETRY,  /* [1] as asymmetry_result */
+  SCAN_ASYMMETRY,  /* [1] as lab_asymmetry */
   SCAN_QUANTITIES
 };
 

@@ -75,7 +75,7 @@ static double value_at(const study_range *range, int i)
 }
 
 /* One point in one law; a stroke that does not come back has no measures and stays in the table as a gap. */
-static int measure_point(const study *s, const variation *v, double value, int gas, int flow, asymmetry_result *r,
+static int measure_point(const study *s, const variation *v, double value, int gas, int flow, lab_asymmetry *r,
                          lab_error *error)
 {
   const lab_rig *rig = &s->actuator[s->subject];
@@ -94,7 +94,7 @@ static int measure_point(const study *s, const variation *v, double value, int g
 static int sweep_one(const study *s, int which, lab_error *error)
 {
   enum { POINT_MAX = 10000 };
-  static asymmetry_result result[POINT_MAX];
+  static lab_asymmetry result[POINT_MAX];
   const variation *v = &variations[which];
   const study_range range = range_of(s, which);
   const int laws = s->n_gas * s->n_flow, n = range.points * laws;
@@ -171,7 +171,7 @@ static void without_bench_offset(pneu_params *p, pneu_laws *laws)
 /* H5: the vent is sized so that both strokes take the same time. */
 static void without_unequal_times(pneu_params *p, pneu_laws *laws)
 {
-  asymmetry_result r;
+  lab_asymmetry r;
   lab_error ignored;
   int i;
   for (i = 0; i < 20; i++) {
@@ -208,7 +208,7 @@ static int makes_it_alone(const lab_rig *rig, const removal *cause, double base,
 {
   pneu_params p = rig->params;
   pneu_laws laws = rig->laws;
-  asymmetry_result r;
+  lab_asymmetry r;
   lab_error ignored;
   if (cause->apply == without_air_process)
     return 1;
@@ -231,7 +231,7 @@ static int verdict_row(const study *s, const lab_rig *rig, int gas, int flow, co
 {
   pneu_params p = rig->params;
   pneu_laws laws = study_laws(rig, gas, flow);
-  asymmetry_result base, without;
+  lab_asymmetry base, without;
   if (stroke_measure(&p, &laws, &base, error))
     return error->status;
   cause->apply(&p, &laws);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../lab/rig.h"
-#include "asymmetry.h"
+#include "../lab/asymmetry.h"
 #include "measured.h"
 #include "measured_damadics.h"
 #include "stroke.h"
@@ -58,9 +58,9 @@ static record cut_at_zero(const record *r)
   return cut;
 }
 
-static edge edge_of(const record *r)
+static lab_edge edge_of(const record *r)
 {
-  const edge e = {r->n, r->t, r->x};
+  const lab_edge e = {r->n, r->t, r->x};
   return e;
 }
 
@@ -70,15 +70,15 @@ static const char steps_header[] = "source,gas,flow,rise_time [s],fall_time [s],
                                    "rise_lag_T [s],rise_lag_rms [1],rise_ramp_T [s],rise_ramp_rms [1],"
                                    "fall_lag_T [s],fall_lag_rms [1],fall_ramp_T [s],fall_ramp_rms [1],note";
 
-static int add_pair(table *t, const char *source, const char *gas, const char *flow, const edge *up, const edge *down,
-                    const char *note, lab_error *error)
+static int add_pair(table *t, const char *source, const char *gas, const char *flow, const lab_edge *up,
+                    const lab_edge *down, const char *note, lab_error *error)
 {
-  asymmetry_result a;
+  lab_asymmetry a;
   double rise_ramp, rise_ramp_rms, fall_lag, fall_lag_rms;
-  if (asymmetry_measure(up, down, &a, error))
+  if (lab_asymmetry_measure(up, down, &a, error))
     return lab_fail_in(error, "%s", source);
-  rise_ramp = asymmetry_ramp_time(up, &rise_ramp_rms);
-  fall_lag = asymmetry_lag_time(down, &fall_lag_rms);
+  rise_ramp = lab_asymmetry_ramp_time(up, &rise_ramp_rms);
+  fall_lag = lab_asymmetry_lag_time(down, &fall_lag_rms);
   table_row(t, "sssggggggggggggs", source, gas, flow, a.rise_time, a.fall_time, a.duration_ratio, a.asymmetry, a.T1,
             a.lag_error, rise_ramp, rise_ramp_rms, fall_lag, fall_lag_rms, a.T2, a.ramp_error, note);
   return LAB_OK;
@@ -93,7 +93,7 @@ static int add_model(table *t, const lab_rig *rig, int gas, int flow, lab_error 
   laws.flow = flow;
   status = stroke_sample(&rig->params, &laws, &pair, error);
   if (status == LAB_OK) {
-    const edge up = {pair.up.n, pair.up.t, pair.up.x}, down = {pair.down.n, pair.down.t, pair.down.x};
+    const lab_edge up = {pair.up.n, pair.up.t, pair.up.x}, down = {pair.down.n, pair.down.t, pair.down.x};
     status = add_pair(t, "model of the 37-13", pneu_gas_key(gas), pneu_flow_key(flow), &up, &down,
                       "parameters of the paper's Table A1", error);
   }
@@ -117,13 +117,13 @@ static int add_models(const char *beside_path, table *t, lab_error *error)
 /* ---- The fitted shapes, for the figure ---- */
 
 /* Share of travel at sample i. */
-static double share(const edge *e, size_t i)
+static double share(const lab_edge *e, size_t i)
 {
   return (e->x[i] - e->x[0]) / (e->x[e->n - 1] - e->x[0]);
 }
 
 /* Straight line share = a + b z over the samples between 5 % and 95 % of travel. */
-static void line(const edge *e, const double *z, double *a, double *b)
+static void line(const lab_edge *e, const double *z, double *a, double *b)
 {
   double n = 0, sz = 0, sy = 0, szz = 0, szy = 0;
   size_t i;
@@ -142,9 +142,9 @@ static void line(const edge *e, const double *z, double *a, double *b)
 }
 
 /* Data, first-order lag and integrator at each sample, in the figure's unit. */
-static void add_edge(table *t, const char *name, const edge *e)
+static void add_edge(table *t, const char *name, const lab_edge *e)
 {
-  const double T = asymmetry_lag_time(e, NULL), travel = e->x[e->n - 1] - e->x[0];
+  const double T = lab_asymmetry_lag_time(e, NULL), travel = e->x[e->n - 1] - e->x[0];
   double z[STEP_POINTS], lag_a, lag_b, ramp_a, ramp_b;
   size_t i;
   for (i = 0; i < e->n; i++)
@@ -165,7 +165,7 @@ static int fill(const char *beside_path, const record *up, const record *down, t
                 lab_error *error)
 {
   const record cut = cut_at_zero(down);
-  const edge rise = edge_of(up), fall = edge_of(&cut), whole = edge_of(down);
+  const lab_edge rise = edge_of(up), fall = edge_of(&cut), whole = edge_of(down);
   if (add_pair(steps, "measured", "", "", &rise, &fall, "fall taken to 0, where the travel ends", error) ||
       add_pair(steps, "measured", "", "", &rise, &whole, "fall as drawn, to -0.25 of 10", error) ||
       add_models(beside_path, steps, error))

@@ -59,8 +59,8 @@ int speeds_measure(const pneu_params *params, const pneu_laws *law, speed_pair *
   stroke_pair pair;
   int status = stroke_sample(params, law, &pair, error);
   if (status == LAB_OK) {
-    const edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
-    status = asymmetry_measure(&rising, &falling, &out->shape, error);
+    const lab_edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
+    status = lab_asymmetry_measure(&rising, &falling, &out->shape, error);
   }
   if (status == LAB_OK) {
     read_edge(&pair.up, 1, &out->up);

@@ -8,7 +8,7 @@
 
 #include "../../lib/pneu.h"
 #include "../lab/message.h"
-#include "asymmetry.h"
+#include "../lab/asymmetry.h"
 
 enum { SPEED_POINTS = 181 }; /* every half percent of travel */
 
@@ -21,7 +21,7 @@ typedef struct speed_edge {
 
 typedef struct speed_pair {
   speed_edge up, down;
-  asymmetry_result shape;
+  lab_asymmetry shape;
   double returned; /* [J] work of the stem on the air over the whole falling edge, gauge */
 } speed_pair;
 

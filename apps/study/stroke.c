@@ -121,13 +121,13 @@ void stroke_pair_free(stroke_pair *pair)
   memset(pair, 0, sizeof *pair);
 }
 
-int stroke_measure(const pneu_params *params, const pneu_laws *law, asymmetry_result *out, lab_error *error)
+int stroke_measure(const pneu_params *params, const pneu_laws *law, lab_asymmetry *out, lab_error *error)
 {
   stroke_pair pair;
   int status = stroke_sample(params, law, &pair, error);
   if (status == LAB_OK) {
-    const edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
-    status = asymmetry_measure(&rising, &falling, out, error);
+    const lab_edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
+    status = lab_asymmetry_measure(&rising, &falling, out, error);
   }
   stroke_pair_free(&pair);
   return status;

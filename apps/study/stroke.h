@@ -5,7 +5,7 @@
 
 #include "../../lib/pneu.h"
 #include "../lab/message.h"
-#include "asymmetry.h"
+#include "../lab/asymmetry.h"
 
 /* A simulated stroke: dense output of the stepper, at most 20 ms apart. */
 typedef struct stroke_curve {
@@ -31,6 +31,6 @@ void stroke_pair_free(stroke_pair *pair);
 /* Fill from rest on the lower stop until nothing moves, then vent until nothing moves, and measure.
  * Method: the library's stepper at tol 1e-8.
  * Returns: LAB_OK, LAB_DATA (parameters out of bounds, or no travel), LAB_NUMERIC, LAB_WORLD. */
-int stroke_measure(const pneu_params *params, const pneu_laws *law, asymmetry_result *out, lab_error *error);
+int stroke_measure(const pneu_params *params, const pneu_laws *law, lab_asymmetry *out, lab_error *error);
 
 #endif

@@ -7,19 +7,19 @@
 enum { GRID = 400 };
 static const double window_from = 0.05, window_to = 0.95;
 
-static double travel(const edge *e)
+static double travel(const lab_edge *e)
 {
   return e->x[e->n - 1] - e->x[0];
 }
 
 /* Travelled share of sample i, 0 at the start and 1 at the end. */
-static double share(const edge *e, size_t i)
+static double share(const lab_edge *e, size_t i)
 {
   return (e->x[i] - e->x[0]) / travel(e);
 }
 
 /* Time at which the share is first reached, linear between samples [s]. */
-static double crossing(const edge *e, double level)
+static double crossing(const lab_edge *e, double level)
 {
   size_t i = 1;
   double before, after;
@@ -31,7 +31,7 @@ static double crossing(const edge *e, double level)
 }
 
 /* Shares at GRID + 1 equally spaced times between the window's crossings. */
-static double resample(const edge *e, double *y)
+static double resample(const lab_edge *e, double *y)
 {
   const double from = crossing(e, window_from), to = crossing(e, window_to);
   size_t at = 1;
@@ -91,7 +91,7 @@ static double fit_lag(const double *y, double *misfit)
   return exp(log_T);
 }
 
-double asymmetry_lag_time(const edge *e, double *rms)
+double lab_asymmetry_lag_time(const lab_edge *e, double *rms)
 {
   double y[GRID + 1], misfit = 0;
   const double duration = resample(e, y);
@@ -101,7 +101,7 @@ double asymmetry_lag_time(const edge *e, double *rms)
   return T;
 }
 
-double asymmetry_ramp_time(const edge *e, double *rms)
+double lab_asymmetry_ramp_time(const lab_edge *e, double *rms)
 {
   double y[GRID + 1], s[GRID + 1], a, b, misfit;
   const double duration = resample(e, y);
@@ -125,14 +125,14 @@ static double shape_distance(const double *up, const double *down)
   return sum / GRID / (window_to - window_from);
 }
 
-static int check(const edge *e, const char *which, lab_error *error)
+static int check(const lab_edge *e, const char *which, lab_error *error)
 {
   if (e->n < 3 || !(fabs(travel(e)) > 0))
     return lab_fail(error, LAB_DATA, "the %s stroke has no travel to compare", which);
   return LAB_OK;
 }
 
-int asymmetry_measure(const edge *up, const edge *down, asymmetry_result *out, lab_error *error)
+int lab_asymmetry_measure(const lab_edge *up, const lab_edge *down, lab_asymmetry *out, lab_error *error)
 {
   double y_up[GRID + 1], y_down[GRID + 1];
   if (check(up, "rising", error) || check(down, "falling", error))
@@ -141,7 +141,7 @@ int asymmetry_measure(const edge *up, const edge *down, asymmetry_result *out, l
   out->fall_time = resample(down, y_down);
   out->duration_ratio = out->fall_time / out->rise_time;
   out->asymmetry = shape_distance(y_up, y_down);
-  out->T1 = asymmetry_lag_time(up, &out->lag_error);
-  out->T2 = asymmetry_ramp_time(down, &out->ramp_error);
+  out->T1 = lab_asymmetry_lag_time(up, &out->lag_error);
+  out->T2 = lab_asymmetry_ramp_time(down, &out->ramp_error);
   return LAB_OK;
 }
