@@ -162,8 +162,8 @@ $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 	@mkdir -p $(@D)
 	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
 
-$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
-$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/pagetext.o: $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/pagetext.o: LAB_FLAGS += -I$(BUILD)
 
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@

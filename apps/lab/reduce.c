@@ -13,10 +13,10 @@ typedef struct column {
 static size_t put_column(const column *c, const double *at, const double *value, lab_point *point)
 {
   const size_t first = c->low < c->high ? c->low : c->high, second = c->low < c->high ? c->high : c->low;
-  point[0] = (lab_point){at[first], value[first]};
+  point[0] = (lab_point){at[first], value[first], first};
   if (first == second)
     return 1;
-  point[1] = (lab_point){at[second], value[second]};
+  point[1] = (lab_point){at[second], value[second], second};
   return 2;
 }
 
@@ -38,7 +38,7 @@ size_t lab_envelope(const double *at, const double *value, size_t n, const size_
       breaks = 1;
     if (breaks && c.index >= 0) {
       used += put_column(&c, at, value, point + used);
-      point[used++] = (lab_point){at[c.last], (double)NAN};
+      point[used++] = (lab_point){at[c.last], (double)NAN, c.last};
       c.index = -1;
     }
     if (isnan(value[i]))
@@ -47,7 +47,7 @@ size_t lab_envelope(const double *at, const double *value, size_t n, const size_
     if (c.index >= 0 && index != c.index) {
       used += put_column(&c, at, value, point + used);
       if (i > c.last + 1 && at[i] - at[c.last] > widest_gap * (to - from))
-        point[used++] = (lab_point){at[c.last], (double)NAN};
+        point[used++] = (lab_point){at[c.last], (double)NAN, c.last};
     }
     if (index != c.index)
       c = (column){index, i, i, i};

@@ -7,6 +7,7 @@
 
 typedef struct lab_point {
   double at, value; /* value NaN: the line breaks */
+  size_t row;       /* of the series */
 } lab_point;
 
 /* The envelope of a series: of the values in each of `columns` equal parts of from..to the lowest and the highest, in
