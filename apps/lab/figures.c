@@ -270,7 +270,7 @@ static void put_time_axis(const drawing *d)
 
 /* ---- Measured and predicted over time ---- */
 
-enum { COMMAND_TOP = 150, COMMAND_HEIGHT = 55, CHANNEL_TOP = 245, CHANNEL_PITCH = 225, CHANNEL_HEIGHT = 180 };
+enum { COMMAND_TOP = 160, COMMAND_HEIGHT = 55, CHANNEL_TOP = 255, CHANNEL_PITCH = 225, CHANNEL_HEIGHT = 180 };
 
 /* Name, ends of the y axis and place of a panel. */
 static void put_panel(const drawing *d, int number, lab_panel *panel, double top, double height)
@@ -363,7 +363,7 @@ static int draw_response(const drawing *d)
   entitle(d, has_completed(d) ? "Measured, and what both models predict for the same command"
                               : "Measured, and what the model predicts for the same command");
   tell(d, "Command, measured and predicted channels over %.4g s.", v->t[v->n - 1] - v->t[0]);
-  put_head(d, 270 + CHANNEL_PITCH * n, 124,
+  put_head(d, 280 + CHANNEL_PITCH * n, 126,
            "Each line spans all values that fall on its pixels, so that no peak is lost");
   put_time_axis(d);
   fprintf(d->file, "N = %d\narray LABEL[N+1]\narray TOP[N+1]\narray BOTTOM[N+1]\narray LOW[N+1]\narray HIGH[N+1]\n", n);
@@ -411,7 +411,7 @@ static int draw_residual(const drawing *d)
   int i;
   entitle(d, has_completed(d) ? "What the models do not explain" : "What the model does not explain");
   tell(d, "Residual over time in units of the noise.");
-  put_head(d, 135 + PANEL_PITCH * panels, 78,
+  put_head(d, 135 + PANEL_PITCH * panels, 70,
            "Measured less predicted, in units of the noise; 99 % of white noise lies in the band");
   put_time_axis(d);
   fprintf(d->file, "N = %d\narray LABEL[N]\narray LIMIT[N]\narray IS_AFTER[N]\narray TOP[N]\narray BOTTOM[N]\n",
@@ -539,7 +539,7 @@ static int draw_arguments(const drawing *d)
     return 0;
   entitle(d, "Where the residual sits");
   tell(d, "Mean of the residual in bins, in units of the noise.");
-  put_head(d, 135 + PANEL_PITCH * rows, 78,
+  put_head(d, 135 + PANEL_PITCH * rows, 70,
            "Its mean in bins, in units of the noise; the band is where 99 % of such means of white noise lie");
   fprintf(d->file, "ROWS = %d\nCOLUMNS = %d\narray ROW_LABEL[ROWS]\narray LIMIT[ROWS]\narray IS_AFTER[ROWS]\n", rows,
           n);
@@ -569,9 +569,8 @@ static void put_correlation(const drawing *d, const lab_evidence_channel *mine, 
   const lab_whiteness *before = &mine->whiteness[LAB_STAGE_BEFORE], *after = &mine->whiteness[LAB_STAGE_AFTER];
   int k;
   char name[LAB_SHOWN_TEXT], p[LAB_SHOWN_TEXT];
-  fprintf(d->file, "LABEL[%d] = \"%s, %s model: p-value %s\"\nLAGS[%d] = %d\n", number,
-          quantity_name(mine->channel, name), stage_name(has_completed(d)), lab_shown_p(after->p_value, p), number,
-          after->lags);
+  fprintf(d->file, "LABEL[%d] = \"%s: p-value %s\"\nLAGS[%d] = %d\n", number, quantity_name(mine->channel, name),
+          lab_shown_p(after->p_value, p), number, after->lags);
   fprintf(d->file, "$correlation_%d << EOD\nlag,before,after,band\n", number);
   for (k = 1; k <= after->lags; k++) {
     const double band = two_sided_99 * after->deviation[k];
@@ -599,7 +598,7 @@ static void read_correlation(const drawing *d, const lab_evidence_channel *mine,
   cJSON *reading;
   size_t k;
   panel.name = quantity_name(mine->channel, name);
-  put_box(d, number, &panel, 155, 165);
+  put_box(d, number, &panel, 165, 165);
   put_sides(d, number, &panel, side_of(number - 1, n), side_of(number - 1, n) + 0.94 * (side_of(1, n) - side_of(0, n)));
   for (k = 1; k <= lags; k++) {
     lag[k] = (double)k;
@@ -628,7 +627,7 @@ static int draw_autocorrelation(const drawing *d)
   if (n == 0)
     return 0;
   entitle(d, "Does the residual remember?");
-  put_head(d, 395, 128,
+  put_head(d, 405, 130,
            "Autocorrelation of the residual; white noise stays within the band, and its p-value above 0.01");
   fprintf(d->file,
           "N = %d\narray LABEL[N]\narray LAGS[N]\narray TOP[N]\narray BOTTOM[N]\narray LEFT[N]\narray RIGHT[N]\n", n);
@@ -683,7 +682,7 @@ static int draw_candidates(const drawing *d)
   if (n == 0)
     return 0;
   entitle(d, "Which effect the residual of the declared model asks for");
-  put_head(d, 185 + 26 * n, 78,
+  put_head(d, 185 + 26 * n, 72,
            "Blue: added. Orange: passes the threshold, but the refits preferred another. Grey: does not pass");
   fprintf(d->file, "N = %d\nT_MIN = %g\nT_MAX = %.4g\nTHRESHOLD = %.5g\n", n, least,
           2 * fmax(threshold, result->trace.candidate[0].statistic), threshold);
@@ -827,7 +826,7 @@ static int draw_parameters(const drawing *d)
   if (n == 0)
     return 0;
   entitle(d, "What the fit made of what was declared");
-  put_head(d, 200 + 36 * n, 72,
+  put_head(d, 200 + 36 * n, 110,
            "A parameter that bends to stand in for a missing effect springs back when the effect is there");
   fprintf(d->file, "N = %d\n", n);
   put_lines(d->file, parameters_gp);
@@ -851,13 +850,14 @@ static const struct {
      "the model's own.",
      draw_arguments},
     {"autocorrelation", "before after band",
-     "Bars beyond the band mean that the residual follows a pattern, so that the model, or the noise "
-     "that was declared, is not the whole truth. The p-value is that of Ljung and Box for all lags at once; below 0.01 "
-     "the residual is not white.",
+     "Bars beyond the band mean that the residual follows a pattern, so that the model, or the noise that was "
+     "declared, is not the whole truth. The p-value is that of Ljung and Box for all lags of the last model at once; "
+     "below 0.01 the residual is not white.",
      draw_autocorrelation},
     {"candidates", "",
      "Many effects pass where one is missing, because their footprints overlap. Those that pass best are taken "
-     "up in turn, everything is fitted again, and the best fit decides.",
+     "up in turn, everything is fitted again, and the best fit decides. If nothing were missing, T would be chi-square "
+     "with 1 degree of freedom.",
      draw_candidates},
     {"unlisted", "",
      "Knots where the model hardly ever is are loosely known. Over a cycle, time is that of the log: its zero is the "

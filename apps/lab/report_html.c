@@ -312,6 +312,7 @@ static void put_main(const telling *t, cJSON *list)
     put(item, "name", "%s", effect_name(r->found[i].effect));
     put(item, "meaning", "%s", info.meaning);
     put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, digits_of(t, j));
+    put(item, "unit", "%s", lab_shown_as(u->unknown[j].unit).unit);
     put_interval(t, j, item);
   }
 }
@@ -436,14 +437,23 @@ static void put_rough(const telling *t, cJSON *list)
 {
   const lab_unknowns *u = t->story->completed;
   const lab_fit_result *fit = &t->story->result->fit;
-  int j;
+  int j, knots = 0;
   for (j = 0; j < u->n; j++) {
     const double half = 0.5 * (fit->high[j] - fit->low[j]);
-    if (u->unknown[j].kind != LAB_UNKNOWN_SWITCH && fit->state[j] == LAB_FIT_FREE &&
-        half > rough * fabs(u->unknown[j].value))
+    if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH || fit->state[j] != LAB_FIT_FREE ||
+        !(half > rough * fabs(u->unknown[j].value)))
+      continue;
+    if (u->unknown[j].kind == LAB_UNKNOWN_KNOT)
+      knots++;
+    else
       say(list, "%s is known only within %.2g %% either way.", u->unknown[j].name,
           100 * half / fabs(u->unknown[j].value));
   }
+  if (knots > 0)
+    say(list,
+        "%d values of the free term are known only within more than %g %% of themselves: those near 0, and those where "
+        "the model hardly ever is.",
+        knots, 100 * rough);
 }
 
 /* Effects none of whose candidates leaves a trace. */
@@ -537,13 +547,14 @@ static void put_parameter(const telling *t, int j, cJSON *list)
 static void put_parameters(const telling *t, cJSON *page)
 {
   const lab_unknowns *u = t->story->completed;
-  cJSON *list = cJSON_AddArrayToObject(page, "parameters");
+  cJSON *list = cJSON_AddArrayToObject(page, "parameters"), *knots = cJSON_AddArrayToObject(page, "knots");
   int j, switches = 0;
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH)
       switches++;
     else
-      put_parameter(t, j, list);
+      put_parameter(t, j, u->unknown[j].kind == LAB_UNKNOWN_KNOT ? knots : list);
+  put(page, "has_knots", "%s", cJSON_GetArraySize(knots) ? "yes" : "");
   if (switches > 0) {
     list = cJSON_AddArrayToObject(page, "switches");
     say(list, "Fitted as well: the instants of %d changes of command, each between the two rows that bracket it.",

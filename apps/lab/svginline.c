@@ -16,7 +16,8 @@ static const struct {
   const char *found, *written;
 } words[] = {{"fill=\"#ffffff\"", "fill=\"none\""},
              {" color=\"black\"", ""},
-             {" font-family=\"sans-serif\" ", ""},
+             {"fill=\"black\"", "fill=\"currentColor\""},
+             {" font-family=\"sans-serif\" ", " "},
              {" font-family=\"sans-serif\"", ""}};
 
 /* Colours, and the style's variables for them. */

@@ -14,7 +14,7 @@ do for [r = 1:ROWS] {
     set bmargin at screen AT(BOTTOM[r])
     set xrange [FROM[c]:TO[c]]
     set yrange [-LIMIT[r]:LIMIT[r]]
-    set xtics NICE((TO[c] - FROM[c]) / 3)
+    set xtics NICE((TO[c] - FROM[c]) / 2)
     set ytics NICE(LIMIT[r] / 2)
     if (c == 1) { set format y "%g" } else { set format y "" }
     if (r == ROWS) { set format x "%g"; set xlabel COLUMN_LABEL[c] } else { set format x "" ; unset xlabel }

@@ -56,7 +56,6 @@
       this.slider.addEventListener("input", () => point(this.group, this.at().v[this.slider.value]));
       if (this.groups.length > 1) this.choose(row);
       this.output = element("output", "reading screen", figure.querySelector(".plot"));
-      this.output.style.display = "block";
       this.output.textContent = "Point at the figure, touch it or move the slider to read values.";
       for (const type of ["pointermove", "pointerdown"])
         this.svg.addEventListener(type, event => this.under(event));
