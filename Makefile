@@ -48,7 +48,7 @@ STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
 # What was made by another program is made again: the sources' checksum goes into the record of what is done.
-SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
+SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/lab/report/* apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
 .SECONDARY:
