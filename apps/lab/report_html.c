@@ -688,7 +688,8 @@ static int put_readings(const telling *t, cJSON *page)
     return 1;
   labels = cJSON_CreateObject();
   for (i = 0; i < CURVES; i++)
-    cJSON_AddStringToObject(labels, curves[i].key, curves[i].label);
+    if (has_completed(t) || strcmp(curves[i].key, "after") != 0)
+      cJSON_AddStringToObject(labels, curves[i].key, curves[i].label);
   cJSON_DeleteItemFromObject(t->figures->readings, "labels");
   cJSON_AddItemToObject(t->figures->readings, "labels", labels);
   text = cJSON_PrintUnformatted(t->figures->readings);

@@ -114,7 +114,7 @@
       this.slider.setAttribute("aria-valuetext", spans.join("; "));
     }
 
-    /* "Pressure p: measured 231.10, completed model 231.02 kPa", and the marks in the panel */
+    /* "Pressure p: measured 231.10, declared model, fitted 230.87 kPa", and the marks in the panel */
     read(panel, x) {
       const [left, top, right, bottom] = panel.box, at = columns[panel.at], i = nearest(at.v, x);
       const on = panel.curves.filter(c => this.isOn(c.key)).filter(c => !isNaN(columns[c.of].v[i]));
