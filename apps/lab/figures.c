@@ -287,7 +287,7 @@ static void put_command(const drawing *d)
   lab_panel panel = time_panel(d);
   double low = 0, high = 0, space;
   lab_range(u, d->evidence->n, &low, &high);
-  space = high > low ? 0.15 * (high - low) : 0.5;
+  space = high > low ? 0.15 * (high - low) : 1;
   panel.name = "Command u";
   panel.unit = shown.unit;
   panel.y[0] = shown.scale * (low - space);

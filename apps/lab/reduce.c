@@ -2,7 +2,9 @@
 
 #include <math.h>
 
-static const double widest_gap = 0.02; /* of the axis, over which a line is still drawn */
+/* A line is drawn over a gap that is no wider than this share of the axis, or than so many times what is usual between
+ * two values: a channel that is measured now and then is no row of gaps. */
+static const double widest_gap = 0.02, usual_gaps = 4;
 
 /* A column in the making: rows of its lowest and highest value. */
 typedef struct column {
@@ -26,9 +28,19 @@ static int column_of(double at, double from, double to, int columns)
   return index < 0 ? 0 : index < columns ? index : columns - 1;
 }
 
+/* The widest gap over which the line of a series is drawn. */
+static double widest(const double *value, size_t n, double from, double to)
+{
+  size_t i, values = 0;
+  for (i = 0; i < n; i++)
+    values += !isnan(value[i]);
+  return (to - from) * fmax(widest_gap, values > 1 ? usual_gaps / (double)(values - 1) : 0);
+}
+
 size_t lab_envelope(const double *at, const double *value, size_t n, const size_t *first, int n_runs, double from,
                     double to, int columns, lab_point *point)
 {
+  const double too_wide = widest(value, n, from, to);
   column c = {-1, 0, 0, 0};
   size_t i, used = 0;
   int run = 0;
@@ -46,7 +58,7 @@ size_t lab_envelope(const double *at, const double *value, size_t n, const size_
     index = column_of(at[i], from, to, columns);
     if (c.index >= 0 && index != c.index) {
       used += put_column(&c, at, value, point + used);
-      if (i > c.last + 1 && at[i] - at[c.last] > widest_gap * (to - from))
+      if (i > c.last + 1 && at[i] - at[c.last] > too_wide)
         point[used++] = (lab_point){at[c.last], (double)NAN, c.last};
     }
     if (index != c.index)

@@ -184,6 +184,14 @@ static void put_errors(const telling *t, cJSON *page)
 
 /* ---- Why ---- */
 
+/* The whole unit of an unknown: x->unit has no room for the longest. */
+static const char *unit_of(const lab_unknown *x)
+{
+  pneu_param_info info;
+  const int is_listed = x->kind == LAB_UNKNOWN_PARAM && x->index != LAB_FIT_ORIFICE_AREA;
+  return is_listed && pneu_param_describe(x->index, &info) == PNEU_OK ? info.unit : x->unit;
+}
+
 /* Digits at which both ends of the interval of an unknown can be told apart. */
 static int digits_of(const telling *t, int j)
 {
@@ -198,7 +206,7 @@ static int digits_of(const telling *t, int j)
 static void put_interval(const telling *t, int j, cJSON *to)
 {
   const lab_fit_result *fit = &t->story->result->fit;
-  const double scale = lab_shown_as(t->story->completed->unknown[j].unit).scale;
+  const double scale = lab_shown_as(unit_of(&t->story->completed->unknown[j])).scale;
   char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT];
   if (fit->state[j] == LAB_FIT_FREE)
     put(to, "interval", "%s .. %s", lab_shown_number(scale * fit->low[j], digits_of(t, j), low),
@@ -221,7 +229,7 @@ static void put_sizes(const telling *t, int effect, cJSON *list)
     pneu_param_describe(i, &info);
     item = append(list);
     put(item, "meaning", "%s", info.meaning);
-    put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, digits_of(t, j));
+    put_quantity(item, "value", u->unknown[j].value, unit_of(&u->unknown[j]), digits_of(t, j));
     put_interval(t, j, item);
   }
 }
@@ -295,6 +303,13 @@ static void put_reasons(const telling *t, cJSON *list)
 
 /* ---- The first look ---- */
 
+static const char *size_heading(const lab_loop_result *r)
+{
+  if (r->n_found == 0)
+    return "What is left";
+  return r->verdict == LAB_VERDICT_UNDECIDED ? "What comes nearest, and how much" : "What is missing, and how much";
+}
+
 /* The size of each effect that was found, with its interval. */
 static void put_main(const telling *t, cJSON *list)
 {
@@ -311,8 +326,8 @@ static void put_main(const telling *t, cJSON *list)
     item = append(list);
     put(item, "name", "%s", effect_name(r->found[i].effect));
     put(item, "meaning", "%s", info.meaning);
-    put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, digits_of(t, j));
-    put(item, "unit", "%s", lab_shown_as(u->unknown[j].unit).unit);
+    put_quantity(item, "value", u->unknown[j].value, unit_of(&u->unknown[j]), digits_of(t, j));
+    put(item, "unit", "%s", lab_shown_as(unit_of(&u->unknown[j])).unit);
     put_interval(t, j, item);
   }
 }
@@ -352,45 +367,83 @@ static int count_coloured(const telling *t)
   return n;
 }
 
-static void say_sure_of(const telling *t, const lab_found *found, cJSON *list)
+/* How much more than chance one thing is that was added. */
+static void say_chance(const telling *t, const lab_found *found, cJSON *list)
 {
   char p[LAB_SHOWN_TEXT], statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT];
-  const char *name = found->effect < 0 ? "It" : effect_name(found->effect);
-  say(list, "%s is more than chance: p-value %s (score statistic %s, where %s would do).", name,
+  say(list, "%s is more than chance: p-value %s (score statistic %s, where %s would do).",
+      found->effect < 0 ? "It" : effect_name(found->effect),
       lab_shown_p(found->effect < 0 ? lab_chi2_tail(found->statistic, found->degrees) : found->p_value, p),
       lab_shown_number(found->statistic, 3, statistic),
       lab_shown_number(lab_chi2_threshold(t->story->result->level), 3, threshold));
-  if (found->effect >= 0 && found->n_alike > 0)
-    say(list, "%s explains the log as well%s.", effect_name(found->alike[0]),
-        found->n_alike > 1 ? ", and so do others (see below)" : "");
-  else if (found->effect >= 0)
+}
+
+static int count_alike(const lab_loop_result *r)
+{
+  int i, n = 0;
+  for (i = 0; i < r->n_found; i++)
+    n += r->found[i].n_alike;
+  return n;
+}
+
+/* The first effect that the log cannot tell from another, or the first that looks like it. */
+static const char *alike_name(const lab_loop_result *r, int other)
+{
+  int i = 0;
+  while (r->found[i].n_alike == 0)
+    i++;
+  return effect_name(other ? r->found[i].alike[0] : r->found[i].effect);
+}
+
+/* Whether anything else would do as well. */
+static void say_alike(const lab_loop_result *r, cJSON *list)
+{
+  int i, named = 0;
+  for (i = 0; i < r->n_found; i++) {
+    const lab_found *found = &r->found[i];
+    named += found->effect >= 0;
+    if (found->n_alike > 0)
+      say(list, "But the log cannot tell it apart: %s explains it as well as %s%s.", effect_name(found->alike[0]),
+          effect_name(found->effect), found->n_alike > 1 ? ", and so do others, see below" : "");
+  }
+  if (named > 0 && count_alike(r) == 0)
     say(list, "No other effect of the catalogue explains the log as well.");
+}
+
+static void say_held_out(const lab_story *story, cJSON *list)
+{
+  char before[LAB_SHOWN_TEXT], after[LAB_SHOWN_TEXT];
+  if (!story->has_holdout)
+    say(list, "Not tried on a log that was held out.");
+  else if (story->result->n_found > 0)
+    say(list, "On a log that was not used for the fit, the error goes from %s to %s times the noise.",
+        lab_shown_number(in_noise(&story->holdout_before), 3, before),
+        lab_shown_number(in_noise(&story->holdout_after), 3, after));
+  else
+    say(list, "On a log that was not used for the fit, the error is %s times the noise.",
+        lab_shown_number(in_noise(&story->holdout_before), 3, before));
 }
 
 static void put_sure(const telling *t, cJSON *list)
 {
-  const lab_story *story = t->story;
-  const lab_loop_result *r = story->result;
-  char before[LAB_SHOWN_TEXT], after[LAB_SHOWN_TEXT];
+  const lab_loop_result *r = t->story->result;
+  char statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT];
   const int coloured = count_coloured(t);
   int i;
+  if (r->verdict == LAB_VERDICT_UNDECIDED)
+    say(list, "Not sure enough for a name.");
   for (i = 0; i < r->n_found; i++)
-    say_sure_of(t, &r->found[i], list);
+    say_chance(t, &r->found[i], list);
   if (r->n_found == 0 && r->trace.n > 0 && r->level > 0)
     say(list, "%s comes nearest of all effects: statistic %s, where it would take %s.",
-        effect_name(r->trace.candidate[0].effect), lab_shown_number(r->trace.candidate[0].statistic, 3, before),
-        lab_shown_number(lab_chi2_threshold(r->level), 3, after));
-  if (story->has_holdout && r->n_found > 0)
-    say(list, "On a log that was not used for the fit, the error goes from %s to %s times the noise.",
-        lab_shown_number(in_noise(&story->holdout_before), 3, before),
-        lab_shown_number(in_noise(&story->holdout_after), 3, after));
-  else if (story->has_holdout)
-    say(list, "On a log that was not used for the fit, the error is %s times the noise.",
-        lab_shown_number(in_noise(&story->holdout_before), 3, before));
+        effect_name(r->trace.candidate[0].effect), lab_shown_number(r->trace.candidate[0].statistic, 3, statistic),
+        lab_shown_number(lab_chi2_threshold(r->level), 3, threshold));
+  say_alike(r, list);
+  say_held_out(t->story, list);
   if (coloured == 0)
     say(list, "What is left is white noise, on every channel.");
   else
-    say(list, "What is left is not quite white noise on %d of %d channels.", coloured, t->evidence->n_channels);
+    say(list, "What is left is not white noise on %d of %d channels.", coloured, t->evidence->n_channels);
 }
 
 static void put_todo(const telling *t, const cJSON *next, cJSON *list)
@@ -401,7 +454,7 @@ static void put_todo(const telling *t, const cJSON *next, cJSON *list)
   int i;
   if (t->story->remarks && t->story->remarks->doubt)
     say(list, "Correct the log or the rig file first: no effect is named while they contradict each other.");
-  for (i = 0; i < r->n_found; i++)
+  for (i = 0; i < r->n_found && r->verdict != LAB_VERDICT_UNDECIDED; i++)
     if (r->found[i].effect >= 0)
       say(list, "See on the rig whether it is so: %s", pneu_effect_at(r->found[i].effect)->what);
     else
@@ -413,6 +466,8 @@ static void put_todo(const telling *t, const cJSON *next, cJSON *list)
     say(list, "Where it is meant to be so, go on with model.cfg, which has it.");
   if (first && t->story->next.kind == LAB_ADVICE_TRIAL)
     say(list, "To know more, record: %s.", t->story->next.text);
+  else if (count_alike(r) > 0)
+    say(list, "Record what tells %s from %s: see What to record next.", alike_name(r, 0), alike_name(r, 1));
   else if (first && r->verdict != LAB_VERDICT_NONE)
     say(list, "%s", first->valuestring);
 }
@@ -522,7 +577,7 @@ static void put_next(const telling *t, cJSON *list)
 static void put_parameter(const telling *t, int j, cJSON *list)
 {
   const lab_unknown *x = &t->story->completed->unknown[j];
-  const lab_shown shown = lab_shown_as(x->unit);
+  const lab_shown shown = lab_shown_as(unit_of(x));
   pneu_params declared = t->story->rig->params;
   pneu_param_info info = {0};
   cJSON *item = append(list);
@@ -716,7 +771,7 @@ static cJSON *values_of(const telling *t)
   put_head(t, page);
   put_logs(t, page);
   put_errors(t, page);
-  put(page, "size_heading", "%s", t->story->result->n_found ? "What is missing, and how much" : "What is left");
+  put(page, "size_heading", "%s", size_heading(t->story->result));
   put_main(t, cJSON_AddArrayToObject(page, "main"));
   put_remainder(t, cJSON_AddArrayToObject(page, "remainder"));
   put_sure(t, cJSON_AddArrayToObject(page, "sure"));

@@ -14,8 +14,8 @@ do for [r = 1:ROWS] {
     set bmargin at screen AT(BOTTOM[r])
     set xrange [FROM[c]:TO[c]]
     set yrange [-LIMIT[r]:LIMIT[r]]
-    set xtics NICE((TO[c] - FROM[c]) / 2)
-    set ytics NICE(LIMIT[r] / 2)
+    set xtics NICE((TO[c] - FROM[c]) / 2.0)
+    set ytics NICE(LIMIT[r] / 2.0)
     if (c == 1) { set format y "%g" } else { set format y "" }
     if (r == ROWS) { set format x "%g"; set xlabel COLUMN_LABEL[c] } else { set format x "" ; unset xlabel }
     plot sprintf("$bins_%d_%d", r, c) using "at":(-column("band")):"band" with filledcurves fc rgb "#DDD5B0" title "band", \

@@ -15,7 +15,7 @@ unset key
 set tmargin at screen AT(TOP[1])
 set bmargin at screen AT(BOTTOM[1])
 set yrange [LOWEST:HIGHEST]
-set ytics NICE((HIGHEST - LOWEST) / 5)
+set ytics NICE((HIGHEST - LOWEST) / 5.0)
 do for [i = 1:N] {
   if (i > 1) { @NEXT; set format y "" }
   set label 1 LABEL[i] @ABOVE

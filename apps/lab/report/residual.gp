@@ -14,7 +14,7 @@ do for [i = 1:N] {
   set tmargin at screen AT(TOP[i])
   set bmargin at screen AT(BOTTOM[i])
   set yrange [-LIMIT[i]:LIMIT[i]]
-  set ytics NICE(LIMIT[i] / 2)
+  set ytics NICE(LIMIT[i] / 2.0)
   set object 1 rectangle from graph 0, first -NOISE to graph 1, first NOISE behind fc rgb BAND fs solid noborder
   if (i == N) { set format x "%g"; set xlabel T_LABEL }
   plot "$residual_".i using "at":"value" with lines lw 1 lc rgb (IS_AFTER[i] ? BLUE : VERMILLION) \

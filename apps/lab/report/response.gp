@@ -24,7 +24,7 @@ set bmargin at screen AT(BOTTOM[1])
 set format x ""
 set label 1 LABEL[1] @ABOVE
 set yrange [LOW[1]:HIGH[1]]
-set ytics NICE((HIGH[1] - LOW[1]) / 3)
+set ytics NICE((HIGH[1] - LOW[1]) / 3.0)
 plot $command_0 using "at":"value" with steps lw 1.5 lc rgb GREY title "command"
 
 do for [i = 1:N] {
