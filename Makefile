@@ -48,7 +48,7 @@ STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
 # What was made by another program is made again: the sources' checksum goes into the record of what is done.
-SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/study/*.[ch] apps/study/*.def))
+SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/lab/report/* apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -167,8 +167,8 @@ $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 	@mkdir -p $(@D)
 	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
 
-$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: $(CARRIED:%=$(BUILD)/%.inc)
-$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/report_html.o: LAB_FLAGS += -I$(BUILD)
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/pagetext.o: $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/pagetext.o: LAB_FLAGS += -I$(BUILD)
 
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@

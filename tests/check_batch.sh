@@ -38,9 +38,11 @@ behind() {
   victim=$!
 }
 
-# same NAME: whether its table is that of the undisturbed run
+# same NAME: whether its table and page are those of the undisturbed run
 same() {
-  cmp "$folder/one/batch.csv" "$folder/$1/batch.csv" || complain "$1: batch.csv is another one than with one thread"
+  for table in batch.csv index.html; do
+    cmp "$folder/one/$table" "$folder/$1/$table" || complain "$1: $table is another one than with one thread"
+  done
 }
 
 # cell NAME LINE COLUMN: of batch.csv
@@ -80,6 +82,9 @@ grep -q "^none,error,.*none.cfg: there is no such file" "$folder/one/batch.csv" 
 [ "$(cell one leaks found)" = chamber_leak ] || complain "the leak was taken for: $(cell one leaks found)"
 [ -n "$(cell one five pressure_holdout_after)" ] || complain "no error on the log held out"
 [ -z "$(cell one r3 pressure_holdout_after)" ] || complain "an error where nothing was held out"
+names_of() { sed -n 's/^<tr><th scope="row">\(<a href="\([^"]*\)">\)*\([^<]*\)<.*/\3:\2/p' "$1/index.html" | tr '\n' ' '; }
+[ "$(names_of "$folder/one")" = "torn: none: leaks:leaks/report.json one:one/report.json two:two/report.json r3:r3/report.json five:five/report.json " ] ||
+  complain "index.html is not sorted by severity, or its links are others: $(names_of "$folder/one")"
 [ -s "$folder/one/r3/report.json" ] || complain "no report.json"
 [ -e "$folder/one/r3/report.html" ] && complain "report.html without --reports"
 [ "$(wc -l <"$folder/one/batch.cost.csv")" -eq 8 ] || complain "batch.cost.csv has not a line each"
@@ -133,6 +138,7 @@ wait "$victim" 2>/dev/null
 got=$?
 [ "$got" -eq 143 ] || complain "SIGTERM: expected status 143, got $got"
 [ -e "$folder/stopped/batch.csv" ] && complain "a table of a run that was stopped"
+[ -e "$folder/stopped/index.html" ] && complain "a page of a run that was stopped"
 find "$folder/stopped" -name '*.part' | grep . && complain "half a file after SIGTERM"
 expect 1 "after SIGTERM" batch stopped --threads 1
 same stopped
@@ -175,6 +181,11 @@ for file in "$folder/single"/*; do
   name=$(basename "$file")
   [ "$name" = report.json ] || cmp "$file" "$folder/reports/leaks/$name" || complain "--reports: another $name than a single run's"
 done
+
+[ "$(names_of "$folder/reports")" = "leaks:leaks/report.html " ] || complain "--reports: index.html links $(names_of "$folder/reports")"
+if command -v xmllint >/dev/null 2>&1; then
+  xmllint --noout "$folder/one/index.html" "$folder/reports/index.html" "$folder/reports/leaks/report.html" || complain "malformed"
+fi
 
 # ---- MPI ----
 

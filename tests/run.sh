@@ -129,6 +129,7 @@ command -v valgrind >/dev/null && pass "valgrind: a part of the tests" $MAKE --n
 pass "closeloop: its folder, full disk, interrupted runs" sh tests/check_closeloop.sh
 pass "closeloop --batch: threads, ranks, stops" sh tests/check_batch.sh && { grep '^absent:' "$log" || true; }
 pass "FMUs: as without, by FMPy" sh tests/check_fmu.sh && { grep '^absent:' "$log" || true; }
+pass "pages of closeloop in a browser" sh tests/check_browser.sh && { grep '^absent:' "$log" || true; }
 pass "killed at any moment: 12 times" env KILLS=12 sh tests/kill.sh
 pass "mutants: 10 ways to break the library" $MAKE --no-print-directory mutate MUTANTS=10
 $MAKE --no-print-directory "$BUILD/tests/blind/blind" >/dev/null && pass "blind: 40 trials of closeloop" blind_trials

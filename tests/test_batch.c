@@ -8,6 +8,7 @@
 
 #include "../apps/lab/batch.h"
 #include "../apps/lab/batchdone.h"
+#include "../apps/lab/batchindex.h"
 #include "../apps/lab/batchlist.h"
 #include "../apps/lab/checksum.h"
 #include "../apps/lab/crew.h"
@@ -120,6 +121,7 @@ static void test_lab_list__bad__is_refused_with_its_line(void **state)
       {"name,rig,log\na/b,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
       {"name,rig,log\n..,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
       {"name,rig,log\nbatch.csv,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
+      {"name,rig,log\nindex.html,r.cfg,a.csv\n", "list.csv:2", "is not index.html"},
   };
   size_t i;
   (void)state;
@@ -290,6 +292,60 @@ static void test_lab_row__error__has_the_headers_cells(void **state)
   assert_int_equal(cells, 1); /* the name */
   assert_int_equal(outcome.status, LAB_DATA);
   assert_string_equal(outcome.row + strlen(outcome.row) - 6, ",words");
+}
+
+/* ---- index.html ---- */
+
+static void add_line(lab_index *index, const char *name, const char *row, int extent, int status)
+{
+  char folder[700];
+  lab_done done = {0};
+  snprintf(folder, sizeof folder, "%s/%s", scratch_path("indexed"), name);
+  strcpy(done.outcome.row, row);
+  done.extent = extent;
+  done.outcome.status = status;
+  assert_int_equal(lab_done_write(folder, &done, &error), LAB_OK);
+  assert_int_equal(lab_index_add(index, name, &done.outcome, &error), LAB_OK);
+}
+
+/* The worst first: by verdict, effects by how much of the error they explain, then in the order of the list. */
+static void test_lab_index__all_verdicts__worst_first(void **state)
+{
+  static const char *const order[] = {">torn<", ">odd<", ">large<", ">small & <b><", ">unsure<", ">fine<", ">fine 2<"};
+  lab_index index = {0};
+  char path[700], *page;
+  const char *last;
+  size_t i;
+  (void)state;
+  add_line(&index, "fine", "none,,,,1,1,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
+  add_line(&index, "fine 2", "none,,,,3,3,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
+  add_line(&index, "small & <b>", "effect,dead_time,0.02 s,,2,1,,,9,8,,,,,,,,,,,0,late", LAB_WRITE_FIGURES, LAB_OK);
+  add_line(&index, "unsure", "undecided,,,,2,2,,,,,,,,,,,,,,,1,\"no, idea\"", LAB_WRITE_JSON, LAB_OK);
+  add_line(&index, "large", "effect,chamber_leak + dead_time,1e-08 m2 + 0.5 s,,20,1,,,9,8,,,,,,,,,,,0,leaks",
+           LAB_WRITE_JSON, LAB_OK);
+  add_line(&index, "odd", "unlisted,unlisted force over x,x = 1 .. 2 mm,,2,1,,,,,,,,,,,,,,,0,odd", LAB_WRITE_JSON,
+           LAB_OK);
+  add_line(&index, "torn", "error,,,,,,,,,,,,,,,,,,,,,a.csv:3: torn", LAB_WRITE_JSON, LAB_DATA);
+  snprintf(path, sizeof path, "%s", scratch_path("indexed"));
+  assert_int_equal(lab_index_write(&index, "lists/hall 2.csv", path, &error), LAB_OK);
+  lab_index_free(&index);
+  page = scratch_read(scratch_path("indexed/index.html"));
+  for (i = 0, last = page; i < sizeof order / sizeof *order; i++) {
+    char name[64];
+    snprintf(name, sizeof name, "%s", i == 3 ? ">small &amp; &lt;b&gt;<" : order[i]);
+    check_note("%s", name);
+    last = strstr(last, name);
+    assert_non_null(last);
+  }
+  assert_contains(page, "<h1>hall 2.csv</h1>");
+  assert_contains(page, "<strong>7 lines:</strong>");
+  assert_contains(page, "<a href=\"small%20%26%20%3Cb%3E/report.html\">");
+  assert_contains(page, "<a href=\"fine%202/report.json\">");
+  assert_contains(page, "<th scope=\"row\">torn</th>");
+  assert_contains(page, "<td>0.01000 mm² + 500.0 ms</td>");
+  assert_contains(page, "<td>x = 1 .. 2 mm</td>");
+  assert_contains(page, "<td>no, idea</td>");
+  free(page);
 }
 
 /* ---- Crew ---- */
@@ -476,6 +532,7 @@ int main(void)
       cmocka_unit_test(test_lab_done__torn__is_not_there),
       cmocka_unit_test(test_lab_row_cell__marks__are_quoted),
       cmocka_unit_test(test_lab_row__error__has_the_headers_cells),
+      cmocka_unit_test(test_lab_index__all_verdicts__worst_first),
       cmocka_unit_test(test_lab_crew__any_number_at_once__does_each_job_once),
       cmocka_unit_test(test_lab_crew__result_that_cannot_be_kept__ends_the_run),
       cmocka_unit_test(test_lab_batch__lines_that_fail__are_lines),

@@ -107,20 +107,46 @@ static void test_lab_envelope__a_spike__is_kept(void **state)
   assert_close(point[n - 1].value, 0.999, 0, 1e-15);
 }
 
+/* A gap of many rows breaks the line, one of a row or two does not. */
 static void test_lab_envelope__runs_and_gaps__break_the_line(void **state)
 {
-  const double gap = (double)NAN;
-  const double at[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, value[] = {1, 1, gap, 1, gap, gap, gap, 1, 1, 1};
-  const size_t first[] = {0, 8};
-  lab_point point[3 * 10 + 2];
+  enum { ROWS = 40 };
+  double at[ROWS], value[ROWS];
+  const size_t first[] = {0, 35};
+  lab_point point[3 * ROWS + 2];
   size_t i, n, breaks = 0;
   (void)state;
-  n = lab_envelope(at, value, 10, first, 2, 0, 10, 10, point);
+  for (i = 0; i < ROWS; i++) {
+    at[i] = (double)i;
+    value[i] = i == 5 || (i >= 10 && i < 30) ? (double)NAN : 1;
+  }
+  n = lab_envelope(at, value, ROWS, first, 2, 0, ROWS, ROWS, point);
   for (i = 0; i < n; i++)
     breaks += isnan(point[i].value);
-  assert_int_equal(n, 6 + 3);
-  assert_int_equal(breaks, 3);
-  assert_true(isnan(point[2].value) && isnan(point[4].value) && isnan(point[6].value));
+  assert_int_equal(n, 19 + 2);
+  assert_int_equal(breaks, 2);
+  assert_true(isnan(point[9].value) && isnan(point[15].value));
+  assert_int_equal(point[8].row, 9);
+  assert_int_equal(point[10].row, 30);
+}
+
+/* A channel that is measured now and then, as read off a figure, is a line. */
+static void test_lab_envelope__few_values__are_joined(void **state)
+{
+  enum { ROWS = 40 };
+  double at[ROWS], value[ROWS];
+  const size_t first[] = {0};
+  lab_point point[3 * ROWS + 1];
+  size_t i, n;
+  (void)state;
+  for (i = 0; i < ROWS; i++) {
+    at[i] = (double)i;
+    value[i] = i % 5 ? (double)NAN : 1;
+  }
+  n = lab_envelope(at, value, ROWS, first, 1, 0, ROWS, ROWS, point);
+  assert_int_equal(n, 8);
+  for (i = 0; i < n; i++)
+    assert_false(isnan(point[i].value));
 }
 
 static void test_lab_bin_means__values__mean_of_each_part(void **state)
@@ -145,6 +171,7 @@ int main(void)
       cmocka_unit_test(test_lab_shown_p__small__is_said_to_be_small),
       cmocka_unit_test(test_lab_envelope__a_spike__is_kept),
       cmocka_unit_test(test_lab_envelope__runs_and_gaps__break_the_line),
+      cmocka_unit_test(test_lab_envelope__few_values__are_joined),
       cmocka_unit_test(test_lab_bin_means__values__mean_of_each_part),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

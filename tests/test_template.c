@@ -69,15 +69,31 @@ static const char drawing[] = "<?xml version=\"1.0\"?>\n<svg \n width=\"8\" heig
                               "xmlns=\"http://www.w3.org/2000/svg\">\n<title>f</title>\n<g id=\"canvas\"><circle "
                               "id='dot'/><title>tip</title><use xlink:href='#dot'/>text id=x</g>\n</svg>\n";
 
+/* As gnuplot writes groups, colours and curves. */
+static const char curves[] =
+    "<svg viewBox=\"0 0 80 40\">\n<g id=\"canvas\"><rect fill=\"#ffffff\"/>\n<g fill=\"none\" color=\"black\" "
+    "stroke=\"currentColor\">\n</g>\n<g id=\"f_plot_1a\" ><title>before</title>\n<path stroke='rgb(  0, 114, "
+    "178)'/><path stroke='rgb(1,2,3)'/></g>\n<g id=\"f_plot_2a\" ><title>$a using 1</title>\n</g>\n</g>\n</svg>\n";
+
 static void test_lab_svg_inline__drawing__own_ids_and_words(void **state)
 {
-  char *got = lab_svg_inline(drawing, "fig", "a < b");
+  char *got = lab_svg_inline(drawing, "fig", "a < b", 0);
   (void)state;
   assert_string_equal(got,
                       "<svg viewBox=\"0 0 8 4\" role=\"img\" aria-label=\"a &lt; b\">\n<g id=\"fig_canvas\"><circle "
                       "id='fig_dot'/><use href='#fig_dot'/>text id=x</g>\n</svg>\n");
   free(got);
-  assert_null(lab_svg_inline("no drawing", "fig", ""));
+  assert_null(lab_svg_inline("no drawing", "fig", "", 0));
+}
+
+static void test_lab_svg_inline__curves__have_classes_and_the_pages_colours(void **state)
+{
+  char *got = lab_svg_inline(curves, "fig", "1", 10);
+  (void)state;
+  assert_string_equal(got, "<svg viewBox=\"0 10 80 30\" role=\"img\" aria-label=\"1\">\n<g "
+                           "id=\"fig_canvas\"><rect fill=\"none\"/>\n<g class=\"c-before\">\n<path "
+                           "stroke='var(--f-blue)'/><path stroke='rgb(1,2,3)'/></g>\n<g>\n</g>\n</g>\n</svg>\n");
+  free(got);
 }
 
 int main(void)
@@ -87,6 +103,7 @@ int main(void)
       cmocka_unit_test(test_lab_template_write__sections__repeat_and_vanish),
       cmocka_unit_test(test_lab_template_write__open_tags__are_errors),
       cmocka_unit_test(test_lab_svg_inline__drawing__own_ids_and_words),
+      cmocka_unit_test(test_lab_svg_inline__curves__have_classes_and_the_pages_colours),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

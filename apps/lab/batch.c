@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "batchdone.h"
+#include "batchindex.h"
 #include "batchlist.h"
 #include "checksum.h"
 #include "crew.h"
@@ -237,7 +238,7 @@ static void count(totals *t, const lab_outcome *outcome)
     t->worst = outcome->status;
 }
 
-static int copy_rows(batch *b, FILE *rows, FILE *costs, totals *t, lab_error *error)
+static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals *t, lab_error *error)
 {
   lab_entry e;
   int more, status;
@@ -253,11 +254,13 @@ static int copy_rows(batch *b, FILE *rows, FILE *costs, totals *t, lab_error *er
     lab_row_cell(costs, e.name);
     fprintf(costs, ",%.3f,%.3f,%.1f\n", d.outcome.cost.seconds, d.outcome.cost.cpu, d.outcome.cost.memory);
     count(t, &d.outcome);
+    if (lab_index_add(index, e.name, &d.outcome, error))
+      return error->status;
   }
   return status;
 }
 
-static int write_tables(batch *b, totals *t, lab_error *error)
+static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
 {
   char path[LAB_PATH_TEXT];
   lab_outfile rows, costs;
@@ -272,7 +275,7 @@ static int write_tables(batch *b, totals *t, lab_error *error)
   }
   lab_row_header(rows.file);
   fputs("name,seconds,cpu_seconds,memory_MB\n", costs.file);
-  status = copy_rows(b, rows.file, costs.file, t, error);
+  status = copy_rows(b, rows.file, costs.file, index, t, error);
   if (status != LAB_OK) {
     lab_out_abandon(&rows);
     lab_out_abandon(&costs);
@@ -282,6 +285,17 @@ static int write_tables(batch *b, totals *t, lab_error *error)
   if (status != LAB_OK)
     lab_out_abandon(&rows);
   return status == LAB_OK ? lab_out_close(&rows, error) : status;
+}
+
+/* batch.csv and what goes with it. */
+static int write_all(batch *b, totals *t, lab_error *error)
+{
+  lab_index index = {0};
+  int status = write_tables(b, &index, t, error);
+  if (status == LAB_OK)
+    status = lab_index_write(&index, b->how->list, b->out, error);
+  lab_index_free(&index);
+  return status;
 }
 
 /* "100 logs: 61 effect, 29 none, 10 error. results/fleet/batch.csv" */
@@ -374,7 +388,7 @@ static int lead(batch *b, const lab_crew *crew, lab_error *error)
   if (lab_interrupt_pending() && !b->how->quiet)
     fprintf(stderr, "closeloop: stopped with %d of %d lines done; the same command goes on\n", b->done, b->n);
   if (status == LAB_OK && !lab_interrupt_pending())
-    status = write_tables(b, &t, error);
+    status = write_all(b, &t, error);
   return status == LAB_OK && !lab_interrupt_pending() ? sum_up(b, &t, error) : status;
 }
 

@@ -5,12 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cells.h"
 #include "checksum.h"
 #include "names.h"
 #include "split.h"
 
 static const char marks[] = ",;\t";
-static const char reserved[] = "batch."; /* names of the files beside the folders begin so */
+static const char reserved[] = "batch.";     /* names of the files beside the folders begin so, */
+static const char overview[] = "index.html"; /* but for this one */
 
 /* ---- Columns ---- */
 
@@ -32,43 +34,6 @@ static char *place_of(lab_entry *e, int column, size_t *size)
 static int fail_at(const lab_list *list, lab_error *error)
 {
   return lab_fail_in(error, "%s:%d", list->path, list->line);
-}
-
-/* Move one cell's text to its beginning, without quotes.
- * Out:     closed  0 for a quote without its end
- * Returns: the mark or the end behind it */
-static char *unquote(char *at, char mark, int *closed)
-{
-  char *to = at, *from = at + strspn(at, " ");
-  const int quoted = *from == '"';
-  int inside = quoted;
-  for (at = quoted ? from + 1 : at; *at && (inside || *at != mark); at++)
-    if (quoted && *at == '"' && !(inside && at[1] == '"'))
-      inside = 0;
-    else {
-      *to++ = *at;
-      at += quoted && *at == '"'; /* two for one */
-    }
-  *closed = !inside;
-  if (to < at)
-    *to = '\0';
-  return at;
-}
-
-/* Cut a line into cells, in place.  Returns: how many; -1 for a quote without its end */
-static int cut(char *at, char mark, char *cell[LAB_LIST_CELLS])
-{
-  int n = 0, more = 1;
-  while (more && n < LAB_LIST_CELLS) {
-    int closed;
-    cell[n++] = at;
-    at = unquote(at, mark, &closed);
-    if (!closed)
-      return -1;
-    more = *at != '\0';
-    *at++ = '\0';
-  }
-  return n;
 }
 
 /* Take a line as it was read.  Out: empty  not 0 for a comment, and for a line without a cell that has something */
@@ -107,7 +72,7 @@ static int next_line(lab_list *list, int *more, lab_error *error)
 
 static int cells_of(lab_list *list, char *cell[LAB_LIST_CELLS], int *n, lab_error *error)
 {
-  *n = cut(list->text, list->mark, cell);
+  *n = lab_cells_cut(list->text, list->mark, cell, LAB_LIST_CELLS);
   if (*n >= 0)
     return LAB_OK;
   lab_fail(error, LAB_DATA, "a quote \" begins and does not end on this line");
@@ -223,14 +188,15 @@ static int name_after_log(lab_entry *e, lab_error *error)
 static int check_name(const lab_entry *e, lab_error *error)
 {
   const char *c;
-  int bad = e->name[0] == '.' || !e->name[0] || strncmp(e->name, reserved, strlen(reserved)) == 0;
+  int bad = e->name[0] == '.' || !e->name[0] || strncmp(e->name, reserved, strlen(reserved)) == 0 ||
+            strcmp(e->name, overview) == 0;
   for (c = e->name; *c; c++)
     bad |= *c == '/' || *c == '\\' || iscntrl((unsigned char)*c);
   return !bad ? LAB_OK
               : lab_fail(error, LAB_DATA,
                          "\"%s\" cannot be a name: it becomes that of a folder, so no / or \\, and it does not begin "
-                         "with . or %s",
-                         e->name, reserved);
+                         "with . or %s and is not %s",
+                         e->name, reserved, overview);
 }
 
 static int fill(const lab_list *list, char *cell[LAB_LIST_CELLS], int n, lab_entry *e, lab_error *error)

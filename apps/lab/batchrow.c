@@ -7,19 +7,17 @@
 #include "unlisted.h"
 
 /* Channels that a model predicts. */
-static const int channels[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
-enum { CHANNELS = sizeof channels / sizeof *channels };
+static const int channels[LAB_ROW_CHANNELS] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
 
 /* Errors over the noise. */
-static const char *const stages[] = {"before", "after", "holdout_before", "holdout_after"};
-enum { STAGES = sizeof stages / sizeof *stages };
+static const char *const stages[LAB_ROW_STAGES] = {"before", "after", "holdout_before", "holdout_after"};
 
 void lab_row_header(FILE *file)
 {
   int c, s;
   fputs("name,verdict,found,size,alike", file);
-  for (c = 0; c < CHANNELS; c++)
-    for (s = 0; s < STAGES; s++)
+  for (c = 0; c < LAB_ROW_CHANNELS; c++)
+    for (s = 0; s < LAB_ROW_STAGES; s++)
       fprintf(file, ",%s_%s", lab_channels[channels[c]].quantity, stages[s]);
   fputs(",limitations,message\n", file);
 }
@@ -103,11 +101,11 @@ static void put_number(FILE *row, double value)
 static void put_errors(FILE *row, const lab_answer *a)
 {
   const lab_story *story = &a->story;
-  const lab_errors *error[STAGES] = {&a->result.before, &a->result.after, &story->holdout_before,
-                                     &story->holdout_after};
+  const lab_errors *error[LAB_ROW_STAGES] = {&a->result.before, &a->result.after, &story->holdout_before,
+                                             &story->holdout_after};
   int c, s;
-  for (c = 0; c < CHANNELS; c++)
-    for (s = 0; s < STAGES; s++)
+  for (c = 0; c < LAB_ROW_CHANNELS; c++)
+    for (s = 0; s < LAB_ROW_STAGES; s++)
       put_number(row, (s < 2 || story->has_holdout) && !isnan(error[s]->rmse[channels[c]])
                           ? error[s]->in_noise[channels[c]]
                           : (double)NAN);
@@ -152,7 +150,7 @@ void lab_row_error(const lab_error *error, lab_outcome *outcome)
   outcome->status = error->status;
   if (row) {
     fputs("error,,,", row);
-    for (i = 0; i < CHANNELS * STAGES + 1; i++)
+    for (i = 0; i < LAB_ROW_CHANNELS * LAB_ROW_STAGES + 1; i++)
       fputc(',', row);
     fputc(',', row);
     lab_row_cell(row, error->text);

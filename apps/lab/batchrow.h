@@ -9,6 +9,19 @@
 
 enum { LAB_ROW_TEXT = 8192 };
 
+/* Cells of a row, after the name. */
+enum { LAB_ROW_CHANNELS = 4, LAB_ROW_STAGES = 4 };
+enum lab_row_cells {
+  LAB_ROW_VERDICT,
+  LAB_ROW_FOUND,
+  LAB_ROW_SIZE,
+  LAB_ROW_ALIKE,
+  LAB_ROW_ERRORS, /* of each channel: before, after, held out before, held out after */
+  LAB_ROW_LIMITATIONS = LAB_ROW_ERRORS + LAB_ROW_CHANNELS * LAB_ROW_STAGES,
+  LAB_ROW_MESSAGE,
+  LAB_ROW_CELLS
+};
+
 /* What a line took. */
 typedef struct lab_cost {
   double seconds, cpu; /* [s] on the clock, of a core */

@@ -9,13 +9,15 @@
 #include "gnuplot.h"
 #include "outfile.h"
 #include "quantile.h"
+#include "readings.h"
 #include "reduce.h"
 #include "rigterm.h"
 #include "shown.h"
 #include "unlisted.h"
 
-enum { COLUMNS = 360, BINS = 30, BIN_LEAST = 10, CANDIDATES = 14 };
-static const double two_sided_99 = 2.5758293035489004; /* standard deviations */
+enum { WIDTH = 820, COLUMNS = 360, BINS = 30, BIN_LEAST = 10, CANDIDATES = 14 };
+static const double left_edge = 0.085, right_edge = 0.975; /* of a panel over time, of the width */
+static const double two_sided_99 = 2.5758293035489004;     /* standard deviations */
 
 /* The scripts, a line a string; made by make from apps/lab/report/ and study/figures/style.gp. */
 static const char *const style_gp[] = {
@@ -52,7 +54,10 @@ typedef struct drawing {
   const lab_evidence *evidence;
   FILE *file; /* the script */
   lab_figure *figure;
-  lab_point *point; /* room for the envelope of a series */
+  lab_point *point;    /* room for the envelope of a series */
+  cJSON *readings;     /* what can be read off by pointing */
+  unsigned char *kept; /* for each row, whether its values can */
+  int t;               /* column of the readings: time */
 } drawing;
 
 /* ---- Text ---- */
@@ -101,7 +106,7 @@ static void tell(const drawing *d, const char *format, ...)
   const size_t used = strlen(d->figure->alt);
   va_list list;
   va_start(list, format);
-  vsnprintf(d->figure->alt + used, LAB_FIGURE_TEXT - used, format, list);
+  vsnprintf(d->figure->alt + used, LAB_FIGURE_ALT - used, format, list);
   va_end(list);
 }
 
@@ -129,9 +134,12 @@ static void put_lines(FILE *file, const char *const *line)
     fputs(*line, file);
 }
 
-/* What style.gp wants, then the style. */
-static void put_head(const drawing *d, int height, const char *subtitle)
+/* What style.gp wants, then the style.
+ * In:      head  height of title, subtitle and key, which a page has in words of its own */
+static void put_head(const drawing *d, int height, int head, const char *subtitle)
 {
+  snprintf(d->figure->subtitle, LAB_FIGURE_TEXT, "%s", subtitle);
+  d->figure->head = head;
   fprintf(d->file, "reset\nNAME = \"%s\"\nHEIGHT = %d\nTITLE = \"%s\"\nSUBTITLE = \"%s\"\n", d->figure->name, height,
           d->figure->title, subtitle);
   put_lines(d->file, style_gp);
@@ -151,52 +159,217 @@ static void put_points(FILE *file, const char *block, int number, const lab_poin
   fputs("EOD\n", file);
 }
 
+/* The envelope of a series over time, in d->point.  Returns: its points */
+static size_t reduce(const drawing *d, const double *value)
+{
+  const lab_evidence *v = d->evidence;
+  return lab_envelope(v->t, value, v->n, v->first, v->n_runs, v->t[0], v->t[v->n - 1], COLUMNS, d->point);
+}
+
 /* A series over time as a block of its envelope. */
 static void put_series(const drawing *d, const char *block, int number, const double *value, double scale)
 {
+  put_points(d->file, block, number, d->point, reduce(d, value), scale);
+}
+
+/* The place of a panel, in units of the drawing; also for the script. */
+static void put_box(const drawing *d, int number, lab_panel *panel, double top, double height)
+{
+  panel->top = top;
+  panel->bottom = top + height;
+  fprintf(d->file, "TOP[%d] = %g\nBOTTOM[%d] = %g\n", number, panel->top, number, panel->bottom);
+}
+
+/* The place across, as shares of the width. */
+static void put_sides(const drawing *d, int number, lab_panel *panel, double left, double right)
+{
+  panel->left = WIDTH * left;
+  panel->right = WIDTH * right;
+  fprintf(d->file, "LEFT[%d] = %g\nRIGHT[%d] = %g\n", number, left, number, right);
+}
+
+/* ---- What can be read off ---- */
+
+static void keep_rows_of(const drawing *d, const double *value)
+{
+  const size_t n = reduce(d, value);
+  size_t i;
+  for (i = 0; i < n; i++)
+    d->kept[d->point[i].row] = 1;
+}
+
+/* Decimals of time by which rows can be told apart. */
+static int decimals_of_time(const lab_evidence *v)
+{
+  double least = HUGE_VAL;
+  size_t i;
+  for (i = 1; i < v->n; i++)
+    if (v->t[i] > v->t[i - 1])
+      least = fmin(least, v->t[i] - v->t[i - 1]);
+  return isfinite(least) ? (int)fmin(fmax(1 - floor(log10(least)), 0), 9) : 0;
+}
+
+/* Where each of several runs begins on the axis of time, and by how much it was moved there from its log. */
+static void read_runs(const drawing *d)
+{
+  const lab_unknowns *u = d->story->completed;
+  cJSON *list;
+  int e;
+  if (u->n_experiments < 2)
+    return;
+  list = cJSON_AddArrayToObject(d->readings, "runs");
+  for (e = 0; e < u->n_experiments; e++) {
+    const lab_experiment *x = &u->experiment[e];
+    const double from = d->evidence->t[d->evidence->first[e]];
+    cJSON *item = cJSON_CreateObject();
+    cJSON_AddItemToArray(list, item);
+    cJSON_AddNumberToObject(item, "from", from);
+    cJSON_AddNumberToObject(item, "shift", from - x->log->value[LAB_CHANNEL_TIME][x->first]);
+  }
+}
+
+/* Rows that a curve over time goes through: so the peaks are among them. */
+static void keep_rows(drawing *d)
+{
   const lab_evidence *v = d->evidence;
-  const size_t n = lab_envelope(v->t, value, v->n, v->first, v->n_runs, v->t[0], v->t[v->n - 1], COLUMNS, d->point);
-  put_points(d->file, block, number, d->point, n, scale);
+  int c, stage;
+  keep_rows_of(d, v->argument[LAB_ARGUMENT_U]);
+  for (c = 0; c < v->n_channels; c++) {
+    keep_rows_of(d, v->channel[c].measured);
+    for (stage = 0; stage < stages_of(d); stage++) {
+      keep_rows_of(d, v->channel[c].predicted[stage]);
+      keep_rows_of(d, v->channel[c].residual[stage]);
+    }
+  }
+  d->t = lab_readings_column(d->readings, v->t, d->kept, v->n, 1, decimals_of_time(v));
+  read_runs(d);
+}
+
+/* A panel over time, but for its place and what it shows. */
+static lab_panel time_panel(const drawing *d)
+{
+  const lab_evidence *v = d->evidence;
+  lab_panel panel = {"t", "t", "s", NULL, NULL, WIDTH * left_edge, 0, WIDTH * right_edge, 0, {0, 0}, {0, 0}};
+  panel.x[0] = v->t[0];
+  panel.x[1] = v->t[v->n - 1];
+  return panel;
+}
+
+static void read_series(const drawing *d, cJSON *panel, const char *key, const double *value, double scale,
+                        int decimals)
+{
+  lab_readings_curve(panel, key, lab_readings_column(d->readings, value, d->kept, d->evidence->n, scale, decimals));
 }
 
 static void put_time_axis(const drawing *d)
 {
   const lab_evidence *v = d->evidence;
-  fprintf(d->file, "T_FROM = %.6g\nT_TO = %.6g\nT_LABEL = \"Time t [s]%s\"\n", v->t[0], v->t[v->n - 1],
-          v->n_runs > 1 ? ", runs one after the other" : "");
+  fprintf(d->file, "LEFT = %g\nRIGHT = %g\nT_FROM = %.6g\nT_TO = %.6g\nT_LABEL = \"Time t [s]%s\"\n", left_edge,
+          right_edge, v->t[0], v->t[v->n - 1], v->n_runs > 1 ? ", runs one after the other" : "");
 }
 
 /* ---- Measured and predicted over time ---- */
 
+enum { COMMAND_TOP = 160, COMMAND_HEIGHT = 55, CHANNEL_TOP = 255, CHANNEL_PITCH = 225, CHANNEL_HEIGHT = 180 };
+
+/* Name, ends of the y axis and place of a panel. */
+static void put_panel(const drawing *d, int number, lab_panel *panel, double top, double height)
+{
+  fprintf(d->file, "LABEL[%d] = \"%s [%s]\"\nLOW[%d] = %.5g\nHIGH[%d] = %.5g\n", number, panel->name,
+          unit_or_1(panel->unit), number, panel->y[0], number, panel->y[1]);
+  put_box(d, number, panel, top, height);
+}
+
+static void put_command(const drawing *d)
+{
+  const double *u = d->evidence->argument[LAB_ARGUMENT_U];
+  const lab_shown shown = lab_shown_as(lab_argument_unit(d->story, LAB_ARGUMENT_U));
+  lab_panel panel = time_panel(d);
+  double low = 0, high = 0, space;
+  lab_range(u, d->evidence->n, &low, &high);
+  space = high > low ? 0.15 * (high - low) : 1;
+  panel.name = "Command u";
+  panel.unit = shown.unit;
+  panel.y[0] = shown.scale * (low - space);
+  panel.y[1] = shown.scale * (high + space);
+  put_panel(d, 1, &panel, COMMAND_TOP, COMMAND_HEIGHT);
+  put_series(d, "command", 0, u, shown.scale);
+  read_series(d, lab_readings_panel(d->readings, d->figure->name, &panel, d->t), "command", u, shown.scale,
+              lab_readings_decimals(panel.y[0], panel.y[1]));
+}
+
+/* Range of what is measured and predicted. */
+static void range_of(const drawing *d, const lab_evidence_channel *mine, double *low, double *high)
+{
+  int stage;
+  if (!lab_range(mine->measured, d->evidence->n, low, high))
+    *low = *high = 0;
+  for (stage = 0; stage < stages_of(d); stage++) {
+    double from, to;
+    if (lab_range(mine->predicted[stage], d->evidence->n, &from, &to)) {
+      *low = fmin(*low, from);
+      *high = fmax(*high, to);
+    }
+  }
+}
+
+static void tell_channel(const drawing *d, const lab_evidence_channel *mine, const char *name)
+{
+  const lab_channel_info *info = &lab_channels[mine->channel];
+  const lab_loop_result *result = d->story->result;
+  double low, high;
+  char from[LAB_SHOWN_TEXT], to[LAB_SHOWN_TEXT];
+  if (lab_range(mine->measured, d->evidence->n, &low, &high))
+    tell(d, " %s runs from %s to %s; rms error of the declared model %s", name,
+         lab_shown_number(lab_shown_as(info->unit).scale * low, 3, from), lab_shown_quantity(high, info->unit, 3, to),
+         lab_shown_quantity(result->before.rmse[mine->channel], info->unit, 3, from));
+  if (has_completed(d))
+    tell(d, ", of the completed one %s", lab_shown_quantity(result->after.rmse[mine->channel], info->unit, 3, to));
+  tell(d, ".");
+}
+
+static void put_channel(const drawing *d, int number, const lab_evidence_channel *mine)
+{
+  static const char *const key[LAB_STAGE_COUNT] = {"before", "after"};
+  const lab_shown shown = lab_shown_as(lab_channels[mine->channel].unit);
+  lab_panel panel = time_panel(d);
+  double low, high, space;
+  char name[LAB_SHOWN_TEXT];
+  cJSON *reading;
+  int stage, decimals;
+  range_of(d, mine, &low, &high);
+  space = high > low ? 0.04 * (high - low) : fmax(0.1 * fabs(high), 1e-9);
+  panel.name = channel_name(mine->channel, name);
+  panel.unit = shown.unit;
+  panel.y[0] = shown.scale * (low - space);
+  panel.y[1] = shown.scale * (high + space);
+  put_panel(d, number + 1, &panel, CHANNEL_TOP + CHANNEL_PITCH * (number - 1), CHANNEL_HEIGHT);
+  tell_channel(d, mine, name);
+  decimals = lab_readings_decimals(panel.y[0], panel.y[1]);
+  reading = lab_readings_panel(d->readings, d->figure->name, &panel, d->t);
+  put_series(d, "measured", number, mine->measured, shown.scale);
+  read_series(d, reading, "measured", mine->measured, shown.scale, decimals);
+  for (stage = 0; stage < stages_of(d); stage++) {
+    put_series(d, key[stage], number, mine->predicted[stage], shown.scale);
+    read_series(d, reading, key[stage], mine->predicted[stage], shown.scale, decimals);
+  }
+}
+
 static int draw_response(const drawing *d)
 {
   const lab_evidence *v = d->evidence;
-  const lab_shown u = lab_shown_as(lab_argument_unit(d->story, LAB_ARGUMENT_U));
-  double low = 0, high = 0, space;
+  const int n = v->n_channels;
   int c;
-  char name[LAB_SHOWN_TEXT], from[LAB_SHOWN_TEXT], to[LAB_SHOWN_TEXT];
   entitle(d, has_completed(d) ? "Measured, and what both models predict for the same command"
                               : "Measured, and what the model predicts for the same command");
   tell(d, "Command, measured and predicted channels over %.4g s.", v->t[v->n - 1] - v->t[0]);
-  put_head(d, 270 + 205 * v->n_channels, "Each line spans all values that fall on its pixels, so that no peak is lost");
+  put_head(d, 280 + CHANNEL_PITCH * n, 126,
+           "Each line spans all values that fall on its pixels, so that no peak is lost");
   put_time_axis(d);
-  lab_range(v->argument[LAB_ARGUMENT_U], v->n, &low, &high);
-  space = high > low ? 0.15 * (high - low) : 0.5;
-  fprintf(d->file, "N = %d\nU_LABEL = \"Command u [%s]\"\narray LABEL[%d]\n", v->n_channels, unit_or_1(u.unit),
-          v->n_channels);
-  fprintf(d->file, "U_FROM = %.5g\nU_TO = %.5g\n", u.scale * (low - space), u.scale * (high + space));
-  put_series(d, "command", 0, v->argument[LAB_ARGUMENT_U], u.scale);
-  for (c = 0; c < v->n_channels; c++) {
-    const lab_evidence_channel *mine = &v->channel[c];
-    const lab_shown shown = lab_shown_as(lab_channels[mine->channel].unit);
-    fprintf(d->file, "LABEL[%d] = \"%s [%s]\"\n", c + 1, channel_name(mine->channel, name), unit_or_1(shown.unit));
-    if (lab_range(mine->measured, v->n, &low, &high))
-      tell(d, " %s runs from %s to %s.", name, lab_shown_number(shown.scale * low, 3, from),
-           lab_shown_quantity(high, lab_channels[mine->channel].unit, 3, to));
-    put_series(d, "measured", c + 1, mine->measured, shown.scale);
-    put_series(d, "before", c + 1, mine->predicted[LAB_STAGE_BEFORE], shown.scale);
-    put_series(d, "after", c + 1, mine->predicted[LAB_STAGE_AFTER], shown.scale);
-  }
+  fprintf(d->file, "N = %d\narray LABEL[N+1]\narray TOP[N+1]\narray BOTTOM[N+1]\narray LOW[N+1]\narray HIGH[N+1]\n", n);
+  put_command(d);
+  for (c = 0; c < n; c++)
+    put_channel(d, c + 1, &v->channel[c]);
   put_lines(d->file, response_gp);
   return 1;
 }
@@ -209,16 +382,26 @@ static double largest_of(const double *value, size_t n)
   return lab_range(value, n, &low, &high) ? fmax(high, -low) : 0;
 }
 
-static void put_residual(const drawing *d, const lab_evidence_channel *mine, int stage, int panel)
+enum { PANEL_TOP = 105, PANEL_PITCH = 150, PANEL_HEIGHT = 105 };
+
+static void put_residual(const drawing *d, const lab_evidence_channel *mine, int stage, int number)
 {
   const double largest = largest_of(mine->residual[stage], d->evidence->n);
-  char name[LAB_SHOWN_TEXT], noise[LAB_SHOWN_TEXT];
-  fprintf(d->file, "LABEL[%d] = \"%s, %s model (1 is %s)\"\nLIMIT[%d] = %.4g\nIS_AFTER[%d] = %d\n", panel,
-          channel_name(mine->channel, name), stage_name(stage),
-          lab_shown_quantity(mine->sigma, lab_channels[mine->channel].unit, 3, noise), panel, fmax(4, 1.05 * largest),
-          panel, stage);
-  put_series(d, "residual", panel, mine->residual[stage], 1);
-  tell(d, " %s, %s model: largest %.3g.", name, stage_name(stage), largest);
+  lab_panel panel = time_panel(d);
+  char name[LAB_SHOWN_TEXT], noise[LAB_SHOWN_TEXT], title[2 * LAB_SHOWN_TEXT];
+  snprintf(title, sizeof title, "%s, %s model", channel_name(mine->channel, name), stage_name(stage));
+  panel.name = title;
+  panel.unit = "× noise";
+  panel.y[1] = fmax(4, 1.05 * largest);
+  panel.y[0] = -panel.y[1];
+  fprintf(d->file, "LABEL[%d] = \"%s (1 is %s)\"\nLIMIT[%d] = %.4g\nIS_AFTER[%d] = %d\n", number, title,
+          lab_shown_quantity(mine->sigma, lab_channels[mine->channel].unit, 3, noise), number, panel.y[1], number,
+          stage);
+  put_box(d, number, &panel, PANEL_TOP + PANEL_PITCH * (number - 1), PANEL_HEIGHT);
+  put_series(d, "residual", number, mine->residual[stage], 1);
+  read_series(d, lab_readings_panel(d->readings, d->figure->name, &panel, d->t), stage ? "after" : "before",
+              mine->residual[stage], 1, 2);
+  tell(d, " %s: largest %.3g.", title, largest);
 }
 
 static int draw_residual(const drawing *d)
@@ -228,10 +411,11 @@ static int draw_residual(const drawing *d)
   int i;
   entitle(d, has_completed(d) ? "What the models do not explain" : "What the model does not explain");
   tell(d, "Residual over time in units of the noise.");
-  put_head(d, 135 + 150 * panels,
+  put_head(d, 135 + PANEL_PITCH * panels, 70,
            "Measured less predicted, in units of the noise; 99 % of white noise lies in the band");
   put_time_axis(d);
-  fprintf(d->file, "N = %d\narray LABEL[N]\narray LIMIT[N]\narray IS_AFTER[N]\n", panels);
+  fprintf(d->file, "N = %d\narray LABEL[N]\narray LIMIT[N]\narray IS_AFTER[N]\narray TOP[N]\narray BOTTOM[N]\n",
+          panels);
   for (i = 0; i < panels; i++)
     put_residual(d, &v->channel[i / stages_of(d)], i % stages_of(d), i + 1);
   put_lines(d->file, residual_gp);
@@ -261,6 +445,13 @@ static int choose_axes(const drawing *d, axis *over)
   return n;
 }
 
+/* Left side of the i-th of n panels side by side. */
+static double side_of(int i, int n)
+{
+  static const double left = 0.075, right = 0.985;
+  return left + (right - left) / n * i;
+}
+
 static double band_of(const lab_bin *bin)
 {
   return two_sided_99 / sqrt((double)bin->n);
@@ -284,21 +475,57 @@ static double put_bins(const drawing *d, int row, int column, const lab_bin *bin
   return largest;
 }
 
+/* Bins that are full enough to be drawn, as columns. */
+static void read_bins(const drawing *d, const lab_panel *panel, const lab_bin *bin, double scale, const char *key)
+{
+  double at[BINS], mean[BINS], band[BINS];
+  size_t n = 0;
+  int b;
+  cJSON *reading;
+  for (b = 0; b < BINS; b++)
+    if (bin[b].n >= BIN_LEAST) {
+      at[n] = bin[b].at;
+      mean[n] = bin[b].mean;
+      band[n++] = band_of(&bin[b]);
+    }
+  b = lab_readings_decimals(panel->y[0], panel->y[1]);
+  reading = lab_readings_panel(
+      d->readings, d->figure->name, panel,
+      lab_readings_column(d->readings, at, NULL, n, scale, lab_readings_decimals(panel->x[0], panel->x[1])));
+  lab_readings_curve(reading, key, lab_readings_column(d->readings, mean, NULL, n, 1, b));
+  lab_readings_curve(reading, "band", lab_readings_column(d->readings, band, NULL, n, 1, b));
+}
+
 /* Panels of one channel and model. */
 static void put_row(const drawing *d, const axis *over, int n, const lab_evidence_channel *mine, int stage, int row)
 {
   double largest = 0;
-  char name[LAB_SHOWN_TEXT];
+  char name[LAB_SHOWN_TEXT], title[2 * LAB_SHOWN_TEXT];
+  lab_bin bin[LAB_ARGUMENT_COUNT][BINS];
+  lab_panel panel = {0};
   int i;
+  snprintf(title, sizeof title, "%s, %s model", channel_name(mine->channel, name), stage_name(stage));
   for (i = 0; i < n; i++) {
-    lab_bin bin[BINS];
     lab_bin_means(d->evidence->argument[over[i].argument], mine->residual[stage], d->evidence->n, over[i].from,
-                  over[i].to, BINS, bin);
-    largest = fmax(largest, put_bins(d, row, i + 1, bin, over[i].shown.scale));
+                  over[i].to, BINS, bin[i]);
+    largest = fmax(largest, put_bins(d, row, i + 1, bin[i], over[i].shown.scale));
   }
-  fprintf(d->file, "ROW_LABEL[%d] = \"%s, %s model\"\nLIMIT[%d] = %.4g\nIS_AFTER[%d] = %d\n", row,
-          channel_name(mine->channel, name), stage_name(stage), row, 1.1 * largest, row, stage);
-  tell(d, " %s, %s model: means up to %.3g.", name, stage_name(stage), largest);
+  panel.name = title;
+  panel.unit = "× noise";
+  panel.y[1] = 1.1 * largest;
+  panel.y[0] = -panel.y[1];
+  fprintf(d->file, "ROW_LABEL[%d] = \"%s\"\nLIMIT[%d] = %.4g\nIS_AFTER[%d] = %d\n", row, title, row, panel.y[1], row,
+          stage);
+  put_box(d, row, &panel, PANEL_TOP + PANEL_PITCH * (row - 1), PANEL_HEIGHT);
+  for (i = 0; i < n; i++) {
+    panel.group = panel.x_name = lab_argument_key(over[i].argument);
+    panel.x_unit = over[i].shown.unit;
+    panel.x[0] = over[i].shown.scale * over[i].from;
+    panel.x[1] = over[i].shown.scale * over[i].to;
+    put_sides(d, i + 1, &panel, side_of(i, n), side_of(i, n) + 0.88 * (side_of(1, n) - side_of(0, n)));
+    read_bins(d, &panel, bin[i], over[i].shown.scale, stage ? "after" : "before");
+  }
+  tell(d, " %s: means up to %.3g.", title, largest);
 }
 
 static int draw_arguments(const drawing *d)
@@ -312,10 +539,11 @@ static int draw_arguments(const drawing *d)
     return 0;
   entitle(d, "Where the residual sits");
   tell(d, "Mean of the residual in bins, in units of the noise.");
-  put_head(d, 135 + 150 * rows,
+  put_head(d, 135 + PANEL_PITCH * rows, 70,
            "Its mean in bins, in units of the noise; the band is where 99 % of such means of white noise lie");
   fprintf(d->file, "ROWS = %d\nCOLUMNS = %d\narray ROW_LABEL[ROWS]\narray LIMIT[ROWS]\narray IS_AFTER[ROWS]\n", rows,
           n);
+  fputs("array TOP[ROWS]\narray BOTTOM[ROWS]\narray LEFT[COLUMNS]\narray RIGHT[COLUMNS]\n", d->file);
   fputs("array COLUMN_LABEL[COLUMNS]\narray FROM[COLUMNS]\narray TO[COLUMNS]\n", d->file);
   for (i = 0; i < n; i++)
     fprintf(d->file, "COLUMN_LABEL[%d] = \"%s [%s]\"\nFROM[%d] = %.5g\nTO[%d] = %.5g\n", i + 1,
@@ -341,9 +569,8 @@ static void put_correlation(const drawing *d, const lab_evidence_channel *mine, 
   const lab_whiteness *before = &mine->whiteness[LAB_STAGE_BEFORE], *after = &mine->whiteness[LAB_STAGE_AFTER];
   int k;
   char name[LAB_SHOWN_TEXT], p[LAB_SHOWN_TEXT];
-  fprintf(d->file, "LABEL[%d] = \"%s, %s model: p-value %s\"\nLAGS[%d] = %d\n", number,
-          quantity_name(mine->channel, name), stage_name(has_completed(d)), lab_shown_p(after->p_value, p), number,
-          after->lags);
+  fprintf(d->file, "LABEL[%d] = \"%s: p-value %s\"\nLAGS[%d] = %d\n", number, quantity_name(mine->channel, name),
+          lab_shown_p(after->p_value, p), number, after->lags);
   fprintf(d->file, "$correlation_%d << EOD\nlag,before,after,band\n", number);
   for (k = 1; k <= after->lags; k++) {
     const double band = two_sided_99 * after->deviation[k];
@@ -360,21 +587,58 @@ static void put_correlation(const drawing *d, const lab_evidence_channel *mine, 
   tell(d, "; p-value of whiteness %s.", p);
 }
 
+/* Correlations as columns. */
+static void read_correlation(const drawing *d, const lab_evidence_channel *mine, int number, int n, const double y[2])
+{
+  const lab_whiteness *before = &mine->whiteness[LAB_STAGE_BEFORE], *after = &mine->whiteness[LAB_STAGE_AFTER];
+  const size_t lags = (size_t)after->lags;
+  double lag[LAB_WHITENESS_LAGS + 1], band[LAB_WHITENESS_LAGS + 1];
+  char name[LAB_SHOWN_TEXT];
+  lab_panel panel = {"lag", "lag", "rows", NULL, "", 0, 0, 0, 0, {0, (double)after->lags + 1}, {y[0], y[1]}};
+  cJSON *reading;
+  size_t k;
+  panel.name = quantity_name(mine->channel, name);
+  put_box(d, number, &panel, 165, 165);
+  put_sides(d, number, &panel, side_of(number - 1, n), side_of(number - 1, n) + 0.94 * (side_of(1, n) - side_of(0, n)));
+  for (k = 1; k <= lags; k++) {
+    lag[k] = (double)k;
+    band[k] = two_sided_99 * after->deviation[k];
+  }
+  reading = lab_readings_panel(d->readings, d->figure->name, &panel,
+                               lab_readings_column(d->readings, lag + 1, NULL, lags, 1, 0));
+  lab_readings_curve(reading, "before", lab_readings_column(d->readings, before->correlation + 1, NULL, lags, 1, 4));
+  if (has_completed(d))
+    lab_readings_curve(reading, "after", lab_readings_column(d->readings, after->correlation + 1, NULL, lags, 1, 4));
+  lab_readings_curve(reading, "band", lab_readings_column(d->readings, band + 1, NULL, lags, 1, 4));
+}
+
+static int has_lags(const lab_evidence_channel *mine)
+{
+  return mine->whiteness[LAB_STAGE_BEFORE].lags > 0 && mine->whiteness[LAB_STAGE_AFTER].lags > 0;
+}
+
 static int draw_autocorrelation(const drawing *d)
 {
   const lab_evidence *v = d->evidence;
-  double low = 0, high = 0;
-  int c, n = 0;
-  fprintf(d->file, "array LABEL[%d]\narray LAGS[%d]\n", v->n_channels, v->n_channels);
-  tell(d, "Autocorrelation of the residual over lags in rows.");
+  double y[2] = {0, 0};
+  int c, n = 0, number = 0;
   for (c = 0; c < v->n_channels; c++)
-    if (v->channel[c].whiteness[LAB_STAGE_BEFORE].lags > 0 && v->channel[c].whiteness[LAB_STAGE_AFTER].lags > 0)
-      put_correlation(d, &v->channel[c], ++n, &low, &high);
+    n += has_lags(&v->channel[c]);
   if (n == 0)
     return 0;
   entitle(d, "Does the residual remember?");
-  put_head(d, 395, "Autocorrelation of the residual; white noise stays within the band, and its p-value above 0.01");
-  fprintf(d->file, "N = %d\nLOWEST = %.3g\nHIGHEST = %.3g\n", n, low, high);
+  put_head(d, 405, 130,
+           "Autocorrelation of the residual; white noise stays within the band, and its p-value above 0.01");
+  fprintf(d->file,
+          "N = %d\narray LABEL[N]\narray LAGS[N]\narray TOP[N]\narray BOTTOM[N]\narray LEFT[N]\narray RIGHT[N]\n", n);
+  tell(d, "Autocorrelation of the residual over lags in rows.");
+  for (c = 0; c < v->n_channels; c++)
+    if (has_lags(&v->channel[c]))
+      put_correlation(d, &v->channel[c], ++number, &y[0], &y[1]);
+  for (c = number = 0; c < v->n_channels; c++)
+    if (has_lags(&v->channel[c]))
+      read_correlation(d, &v->channel[c], ++number, n, y);
+  fprintf(d->file, "LOWEST = %.4g\nHIGHEST = %.4g\n", y[0], y[1]);
   put_lines(d->file, autocorrelation_gp);
   return 1;
 }
@@ -408,8 +672,9 @@ static int draw_candidates(const drawing *d)
     if (seen[c->effect] || !(c->statistic > least))
       continue;
     seen[c->effect] = 1;
-    fprintf(d->file, "%d,%.5g,%d,\"%s\"\n", ++n, c->statistic,
-            is_found(result, c->effect) ? 2 : c->statistic > threshold, plain(pneu_effect_at(c->effect)->name, name));
+    fprintf(d->file, "%d,%.5g,%d,\"%s%s\"\n", ++n, c->statistic,
+            is_found(result, c->effect) ? 2 : c->statistic > threshold, is_found(result, c->effect) ? "added: " : "",
+            plain(pneu_effect_at(c->effect)->name, name));
     if (n <= 5)
       tell(d, " %s: %.3g.", name, c->statistic);
   }
@@ -417,7 +682,7 @@ static int draw_candidates(const drawing *d)
   if (n == 0)
     return 0;
   entitle(d, "Which effect the residual of the declared model asks for");
-  put_head(d, 185 + 26 * n,
+  put_head(d, 185 + 26 * n, 72,
            "Blue: added. Orange: passes the threshold, but the refits preferred another. Grey: does not pass");
   fprintf(d->file, "N = %d\nT_MIN = %g\nT_MAX = %.4g\nTHRESHOLD = %.5g\n", n, least,
           2 * fmax(threshold, result->trace.candidate[0].statistic), threshold);
@@ -427,7 +692,7 @@ static int draw_candidates(const drawing *d)
 
 /* ---- What has no name ---- */
 
-enum { CYCLE_POINTS = 73 };
+enum { CYCLE_POINTS = 73, TERM_POINTS = CYCLE_POINTS + PNEU_TERM_KNOTS };
 
 /* A cycle at a time: its Fourier series. */
 static double cycle_at(const pneu_term *term, double t)
@@ -440,37 +705,71 @@ static double cycle_at(const pneu_term *term, double t)
   return sum;
 }
 
-/* The curve of a term: its knots, or one cycle of it. */
-static void put_term(const drawing *d, const pneu_term *term, double argument_scale, double value_scale)
+/* The curve of a term, as it is shown: its knots, or one cycle of it.  Returns: points */
+static int curve_of(const pneu_term *term, double at[TERM_POINTS], double value[TERM_POINTS])
 {
   const int is_cycle = term->argument == PNEU_TERM_OVER_CYCLE, n = is_cycle ? CYCLE_POINTS : term->n;
+  const double argument_scale = lab_shown_as(lab_term_arguments[term->argument].unit).scale;
+  const double value_scale = lab_shown_as(lab_term_equations[term->equation].unit).scale;
+  int i;
+  for (i = 0; i < n; i++) {
+    const double x = (double)term->from + i * (double)(term->to - term->from) / (n - 1);
+    at[i] = argument_scale * x;
+    value[i] = value_scale * (is_cycle ? cycle_at(term, x) : (double)term->value[i]);
+  }
+  return n;
+}
+
+static void put_term(const drawing *d, const double *at, const double *value, int n)
+{
   int i;
   fputs("$term << EOD\nat,value\n", d->file);
-  for (i = 0; i < n; i++) {
-    const double at = (double)term->from + i * (double)(term->to - term->from) / (n - 1);
-    fprintf(d->file, "%.5g,%.5g\n", argument_scale * at,
-            value_scale * (is_cycle ? cycle_at(term, at) : (double)term->value[i]));
-  }
+  for (i = 0; i < n; i++)
+    fprintf(d->file, "%.5g,%.5g\n", at[i], value[i]);
   fputs("EOD\n", d->file);
+}
+
+static void read_term(const drawing *d, const lab_panel *panel, const double *at, const double *value, int n)
+{
+  cJSON *reading = lab_readings_panel(
+      d->readings, d->figure->name, panel,
+      lab_readings_column(d->readings, at, NULL, (size_t)n, 1, lab_readings_decimals(panel->x[0], panel->x[1])));
+  lab_readings_curve(
+      reading, "term",
+      lab_readings_column(d->readings, value, NULL, (size_t)n, 1, lab_readings_decimals(panel->y[0], panel->y[1])));
 }
 
 static int draw_unlisted(const drawing *d)
 {
   const lab_rig *rig = &d->story->completed->rig;
   const pneu_term *term = rig->term;
+  double at[TERM_POINTS], value[TERM_POINTS], low, high;
   char where[LAB_WHERE_TEXT], name[LAB_SHOWN_TEXT];
-  lab_shown argument, value;
+  lab_panel panel = {0};
+  int n;
   if (rig->n_terms == 0)
     return 0;
-  argument = lab_shown_as(lab_term_arguments[term->argument].unit);
-  value = lab_shown_as(lab_term_equations[term->equation].unit);
+  n = curve_of(term, at, value);
+  lab_range(value, (size_t)n, &low, &high);
+  panel.group = panel.x_name = lab_term_arguments[term->argument].key;
+  panel.x_unit = lab_shown_as(lab_term_arguments[term->argument].unit).unit;
+  panel.name = plain(lab_term_equations[term->equation].key, name);
+  panel.unit = lab_shown_as(lab_term_equations[term->equation].unit).unit;
+  panel.x[0] = at[0];
+  panel.x[1] = at[n - 1];
+  panel.y[0] = low - 0.05 * (high - low);
+  panel.y[1] = high + 0.05 * (high - low);
   entitle(d, "What has no name");
   tell(d, "It acts like %s: %s.", lab_unlisted_what(term), lab_unlisted_where(term, where));
-  put_head(d, 380, "The free term that was added, fitted with everything else");
-  put_term(d, term, argument.scale, value.scale);
-  fprintf(d->file, "IS_TABLE = %d\nARGUMENT_LABEL = \"%s [%s]\"\nVALUE_LABEL = \"%s [%s]\"\n",
-          term->argument != PNEU_TERM_OVER_CYCLE, lab_term_arguments[term->argument].key, unit_or_1(argument.unit),
-          plain(lab_term_equations[term->equation].key, name), unit_or_1(value.unit));
+  put_head(d, 380, 88, "The free term that was added, fitted with everything else");
+  put_term(d, at, value, n);
+  fputs("array TOP[1]\narray BOTTOM[1]\narray LEFT[1]\narray RIGHT[1]\n", d->file);
+  put_box(d, 1, &panel, 105, 205);
+  put_sides(d, 1, &panel, 0.1, right_edge);
+  read_term(d, &panel, at, value, n);
+  fprintf(d->file, "IS_TABLE = %d\nLOW = %.5g\nHIGH = %.5g\nARGUMENT_LABEL = \"%s [%s]\"\nVALUE_LABEL = \"%s [%s]\"\n",
+          term->argument != PNEU_TERM_OVER_CYCLE, panel.y[0], panel.y[1], panel.x_name, unit_or_1(panel.x_unit),
+          panel.name, unit_or_1(panel.unit));
   put_lines(d->file, unlisted_gp);
   return 1;
 }
@@ -527,7 +826,7 @@ static int draw_parameters(const drawing *d)
   if (n == 0)
     return 0;
   entitle(d, "What the fit made of what was declared");
-  put_head(d, 200 + 36 * n,
+  put_head(d, 200 + 36 * n, 110,
            "A parameter that bends to stand in for a missing effect springs back when the effect is there");
   fprintf(d->file, "N = %d\n", n);
   put_lines(d->file, parameters_gp);
@@ -537,33 +836,34 @@ static int draw_parameters(const drawing *d)
 /* ---- All of them ---- */
 
 static const struct {
-  const char *name, *reading;
+  const char *name, *keys, *reading;
   int (*draw)(const drawing *d); /* writes a script; returns 0 if there is nothing to show */
 } figures_known[LAB_FIGURE_COUNT] = {
-    {"response", "Where the lines part from the grey, the model is wrong; the figure of the residual magnifies it.",
-     draw_response},
-    {"residual",
+    {"response", "measured before after",
+     "Where the lines part from the grey, the model is wrong; the figure of the residual magnifies it.", draw_response},
+    {"residual", "before after",
      "A good model leaves a carpet of even height within the band. Humps and spikes say when the model errs; the "
      "panels have scales of their own.",
      draw_residual},
-    {"arguments",
+    {"arguments", "before after band",
      "Points outside the band say at which pressure, position, velocity or command the model errs. p, x and v are "
      "the model's own.",
      draw_arguments},
-    {"autocorrelation",
-     "Bars beyond the band mean that the residual follows a pattern, so that the model, or the noise "
-     "that was declared, is not the whole truth. The p-value is that of Ljung and Box for all lags at once; below 0.01 "
-     "the residual is not white.",
+    {"autocorrelation", "before after band",
+     "Bars beyond the band mean that the residual follows a pattern, so that the model, or the noise that was "
+     "declared, is not the whole truth. The p-value is that of Ljung and Box for all lags of the last model at once; "
+     "below 0.01 the residual is not white.",
      draw_autocorrelation},
-    {"candidates",
+    {"candidates", "",
      "Many effects pass where one is missing, because their footprints overlap. Those that pass best are taken "
-     "up in turn, everything is fitted again, and the best fit decides.",
+     "up in turn, everything is fitted again, and the best fit decides. If nothing were missing, T would be chi-square "
+     "with 1 degree of freedom.",
      draw_candidates},
-    {"unlisted",
+    {"unlisted", "",
      "Knots where the model hardly ever is are loosely known. Over a cycle, time is that of the log: its zero is the "
      "zero of t.",
      draw_unlisted},
-    {"parameters", "Bars are 95 % intervals, often narrower than the point.", draw_parameters}};
+    {"parameters", "before after", "Bars are 95 % intervals, often narrower than the point.", draw_parameters}};
 
 /* The script of all figures, and the list of those that it draws. */
 static void put_all(drawing *d, lab_figures *figures)
@@ -573,7 +873,8 @@ static void put_all(drawing *d, lab_figures *figures)
     d->figure = &figures->figure[figures->n];
     memset(d->figure, 0, sizeof *d->figure);
     d->figure->name = figures_known[i].name;
-    snprintf(d->figure->reading, LAB_FIGURE_TEXT, "%s", figures_known[i].reading);
+    d->figure->keys = figures_known[i].keys;
+    d->figure->reading = figures_known[i].reading;
     figures->n += figures_known[i].draw(d) != 0;
   }
 }
@@ -601,13 +902,17 @@ static int share_out(const char *drawn, lab_figures *figures, lab_error *error)
 
 int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_figures *figures, lab_error *error)
 {
-  drawing d = {story, evidence, NULL, NULL, NULL};
+  drawing d = {story, evidence, NULL, NULL, NULL, NULL, NULL, -1};
   char *drawn = NULL;
   int status;
   memset(figures, 0, sizeof *figures);
-  if (!(d.point = malloc(((size_t)3 * COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point)))
-    return lab_fail_memory(error, "the figures");
-  if ((d.file = tmpfile())) {
+  d.readings = figures->readings = lab_readings_new();
+  d.point = malloc(((size_t)3 * COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point);
+  d.kept = calloc(evidence->n + 1, 1);
+  if (!d.point || !d.kept) {
+    status = lab_fail_memory(error, "the figures");
+  } else if ((d.file = tmpfile())) {
+    keep_rows(&d);
     put_all(&d, figures);
     status = lab_gnuplot_run(d.file, &drawn, error);
     fclose(d.file);
@@ -618,6 +923,7 @@ int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_f
     status = share_out(drawn, figures, error);
   free(drawn);
   free(d.point);
+  free(d.kept);
   return status;
 }
 
@@ -626,6 +932,7 @@ void lab_figures_free(lab_figures *figures)
   int i;
   for (i = 0; i < figures->n; i++)
     free(figures->figure[i].svg);
+  cJSON_Delete(figures->readings);
   memset(figures, 0, sizeof *figures);
 }
 

@@ -3,22 +3,28 @@
 #ifndef LAB_FIGURES_H
 #define LAB_FIGURES_H
 
+#include <cjson/cJSON.h>
+
 #include "evidence.h"
 
-enum { LAB_FIGURE_COUNT = 7, LAB_FIGURE_TEXT = 512 };
+enum { LAB_FIGURE_COUNT = 7, LAB_FIGURE_TEXT = 512, LAB_FIGURE_ALT = 1024 };
 
 typedef struct lab_figure {
-  const char *name;              /* of its file, without the ending; also of what is inside the SVG */
-  char title[LAB_FIGURE_TEXT];   /* what it says */
-  char reading[LAB_FIGURE_TEXT]; /* how to read it */
-  char alt[LAB_FIGURE_TEXT];     /* its numbers in words, for who cannot see it */
-  char *svg;                     /* a whole file */
+  const char *name;               /* of its file, without the ending; also of what is inside the SVG */
+  char title[LAB_FIGURE_TEXT];    /* what it says */
+  char subtitle[LAB_FIGURE_TEXT]; /* what is drawn */
+  const char *keys;               /* of its curves, which have them as titles in the SVG: "measured before after" */
+  const char *reading;            /* how to read it */
+  char alt[LAB_FIGURE_ALT];       /* its numbers in words, for who cannot see it */
+  int head;                       /* height that title, subtitle and key take at the top of the drawing */
+  char *svg;                      /* a whole file */
 } lab_figure;
 
 /* Figures for which there is nothing to show are left out. */
 typedef struct lab_figures {
   int n;
   lab_figure figure[LAB_FIGURE_COUNT];
+  cJSON *readings; /* readings.h */
 } lab_figures;
 
 /* Draw.

@@ -2,7 +2,9 @@
 
 #include <math.h>
 
-static const double widest_gap = 0.02; /* of the axis, over which a line is still drawn */
+/* A line is drawn over a gap that is no wider than this share of the axis, or than so many times what is usual between
+ * two values: a channel that is measured now and then is no row of gaps. */
+static const double widest_gap = 0.02, usual_gaps = 4;
 
 /* A column in the making: rows of its lowest and highest value. */
 typedef struct column {
@@ -13,10 +15,10 @@ typedef struct column {
 static size_t put_column(const column *c, const double *at, const double *value, lab_point *point)
 {
   const size_t first = c->low < c->high ? c->low : c->high, second = c->low < c->high ? c->high : c->low;
-  point[0] = (lab_point){at[first], value[first]};
+  point[0] = (lab_point){at[first], value[first], first};
   if (first == second)
     return 1;
-  point[1] = (lab_point){at[second], value[second]};
+  point[1] = (lab_point){at[second], value[second], second};
   return 2;
 }
 
@@ -26,9 +28,19 @@ static int column_of(double at, double from, double to, int columns)
   return index < 0 ? 0 : index < columns ? index : columns - 1;
 }
 
+/* The widest gap over which the line of a series is drawn. */
+static double widest(const double *value, size_t n, double from, double to)
+{
+  size_t i, values = 0;
+  for (i = 0; i < n; i++)
+    values += !isnan(value[i]);
+  return (to - from) * fmax(widest_gap, values > 1 ? usual_gaps / (double)(values - 1) : 0);
+}
+
 size_t lab_envelope(const double *at, const double *value, size_t n, const size_t *first, int n_runs, double from,
                     double to, int columns, lab_point *point)
 {
+  const double too_wide = widest(value, n, from, to);
   column c = {-1, 0, 0, 0};
   size_t i, used = 0;
   int run = 0;
@@ -38,7 +50,7 @@ size_t lab_envelope(const double *at, const double *value, size_t n, const size_
       breaks = 1;
     if (breaks && c.index >= 0) {
       used += put_column(&c, at, value, point + used);
-      point[used++] = (lab_point){at[c.last], (double)NAN};
+      point[used++] = (lab_point){at[c.last], (double)NAN, c.last};
       c.index = -1;
     }
     if (isnan(value[i]))
@@ -46,8 +58,8 @@ size_t lab_envelope(const double *at, const double *value, size_t n, const size_
     index = column_of(at[i], from, to, columns);
     if (c.index >= 0 && index != c.index) {
       used += put_column(&c, at, value, point + used);
-      if (i > c.last + 1 && at[i] - at[c.last] > widest_gap * (to - from))
-        point[used++] = (lab_point){at[c.last], (double)NAN};
+      if (i > c.last + 1 && at[i] - at[c.last] > too_wide)
+        point[used++] = (lab_point){at[c.last], (double)NAN, c.last};
     }
     if (index != c.index)
       c = (column){index, i, i, i};

@@ -9,16 +9,12 @@
 
 #include "metricstext.h"
 #include "outfile.h"
+#include "pagetext.h"
 #include "quantile.h"
 #include "shown.h"
 #include "unlisted.h"
 #include "svginline.h"
 #include "template.h"
-
-/* The page, a line a string; made by make. */
-static const char *const page_html[] = {
-#include "apps/lab/report/page.html.inc"
-    NULL};
 
 static const double white_level = 0.01; /* p-value below which a residual is called not white */
 static const double rough = 0.1;        /* half an interval over the value, from which on it is worth a word */
@@ -140,17 +136,28 @@ static void put_logs(const telling *t, cJSON *page)
 typedef struct column {
   const char *heading;
   const lab_errors *errors;
-  int shown;
+  int shown, stage;
 } column;
+
+/* The largest error over its noise of a channel, which has the longest bar. */
+static double largest_of(const column *columns, size_t n, int channel)
+{
+  double largest = 1;
+  size_t i;
+  for (i = 0; i < n; i++)
+    if (columns[i].shown)
+      largest = fmax(largest, columns[i].errors->in_noise[channel]);
+  return largest;
+}
 
 static void put_errors(const telling *t, cJSON *page)
 {
   const lab_story *story = t->story;
   const int both = has_completed(t), held = story->has_holdout;
-  const column columns[] = {{"declared model, fitted", &story->result->before, 1},
-                            {"completed model", &story->result->after, both},
-                            {"held-out log, declared model", &story->holdout_before, held},
-                            {"held-out log, completed model", &story->holdout_after, both && held}};
+  const column columns[] = {{"declared model, fitted", &story->result->before, 1, LAB_STAGE_BEFORE},
+                            {"completed model", &story->result->after, both, LAB_STAGE_AFTER},
+                            {"held-out log, declared model", &story->holdout_before, held, LAB_STAGE_BEFORE},
+                            {"held-out log, completed model", &story->holdout_after, both && held, LAB_STAGE_AFTER}};
   const size_t n = sizeof columns / sizeof *columns;
   cJSON *headings = cJSON_AddArrayToObject(page, "headings"), *errors = cJSON_AddArrayToObject(page, "errors");
   size_t i;
@@ -170,11 +177,21 @@ static void put_errors(const telling *t, cJSON *page)
         cJSON *cell = append(cells);
         put_quantity(cell, "rmse", columns[i].errors->rmse[c], lab_channels[c].unit, 3);
         put_number(cell, "in_noise", columns[i].errors->in_noise[c], 3);
+        put(cell, "stage", "%s", columns[i].stage ? "after" : "before");
+        put(cell, "share", "%.0f", 100 * fmax(columns[i].errors->in_noise[c], 0) / largest_of(columns, n, c));
       }
   }
 }
 
 /* ---- Why ---- */
+
+/* The whole unit of an unknown: x->unit has no room for the longest. */
+static const char *unit_of(const lab_unknown *x)
+{
+  pneu_param_info info;
+  const int is_listed = x->kind == LAB_UNKNOWN_PARAM && x->index != LAB_FIT_ORIFICE_AREA;
+  return is_listed && pneu_param_describe(x->index, &info) == PNEU_OK ? info.unit : x->unit;
+}
 
 /* Digits at which both ends of the interval of an unknown can be told apart. */
 static int digits_of(const telling *t, int j)
@@ -190,7 +207,7 @@ static int digits_of(const telling *t, int j)
 static void put_interval(const telling *t, int j, cJSON *to)
 {
   const lab_fit_result *fit = &t->story->result->fit;
-  const double scale = lab_shown_as(t->story->completed->unknown[j].unit).scale;
+  const double scale = lab_shown_as(unit_of(&t->story->completed->unknown[j])).scale;
   char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT];
   if (fit->state[j] == LAB_FIT_FREE)
     put(to, "interval", "%s .. %s", lab_shown_number(scale * fit->low[j], digits_of(t, j), low),
@@ -213,7 +230,7 @@ static void put_sizes(const telling *t, int effect, cJSON *list)
     pneu_param_describe(i, &info);
     item = append(list);
     put(item, "meaning", "%s", info.meaning);
-    put_quantity(item, "value", u->unknown[j].value, u->unknown[j].unit, digits_of(t, j));
+    put_quantity(item, "value", u->unknown[j].value, unit_of(&u->unknown[j]), digits_of(t, j));
     put_interval(t, j, item);
   }
 }
@@ -285,6 +302,177 @@ static void put_reasons(const telling *t, cJSON *list)
               "where it arises.");
 }
 
+/* ---- The first look ---- */
+
+static const char *size_heading(const lab_loop_result *r)
+{
+  if (r->n_found == 0)
+    return "What is left";
+  return r->verdict == LAB_VERDICT_UNDECIDED ? "What comes nearest, and how much" : "What is missing, and how much";
+}
+
+/* The size of each effect that was found, with its interval. */
+static void put_main(const telling *t, cJSON *list)
+{
+  const lab_unknowns *u = t->story->completed;
+  const lab_loop_result *r = t->story->result;
+  int i;
+  for (i = 0; i < r->n_found; i++) {
+    const int j = r->found[i].effect < 0 ? -1 : lab_unknowns_find(u, r->found[i].param);
+    pneu_param_info info;
+    cJSON *item;
+    if (j < 0)
+      continue;
+    pneu_param_describe(r->found[i].param, &info);
+    item = append(list);
+    put(item, "name", "%s", effect_name(r->found[i].effect));
+    put(item, "meaning", "%s", info.meaning);
+    put_quantity(item, "value", u->unknown[j].value, unit_of(&u->unknown[j]), digits_of(t, j));
+    put(item, "unit", "%s", lab_shown_as(unit_of(&u->unknown[j])).unit);
+    put_interval(t, j, item);
+  }
+}
+
+static double in_noise(const lab_errors *errors)
+{
+  return sqrt(errors->chi2 / (double)errors->n);
+}
+
+/* What is left, and where something without a name acts. */
+static void put_remainder(const telling *t, cJSON *list)
+{
+  const lab_loop_result *r = t->story->result;
+  char where[LAB_WHERE_TEXT], number[LAB_SHOWN_TEXT];
+  cJSON *item;
+  int i;
+  for (i = 0; i < r->n_found; i++)
+    if (r->found[i].effect < 0) {
+      const pneu_term *term = &t->story->completed->rig.term[r->found[i].term];
+      item = append(list);
+      put(item, "value", "%s", lab_unlisted_what(term));
+      put(item, "words", "%s", lab_unlisted_where(term, where));
+    }
+  if (r->n_found > 0 || r->before.n == 0)
+    return;
+  item = append(list);
+  put(item, "value", "%s × noise", lab_shown_number(in_noise(&r->before), 3, number));
+  put(item, "words", "is the error of the declared model, fitted");
+}
+
+/* Channels whose residual is not white, the declared model's or the completed one's. */
+static int count_coloured(const telling *t)
+{
+  int c, n = 0;
+  for (c = 0; c < t->evidence->n_channels; c++)
+    n += t->evidence->channel[c].whiteness[LAB_STAGE_AFTER].p_value < white_level;
+  return n;
+}
+
+/* How much more than chance one thing is that was added. */
+static void say_chance(const telling *t, const lab_found *found, cJSON *list)
+{
+  char p[LAB_SHOWN_TEXT], statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT];
+  say(list, "%s is more than chance: p-value %s (score statistic %s, where %s would do).",
+      found->effect < 0 ? "It" : effect_name(found->effect),
+      lab_shown_p(found->effect < 0 ? lab_chi2_tail(found->statistic, found->degrees) : found->p_value, p),
+      lab_shown_number(found->statistic, 3, statistic),
+      lab_shown_number(lab_chi2_threshold(t->story->result->level), 3, threshold));
+}
+
+static int count_alike(const lab_loop_result *r)
+{
+  int i, n = 0;
+  for (i = 0; i < r->n_found; i++)
+    n += r->found[i].n_alike;
+  return n;
+}
+
+/* The first effect that the log cannot tell from another, or the first that looks like it. */
+static const char *alike_name(const lab_loop_result *r, int other)
+{
+  int i = 0;
+  while (r->found[i].n_alike == 0)
+    i++;
+  return effect_name(other ? r->found[i].alike[0] : r->found[i].effect);
+}
+
+/* Whether anything else would do as well. */
+static void say_alike(const lab_loop_result *r, cJSON *list)
+{
+  int i, named = 0;
+  for (i = 0; i < r->n_found; i++) {
+    const lab_found *found = &r->found[i];
+    named += found->effect >= 0;
+    if (found->n_alike > 0)
+      say(list, "But the log cannot tell it apart: %s explains it as well as %s%s.", effect_name(found->alike[0]),
+          effect_name(found->effect), found->n_alike > 1 ? ", and so do others, see below" : "");
+  }
+  if (named > 0 && count_alike(r) == 0)
+    say(list, "No other effect of the catalogue explains the log as well.");
+}
+
+static void say_held_out(const lab_story *story, cJSON *list)
+{
+  char before[LAB_SHOWN_TEXT], after[LAB_SHOWN_TEXT];
+  if (!story->has_holdout)
+    say(list, "Not tried on a log that was held out.");
+  else if (story->result->n_found > 0)
+    say(list, "On a log that was not used for the fit, the error goes from %s to %s times the noise.",
+        lab_shown_number(in_noise(&story->holdout_before), 3, before),
+        lab_shown_number(in_noise(&story->holdout_after), 3, after));
+  else
+    say(list, "On a log that was not used for the fit, the error is %s times the noise.",
+        lab_shown_number(in_noise(&story->holdout_before), 3, before));
+}
+
+static void put_sure(const telling *t, cJSON *list)
+{
+  const lab_loop_result *r = t->story->result;
+  char statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT];
+  const int coloured = count_coloured(t);
+  int i;
+  if (r->verdict == LAB_VERDICT_UNDECIDED)
+    say(list, "Not sure enough for a name.");
+  for (i = 0; i < r->n_found; i++)
+    say_chance(t, &r->found[i], list);
+  if (r->n_found == 0 && r->trace.n > 0 && r->level > 0)
+    say(list, "%s comes nearest of all effects: statistic %s, where it would take %s.",
+        effect_name(r->trace.candidate[0].effect), lab_shown_number(r->trace.candidate[0].statistic, 3, statistic),
+        lab_shown_number(lab_chi2_threshold(r->level), 3, threshold));
+  say_alike(r, list);
+  say_held_out(t->story, list);
+  if (coloured == 0)
+    say(list, "What is left is white noise, on every channel.");
+  else
+    say(list, "What is left is not white noise on %d of %d channels.", coloured, t->evidence->n_channels);
+}
+
+static void put_todo(const telling *t, const cJSON *next, cJSON *list)
+{
+  const lab_loop_result *r = t->story->result;
+  const cJSON *first = cJSON_GetArrayItem(next, 0);
+  char where[LAB_WHERE_TEXT];
+  int i;
+  if (t->story->remarks && t->story->remarks->doubt)
+    say(list, "Correct the log or the rig file first: no effect is named while they contradict each other.");
+  for (i = 0; i < r->n_found && r->verdict != LAB_VERDICT_UNDECIDED; i++)
+    if (r->found[i].effect >= 0)
+      say(list, "See on the rig whether it is so: %s", pneu_effect_at(r->found[i].effect)->what);
+    else
+      say(list, "See what the rig has there: %s.",
+          lab_unlisted_where(&t->story->completed->rig.term[r->found[i].term], where));
+  if (r->verdict == LAB_VERDICT_NONE)
+    say(list, "Nothing on the rig. The fitted model, model.cfg, can be used.");
+  else if (r->n_found > 0 && r->verdict != LAB_VERDICT_UNDECIDED)
+    say(list, "Where it is meant to be so, go on with model.cfg, which has it.");
+  if (first && t->story->next.kind == LAB_ADVICE_TRIAL)
+    say(list, "To know more, record: %s.", t->story->next.text);
+  else if (count_alike(r) > 0)
+    say(list, "Record what tells %s from %s: see What to record next.", alike_name(r, 0), alike_name(r, 1));
+  else if (first && r->verdict != LAB_VERDICT_NONE)
+    say(list, "%s", first->valuestring);
+}
+
 /* ---- Limits and advice ---- */
 
 /* The remark of a fit, a clause an item; those on instants of the command are of no use to a reader. */
@@ -305,14 +493,23 @@ static void put_rough(const telling *t, cJSON *list)
 {
   const lab_unknowns *u = t->story->completed;
   const lab_fit_result *fit = &t->story->result->fit;
-  int j;
+  int j, knots = 0;
   for (j = 0; j < u->n; j++) {
     const double half = 0.5 * (fit->high[j] - fit->low[j]);
-    if (u->unknown[j].kind != LAB_UNKNOWN_SWITCH && fit->state[j] == LAB_FIT_FREE &&
-        half > rough * fabs(u->unknown[j].value))
+    if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH || fit->state[j] != LAB_FIT_FREE ||
+        !(half > rough * fabs(u->unknown[j].value)))
+      continue;
+    if (u->unknown[j].kind == LAB_UNKNOWN_KNOT)
+      knots++;
+    else
       say(list, "%s is known only within %.2g %% either way.", u->unknown[j].name,
           100 * half / fabs(u->unknown[j].value));
   }
+  if (knots > 0)
+    say(list,
+        "%d values of the free term are known only within more than %g %% of themselves: those near 0, and those where "
+        "the model hardly ever is.",
+        knots, 100 * rough);
 }
 
 /* Effects none of whose candidates leaves a trace. */
@@ -342,6 +539,8 @@ static void put_limits(const telling *t, cJSON *list)
     for (k = 0; k < r->found[i].n_alike; k++)
       say(list, "%s from %s: both explain it equally well.", effect_name(r->found[i].effect),
           effect_name(r->found[i].alike[k]));
+  for (i = 0; t->story->remarks && i < t->story->remarks->n; i++)
+    say(list, "%s", t->story->remarks->text[i]);
   put_rough(t, list);
   put_remarks(r->fit.remark, list);
   put_invisible(&r->trace, list);
@@ -379,7 +578,7 @@ static void put_next(const telling *t, cJSON *list)
 static void put_parameter(const telling *t, int j, cJSON *list)
 {
   const lab_unknown *x = &t->story->completed->unknown[j];
-  const lab_shown shown = lab_shown_as(x->unit);
+  const lab_shown shown = lab_shown_as(unit_of(x));
   pneu_params declared = t->story->rig->params;
   pneu_param_info info = {0};
   cJSON *item = append(list);
@@ -404,13 +603,14 @@ static void put_parameter(const telling *t, int j, cJSON *list)
 static void put_parameters(const telling *t, cJSON *page)
 {
   const lab_unknowns *u = t->story->completed;
-  cJSON *list = cJSON_AddArrayToObject(page, "parameters");
+  cJSON *list = cJSON_AddArrayToObject(page, "parameters"), *knots = cJSON_AddArrayToObject(page, "knots");
   int j, switches = 0;
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH)
       switches++;
     else
-      put_parameter(t, j, list);
+      put_parameter(t, j, u->unknown[j].kind == LAB_UNKNOWN_KNOT ? knots : list);
+  put(page, "has_knots", "%s", cJSON_GetArraySize(knots) ? "yes" : "");
   if (switches > 0) {
     list = cJSON_AddArrayToObject(page, "switches");
     say(list, "Fitted as well: the instants of %d changes of command, each between the two rows that bracket it.",
@@ -509,60 +709,135 @@ static void put_merit(const telling *t, cJSON *page)
   }
 }
 
-/* ---- The page ---- */
+/* ---- Figures ---- */
 
-/* Figures in order: the first one stands beside the errors.  Returns: 0 without memory. */
+/* What the keys of curves mean. */
+static const struct {
+  const char *key, *label;
+  int is_switch; /* whether a curve of it can be switched off */
+} curves[] = {{"measured", "measured", 1},     {"before", "declared model, fitted", 1},
+              {"after", "completed model", 1}, {"band", "99 % of white noise", 1},
+              {"term", "fitted term", 0},      {"command", "command", 0}};
+enum { CURVES = sizeof curves / sizeof *curves };
+
+/* The switches of a figure: those of its keys that there is something of. */
+static void put_keys(const telling *t, const lab_figure *figure, cJSON *list)
+{
+  size_t i;
+  for (i = 0; i < CURVES; i++) {
+    cJSON *item;
+    if (!curves[i].is_switch || !strstr(figure->keys, curves[i].key) ||
+        (!strcmp(curves[i].key, "after") && !has_completed(t)))
+      continue;
+    item = append(list);
+    put(item, "key", "%s", curves[i].key);
+    put(item, "label", "%s", curves[i].label);
+  }
+}
+
+/* A figure as HTML, to be freed; NULL without memory. */
+static char *figure_html(const telling *t, const lab_figure *figure, const char *template)
+{
+  char *svg = lab_svg_inline(figure->svg, figure->name, figure->alt, figure->head), *text = NULL;
+  size_t size;
+  FILE *file = svg ? open_memstream(&text, &size) : NULL;
+  cJSON *values = cJSON_CreateObject();
+  lab_error error;
+  int failed = !file;
+  put(values, "name", "%s", figure->name);
+  put(values, "title", "%s", figure->title);
+  put(values, "subtitle", "%s", figure->subtitle);
+  put(values, "reading", "%s", figure->reading);
+  put_keys(t, figure, cJSON_AddArrayToObject(values, "keys"));
+  if (file) {
+    cJSON_AddItemToObject(values, "svg", cJSON_CreateStringReference(svg));
+    failed = lab_template_write(file, template, values, &error) != LAB_OK;
+    failed |= fclose(file) != 0;
+  }
+  cJSON_Delete(values);
+  free(svg);
+  if (failed) {
+    free(text);
+    text = NULL;
+  }
+  return text;
+}
+
+/* Each figure under its name. Those whose name is that of a list, too, have _figure after it. */
 static int put_figures(const telling *t, cJSON *page)
 {
-  cJSON *first = cJSON_AddArrayToObject(page, "overview"), *others = cJSON_AddArrayToObject(page, "figures");
-  int i;
-  for (i = 0; i < t->figures->n; i++) {
+  char *template = lab_page_text(LAB_PAGE_FIGURE);
+  int i, done = template != NULL;
+  for (i = 0; i < t->figures->n && done; i++) {
     const lab_figure *figure = &t->figures->figure[i];
-    char *svg = lab_svg_inline(figure->svg, figure->name, figure->alt);
-    cJSON *item;
-    if (!svg)
-      return 0;
-    item = append(i == 0 ? first : others);
-    cJSON_AddStringToObject(item, "svg", svg);
-    put(item, "reading", "%s", figure->reading);
-    free(svg);
+    char name[64], *html = figure_html(t, figure, template);
+    snprintf(name, sizeof name, "%s%s", figure->name, cJSON_GetObjectItem(page, figure->name) ? "_figure" : "");
+    if (html)
+      cJSON_AddStringToObject(page, name, html);
+    done = html != NULL;
+    free(html);
   }
-  return 1;
+  free(template);
+  return done;
 }
+
+/* What the script reads curves from, as JSON.  Returns: 0 without memory */
+static int put_readings(const telling *t, cJSON *page)
+{
+  cJSON *labels;
+  char *text;
+  size_t i;
+  if (t->figures->n == 0)
+    return 1;
+  labels = cJSON_CreateObject();
+  for (i = 0; i < CURVES; i++)
+    if (has_completed(t) || strcmp(curves[i].key, "after") != 0)
+      cJSON_AddStringToObject(labels, curves[i].key, curves[i].label);
+  cJSON_DeleteItemFromObject(t->figures->readings, "labels");
+  cJSON_AddItemToObject(t->figures->readings, "labels", labels);
+  text = cJSON_PrintUnformatted(t->figures->readings);
+  if (text)
+    cJSON_AddStringToObject(page, "readings", text);
+  cJSON_free(text);
+  return text != NULL;
+}
+
+static int put_text(cJSON *page, const char *name, char *text)
+{
+  if (text)
+    cJSON_AddStringToObject(page, name, text);
+  free(text);
+  return text != NULL;
+}
+
+/* ---- The page ---- */
 
 static cJSON *values_of(const telling *t)
 {
-  cJSON *page = cJSON_CreateObject(), *found = cJSON_AddArrayToObject(page, "found");
+  cJSON *page = cJSON_CreateObject(), *found = cJSON_AddArrayToObject(page, "found"), *next;
   int i;
   put_head(t, page);
   put_logs(t, page);
   put_errors(t, page);
+  put(page, "size_heading", "%s", size_heading(t->story->result));
+  put_main(t, cJSON_AddArrayToObject(page, "main"));
+  put_remainder(t, cJSON_AddArrayToObject(page, "remainder"));
+  put_sure(t, cJSON_AddArrayToObject(page, "sure"));
   for (i = 0; i < t->story->result->n_found; i++)
     (t->story->result->found[i].effect < 0 ? put_unlisted : put_found)(t, &t->story->result->found[i], found);
   put_reasons(t, cJSON_AddArrayToObject(page, "reasons"));
   put_limits(t, cJSON_AddArrayToObject(page, "limits"));
-  put_next(t, cJSON_AddArrayToObject(page, "next"));
+  put_next(t, next = cJSON_AddArrayToObject(page, "next"));
+  put_todo(t, next, cJSON_AddArrayToObject(page, "todo"));
   put_parameters(t, page);
   put_whiteness(t, cJSON_AddArrayToObject(page, "whiteness"));
   put_candidates(t, page);
   put_merit(t, page);
-  if (put_figures(t, page))
+  if (put_figures(t, page) && put_readings(t, page) &&
+      put_text(page, "style", lab_page_texts(LAB_PAGE_STYLE, LAB_PAGE_REPORT_STYLE)) &&
+      put_text(page, "script", lab_page_text(LAB_PAGE_REPORT_SCRIPT)))
     return page;
   cJSON_Delete(page);
-  return NULL;
-}
-
-static char *template_text(void)
-{
-  char *text = NULL;
-  size_t size;
-  FILE *file = open_memstream(&text, &size);
-  const char *const *line;
-  for (line = page_html; file && *line; line++)
-    fputs(*line, file);
-  if (file && fclose(file) == 0)
-    return text;
-  free(text);
   return NULL;
 }
 
@@ -585,7 +860,7 @@ int lab_report_html(const lab_story *story, const lab_evidence *evidence, const 
 {
   const telling t = {story, evidence, figures};
   cJSON *page = values_of(&t);
-  char *text = template_text();
+  char *text = lab_page_text(LAB_PAGE_REPORT);
   const int status = page && text ? write_page(page, text, folder, error) : lab_fail_memory(error, "report.html");
   cJSON_Delete(page);
   free(text);

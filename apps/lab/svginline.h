@@ -3,12 +3,16 @@
 #ifndef LAB_SVGINLINE_H
 #define LAB_SVGINLINE_H
 
-/* The drawing without what only a file needs: no XML declaration and name spaces, no titles that a mouse would bring
- * up, every id and reference to one preceded by `name`, so that several drawings live in one page.
+/* The drawing as a page takes it up:
+ * - no XML declaration, name spaces, background and empty groups;
+ * - colours of study/figures/style.gp as variables of the page's style, --f-blue and so on, so that it can be dark;
+ * - a curve whose title is one word in small letters, "before", is a group of the class c-before; other titles go;
+ * - every other id, and each reference to it, is preceded by `name`, so that several drawings live in one page.
  * In:      svg   as gnuplot's svg terminal writes it
  *          name  letters
  *          alt   what the drawing shows, in words
+ *          head  height to cut off at the top
  * Returns: text to be freed; NULL if it is no SVG, or without memory. */
-char *lab_svg_inline(const char *svg, const char *name, const char *alt);
+char *lab_svg_inline(const char *svg, const char *name, const char *alt, int head);
 
 #endif

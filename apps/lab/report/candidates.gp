@@ -9,7 +9,7 @@ set logscale x
 set xrange [T_MIN:T_MAX]
 set yrange [N + 0.6:0.4]
 set format x "10^{%L}"
-set xlabel "Statistic T, chi-square with 1 degree of freedom if nothing is missing"
+set xlabel "Score statistic T"
 set ytics scale 0
 set grid noytics
 colour(kind) = kind == 2 ? 0x0072B2 : kind == 1 ? 0xE69F00 : 0xB0B0B0

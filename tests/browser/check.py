@@ -1,0 +1,459 @@
+"""Looks at the pages of closeloop in a headless Chromium; prints what is wrong, a line each.
+
+check.py report FOLDER...   report.html of folders that closeloop wrote
+check.py index FILE         index.html of a batch
+"""
+import csv
+import html
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from chromium import Browser, Page
+
+WIDTHS = (360, 800, 1600)
+ENOUGH = 4.5  # WCAG 2, AA: contrast of text
+wrong = []
+
+
+def expect(good, words):
+    if not good:
+        wrong.append(words)
+
+
+# ---- What every page owes ----
+
+# Text whose contrast with what is behind it is too low. Figures have no background of their own; large and bold text
+# is held to the same number as small text.
+CONTRAST = """
+(() => {
+  const numbers = c => (c.match(/[\\d.]+/g) || []).map(Number);
+  const over = (top, below) => { const a = top.length > 3 ? top[3] : 1; return [0, 1, 2].map(i => top[i] * a + below[i] * (1 - a)); };
+  const light = c => { const [r, g, b] = c.map(v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const behind = e => { const stack = [];
+    for (; e; e = e.parentElement) { const c = numbers(getComputedStyle(e).backgroundColor); if (c.length === 3 || c[3] > 0) stack.unshift(c); }
+    return stack.reduce((below, top) => over(top, below), [255, 255, 255]); };
+  const bad = {};
+  let n = 0;
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const e = walker.currentNode.parentElement;
+    if (!walker.currentNode.data.trim() || e.closest("script, style, option") || !e.getClientRects().length) continue;
+    const style = getComputedStyle(e), drawn = e.closest("svg");
+    const text = numbers(drawn ? (style.fill.startsWith("rgb") ? style.fill : style.color) : style.color), below = behind(drawn || e);
+    const [x, y] = [light(over(text, below)), light(below)].sort((a, b) => b - a), ratio = (x + 0.05) / (y + 0.05);
+    n++;
+    if (ratio < %g) bad[walker.currentNode.data.trim().slice(0, 40)] = ratio.toFixed(2);
+  }
+  return { n, bad };
+})()""" % ENOUGH
+
+# Faults of structure that a screen reader would stumble over.
+STRUCTURE = """
+(() => {
+  const faults = [], all = s => [...document.querySelectorAll(s)];
+  if (!document.documentElement.lang) faults.push("no lang");
+  for (const s of ["main", "header", "footer", "h1"]) if (all(s).length !== 1) faults.push(all(s).length + " of " + s);
+  let last = 0;
+  for (const h of all("h1, h2, h3, h4")) {
+    const level = Number(h.tagName[1]);
+    if (level > last + 1) faults.push("heading " + h.textContent + " skips a level");
+    last = level;
+  }
+  for (const t of all("table")) if (!t.caption || !t.caption.textContent.trim()) faults.push("a table without a caption");
+  for (const h of all("th")) if (!h.scope) faults.push("th without scope: " + h.textContent);
+  for (const s of all("main svg[role=img]")) if (!/\\d/.test(s.getAttribute("aria-label"))) faults.push("a figure without numbers in words");
+  for (const s of all("main svg")) if (s.getAttribute("role") !== "img") faults.push("an svg without a role");
+  const ids = all("[id]").map(e => e.id);
+  if (new Set(ids).size !== ids.length) faults.push("an id is there twice");
+  for (const a of all("a[href^='#']")) if (!document.getElementById(a.hash.slice(1))) faults.push("no target: " + a.hash);
+  for (const i of all("input, select, button")) {
+    const named = i.getAttribute("aria-label") || (i.labels && [...i.labels].map(l => l.textContent).join("")) || i.textContent;
+    if (!named.trim()) faults.push("a control without a name: " + i.outerHTML.slice(0, 60));
+  }
+  for (const e of all("[src], link, iframe, object, embed, base")) faults.push("from outside: " + e.outerHTML.slice(0, 60));
+  return faults;
+})()"""
+
+
+def look_everywhere(browser, path):
+    """Widths, light and dark, with a script and without: no complaint, nothing wider than the window, contrast."""
+    for width in WIDTHS:
+        for dark in (False, True):
+            where = f"{path} at {width}, {'dark' if dark else 'light'}"
+            with Page(browser, path, width, dark=dark) as page:
+                wide = page.ask("document.scrollingElement.scrollWidth - innerWidth")
+                expect(wide <= 0, f"{where}: {wide} px wider than the window")
+                page.ask("document.querySelectorAll('details').forEach(d => d.open = true)")
+                found = page.ask(CONTRAST)
+                expect(found["n"] > 20, f"{where}: hardly any text")
+                expect(not found["bad"], f"{where}: contrast below {ENOUGH}: {json.dumps(found['bad'])[:300]}")
+                if width == WIDTHS[0] and not dark:
+                    for fault in page.ask(STRUCTURE):
+                        expect(False, f"{path}: {fault}")
+                page.look()
+                expect(not page.faults, f"{where}: {page.faults}")
+
+
+def tidy(path):
+    """HTML Tidy knows HTML 5 well enough to see what is not closed, unknown or empty where it must not be."""
+    said = subprocess.run(["tidy", "-quiet", "-errors", "--drop-empty-elements", "no", "--show-info", "no", path],
+                          capture_output=True, text=True, check=False).stderr
+    for line in said.splitlines():
+        expect(False, f"{path}: {line}")
+
+
+# ---- report.html ----
+
+def words_of(page):
+    return page.ask("document.body.innerText.replace(/\\s+/g, ' ')")
+
+
+def without_script(browser, path):
+    with Page(browser, path) as page:
+        sentence = page.ask("document.querySelector('h1').textContent")
+    with Page(browser, path, script=False) as page:
+        # a page without scripts is asked through the document, not by running one in it
+        root = page.call("DOM.getDocument", depth=0)["root"]["nodeId"]
+        source = page.call("DOM.getOuterHTML", nodeId=root)["outerHTML"]
+        expect(sentence in html.unescape(source), f"{path}: without script, no sentence")
+        expect(source.count("<svg") >= 4, f"{path}: without script, no figures")
+        expect('type="range"' not in source, f"{path}: without script, a slider that does nothing")
+        page.faults.clear()
+        # switches work without script: the label of a curve is clicked, and the curve is gone
+        before = picture(page, root)
+        label = find(page, root, "label[for=response-before]")
+        page.call("DOM.scrollIntoViewIfNeeded", nodeId=label)
+        box = page.call("DOM.getBoxModel", nodeId=label)["model"]["content"]
+        page.click((box[0] + box[4]) / 2, (box[1] + box[5]) / 2)
+        expect(picture(page, root) != before, f"{path}: without script, a switch does nothing")
+
+
+def find(page, root, selector):
+    return page.call("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+
+
+def picture(page, root):
+    """Whether a curve is drawn, as the browser computes it."""
+    node = find(page, root, "#figure-response .c-before:not(circle)")
+    page.call("DOM.enable")
+    page.call("CSS.enable")
+    style = page.call("CSS.getComputedStyleForNode", nodeId=node)["computedStyle"]
+    return next(p["value"] for p in style if p["name"] == "display")
+
+
+def switches(browser, path):
+    """Every switch by mouse and by keyboard."""
+    with Page(browser, path, 1600, 1200) as page:
+        keys = page.ask("[...document.querySelectorAll('[data-key]')].map(i => i.id)")
+        expect(len(keys) >= 5, f"{path}: {len(keys)} switches")
+        for key in keys:
+            drawn = f"""(() => {{ const i = document.getElementById("{key}");
+              const all = [...i.closest(".plot").querySelectorAll("svg .c-" + i.dataset.key + ":not(circle)")];
+              return [all.length, all.filter(c => getComputedStyle(c).display !== "none").length]; }})()"""
+            n, seen = page.ask(drawn)
+            expect(n > 0 and seen == n, f"{path}: {key} switches {n} curves, {seen} of them drawn")
+            at = page.ask(f"""(() => {{ const l = document.querySelector("label[for={key}]"); l.scrollIntoView({{block: "center"}});
+              const b = l.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})()""")
+            page.click(*at)
+            expect(page.ask(drawn)[1] == 0, f"{path}: {key} does not switch off by a click")
+            page.key("Tab")  # focus shows where the keyboard is in use
+            page.ask(f"document.getElementById('{key}').focus()")
+            expect(page.ask(f"getComputedStyle(document.querySelector('label[for={key}]')).outlineStyle") == "solid",
+                   f"{path}: {key} does not show that it has the focus")
+            page.key(" ", "Space", " ")
+            expect(page.ask(drawn)[1] == n, f"{path}: {key} does not switch on by the keyboard")
+        page.look()
+        expect(not page.faults, f"{path}: {page.faults}")
+
+
+NUMBER = r"[-\u2212]?\d+(?:\.\d+)?"
+
+
+def shown(text):
+    """A number as it is shown, and half a unit of its last digit."""
+    decimals = len(text.split(".")[1]) if "." in text else 0
+    return float(text.replace("\u2212", "-")), 0.5001 * 10.0 ** -decimals
+
+
+def agrees(text, value):
+    number, slack = shown(text)
+    return abs(number - value) <= slack + 1e-9 * abs(value)
+
+
+# what a channel is called on the page, in which unit, and as how many of those the table's unit counts
+CHANNELS = {"Pressure p": ("p", "kPa", 1e-3), "Position x": ("x", "mm", 1e3), "Force force": ("force", "N", 1),
+            "Temperature T": ("T", "K", 1)}
+CURVES = {"measured": "{} [", "declared model, fitted": "{}_before [", "completed model": "{}_after ["}
+
+
+def rows_of(folder):
+    with open(os.path.join(folder, "residual.csv"), newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def row_at(rows, said):
+    """The row of residual.csv that "run 2, t = 1.25 s" names."""
+    run = re.search(r"run (\d+)", said)
+    time = re.search(r"t = (" + NUMBER + ")", said).group(1)
+    for row in rows:
+        if (not run or row["run [1]"] == run.group(1)) and agrees(time, float(row["t [s]"])):
+            return row
+    return None
+
+
+def cell(row, begin):
+    name = next((n for n in row if n.startswith(begin)), None)
+    return float(row[name]) if name and row[name] else None
+
+
+def compare_reading(path, rows, figure, spans):
+    """Every number that is shown against the table.  Returns: how many"""
+    row = row_at(rows, spans[0])
+    expect(row is not None, f"{path}: no row at {spans[0]}")
+    n = 0
+    for span in spans[1:] if row else []:
+        name, told = span.split(": ", 1)
+        if name.split(",")[0] not in CHANNELS:
+            continue
+        key, unit, scale = CHANNELS[name.split(",")[0]]
+        if figure == "residual":
+            stage = "after" if "completed" in name else "before"
+            value = cell(row, f"{key}_residual_{stage} [")
+            number = re.search(NUMBER, told).group(0)
+            expect(value is not None and agrees(number, value), f"{path}: {spans[0]}, {span}: the table has {value}")
+            n += 1
+            continue
+        expect(told.endswith(" " + unit), f"{path}: {span}: expected {unit}")
+        for label, column in CURVES.items():
+            match = re.search(re.escape(label) + " (" + NUMBER + ")", told)
+            if match:
+                value = cell(row, column.format(key))
+                expect(value is not None and agrees(match.group(1), scale * value),
+                       f"{path}: {spans[0]}, {span}: the table has {value}")
+                n += 1
+    return n
+
+
+SPANS = "[...document.querySelectorAll('#figure-%s .reading span')].map(s => s.textContent)"
+
+
+def pointing(browser, folder):
+    """By mouse, by touch of the slider's keys: the values shown are those of residual.csv, and the marks are on the curves."""
+    path = os.path.join(folder, "report.html")
+    rows = rows_of(folder)
+    numbers = 0
+    with Page(browser, path, 1600, 1400) as page:
+        for figure in ("response", "residual"):
+            box = page.ask(f"""(() => {{ const s = document.querySelector("#figure-{figure} svg"); s.scrollIntoView({{block: "center"}});
+              const b = s.getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; }})()""")
+            for share in (0.1, 0.13, 0.29, 0.5, 0.77, 0.96):
+                page.mouse("mouseMoved", box[0] + share * box[2], box[1] + 0.6 * box[3])
+                numbers += compare_reading(path, rows, figure, page.ask(SPANS % figure))
+                other = "residual" if figure == "response" else "response"
+                expect(page.ask(SPANS % figure)[0] == page.ask(SPANS % other)[0], f"{path}: {other} does not follow {figure}")
+        slider = "document.querySelector('#figure-response input[type=range]')"
+        page.ask(slider + ".focus()")
+        page.key("Home")
+        first = page.ask(SPANS % "response")
+        page.key("ArrowRight")
+        second = page.ask(SPANS % "response")
+        expect(first[0] != second[0], f"{path}: the arrow key does not move on")
+        numbers += compare_reading(path, rows, "response", second)
+        expect(page.ask(slider + ".getAttribute('aria-valuetext')").startswith(second[0]), f"{path}: a screen reader is not told")
+        on_curve(page, path)
+        switched_off(page, path)
+        page.look()
+        expect(not page.faults, f"{path}: {page.faults}")
+    expect(numbers >= 20, f"{path}: only {numbers} numbers were read by pointing")
+
+
+def on_curve(page, path):
+    """Each mark lies on the line that is drawn, within a unit of the drawing."""
+    far = page.ask("""(() => {
+      const slider = document.querySelector("#figure-response input[type=range]"), marks = [];
+      let worst = 0, n = 0;
+      for (let k = 1; k < 12; k++) {
+        slider.value = Math.round(slider.max * k / 12);
+        slider.dispatchEvent(new Event("input"));
+        for (const c of document.querySelectorAll("#figure-response .cursor circle")) {
+          const x = c.cx.baseVal.value, y = c.cy.baseVal.value;
+          let least = 1e9;
+          for (const p of document.querySelectorAll("#figure-response svg g." + c.getAttribute("class") + " path")) {
+            let from = 0, to = p.getTotalLength();
+            while (to - from > 0.1) { const s = (from + to) / 2; if (p.getPointAtLength(s).x < x - 2) from = s; else to = s; }
+            for (let q = p.getPointAtLength(from); q.x < x + 2 && from <= p.getTotalLength(); from += 0.2) {
+              q = p.getPointAtLength(from);
+              least = Math.min(least, Math.hypot(q.x - x, q.y - y));
+            }
+          }
+          if (least < 1e9) { worst = Math.max(worst, least); n++; }
+        }
+      }
+      return [worst, n];
+    })()""")
+    expect(far[1] > 30 and far[0] < 1.0, f"{path}: of {far[1]} marks one is {far[0]:.2f} from its curve")
+
+
+def switched_off(page, path):
+    page.ask("document.getElementById('response-measured').click()")
+    spans = page.ask(SPANS % "response")
+    expect(not any("measured" in s for s in spans), f"{path}: what is switched off is still read")
+    page.ask("document.getElementById('response-measured').click()")
+    spans = page.ask(SPANS % "response")
+    expect(any("measured" in s for s in spans), f"{path}: what is switched on again is not read")
+
+
+def all_axes(browser, path):
+    """The slider of every figure, along every axis it has, says something."""
+    with Page(browser, path) as page:
+        said = page.ask("""[...document.querySelectorAll("figure")].map(f => {
+          const slider = f.querySelector("input[type=range]"), select = f.querySelector("select");
+          if (!slider) return null;
+          return (select ? [...select.options].map(o => o.value) : [""]).map(axis => {
+            if (select) { select.value = axis; select.dispatchEvent(new Event("change")); }
+            slider.value = 1;
+            slider.dispatchEvent(new Event("input"));
+            return f.id + " " + f.querySelector(".reading").textContent; }); }).filter(s => s).flat()""")
+        expect(len(said) >= 3, f"{path}: {len(said)} axes to read along")
+        for text in said:
+            expect(re.search(r" = " + NUMBER + ".*: .*" + NUMBER, text), f"{path}: nothing to read: {text}")
+
+
+def printed(browser, path):
+    with tempfile.TemporaryDirectory() as folder, Page(browser, path) as page:
+        pdf = os.path.join(folder, "report.pdf")
+        page.pdf(pdf)
+        told = subprocess.run(["pdfinfo", pdf], capture_output=True, text=True, check=True).stdout
+        pages = int(re.search(r"Pages:\s+(\d+)", told).group(1))
+        expect(pages == 2, f"{path}: {pages} pages printed")
+        expect("A4" in told, f"{path}: not printed on A4")
+        text = " ".join(subprocess.run(["pdftotext", pdf, "-"], capture_output=True, text=True, check=True).stdout.split())
+        sentence = " ".join(page.ask("document.querySelector('h1').textContent").split())
+        expect(sentence in text, f"{path}: the sentence is not printed")
+        for word in ("How sure", "What to do next", "What the log cannot tell", "Parameters", "95 %"):
+            expect(word in text, f"{path}: not printed: {word}")
+        expect("Point at the figure" not in text, f"{path}: what only works on a screen is printed")
+
+
+def report(browser, folder):
+    path = os.path.join(folder, "report.html")
+    expect(os.path.getsize(path) < 1.5e6, f"{path}: {os.path.getsize(path)} bytes")
+    look_everywhere(browser, path)
+    tidy(path)
+    without_script(browser, path)
+    switches(browser, path)
+    pointing(browser, folder)
+    all_axes(browser, path)
+    printed(browser, path)
+
+
+# ---- index.html ----
+
+NAMES = "[...document.querySelectorAll('#lines tbody th')].map(t => t.textContent)"
+
+
+def plain(text):
+    return html.unescape(re.sub("<.*?>", "", text))
+
+
+def rows_in_file(path):
+    """Name, verdict and error before of each row, as they stand in the file."""
+    with open(path, encoding="utf-8") as file:
+        return [(plain(m.group(1)), plain(m.group(2)).split("\t"))
+                for m in re.finditer(r'<tr><th scope="row">(.*?)</th>(.*)</tr>', file.read().replace("</td><td>", "\t"))]
+
+
+def index(browser, path):
+    look_everywhere(browser, path)
+    tidy(path)
+    rows = rows_in_file(path)
+    with Page(browser, path, 1600, 1000) as page:
+        expect(page.ask(NAMES)[:50] == [name for name, _ in rows][:50], f"{path}: not in the order of the file")
+        expect(page.ask("document.getElementById('count').textContent") == f"{len(rows)} of {len(rows)} lines", f"{path}: counts are off")
+        timing = time_index(page, path, rows)
+        filters(page, path, rows)
+        page.look()
+        expect(not page.faults, f"{path}: {page.faults}")
+        print(f"{path}: {len(rows)} rows, {os.path.getsize(path) / 1e6:.1f} MB, ready in {page.seconds:.2f} s, " + timing)
+    with Page(browser, path, script=False) as page:
+        root = page.call("DOM.getDocument", depth=0)["root"]["nodeId"]
+        source = page.call("DOM.getOuterHTML", nodeId=root)["outerHTML"]
+        expect(source.count("<tr>") == len(rows) + 1, f"{path}: without script, {source.count('<tr>') - 1} of {len(rows)} rows")
+        box = page.call("DOM.getBoxModel", nodeId=find(page, root, "#lines tbody tr"))["model"]
+        expect(box["height"] > 0, f"{path}: without script, the rows are hidden")
+
+
+# Time from an action to the frame that shows it.
+TIMED = """new Promise(done => { const start = performance.now(); %s;
+  requestAnimationFrame(() => setTimeout(() => done(performance.now() - start))); })"""
+
+
+def time_index(page, path, rows):
+    actions = {"sort": "document.querySelectorAll('#lines thead button')[5].click()",
+               "sort by name": "document.querySelectorAll('#lines thead button')[0].click()",
+               "search": "document.getElementById('search').value = 'leak'; document.getElementById('search').dispatchEvent(new Event('input'))",
+               "reset": "document.querySelector('#controls [type=reset]').click()"}
+    told = []
+    for name, action in actions.items():
+        seconds = page.ask(TIMED % action) / 1e3
+        told.append(f"{name} {1e3 * seconds:.0f} ms")
+        expect(seconds < 1.0, f"{path}: {name} takes {seconds:.2f} s")
+    expect(page.seconds < 1 + len(rows) / 2000, f"{path}: {page.seconds:.1f} s until it is there")
+    return ", ".join(told)
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def filters(page, path, rows):
+    # by error, largest first, by a click; smallest first by the keyboard
+    errors = sorted((number(cells[4]) for _, cells in rows if number(cells[4]) is not None), reverse=True)
+    column = "[...document.querySelectorAll('#lines tbody tr')].map(r => r.cells[5].textContent).filter(t => t).map(Number)"
+    page.ask("document.querySelectorAll('#lines thead button')[5].scrollIntoView()")
+    at = page.ask("(() => { const b = document.querySelectorAll('#lines thead button')[5].getBoundingClientRect(); return [b.x + 5, b.y + b.height / 2]; })()")
+    page.click(*at)
+    expect(page.ask(column)[:100] == errors[:100], f"{path}: not sorted by error")
+    expect(page.ask("document.querySelectorAll('#lines thead th')[5].getAttribute('aria-sort')") == "descending", f"{path}: aria-sort")
+    page.ask("document.querySelectorAll('#lines thead button')[5].focus()")
+    page.key("Enter", "Enter", "\r")
+    expect(page.ask(column)[:100] == errors[::-1][:100], f"{path}: not sorted the other way by the keyboard")
+    page.ask("document.querySelector('#controls [type=reset]').click()")
+    page.ask("new Promise(r => setTimeout(r, 50))")
+    # verdict
+    for verdict in sorted({cells[0] for _, cells in rows}):
+        page.ask(f"""(() => {{ const v = document.getElementById("verdict"); v.value = "{verdict}"; v.dispatchEvent(new Event("input")); }})()""")
+        names = [name for name, cells in rows if cells[0] == verdict]
+        expect(page.ask(NAMES) == names[:200] or page.ask(NAMES)[:200] == names[:200], f"{path}: filter {verdict}")
+    page.ask("document.querySelector('#controls [type=reset]').click()")
+    page.ask("new Promise(r => setTimeout(r, 50))")
+    # search for a whole name
+    page.ask("document.getElementById('search').focus()")
+    page.call("Input.insertText", text=rows[-1][0])
+    expect(rows[-1][0] in page.ask(NAMES), f"{path}: {rows[-1][0]} is not found")
+    page.ask("document.querySelector('#controls [type=reset]').click()")
+    page.ask("new Promise(r => setTimeout(r, 50))")
+
+
+def main(kind, paths):
+    browser = Browser()
+    try:
+        for path in paths:
+            {"report": report, "index": index}[kind](browser, path)
+    finally:
+        browser.close()
+    for line in wrong:
+        print(line)
+    return bool(wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2:]))
