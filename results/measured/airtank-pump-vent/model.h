@@ -2,7 +2,7 @@
  * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */
 #define MODEL_PARAMS \
   { \
-    (pneu_real)0.040000000000000001, /* area [m2] */ \
+    (pneu_real)0.04, /* area [m2] */ \
     (pneu_real)0.0010000000000000002, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0, /* stroke [m] */ \
@@ -13,25 +13,25 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)9.9999999999999995e-08, /* fill_area [m2] */ \
-    (pneu_real)9.0022530076492277e-08, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)1e-07, /* fill_area [m2] */ \
+    (pneu_real)9.002253007649228e-08, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)100000, /* supply_pressure [Pa] */ \
     (pneu_real)295, /* supply_temperature [K] */ \
     (pneu_real)102960, /* ambient_pressure [Pa] */ \
     (pneu_real)295, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)2e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
@@ -62,7 +62,7 @@
       (pneu_real)0, /* transducer_time [s] */ \
       (pneu_real)0, /* travel_loss [m] */ \
       (pneu_real)0, /* vent_restriction [1] */ \
-      (pneu_real)0.29528073521821813, /* wall_compliance [K/J] */ \
+      (pneu_real)0.2952807352182181, /* wall_compliance [K/J] */ \
       (pneu_real)0.0037074636899737147, /* wall_loss [W/K] */ \
       (pneu_real)0 } \
   }

@@ -3,38 +3,38 @@
 #define MODEL_PARAMS \
   { \
     (pneu_real)0.129, /* area [m2] */ \
-    (pneu_real)0.0055000000000000014, /* dead_volume [m3] */ \
+    (pneu_real)0.005500000000000001, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
-    (pneu_real)0.040176450000000002, /* stroke [m] */ \
+    (pneu_real)0.04017645, /* stroke [m] */ \
     (pneu_real)288730.7060465641, /* spring_rate [N/m] */ \
-    (pneu_real)0.0095485846822521252, /* spring_preload [m] */ \
+    (pneu_real)0.009548584682252125, /* spring_preload [m] */ \
     (pneu_real)2, /* moving_mass [kg] */ \
-    (pneu_real)369.59837554229239, /* dry_friction [N] */ \
+    (pneu_real)369.5983755422924, /* dry_friction [N] */ \
     (pneu_real)1500, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
-    (pneu_real)8.9299999999999996e-07, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)8.93e-07, /* fill_area [m2] */ \
+    (pneu_real)8.93e-07, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)140000, /* supply_pressure [Pa] */ \
     (pneu_real)293, /* supply_temperature [K] */ \
     (pneu_real)101325, /* ambient_pressure [Pa] */ \
     (pneu_real)293, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)-0.22525942383168884, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)2e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
-      (pneu_real)0.87427494244650472, /* friction_slope [1] */ \
+      (pneu_real)0.8742749424465047, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
@@ -50,7 +50,7 @@
       (pneu_real)0, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
-      (pneu_real)29174608.002924711, /* spring_cubic [N/m3] */ \
+      (pneu_real)29174608.00292471, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
       (pneu_real)0.001, /* hysteresis_length [m] */ \
       (pneu_real)0, /* stop_compliance [m/N] */ \

@@ -2,7 +2,7 @@
  * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */
 #define MODEL_PARAMS \
   { \
-    (pneu_real)0.040000000000000001, /* area [m2] */ \
+    (pneu_real)0.04, /* area [m2] */ \
     (pneu_real)0.00010000000000000003, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0, /* stroke [m] */ \
@@ -13,24 +13,24 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)9.9999999999999995e-08, /* fill_area [m2] */ \
-    (pneu_real)9.9999999999999995e-08, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)1e-07, /* fill_area [m2] */ \
+    (pneu_real)1e-07, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)766000, /* supply_pressure [Pa] */ \
     (pneu_real)295, /* supply_temperature [K] */ \
     (pneu_real)101325, /* ambient_pressure [Pa] */ \
     (pneu_real)295, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)1.9158229458289407e-09, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)5985071912.4826441, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)5985071912.482644, /* tube_resistance [Pa.s/kg] */ \
       (pneu_real)1.64496262106154e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
@@ -40,8 +40,8 @@
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
-      (pneu_real)1.6017740675612859e-16, /* porous_leak [kg/s/Pa2] */ \
-      (pneu_real)671604.25554265361, /* crossover_pressure [Pa] */ \
+      (pneu_real)1.601774067561286e-16, /* porous_leak [kg/s/Pa2] */ \
+      (pneu_real)671604.2555426536, /* crossover_pressure [Pa] */ \
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \

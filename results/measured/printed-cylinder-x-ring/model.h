@@ -2,36 +2,36 @@
  * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */
 #define MODEL_PARAMS \
   { \
-    (pneu_real)0.00051875000000000001, /* area [m2] */ \
-    (pneu_real)5.0000000000000013e-06, /* dead_volume [m3] */ \
+    (pneu_real)0.00051875, /* area [m2] */ \
+    (pneu_real)5.000000000000001e-06, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
-    (pneu_real)0.050000000000000003, /* stroke [m] */ \
+    (pneu_real)0.05, /* stroke [m] */ \
     (pneu_real)0, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
-    (pneu_real)0.10000000000000001, /* moving_mass [kg] */ \
+    (pneu_real)0.1, /* moving_mass [kg] */ \
     (pneu_real)3.5939711737365765, /* dry_friction [N] */ \
     (pneu_real)0, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)-0.32730487247098883, /* external_force [N] */ \
-    (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
-    (pneu_real)8.9299999999999996e-07, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)8.93e-07, /* fill_area [m2] */ \
+    (pneu_real)8.93e-07, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)800000, /* supply_pressure [Pa] */ \
     (pneu_real)295, /* supply_temperature [K] */ \
     (pneu_real)101325, /* ambient_pressure [Pa] */ \
     (pneu_real)295, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)2e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
@@ -45,10 +45,10 @@
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
-      (pneu_real)7.3253783960338647e-05, /* presliding_length [m] */ \
-      (pneu_real)363.81261204310579, /* bristle_damping [N.s/m] */ \
+      (pneu_real)7.325378396033865e-05, /* presliding_length [m] */ \
+      (pneu_real)363.8126120431058, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
-      (pneu_real)-0.0088412998764208269, /* pressure_gain [1] */ \
+      (pneu_real)-0.008841299876420827, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \

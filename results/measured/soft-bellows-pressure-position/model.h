@@ -5,7 +5,7 @@
     (pneu_real)0.001, /* area [m2] */ \
     (pneu_real)4.000000000000001e-05, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
-    (pneu_real)0.040000000000000001, /* stroke [m] */ \
+    (pneu_real)0.04, /* stroke [m] */ \
     (pneu_real)1536.4648266777237, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.0332, /* moving_mass [kg] */ \
@@ -13,25 +13,25 @@
     (pneu_real)0.11040981650780411, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)8.9299999999999996e-07, /* fill_area [m2] */ \
-    (pneu_real)8.9299999999999996e-07, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)8.93e-07, /* fill_area [m2] */ \
+    (pneu_real)8.93e-07, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)100000, /* supply_pressure [Pa] */ \
     (pneu_real)293, /* supply_temperature [K] */ \
     (pneu_real)101200, /* ambient_pressure [Pa] */ \
     (pneu_real)293, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
-      (pneu_real)0.88893498574840069, /* area_loss [1] */ \
+      (pneu_real)0.8889349857484007, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)2e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
@@ -47,11 +47,11 @@
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
-      (pneu_real)3368.5110139085768, /* pressure_bias [Pa] */ \
+      (pneu_real)3368.511013908577, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
-      (pneu_real)7.6544506859758163, /* hysteresis_force [N] */ \
+      (pneu_real)7.654450685975816, /* hysteresis_force [N] */ \
       (pneu_real)0.012137555289300394, /* hysteresis_length [m] */ \
       (pneu_real)0, /* stop_compliance [m/N] */ \
       (pneu_real)10000, /* stop_damping [N.s/m] */ \

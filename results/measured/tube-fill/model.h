@@ -3,9 +3,9 @@
 #define MODEL_PARAMS \
   { \
     (pneu_real)0.00012565999999999999, /* area [m2] */ \
-    (pneu_real)1.0000000000000001e-09, /* dead_volume [m3] */ \
+    (pneu_real)1e-09, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
-    (pneu_real)0.80000000000000004, /* stroke [m] */ \
+    (pneu_real)0.8, /* stroke [m] */ \
     (pneu_real)400000, /* spring_rate [N/m] */ \
     (pneu_real)0.01, /* spring_preload [m] */ \
     (pneu_real)2, /* moving_mass [kg] */ \
@@ -13,25 +13,25 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)3.0337637960443731e-06, /* fill_area [m2] */ \
-    (pneu_real)3.9999999999999998e-06, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)3.033763796044373e-06, /* fill_area [m2] */ \
+    (pneu_real)4e-06, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)500000, /* supply_pressure [Pa] */ \
     (pneu_real)295, /* supply_temperature [K] */ \
     (pneu_real)101325, /* ambient_pressure [Pa] */ \
     (pneu_real)295, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)2e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
@@ -49,7 +49,7 @@
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
-      (pneu_real)0.028135445651705771, /* pressure_time [s] */ \
+      (pneu_real)0.02813544565170577, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
       (pneu_real)0.001, /* hysteresis_length [m] */ \

@@ -3,9 +3,9 @@
 #define MODEL_PARAMS \
   { \
     (pneu_real)0.00012565999999999999, /* area [m2] */ \
-    (pneu_real)1.0000000000000001e-09, /* dead_volume [m3] */ \
+    (pneu_real)1e-09, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
-    (pneu_real)0.80000000000000004, /* stroke [m] */ \
+    (pneu_real)0.8, /* stroke [m] */ \
     (pneu_real)400000, /* spring_rate [N/m] */ \
     (pneu_real)0.01, /* spring_preload [m] */ \
     (pneu_real)2, /* moving_mass [kg] */ \
@@ -13,24 +13,24 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)1.3999999999999999e-06, /* fill_area [m2] */ \
-    (pneu_real)6.9054562548327352e-06, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)1.4e-06, /* fill_area [m2] */ \
+    (pneu_real)6.905456254832735e-06, /* vent_area [m2] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)500000, /* supply_pressure [Pa] */ \
     (pneu_real)295, /* supply_temperature [K] */ \
     (pneu_real)101325, /* ambient_pressure [Pa] */ \
     (pneu_real)295, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)67665957.190357372, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)67665957.19035737, /* tube_resistance [Pa.s/kg] */ \
       (pneu_real)1.2358111163808145e-05, /* tube_volume [m3] */ \
       (pneu_real)0.025165365406971743, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \

@@ -2,7 +2,7 @@
  * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS; */
 #define MODEL_PARAMS \
   { \
-    (pneu_real)0.040000000000000001, /* area [m2] */ \
+    (pneu_real)0.04, /* area [m2] */ \
     (pneu_real)0.016179200000000005, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0, /* stroke [m] */ \
@@ -13,31 +13,31 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)4.8451000000000004e-06, /* fill_area [m2] */ \
+    (pneu_real)4.8451e-06, /* fill_area [m2] */ \
     (pneu_real)4.851097656967725e-06, /* vent_area [m2] */ \
-    (pneu_real)0.29999999999999999, /* critical_ratio [1] */ \
+    (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
     (pneu_real)690000, /* supply_pressure [Pa] */ \
     (pneu_real)298, /* supply_temperature [K] */ \
     (pneu_real)100000, /* ambient_pressure [Pa] */ \
     (pneu_real)298, /* ambient_temperature [K] */ \
-    (pneu_real)287.10151933701661, /* gas_constant [J/kg/K] */ \
-    (pneu_real)1.3999999999999999, /* heat_ratio [1] */ \
-    (pneu_real)1.3999999999999999, /* polytropic_index [1] */ \
+    (pneu_real)287.1015193370166, /* gas_constant [J/kg/K] */ \
+    (pneu_real)1.4, /* heat_ratio [1] */ \
+    (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
       (pneu_real)0, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
       (pneu_real)0, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)2.0000000000000002e-05, /* tube_volume [m3] */ \
+      (pneu_real)2e-05, /* tube_volume [m3] */ \
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
-      (pneu_real)2.8577856938200261, /* film_conductance [W/K] */ \
+      (pneu_real)2.857785693820026, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
