@@ -496,6 +496,9 @@ def check_bytes(path):
         environment = {**os.environ, "TZ": "Asia/Kathmandu"}
         subprocess.run(["./export-fmu", path, "--fmi", str(version), "--out", second], check=True, env=environment)
         check(f"FMI {version}: the same bytes again", second.read_bytes() == first, f"{len(first)} bytes")
+        inside = SCRATCH / "inside.cfg"
+        inside.write_bytes(zipfile.ZipFile(second).read("resources/model.cfg"))
+        check(f"FMI {version}: the same from the model file inside", Path(export(inside, version)).read_bytes() == first)
 
 
 def main():
