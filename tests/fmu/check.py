@@ -346,6 +346,16 @@ def check_state(fmu):
     b.restore(b.deserialize(content))
     check(f"FMI {a.version}: a state written and read by another instance", b.run(0.31, 0.6, 29) == first, f"{len(content)} bytes")
     check(f"FMI {a.version}: half a state: refused", refused(b.deserialize, content[: len(content) // 2]))
+    b = Instance(fmu)
+    no = 0
+    for at in range(len(content) - 16384 - 64, len(content) - 16384, 4):  # before the commands that are kept: their number
+        damaged = content[:at] + b"\xff\xff\xff\x7f" + content[at + 4 :]
+        if refused(b.deserialize, damaged):
+            no += 1
+        else:
+            b.restore(b.deserialize(damaged))
+            refused(b.step, 0.31, 0.01)
+    check(f"FMI {a.version}: a state damaged where it counts: refused", no >= 2, f"{no} of 16")
     a.forget(state)
     a.close()
     b.close()
