@@ -423,8 +423,10 @@ def check_life(fmu):
         a = Instance(fmu, kind)
         check(f"{kind}: terminated before it ran: refused", refused(a.fmu.terminate))
         a.fmu.reset()
-        a.initialize(u=1)
+        a.initialize(u=1, force=700, area=0.05, start_position=0.002)
         check(f"{kind}: initialised twice: refused", refused(a.fmu.enterInitializationMode))
+        if kind == "CoSimulation":
+            a.run(0, 0.2, 20)
         a.fmu.terminate()
         check(f"{kind}: terminated twice: refused", refused(a.fmu.terminate))
         a.get("position")
