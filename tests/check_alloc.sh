@@ -1,10 +1,10 @@
 #!/bin/sh
 # Programs that run out of memory, at one call after the other: no crash, no leak (built with sanitizers), status 4 and a
 # message about memory, no file half-written.
-#   check_alloc.sh FOLDER QUICK    each with closeloop and simulate linked with tests/alloc/fail.c; FOLDER's with sanitizers
+#   check_alloc.sh FOLDER QUICK    closeloop, simulate and export-fmu, linked with tests/alloc/fail.c; FOLDER's with sanitizers
 # The first calls are tried one by one, later ones further and further apart; every second time memory stays away. A
 # search for what has no name takes too long with sanitizers: QUICK's is tried at a few calls.
-# Not tried: memory that libraries take for themselves (libconfig, UDUNITS, cJSON, NLopt, SUNDIALS, gnuplot, and the
+# Not tried: memory that libraries take for themselves (libconfig, UDUNITS, cJSON, libzip, libxml2, NLopt, SUNDIALS, gnuplot, and the
 # streams of the C library).
 set -u
 folder=$1
@@ -58,6 +58,7 @@ sample() {
 
 sample "$folder/closeloop" "$work/rig.cfg" "$work/log.csv" --out "$work/out" --threads 1 --quiet
 sample "$folder/simulate" "$work/rig.cfg" "$work/log.csv"
+sample "$folder/export-fmu" "$work/leaky.cfg" --out "$work/out"
 
 # a bump of friction that nothing in the catalogue explains
 printf 'unlisted = ( { equation = "friction"; argument = "x"; from = "0 mm"; to = "20 mm"; values = [ 0, 0, 300, 0, 0 ];

@@ -6,6 +6,7 @@
 Installs FMPy from PyPI into VENV at the first time; ends with status 3 where that cannot be.
 """
 import contextlib
+import ctypes
 import os
 import shutil
 import subprocess
@@ -346,6 +347,16 @@ def check_state(fmu):
     b.restore(b.deserialize(content))
     check(f"FMI {a.version}: a state written and read by another instance", b.run(0.31, 0.6, 29) == first, f"{len(content)} bytes")
     check(f"FMI {a.version}: half a state: refused", refused(b.deserialize, content[: len(content) // 2]))
+    b = Instance(fmu)
+    no = 0
+    for at in range(len(content) - 16384 - 64, len(content) - 16384, 4):  # before the commands that are kept: their number
+        damaged = content[:at] + b"\xff\xff\xff\x7f" + content[at + 4 :]
+        if refused(b.deserialize, damaged):
+            no += 1
+        else:
+            b.restore(b.deserialize(damaged))
+            refused(b.step, 0.31, 0.01)
+    check(f"FMI {a.version}: a state damaged where it counts: refused", no >= 2, f"{no} of 16")
     a.forget(state)
     a.close()
     b.close()
@@ -413,8 +424,10 @@ def check_life(fmu):
         a = Instance(fmu, kind)
         check(f"{kind}: terminated before it ran: refused", refused(a.fmu.terminate))
         a.fmu.reset()
-        a.initialize(u=1)
+        a.initialize(u=1, force=700, area=0.05, start_position=0.002)
         check(f"{kind}: initialised twice: refused", refused(a.fmu.enterInitializationMode))
+        if kind == "CoSimulation":
+            a.run(0, 0.2, 20)
         a.fmu.terminate()
         check(f"{kind}: terminated twice: refused", refused(a.fmu.terminate))
         a.get("position")
@@ -432,6 +445,21 @@ def check_life(fmu):
             b = Instance(fmu, kind)
             ready(b)
             b.close()
+
+
+def check_beyond(fmu):
+    """A solver tries a moving stem beyond its stop, where there is no volume: it gets numbers, not an error."""
+    a = Instance(fmu, "ModelExchange").initialize(u=-1, start_position=0.01, start_pressure=0)
+    (a.fmu.newDiscreteStates if a.version == 2 else a.fmu.updateDiscreteStates)()
+    a.fmu.enterContinuousTimeMode()
+    n = a.description.numberOfContinuousStates
+    x, dx = (ctypes.c_double * n)(), (ctypes.c_double * n)()
+    a.fmu.getContinuousStates(x, n)
+    x[n - 2], x[n - 1] = -0.001, -0.01
+    a.fmu.setContinuousStates(x, n)
+    (a.fmu.getDerivatives if a.version == 2 else a.fmu.getContinuousStateDerivatives)(dx, n)
+    good = dx[n - 2] == -0.01 and dx[n - 1] != 0 and np.isfinite(list(dx)).all()
+    check(f"FMI {a.version}: beyond the stop", good, str(list(dx)))
 
 
 def built_again(fmu, options, out, more=()):
@@ -496,6 +524,9 @@ def check_bytes(path):
         environment = {**os.environ, "TZ": "Asia/Kathmandu"}
         subprocess.run(["./export-fmu", path, "--fmi", str(version), "--out", second], check=True, env=environment)
         check(f"FMI {version}: the same bytes again", second.read_bytes() == first, f"{len(first)} bytes")
+        inside = SCRATCH / "inside.cfg"
+        inside.write_bytes(zipfile.ZipFile(second).read("resources/model.cfg"))
+        check(f"FMI {version}: the same from the model file inside", Path(export(inside, version)).read_bytes() == first)
 
 
 def main():
@@ -511,6 +542,7 @@ def main():
         check_instances(fmu)
         check_steps(fmu)
         check_life(fmu)
+        check_beyond(fmu)
     check_sources(SCRATCH / "plain.cfg")
     check_bytes(plain)
     check_ramp()

@@ -151,6 +151,16 @@ static int disorder(long calls)
   return count[fmi3OK] < calls / 10 || count[fmi3Error] < calls / 10; /* else it has tried nothing */
 }
 
+/* After an event no indicator may stand at or above 0, or its next crossing would be lost. */
+static int all_armed(const fmi3Float64 *z, size_t n)
+{
+  size_t k;
+  for (k = 0; k < n; k++)
+    if (!(z[k] < 0))
+      return 0;
+  return 1;
+}
+
 /* Fill for 1 s from t = 0 and vent for 1 s, by forward Euler. */
 static int fixed_steps(double h)
 {
@@ -193,6 +203,10 @@ static int fixed_steps(double h)
       status |= fmi3EnterContinuousTimeMode(c);
       status |= fmi3GetContinuousStates(c, x, n);
       status |= fmi3GetEventIndicators(c, z, n_z);
+      if (!all_armed(z, n_z)) {
+        fprintf(stderr, "an indicator is not below 0 after an event at %.9g s\n", t);
+        status = fmi3Error;
+      }
     }
     memcpy(before, z, sizeof before);
     if (i % (steps / 20) == 0 || i + 1 == steps) {

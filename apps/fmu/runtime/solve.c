@@ -167,7 +167,7 @@ static int run_to(fmu_instance *i, double end)
     pneu_input input;
     double to;
     follow_jumps(i);
-    last = next_time(i) >= end - rounding;
+    last = !(next_time(i) < end - rounding);
     to = last ? end : next_time(i);
     fmu_drive(i, &input);
     i->work.h = 0;
