@@ -188,7 +188,7 @@ def agrees(text, value):
 # what a channel is called on the page, in which unit, and as how many of those the table's unit counts
 CHANNELS = {"Pressure p": ("p", "kPa", 1e-3), "Position x": ("x", "mm", 1e3), "Force force": ("force", "N", 1),
             "Temperature T": ("T", "K", 1)}
-CURVES = {"measured": "{} [", "declared model, fitted": "{}_before [", "completed model": "{}_after ["}
+CURVES = {"measured": "{} [", "declared": "{}_before [", "completed": "{}_after ["}
 
 
 def rows_of(folder):
