@@ -24,8 +24,8 @@ static const lab_option options[] = {
     {"batch", LAB_OPTION_TEXT, &list, "LIST.csv",
      "many rigs, a line each: header name,rig,log,holdout; several logs: a.csv;b.csv;\n"
      "paths from the list's folder; name and holdout may be left out; # is a comment.\n"
-     "Writes DIR/batch.csv, a line each in the list's order, DIR/batch.cost.csv, and\n"
-     "DIR/<name>/report.json. As many logs at once as --threads says. Stopped, it goes on\n"
+     "Writes DIR/batch.csv, a line each in the list's order, DIR/index.html, the worst\n"
+     "first, DIR/batch.cost.csv, and DIR/<name>/report.json. As many logs at once as --threads says. Stopped, it goes on\n"
      "where it was; a line is done again if its files, options or closeloop changed.\n"
      "A log that fails is a line with verdict \"error\"; the exit status is then that of\n"
      "the worst line",

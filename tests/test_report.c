@@ -371,7 +371,7 @@ static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void *
   assert_string_equal(fault_of(text), "");
   assert_contains(text, "2002 rows in 2 runs");
   assert_contains(text, "runs one after the other");
-  assert_contains(text, "\"runs\":[{\"from\":0,\"shift\":0},");
+  assert_contains(text, "\"runs\":[{\"entry\":0,\"shift\":0},{\"entry\":");
   assert_contains(text, "Undecided");
   assert_null(strstr(text, "completed model"));
   free(text);

@@ -57,6 +57,7 @@ typedef struct drawing {
   lab_point *point;    /* room for the envelope of a series */
   cJSON *readings;     /* what can be read off by pointing */
   unsigned char *kept; /* for each row, whether its values can */
+  double *clock;       /* time of each row in its log */
   int t;               /* column of the readings: time */
 } drawing;
 
@@ -206,26 +207,31 @@ static int decimals_of_time(const lab_evidence *v)
   for (i = 1; i < v->n; i++)
     if (v->t[i] > v->t[i - 1])
       least = fmin(least, v->t[i] - v->t[i - 1]);
-  return isfinite(least) ? (int)fmin(fmax(1 - floor(log10(least)), 0), 9) : 0;
+  return isfinite(least) ? (int)fmin(fmax(-floor(log10(least)), 0), 9) : 0;
 }
 
-/* Where each of several runs begins on the axis of time, and by how much it was moved there from its log. */
-static void read_runs(const drawing *d)
+/* The time of each row by the clock of its log, and, of several runs, the entry with which each begins and by how much
+ * the axis has it later. */
+static void read_time(drawing *d)
 {
+  const lab_evidence *v = d->evidence;
   const lab_unknowns *u = d->story->completed;
-  cJSON *list;
+  cJSON *runs = cJSON_AddArrayToObject(d->readings, "runs");
+  size_t i, entry = 0;
   int e;
-  if (u->n_experiments < 2)
-    return;
-  list = cJSON_AddArrayToObject(d->readings, "runs");
-  for (e = 0; e < u->n_experiments; e++) {
-    const lab_experiment *x = &u->experiment[e];
-    const double from = d->evidence->t[d->evidence->first[e]];
+  for (e = 0; e < v->n_runs; e++) {
+    const double shift = v->t[v->first[e]] - u->experiment[e].log->value[LAB_CHANNEL_TIME][u->experiment[e].first];
     cJSON *item = cJSON_CreateObject();
-    cJSON_AddItemToArray(list, item);
-    cJSON_AddNumberToObject(item, "from", from);
-    cJSON_AddNumberToObject(item, "shift", from - x->log->value[LAB_CHANNEL_TIME][x->first]);
+    cJSON_AddItemToArray(runs, item);
+    cJSON_AddNumberToObject(item, "entry", (double)entry);
+    cJSON_AddNumberToObject(item, "shift", shift);
+    for (i = v->first[e]; i < v->first[e + 1]; i++) {
+      d->clock[i] = v->t[i] - shift;
+      entry += d->kept[i];
+    }
   }
+  d->t = lab_readings_column(d->readings, d->clock, d->kept, v->n, 1, decimals_of_time(v));
+  cJSON_AddNumberToObject(d->readings, "t", d->t);
 }
 
 /* Rows that a curve over time goes through: so the peaks are among them. */
@@ -241,8 +247,7 @@ static void keep_rows(drawing *d)
       keep_rows_of(d, v->channel[c].residual[stage]);
     }
   }
-  d->t = lab_readings_column(d->readings, v->t, d->kept, v->n, 1, decimals_of_time(v));
-  read_runs(d);
+  read_time(d);
 }
 
 /* A panel over time, but for its place and what it shows. */
@@ -902,14 +907,15 @@ static int share_out(const char *drawn, lab_figures *figures, lab_error *error)
 
 int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_figures *figures, lab_error *error)
 {
-  drawing d = {story, evidence, NULL, NULL, NULL, NULL, NULL, -1};
+  drawing d = {story, evidence, NULL, NULL, NULL, NULL, NULL, NULL, -1};
   char *drawn = NULL;
   int status;
   memset(figures, 0, sizeof *figures);
   d.readings = figures->readings = lab_readings_new();
   d.point = malloc(((size_t)3 * COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point);
   d.kept = calloc(evidence->n + 1, 1);
-  if (!d.point || !d.kept) {
+  d.clock = malloc((evidence->n + 1) * sizeof *d.clock);
+  if (!d.point || !d.kept || !d.clock) {
     status = lab_fail_memory(error, "the figures");
   } else if ((d.file = tmpfile())) {
     keep_rows(&d);
@@ -924,6 +930,7 @@ int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_f
   free(drawn);
   free(d.point);
   free(d.kept);
+  free(d.clock);
   return status;
 }
 

@@ -714,10 +714,14 @@ static void put_merit(const telling *t, cJSON *page)
 /* What the keys of curves mean. */
 static const struct {
   const char *key, *label;
-  int is_switch; /* whether a curve of it can be switched off */
-} curves[] = {{"measured", "measured", 1},     {"before", "declared model, fitted", 1},
-              {"after", "completed model", 1}, {"band", "99 % of white noise", 1},
-              {"term", "fitted term", 0},      {"command", "command", 0}};
+  const char *brief; /* beside a value */
+  int is_switch;     /* whether a curve of it can be switched off */
+} curves[] = {{"measured", "measured", "measured", 1},
+              {"before", "declared model, fitted", "declared", 1},
+              {"after", "completed model", "completed", 1},
+              {"band", "99 % of white noise", "99 % of noise", 1},
+              {"term", "fitted term", "", 0},
+              {"command", "command", "", 0}};
 enum { CURVES = sizeof curves / sizeof *curves };
 
 /* The switches of a figure: those of its keys that there is something of. */
@@ -792,7 +796,7 @@ static int put_readings(const telling *t, cJSON *page)
   labels = cJSON_CreateObject();
   for (i = 0; i < CURVES; i++)
     if (has_completed(t) || strcmp(curves[i].key, "after") != 0)
-      cJSON_AddStringToObject(labels, curves[i].key, curves[i].label);
+      cJSON_AddStringToObject(labels, curves[i].key, curves[i].brief);
   cJSON_DeleteItemFromObject(t->figures->readings, "labels");
   cJSON_AddItemToObject(t->figures->readings, "labels", labels);
   text = cJSON_PrintUnformatted(t->figures->readings);

@@ -1,14 +1,19 @@
 /* Read the curves of the figures by pointing, touching, or with the slider below each; the page is whole without. */
 (() => {
   const svgNS = document.querySelector(".drawing svg").namespaceURI;
-  const { columns, panels, runs, labels } = JSON.parse(document.getElementById("readings").textContent);
+  const { columns, panels, runs, t, labels } = JSON.parse(document.getElementById("readings").textContent);
   const shown = {}; /* group: x that is pointed at */
 
   for (const column of columns) {
     let sum = 0;
     column.v = column.d.split(",").map(d => d === "" ? NaN : (sum += Number(d)) / 10 ** column.k);
   }
-  const text = (column, i) => column.v[i].toFixed(column.k).replace("-", "\u2212");
+  /* times are those of the logs; the axis has one run after the other */
+  const runOf = i => Math.max(0, runs.filter(r => r.entry <= i).length - 1);
+  const time = columns[t], clock = time.v;
+  time.v = clock.map((x, i) => x + runs[runOf(i)].shift);
+  const decimal = (x, k) => x.toFixed(k).replace("-", "\u2212");
+  const text = (column, i) => decimal(column.v[i], column.k);
 
   /* index of the entry nearest to x, of growing ones */
   function nearest(v, x) {
@@ -25,11 +30,9 @@
 
   /* "t = 3.21 s"; of several runs one after the other, that of its log */
   function where(panel, i) {
-    const column = columns[panel.at];
-    if (panel.group !== "t" || !runs)
-      return panel.x_name + " = " + text(column, i) + withUnit(panel.x_unit);
-    const run = runs.findLastIndex(r => column.v[i] >= r.from - 0.5 / 10 ** column.k);
-    return "run " + (run + 1) + ", t = " + (column.v[i] - runs[Math.max(run, 0)].shift).toFixed(column.k) + " s";
+    if (panel.at !== t)
+      return panel.x_name + " = " + text(columns[panel.at], i) + withUnit(panel.x_unit);
+    return (runs.length > 1 ? "run " + (runOf(i) + 1) + ", " : "") + "t = " + decimal(clock[i], time.k) + " s";
   }
 
   function element(name, className, parent) {
@@ -114,7 +117,7 @@
       this.slider.setAttribute("aria-valuetext", spans.join("; "));
     }
 
-    /* "Pressure p: measured 231.10, declared model, fitted 230.87 kPa", and the marks in the panel */
+    /* "Pressure p: measured 231.10, declared 230.87 kPa", and the marks in the panel */
     read(panel, x) {
       const [left, top, right, bottom] = panel.box, at = columns[panel.at], i = nearest(at.v, x);
       const on = panel.curves.filter(c => this.isOn(c.key)).filter(c => !isNaN(columns[c.of].v[i]));
