@@ -42,6 +42,8 @@ cat >"$root/home/engineer/bench.sh" <<'BENCH'
 set -eu
 study=/usr/share/pneu/study
 simulate $study/actuators/r1-400.cfg --step >step.csv
+export-fmu $study/actuators/r1-400.cfg -o r1-400.fmu
+[ -s r1-400.fmu ]
 [ "$(wc -l <step.csv)" -eq 3052 ]
 printf 'effects = { chamber_leak = { leak_area = "0.05 mm^2"; }; };\n' | cat $study/actuators/r1-400.cfg - >leaky.cfg
 printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02 mm"; };\n' |
@@ -70,7 +72,7 @@ engineer 'cc -std=c90 -pedantic-errors -Wall -Wextra example.c $(pkg-config --cf
 engineer 'cp -R /usr/share/doc/libpneu-doc/examples/pkg-config . && make -s -C pkg-config && pkg-config/strokes' ||
   wrong "the packaged example"
 tail -n 1 "$log"
-for page in closeloop sweep simulate '3 libpneu' '3 pneu' '5 pneu-rig'; do
+for page in closeloop sweep simulate export-fmu '3 libpneu' '3 pneu' '5 pneu-rig'; do
   # shellcheck disable=SC2086
   [ "$(inside man $page 2>"$log" | wc -l)" -gt 40 ] || wrong "man $page"
 done

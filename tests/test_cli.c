@@ -57,6 +57,14 @@ static void test_lab_cli_read__all_options__set_their_values(void **state)
   assert_string_equal(cli.operand[0], "m.cfg");
 }
 
+static void test_lab_cli_read__o__is_out(void **state)
+{
+  (void)state;
+  assert_int_equal(read_line("-o o.csv m.cfg"), LAB_OK);
+  assert_string_equal(text, "o.csv");
+  assert_usage("m.cfg -o", "-o");
+}
+
 static void test_lab_cli_read__no_options__keeps_the_defaults(void **state)
 {
   (void)state;
@@ -226,6 +234,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_cli_read__all_options__set_their_values),
+      cmocka_unit_test(test_lab_cli_read__o__is_out),
       cmocka_unit_test(test_lab_cli_read__no_options__keeps_the_defaults),
       cmocka_unit_test(test_lab_cli_read__options_between_operands__are_found),
       cmocka_unit_test(test_lab_cli_read__two_dashes__end_the_options),

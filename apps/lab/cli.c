@@ -39,6 +39,16 @@ static void fill(struct table *table, const lab_program *program, lab_cli *cli)
     table->row[table->n++] = shared[i];
 }
 
+/* Row of the option --out, which -o stands for in every program that has it; -1: there is none. */
+static int row_of_out(const struct table *table)
+{
+  int i;
+  for (i = 0; i < table->n; i++)
+    if (strcmp(table->row[i].name, "out") == 0)
+      return i;
+  return -1;
+}
+
 /* Every line of a text in its column. */
 static void print_help(const char *head, const char *text)
 {
@@ -59,6 +69,8 @@ static void print_usage(const lab_program *program, const struct table *table)
     snprintf(head, sizeof head, "--%s%s%s", row->name, row->argument ? " " : "", row->argument ? row->argument : "");
     print_help(head, row->help);
   }
+  if (row_of_out(table) >= 0)
+    puts("\n-o is short for --out.");
   printf("\nExit status: 0 done, 1 data or configuration at fault, 2 usage, 3 numerical failure, 4 no disk, permission "
          "or memory.\nCtrl-C ends it by the signal, 130 in a shell, with every file whole or absent.\n");
 }
@@ -113,6 +125,7 @@ static int bad_option(const struct table *table, int code, const char *text, lab
 static int read_options(struct table *table, int argc, char **argv, lab_error *error)
 {
   struct option longs[OPTION_MAX + 1];
+  const int out = row_of_out(table);
   int i, code, row;
   memset(longs, 0, sizeof longs);
   for (i = 0; i < table->n; i++) {
@@ -121,8 +134,10 @@ static int read_options(struct table *table, int argc, char **argv, lab_error *e
   }
   optind = 0; /* start afresh */
   opterr = 0;
-  while ((code = getopt_long(argc, argv, ":", longs, &row)) != -1) {
-    if (code != 0)
+  while ((code = getopt_long(argc, argv, out >= 0 ? ":o:" : ":", longs, &row)) != -1) {
+    if (code == 'o')
+      row = out;
+    else if (code != 0)
       return bad_option(table, code, argv[optind - 1], error);
     if (set_option(&table->row[row], optarg, error))
       return error->status;

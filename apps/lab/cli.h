@@ -1,4 +1,4 @@
-/* The command line that all programs share: long options from a table, usage text from the same table.
+/* The command line that all programs share: long options from a table, usage text from the same table; -o is --out.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_CLI_H
 #define LAB_CLI_H
