@@ -59,7 +59,10 @@ typedef struct lab_part {
   double mean;
 } lab_part;
 
-enum { LAB_PARTS = 8 }; /* in which a hold is looked at */
+enum {
+  LAB_PARTS = 8, /* in which a hold is looked at */
+  LAB_SEEN = 4   /* standard deviations from which on a movement is seen */
+};
 
 /* Set a figure. */
 void lab_metric_give(lab_measuring *m, int metric, double value, double uncertainty, const char *format, ...)
