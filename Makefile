@@ -32,6 +32,8 @@ LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
 CREW    := $(if $(MPI),apps/lab/mpi/crew.c,apps/lab/crew.c)
 LAB_C   := $(filter-out apps/lab/crew.c,$(wildcard apps/lab/*.c apps/study/*.c)) $(CREW)
 PROGS   := sweep simulate closeloop
+# export-fmu has a rule of its own (apps/fmu/fmu.mk)
+TOOLS   := $(PROGS) export-fmu
 TEST_C  := $(wildcard tests/test_*.c)
 BLIND_C := $(wildcard tests/blind/*.c)
 HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
@@ -55,7 +57,7 @@ SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch
 .PHONY: all help study check check-core check-single check-san check-readme verify bench figures install-packages clean
 
 ## Build the library and the programs
-all: $(STATIC) $(PROGS) export-fmu
+all: $(STATIC) $(TOOLS)
 
 ## Show this list
 help:
@@ -201,6 +203,6 @@ include apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk pack
 
 ## Remove what was built, but no results
 clean:
-	rm -rf $(BUILD) $(PROGS) export-fmu
+	rm -rf $(BUILD) $(TOOLS)
 
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

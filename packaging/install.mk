@@ -73,14 +73,14 @@ FILL_IN = sed -e 's|@VERSION@|$(VERSION)|g' -e 's|@MAJOR@|$(MAJOR)|g' -e 's|@MIN
   -e 's|@PC_PREFIX@|$(call from_to_prefix,$(LIBDIR)/pkgconfig,$${pcfiledir})|' \
   -e 's|@CMAKE_PREFIX@|$(call from_to_prefix,$(LIBDIR)/cmake/pneu,$${CMAKE_CURRENT_LIST_DIR})|' \
   -e 's|@INCLUDEDIR@|$(call below_prefix,$(INCLUDEDIR))|' -e 's|@LIBDIR@|$(call below_prefix,$(LIBDIR))|' \
-  -e 's|@PROGRAMS@|$(PROGS)|' -e 's|@SHARED@|$(SHARED_NAME)|' -e 's|@SONAME@|$(SONAME)|' \
+  -e 's|@PROGRAMS@|$(TOOLS)|' -e 's|@SHARED@|$(SHARED_NAME)|' -e 's|@SONAME@|$(SONAME)|' \
   -e "s|@POINTER@|$$(echo __SIZEOF_POINTER__ | $(CC) -E -P -)|"
 
 # Made again when the places change.
 $(READY)/places: FORCE
 	@mkdir -p $(@D)
-	@echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR) $(PROGS)' | cmp -s - $@ || \
-	  echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR) $(PROGS)' > $@
+	@echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR) $(TOOLS)' | cmp -s - $@ || \
+	  echo '$(VERSION) $(PREFIX) $(LIBDIR) $(INCLUDEDIR) $(DATADIR) $(TOOLS)' > $@
 
 $(READY)/%: packaging/%.in $(READY)/places
 	@mkdir -p $(@D)
@@ -127,7 +127,7 @@ docs:
 
 # ---- Install ----
 
-INSTALLED_PROGS := $(filter-out sweep,$(PROGS)) $(READY)/sweep
+INSTALLED_PROGS := $(filter-out sweep,$(TOOLS)) $(READY)/sweep
 STUDY_DIRS      := actuators figures measured
 
 # Everything in its place below a folder of its own.
@@ -146,7 +146,7 @@ stage: $(STATIC) $(SHARED) $(INSTALLED_PROGS) man $(READY)/pneu.pc $(READY)/pneu
 	@$(INSTALL) -m 644 $(READY)/pneuConfig.cmake $(READY)/pneuConfigVersion.cmake $(STAGE)$(LIBDIR)/cmake/pneu
 	@for page in $(MAN); do $(INSTALL) -m 644 $(READY)/man/$$page $(STAGE)$(MANDIR)/man$${page##*.} || exit 1; done
 	@ln -s libpneu.3 $(STAGE)$(MANDIR)/man3/pneu.3
-	@for program in $(PROGS); do \
+	@for program in $(TOOLS); do \
 	  $(INSTALL) -m 644 $(READY)/completion/pneu.bash $(STAGE)$(DATADIR)/bash-completion/completions/$$program || exit 1; done
 	@$(INSTALL) -m 644 $(READY)/completion/_pneu $(STAGE)$(DATADIR)/zsh/site-functions
 	@$(INSTALL) -m 644 study/hypotheses.cfg study/PAPER.md $(STAGE)$(DATADIR)/pneu/study

@@ -129,6 +129,8 @@ mkdir "$away"
   study=$prefix/share/pneu/study
   simulate "$study/actuators/r1-400.cfg" --step --out step.csv
   [ "$(wc -l <step.csv)" -eq 3052 ]
+  export-fmu "$study/actuators/r1-400.cfg" -o r1-400.fmu
+  [ -s r1-400.fmu ]
   printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02 mm"; };\n' |
     cat "$study/actuators/r1-400.cfg" - >rig.cfg
   awk 'NR == 1 || NR % 20 == 0' step.csv >log.csv
