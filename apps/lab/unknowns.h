@@ -20,7 +20,7 @@ typedef struct lab_unknown {
   int kind, index, term;
   int experiment; /* whose it is, or LAB_ALL_EXPERIMENTS */
   char name[LAB_FIT_TEXT];
-  char unit[16];
+  char unit[32];
   double value, lower, upper, scale;
   double first;  /* value before any fit */
   double spread; /* of what is known of it beforehand, about `prior`; 0: nothing is */
