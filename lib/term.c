@@ -104,6 +104,34 @@ static void add_supply(pneu_terms *t, pneu_real difference)
     t->supply = PNEU_M(fmax)(t->supply + difference, least);
 }
 
+/* Add to its equation what the terms on it come to. */
+static void add_sum(pneu_terms *t, int equation, pneu_real sum)
+{
+  switch (equation) {
+  case PNEU_TERM_SUPPLY:
+    add_supply(t, sum);
+    break;
+  case PNEU_TERM_FORCE:
+    t->force -= sum;
+    break;
+  case PNEU_TERM_FRICTION:
+    t->friction = PNEU_M(fmax)(t->friction + sum, 0);
+    break;
+  case PNEU_TERM_FLOW:
+    add_flow(t, sum);
+    break;
+  case PNEU_TERM_HEAT:
+    if (t->model->thermal && t->model->law.gas != PNEU_GAS_POLYTROPIC)
+      t->heat += sum;
+    break;
+  case PNEU_TERM_SHOWN_PRESSURE:
+    t->p_shown += sum;
+    break;
+  default:
+    t->x_shown += sum;
+  }
+}
+
 void pneu_add_terms(pneu_terms *t, int first, int last)
 {
   const pneu_model *model = t->model;
@@ -117,12 +145,6 @@ void pneu_add_terms(pneu_terms *t, int first, int last)
       sum[term->equation] +=
           term->argument == PNEU_TERM_OVER_CYCLE ? series_at(term, t->time) : value_at(term, argument[term->argument]);
   }
-  add_supply(t, sum[PNEU_TERM_SUPPLY]);
-  t->force -= sum[PNEU_TERM_FORCE];
-  t->friction = PNEU_M(fmax)(t->friction + sum[PNEU_TERM_FRICTION], 0);
-  add_flow(t, sum[PNEU_TERM_FLOW]);
-  if (model->thermal && model->law.gas != PNEU_GAS_POLYTROPIC)
-    t->heat += sum[PNEU_TERM_HEAT];
-  t->p_shown += sum[PNEU_TERM_SHOWN_PRESSURE];
-  t->x_shown += sum[PNEU_TERM_SHOWN_POSITION];
+  for (i = first; i <= last; i++)
+    add_sum(t, i, sum[i]);
 }

@@ -125,7 +125,7 @@ pass "installed: users, symbols, manual, completion, uninstall" sh tests/check_i
 pass "memory that runs out, call by call" $MAKE --no-print-directory BUILD="$BUILD" alloc
 command -v clang >/dev/null && pass "clang: every warning on lib/" $MAKE --no-print-directory strict
 command -v valgrind >/dev/null && pass "valgrind: a part of the tests" $MAKE --no-print-directory BUILD="$BUILD" \
-  GRIND="test_params test_flow test_jacobian test_number test_finds" valgrind
+  GRIND="test_params test_flow test_jacobian test_terms test_number test_finds" valgrind
 pass "closeloop: its folder, full disk, interrupted runs" sh tests/check_closeloop.sh
 pass "closeloop --batch: threads, ranks, stops" sh tests/check_batch.sh && { grep '^absent:' "$log" || true; }
 pass "FMUs: as without, by FMPy" sh tests/check_fmu.sh && { grep '^absent:' "$log" || true; }
