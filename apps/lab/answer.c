@@ -86,7 +86,7 @@ static int judge_logs(lab_answer *a, lab_error *error)
     int n = 0;
     while (first + n < held->n && held->experiment[first + n].log == &held->log[i])
       n++;
-    log->path = held->log[i].path;
+    log->name = lab_log_name(&held->log[i]);
     if (judge(&a->declared.rig, &held->experiment[first], n, &log->before, error) ||
         judge(&a->completed.rig, &held->experiment[first], n, &log->after, error))
       return error->status;

@@ -302,3 +302,9 @@ void lab_log_free(lab_log *log)
   free(log->run);
   memset(log, 0, sizeof *log);
 }
+
+const char *lab_log_name(const lab_log *log)
+{
+  const char *slash = strrchr(log->path, '/');
+  return slash ? slash + 1 : log->path;
+}

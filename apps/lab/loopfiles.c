@@ -121,10 +121,9 @@ static void add_holdout(cJSON *to, const lab_story *story)
   add_errors(o, "after", &story->holdout_after);
   list = cJSON_AddArrayToObject(o, "logs");
   for (i = 0; i < story->n_held; i++) {
-    const char *slash = strrchr(story->held[i].path, '/');
     cJSON *log = cJSON_CreateObject();
     cJSON_AddItemToArray(list, log);
-    cJSON_AddStringToObject(log, "log", slash ? slash + 1 : story->held[i].path);
+    cJSON_AddStringToObject(log, "log", story->held[i].name);
     add_errors(log, "before", &story->held[i].before);
     add_errors(log, "after", &story->held[i].after);
   }

@@ -12,7 +12,7 @@ enum { LAB_STORY_HELD = 32 };
 
 /* A log that was held out. */
 typedef struct lab_held {
-  const char *path;
+  const char *name;
   lab_errors before, after; /* of the declared and of the completed model */
 } lab_held;
 

@@ -37,9 +37,9 @@ static const struct check {
 };
 
 /* "log.csv:12", "log.csv", or "log.csv, run 3" */
-static void place(const lab_scene *s, const lab_finding *f, char *text, size_t size)
+static void place(const lab_scene *s, const lab_finding *f, const char *file, char *text, size_t size)
 {
-  int used = snprintf(text, size, "%s", s->log->path);
+  int used = snprintf(text, size, "%s", file);
   if (f->has_row && used > 0 && (size_t)used < size)
     snprintf(text + used, size - (size_t)used, ":%d", s->log->line[s->first + f->row]);
   else if (s->log->n_runs > 1 && used > 0 && (size_t)used < size)
@@ -54,7 +54,7 @@ static int check_run(const lab_scene *s, lab_remarks *remarks, lab_error *error)
     char where[LAB_PATH_TEXT];
     if (!checks[i].find(s, &f))
       continue;
-    place(s, &f, where, sizeof where);
+    place(s, &f, checks[i].severity == WRONG ? s->log->path : lab_log_name(s->log), where, sizeof where);
     if (checks[i].severity == WRONG)
       return lab_fail(error, LAB_DATA, "%s: %s", where, f.text);
     if (checks[i].severity == DOUBT)

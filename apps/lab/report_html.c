@@ -122,7 +122,7 @@ static void put_logs(const telling *t, cJSON *page)
   for (e = 0; e < u->n_experiments; e++) {
     const size_t used = strlen(names);
     if (u->experiment[e].log != last)
-      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", u->experiment[e].log->path);
+      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", lab_log_name(u->experiment[e].log));
     last = u->experiment[e].log;
   }
   if (u->n_experiments > 1)

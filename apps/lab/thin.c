@@ -70,7 +70,7 @@ void lab_log_thin(lab_log *log, size_t most, lab_remarks *remarks)
     kept += n;
   }
   log->run[log->n_runs] = log->n = kept;
-  lab_remark(remarks, "%s: of %zu rows %zu are used, one in %zu%s.", log->path, all, kept, step,
+  lab_remark(remarks, "%s: of %zu rows %zu are used, one in %zu%s.", lab_log_name(log), all, kept, step,
              busy ? "; the command, which changes often, is averaged between them"
                   : " and those where the command changes");
 }
