@@ -10,6 +10,7 @@
 #include "interrupt.h"
 #include "outfile.h"
 #include "report_html.h"
+#include "text.h"
 
 static double seconds(void)
 {
@@ -86,7 +87,7 @@ static int judge_logs(lab_answer *a, lab_error *error)
     int n = 0;
     while (first + n < held->n && held->experiment[first + n].log == &held->log[i])
       n++;
-    log->name = lab_log_name(&held->log[i]);
+    log->name = lab_file_name(held->log[i].path);
     if (judge(&a->declared.rig, &held->experiment[first], n, &log->before, error) ||
         judge(&a->completed.rig, &held->experiment[first], n, &log->after, error))
       return error->status;

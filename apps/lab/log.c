@@ -9,6 +9,7 @@
 #include "loglong.h"
 #include "logshape.h"
 #include "number.h"
+#include "text.h"
 
 /* A command may be a measured one that overshoots a little; beyond this it is in other units. */
 static const double command_max = 1.05;
@@ -253,7 +254,7 @@ static int read_text(struct reader *r, const char *path, double ambient, const l
 /* Channels that the file's name tells become constants. */
 static int take_name(const char *path, lab_log_format *format, lab_error *error)
 {
-  const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
+  const char *file = lab_file_name(path);
   int c;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
     char mark[LAB_COLUMN_TEXT], *end = NULL;
@@ -301,10 +302,4 @@ void lab_log_free(lab_log *log)
   free(log->line);
   free(log->run);
   memset(log, 0, sizeof *log);
-}
-
-const char *lab_log_name(const lab_log *log)
-{
-  const char *slash = strrchr(log->path, '/');
-  return slash ? slash + 1 : log->path;
 }

@@ -27,7 +27,4 @@ int lab_log_read(const char *path, const lab_log_format *format, double ambient,
 
 void lab_log_free(lab_log *log);
 
-/* The file's name without its folders, for what is kept or sent: an error has the path, an answer the name. */
-const char *lab_log_name(const lab_log *log);
-
 #endif

@@ -6,6 +6,7 @@
 
 #include "noise.h"
 #include "show.h"
+#include "text.h"
 
 static const double spike_size = 25;    /* in noise, from neighbours, two on either side, that agree */
 static const double spike_even = 0.1;   /* of its size: likewise, on a slope */
@@ -149,7 +150,7 @@ static int clear_saturated(struct stretch *s, int upper, lab_remarks *remarks, l
   lab_remark(remarks,
              "%s: channel %s stands at exactly %s, its %s value, as a saturated sensor does: %zu values there and "
              "beside are left out.",
-             lab_log_name(s->log), key, value, which, n);
+             lab_file_name(s->log->path), key, value, which, n);
   if (count_within(s, 0, HUGE_VAL) < FEWEST_LEFT)
     return lab_fail(error, LAB_DATA, "%s: channel %s is saturated at %s: hardly anything else is in it", s->log->path,
                     key, value);
@@ -190,7 +191,7 @@ static void clear_last(struct stretch *s, double noise, lab_remarks *remarks)
   s->y[end] = (double)NAN;
   lab_remark(remarks,
              "%s:%d: the last value of channel %s is far from those before it, as in a file that was cut: left out.",
-             lab_log_name(s->log), s->log->line[s->first + end], lab_channels[s->channel].key);
+             lab_file_name(s->log->path), s->log->line[s->first + end], lab_channels[s->channel].key);
 }
 
 /* One pass.  Out: where, the first row found.  Returns: how many. */
@@ -225,7 +226,7 @@ static int clear_spikes(struct stretch *s, lab_remarks *remarks, lab_error *erro
     lab_remark(
         remarks,
         "%s: %zu values of channel %s are far from both neighbours, the first at line %d (t = %.6g s): left out.",
-        lab_log_name(s->log), n, lab_channels[s->channel].key, s->log->line[s->first + where], s->t[where]);
+        lab_file_name(s->log->path), n, lab_channels[s->channel].key, s->log->line[s->first + where], s->t[where]);
   clear_last(s, noise, remarks);
   return LAB_OK;
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "logscene.h"
+#include "text.h"
 
 enum severity { WRONG, LIMIT, DOUBT };
 enum { VALUES_EACH = 7 }; /* measured values for each unknown, below which nothing is named */
@@ -54,7 +55,7 @@ static int check_run(const lab_scene *s, lab_remarks *remarks, lab_error *error)
     char where[LAB_PATH_TEXT];
     if (!checks[i].find(s, &f))
       continue;
-    place(s, &f, checks[i].severity == WRONG ? s->log->path : lab_log_name(s->log), where, sizeof where);
+    place(s, &f, checks[i].severity == WRONG ? s->log->path : lab_file_name(s->log->path), where, sizeof where);
     if (checks[i].severity == WRONG)
       return lab_fail(error, LAB_DATA, "%s: %s", where, f.text);
     if (checks[i].severity == DOUBT)

@@ -15,6 +15,7 @@
 #include "unlisted.h"
 #include "svginline.h"
 #include "template.h"
+#include "text.h"
 
 static const double white_level = 0.01; /* p-value below which a residual is called not white */
 static const double rough = 0.1;        /* half an interval over the value, from which on it is worth a word */
@@ -104,7 +105,7 @@ static void put_head(const telling *t, cJSON *page)
   put(page, "verdict", "%s", lab_verdict_text(verdict));
   put(page, "badge", "%s", badge[verdict]);
   put(page, "rig", "%s", story->rig->name);
-  put(page, "rig_file", "%s", story->rig->file);
+  put(page, "rig_file", "%s", lab_file_name(story->rig->file));
   put(page, "gas", "%s", pneu_gas_key(story->rig->laws.gas));
   put(page, "flow", "%s", pneu_flow_key(story->rig->laws.flow));
   put(page, "version", "%s", PNEU_VERSION);
@@ -122,7 +123,7 @@ static void put_logs(const telling *t, cJSON *page)
   for (e = 0; e < u->n_experiments; e++) {
     const size_t used = strlen(names);
     if (u->experiment[e].log != last)
-      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", lab_log_name(u->experiment[e].log));
+      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", lab_file_name(u->experiment[e].log->path));
     last = u->experiment[e].log;
   }
   if (u->n_experiments > 1)

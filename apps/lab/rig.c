@@ -7,6 +7,7 @@
 #include "names.h"
 #include "rigkeys.h"
 #include "rigterm.h"
+#include "text.h"
 
 /* ---- Names of what can be fitted ---- */
 
@@ -323,9 +324,8 @@ void lab_rig_default(lab_rig *rig)
 /* "study/actuators/r1-400.cfg" -> "r1-400" */
 static void name_from_path(const char *path, char name[LAB_NAME_TEXT])
 {
-  const char *slash = strrchr(path, '/');
   char *dot;
-  snprintf(name, LAB_NAME_TEXT, "%s", slash ? slash + 1 : path);
+  snprintf(name, LAB_NAME_TEXT, "%s", lab_file_name(path));
   dot = strrchr(name, '.');
   if (dot && dot > name)
     *dot = '\0';

@@ -120,3 +120,9 @@ size_t lab_lines_count(const lab_text *text)
   }
   return n;
 }
+
+const char *lab_file_name(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}

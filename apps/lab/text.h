@@ -33,4 +33,7 @@ int lab_lines_next(lab_lines *lines, const char **begin, const char **end);
 /* Lines in a text, the last one counted whether or not it ends. */
 size_t lab_lines_count(const lab_text *text);
 
+/* The name of a file without its folders, for what is kept or sent: an error has the path, an answer the name. */
+const char *lab_file_name(const char *path);
+
 #endif

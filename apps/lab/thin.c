@@ -1,4 +1,5 @@
 #include "thin.h"
+#include "text.h"
 
 static int begins_or_ends(const lab_log *log, size_t run, size_t i)
 {
@@ -70,7 +71,7 @@ void lab_log_thin(lab_log *log, size_t most, lab_remarks *remarks)
     kept += n;
   }
   log->run[log->n_runs] = log->n = kept;
-  lab_remark(remarks, "%s: of %zu rows %zu are used, one in %zu%s.", lab_log_name(log), all, kept, step,
+  lab_remark(remarks, "%s: of %zu rows %zu are used, one in %zu%s.", lab_file_name(log->path), all, kept, step,
              busy ? "; the command, which changes often, is averaged between them"
                   : " and those where the command changes");
 }
