@@ -29,8 +29,8 @@ endif
 
 LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
 # closeloop --batch over the ranks of MPI: make MPI=1 closeloop
-CREW    := $(if $(MPI),apps/lab/mpi/crew.c,apps/lab/crew.c)
-LAB_C   := $(filter-out apps/lab/crew.c,$(wildcard apps/lab/*.c apps/study/*.c)) $(CREW)
+CREW    := $(if $(MPI),apps/lab/batch/mpi/crew.c,apps/lab/batch/crew.c)
+LAB_C   := $(filter-out apps/lab/batch/crew.c,$(wildcard apps/lab/*/*.c apps/study/*.c)) $(CREW)
 PROGS   := sweep simulate closeloop
 # export-fmu has a rule of its own (apps/fmu/fmu.mk)
 TOOLS   := $(PROGS) export-fmu
@@ -50,7 +50,7 @@ STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
 # What was made by another program is made again: the sources' checksum goes into the record of what is done.
-SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*.[ch] apps/lab/report/* apps/study/*.[ch] apps/study/*.def))
+SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*/*.[ch] apps/lab/report/page/* apps/study/*.[ch] apps/study/*.def))
 
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -151,7 +151,7 @@ $(BUILD)/apps/%.o: apps/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-$(BUILD)/apps/lab/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
+$(BUILD)/apps/lab/batch/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
 
 # Programs are linked again when MPI=1 comes or goes.
 $(BUILD)/crew: FORCE
@@ -159,18 +159,18 @@ $(BUILD)/crew: FORCE
 	@echo '$(CREW)' | cmp -s - $@ || echo '$(CREW)' > $@
 .PHONY: FORCE
 
-$(BUILD)/apps/lab/checksum.o: apps/lab/checksum.c $(SOURCES)
+$(BUILD)/apps/lab/base/checksum.o: apps/lab/base/checksum.c $(SOURCES)
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
 
 # Scripts and templates that a program carries inside, a line a string.
-CARRIED := $(wildcard apps/lab/report/*) study/figures/style.gp
+CARRIED := $(wildcard apps/lab/report/page/*) study/figures/style.gp
 $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 	@mkdir -p $(@D)
 	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
 
-$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/pagetext.o: $(CARRIED:%=$(BUILD)/%.inc)
-$(BUILD)/apps/lab/figures.o $(BUILD)/apps/lab/pagetext.o: LAB_FLAGS += -I$(BUILD)
+$(BUILD)/apps/lab/report/figures.o $(BUILD)/apps/lab/report/pagetext.o: $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/report/figures.o $(BUILD)/apps/lab/report/pagetext.o: LAB_FLAGS += -I$(BUILD)
 
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@

@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/answer.h"
-#include "lab/batch.h"
-#include "lab/cli.h"
-#include "lab/interrupt.h"
-#include "lab/progress.h"
-#include "lab/split.h"
+#include "lab/report/answer.h"
+#include "lab/batch/batch.h"
+#include "lab/base/cli.h"
+#include "lab/base/interrupt.h"
+#include "lab/base/progress.h"
+#include "lab/batch/split.h"
 
 static const char *holdout, *out, *list;
 static double alpha = 0.01, min_gain = 0.02;

@@ -7,8 +7,8 @@
 #include <stdio.h>
 
 #include "fmu/export.h"
-#include "lab/cli.h"
-#include "lab/interrupt.h"
+#include "lab/base/cli.h"
+#include "lab/base/interrupt.h"
 
 static const char *out_path;
 static int fmi = 3;

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 
-#include "lab/cli.h"
-#include "lab/config.h"
+#include "lab/base/cli.h"
+#include "lab/base/config.h"
 #include "study/measured.h"
 #include "study/sets.h"
 

@@ -1,16 +1,16 @@
 /* simulate: what a model predicts for the commands of a log, or for the standard experiment.
  * SPDX-License-Identifier: MIT */
-#include "lab/cli.h"
-#include "lab/follow.h"
-#include "lab/interrupt.h"
-#include "lab/log.h"
-#include "lab/outfile.h"
-#include "lab/response.h"
-#include "lab/rig.h"
-#include "lab/series.h"
-#include "lab/standard.h"
-#include "lab/tape.h"
-#include "lab/metricstext.h"
+#include "lab/base/cli.h"
+#include "lab/run/follow.h"
+#include "lab/base/interrupt.h"
+#include "lab/log/log.h"
+#include "lab/base/outfile.h"
+#include "lab/run/response.h"
+#include "lab/rig/rig.h"
+#include "lab/base/series.h"
+#include "lab/run/standard.h"
+#include "lab/metrics/tape.h"
+#include "lab/metrics/metricstext.h"
 
 static const char *out_path;
 static int standard, figures, json;

@@ -5,8 +5,8 @@
 
 #include <unistd.h>
 
-#include "lab/cli.h"
-#include "lab/interrupt.h"
+#include "lab/base/cli.h"
+#include "lab/base/interrupt.h"
 #include "study/products.h"
 
 /* Where make install puts the study. */

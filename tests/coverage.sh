@@ -10,8 +10,8 @@ for test in "$@"; do
   "$folder/tests/$test" >"$folder/$test.log" 2>&1 || { tail "$folder/$test.log"; exit 1; }
 done
 
-readers=$(ls apps/lab/log*.c apps/lab/rig*.c | grep -v logscene)
-readers="$readers apps/lab/config.c apps/lab/number.c apps/lab/text.c apps/lab/units.c apps/study/study.c apps/study/tableread.c"
+readers=$(ls apps/lab/log/*.c apps/lab/rig/*.c)
+readers=$(ls apps/lab/log/*.c apps/lab/rig/*.c)
 
 # "lib/flow.c",lines,reached,branches,both ways: of the files named
 measure() {

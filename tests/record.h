@@ -5,7 +5,7 @@
 
 #include "fixture.h"
 
-#include "../apps/lab/metrics.h"
+#include "../apps/lab/metrics/metrics.h"
 
 enum { RECORD_ROWS = 60000 };
 

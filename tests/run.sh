@@ -114,6 +114,7 @@ test_effects test_effects_gas test_effects_stem test_effects_sensor"
 suites double "$BUILD" all
 suites single "$BUILD/single" "$core" SINGLE=1
 suites sanitized "$BUILD/sanitized" all SANITIZE=address,undefined OPT=-O1
+pass "rooms: includes go one way" sh tests/check_rooms.sh
 pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a" lib
 firmware
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib

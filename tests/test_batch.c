@@ -1,4 +1,4 @@
-/* apps/lab/batchlist, batchdone, batchrow, crew, batch */
+/* apps/lab/batch/batchlist, batchdone, batchrow, crew, batch */
 #include "scratch.h"
 
 #include <errno.h>
@@ -6,14 +6,14 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "../apps/lab/batch.h"
-#include "../apps/lab/batchdone.h"
-#include "../apps/lab/batchindex.h"
-#include "../apps/lab/batchlist.h"
-#include "../apps/lab/checksum.h"
-#include "../apps/lab/crew.h"
-#include "../apps/lab/interrupt.h"
-#include "../apps/lab/split.h"
+#include "../apps/lab/batch/batch.h"
+#include "../apps/lab/batch/batchdone.h"
+#include "../apps/lab/batch/batchindex.h"
+#include "../apps/lab/batch/batchlist.h"
+#include "../apps/lab/base/checksum.h"
+#include "../apps/lab/batch/crew.h"
+#include "../apps/lab/base/interrupt.h"
+#include "../apps/lab/batch/split.h"
 
 static lab_error error;
 

@@ -1,9 +1,9 @@
 /* tests/blind: what is drawn, the files that closeloop gets, and the information limit. */
 #include "scratch.h"
 
-#include "../apps/lab/log.h"
-#include "../apps/lab/rig.h"
-#include "../apps/lab/rigkeys.h"
+#include "../apps/lab/log/log.h"
+#include "../apps/lab/rig/rig.h"
+#include "../apps/lab/rig/rigkeys.h"
 #include "blind/limit.h"
 
 static lab_error error;

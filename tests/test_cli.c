@@ -1,10 +1,10 @@
-/* apps/lab/cli and progress */
+/* apps/lab/base/cli and progress */
 #include "scratch.h"
 
 #include <omp.h>
 
-#include "../apps/lab/cli.h"
-#include "../apps/lab/progress.h"
+#include "../apps/lab/base/cli.h"
+#include "../apps/lab/base/progress.h"
 
 static int flag, count;
 static double real;

@@ -1,7 +1,7 @@
 /* A response seen coarsely: what does not depend on the phase of stick-slip, and what noise does to it. */
 #include "fixture.h"
 
-#include "../apps/lab/coarse.h"
+#include "../apps/lab/fit/coarse.h"
 
 enum { ROWS = 6400, WINDOW = 64, WINDOWS = 2 * (ROWS - WINDOW) / WINDOW + 1, PERIOD = 16 };
 

@@ -1,7 +1,7 @@
 /* Periods that a residual shows: sines of known size and period in noise, in one log or in several. */
 #include "fixture.h"
 
-#include "../apps/lab/cycles.h"
+#include "../apps/lab/trace/cycles.h"
 
 enum { ROWS = 6000, LOGS = 2 };
 static const double spacing = 0.02, two_pi = 6.283185307179586;

@@ -1,7 +1,7 @@
 /* Least squares within bounds: closed forms, a curved valley, models that fail. */
 #include "check.h"
 
-#include "../apps/lab/descent.h"
+#include "../apps/lab/fit/descent.h"
 
 enum { ROWS = 40, STEPS = 60 };
 

@@ -2,7 +2,7 @@
  * tests/second: the same parameters, the same random commands, the same measured channels. */
 #include "fixture.h"
 
-#include "../apps/lab/response.h"
+#include "../apps/lab/run/response.h"
 #include "second/rig.h"
 
 enum { SAMPLES = 401, CHANGES = 16 };

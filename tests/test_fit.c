@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../apps/lab/fit.h"
-#include "../apps/lab/quantile.h"
-#include "../apps/lab/response.h"
+#include "../apps/lab/fit/fit.h"
+#include "../apps/lab/base/quantile.h"
+#include "../apps/lab/run/response.h"
 
 static lab_error error;
 

@@ -1,8 +1,8 @@
-/* apps/lab/log, and through it logformat, logheader, logcolumn, loglong and text */
+/* apps/lab/log/log, and through it logformat, logheader, logcolumn, loglong and text */
 #include "scratch.h"
 
-#include "../apps/lab/log.h"
-#include "../apps/lab/logheader.h"
+#include "../apps/lab/log/log.h"
+#include "../apps/lab/log/logheader.h"
 
 static lab_error error;
 static lab_log_format format;

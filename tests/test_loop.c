@@ -5,8 +5,8 @@
 #include "scratch.h"
 #include "second/rig.h"
 
-#include "../apps/lab/loop.h"
-#include "../apps/lab/unlisted.h"
+#include "../apps/lab/trace/loop.h"
+#include "../apps/lab/trace/unlisted.h"
 
 enum { ROWS = 1001 };
 static const double spacing = 0.01; /* [s] */

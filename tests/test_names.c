@@ -1,7 +1,7 @@
-/* apps/lab/names */
+/* apps/lab/base/names */
 #include "words.h"
 
-#include "../apps/lab/names.h"
+#include "../apps/lab/base/names.h"
 
 static const struct row {
   const char *name;

@@ -1,7 +1,7 @@
 /* How noisy a channel is: noise of known size and memory, steps of converters, gaps, too few values. */
 #include "fixture.h"
 
-#include "../apps/lab/noise.h"
+#include "../apps/lab/base/noise.h"
 
 enum { N = 4000 };
 

@@ -1,10 +1,10 @@
-/* apps/lab/number */
+/* apps/lab/base/number */
 #include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../apps/lab/number.h"
+#include "../apps/lab/base/number.h"
 #include "fixture.h"
 
 static int read(const char *text, char decimal, char thousands, double *value)

@@ -1,7 +1,7 @@
-/* apps/lab/outfile */
+/* apps/lab/base/outfile */
 #include "scratch.h"
 
-#include "../apps/lab/outfile.h"
+#include "../apps/lab/base/outfile.h"
 
 static lab_error error;
 

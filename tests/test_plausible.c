@@ -1,10 +1,10 @@
-/* apps/lab/plausible with scene, and mend, thin, remarks, show. What closeloop makes of them is in test_badlog. */
+/* apps/lab/check/plausible with scene, and mend, thin, remarks, show. What closeloop makes of them is in test_badlog. */
 #include "badlog.h"
 
-#include "../apps/lab/mend.h"
-#include "../apps/lab/plausible.h"
-#include "../apps/lab/show.h"
-#include "../apps/lab/thin.h"
+#include "../apps/lab/check/mend.h"
+#include "../apps/lab/check/plausible.h"
+#include "../apps/lab/check/show.h"
+#include "../apps/lab/check/thin.h"
 
 static const char *const header = "t [s],u [1],p [kPa],x [mm]";
 static bad_log sound;

@@ -2,8 +2,8 @@
 #include "scratch.h"
 #include "second/rig.h"
 
-#include "../apps/lab/appraise.h"
-#include "../apps/lab/report_html.h"
+#include "../apps/lab/metrics/appraise.h"
+#include "../apps/lab/report/report_html.h"
 
 enum { ROWS = 1001 };
 static const double spacing = 0.01; /* [s] */

@@ -2,7 +2,7 @@
  * the clock of what comes in cycles. */
 #include "fixture.h"
 
-#include "../apps/lab/response.h"
+#include "../apps/lab/run/response.h"
 
 enum { SAMPLES = 301 };
 static const double dt = 0.01, t_end = 3;

@@ -1,8 +1,8 @@
-/* apps/lab/rig, and through it rigkeys, rigwrite, config, and the log group of logformat */
+/* apps/lab/rig/rig, and through it rigkeys, rigwrite, config, and the log group of logformat */
 #include "scratch.h"
 
-#include "../apps/lab/rig.h"
-#include "../apps/lab/rigkeys.h"
+#include "../apps/lab/rig/rig.h"
+#include "../apps/lab/rig/rigkeys.h"
 
 static lab_error error;
 

@@ -1,10 +1,10 @@
-/* apps/lab/rigterm: free terms in rig files and as C initialisers, and what models do with them */
+/* apps/lab/rig/rigterm: free terms in rig files and as C initialisers, and what models do with them */
 #include "scratch.h"
 
-#include "../apps/lab/experiment.h"
-#include "../apps/lab/response.h"
-#include "../apps/lab/rigterm.h"
-#include "../apps/lab/start.h"
+#include "../apps/lab/run/experiment.h"
+#include "../apps/lab/run/response.h"
+#include "../apps/lab/rig/rigterm.h"
+#include "../apps/lab/run/start.h"
 
 static lab_error error;
 

@@ -1,11 +1,11 @@
-/* apps/lab/schedule, start, standard and table */
+/* apps/lab/run/schedule, start, standard and table */
 #include "scratch.h"
 
-#include "../apps/lab/rigkeys.h"
-#include "../apps/lab/schedule.h"
-#include "../apps/lab/standard.h"
-#include "../apps/lab/start.h"
-#include "../apps/lab/series.h"
+#include "../apps/lab/rig/rigkeys.h"
+#include "../apps/lab/run/schedule.h"
+#include "../apps/lab/run/standard.h"
+#include "../apps/lab/run/start.h"
+#include "../apps/lab/base/series.h"
 
 static lab_error error;
 static lab_rig rig;

@@ -3,7 +3,7 @@
 
 #include "fixture.h"
 
-#include "../apps/lab/separate_private.h"
+#include "../apps/lab/separate/separate_private.h"
 
 static const int fitted[] = {LAB_FIT_ORIFICE_AREA, PNEU_PARAM_dry_friction, PNEU_PARAM_spring_rate,
                              PNEU_PARAM_spring_preload, PNEU_PARAM_damping};

@@ -1,7 +1,7 @@
 /* apps/study/sets: which sets run, and the report over all */
 #include "scratch.h"
 
-#include "../apps/lab/config.h"
+#include "../apps/lab/base/config.h"
 #include <math.h>
 
 #include "../apps/study/sets.h"

@@ -1,10 +1,10 @@
-/* apps/lab/shown and reduce: numbers and series made fit to look at. */
+/* apps/lab/base/shown and reduce: numbers and series made fit to look at. */
 #include "check.h"
 
-#include "../apps/lab/channel.h"
-#include "../apps/lab/reduce.h"
-#include "../apps/lab/shown.h"
-#include "../apps/lab/units.h"
+#include "../apps/lab/log/channel.h"
+#include "../apps/lab/report/reduce.h"
+#include "../apps/lab/base/shown.h"
+#include "../apps/lab/base/units.h"
 #include "../lib/pneu.h"
 
 static char text[LAB_SHOWN_TEXT];

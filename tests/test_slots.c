@@ -1,7 +1,7 @@
 /* Where something without a name acts: logs that the model itself has made, with a free term in it and noise on top. */
 #include "fixture.h"
 
-#include "../apps/lab/slots.h"
+#include "../apps/lab/trace/slots.h"
 
 enum { ROWS = 1201 };
 static const double spacing = 0.05, two_pi = 6.283185307179586; /* [s] */

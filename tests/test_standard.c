@@ -51,7 +51,7 @@ static void run_ours(const experiment *e, double tol)
 }
 
 #ifndef PNEU_SINGLE /* the programs are built in double only */
-#include "../apps/lab/response.h"
+#include "../apps/lab/run/response.h"
 
 static double times[ROWS];
 

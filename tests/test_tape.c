@@ -4,9 +4,9 @@
 
 #include <cjson/cJSON.h>
 
-#include "../apps/lab/appraise.h"
-#include "../apps/lab/metricstext.h"
-#include "../apps/lab/tape.h"
+#include "../apps/lab/metrics/appraise.h"
+#include "../apps/lab/metrics/metricstext.h"
+#include "../apps/lab/metrics/tape.h"
 #include "../apps/study/measured.h"
 
 enum { ROWS = 5401 };

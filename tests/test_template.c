@@ -1,8 +1,8 @@
-/* apps/lab/template and svginline: from values and drawings to text. */
+/* apps/lab/base/template and svginline: from values and drawings to text. */
 #include "check.h"
 
-#include "../apps/lab/svginline.h"
-#include "../apps/lab/template.h"
+#include "../apps/lab/report/svginline.h"
+#include "../apps/lab/base/template.h"
 
 static lab_error error;
 

@@ -1,7 +1,7 @@
-/* apps/lab/units */
+/* apps/lab/base/units */
 #include "words.h"
 
-#include "../apps/lab/units.h"
+#include "../apps/lab/base/units.h"
 
 static lab_error error;
 

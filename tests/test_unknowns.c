@@ -1,8 +1,8 @@
 /* What a fit looks for: two runs of a log that the model itself has made, with known values for all of it. */
 #include "fixture.h"
 
-#include "../apps/lab/coarse.h"
-#include "../apps/lab/unknowns.h"
+#include "../apps/lab/fit/coarse.h"
+#include "../apps/lab/fit/unknowns.h"
 
 enum { ROWS = 81, RUNS = 2, SWITCHES = 2, FIRST_SWITCH = 8, DATA = RUNS * ROWS * 2 };
 static const double spacing = 0.05; /* [s] */

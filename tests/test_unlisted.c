@@ -1,7 +1,7 @@
 /* What a free term is called, where it acts and how it is put in words. */
 #include "fixture.h"
 
-#include "../apps/lab/unlisted.h"
+#include "../apps/lab/trace/unlisted.h"
 
 enum { KNOTS = 11, AT_X = PNEU_TERM_OVER_POSITION, AT_V = PNEU_TERM_OVER_VELOCITY, AT_P = PNEU_TERM_OVER_PRESSURE };
 

@@ -1,8 +1,8 @@
-/* apps/lab/whiteness, and the tail of chi-square that it needs */
+/* apps/lab/base/whiteness, and the tail of chi-square that it needs */
 #include "check.h"
 
-#include "../apps/lab/quantile.h"
-#include "../apps/lab/whiteness.h"
+#include "../apps/lab/base/quantile.h"
+#include "../apps/lab/base/whiteness.h"
 
 enum { ROWS = 400 };
 

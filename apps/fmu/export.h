@@ -3,7 +3,7 @@
 #ifndef FMU_EXPORT_FILE_H
 #define FMU_EXPORT_FILE_H
 
-#include "../lab/rig.h"
+#include "../lab/rig/rig.h"
 
 /* Write the FMU of a rig.
  * In:      fmi   2 or 3

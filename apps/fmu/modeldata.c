@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/checksum.h"
-#include "../lab/rigterm.h"
+#include "../lab/base/checksum.h"
+#include "../lab/rig/rigterm.h"
 #include "carried.h"
 
 typedef char fmu_room_for_terms[(int)FMU_TERM_MAX >= (int)LAB_TERM_MAX ? 1 : -1];

@@ -3,7 +3,7 @@
 #ifndef FMU_MODELDATA_H
 #define FMU_MODELDATA_H
 
-#include "../lab/rig.h"
+#include "../lab/rig/rig.h"
 #include "runtime/data.h"
 
 /* Out:     data  its token made from the model, from the version of FMI and from what export-fmu carries: the same

@@ -1,6 +1,6 @@
 #include "package.h"
 
-#include "../lab/outfile.h"
+#include "../lab/base/outfile.h"
 
 enum { NO_TIME = 0, NO_DATE = 1 << 5 | 1 }; /* 1980-01-01, the earliest that a zip archive knows */
 #define PLAIN_FILE ((zip_uint32_t)0100644 << 16)

@@ -5,7 +5,7 @@
 
 #include <zip.h>
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 typedef struct fmu_package {
   zip_source_t *source; /* the archive */

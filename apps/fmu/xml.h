@@ -7,7 +7,7 @@
 
 #include <libxml/xmlwriter.h>
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 typedef struct fmu_xml {
   xmlBufferPtr buffer;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "../lab/standard.h"
+#include "../lab/run/standard.h"
 #include "audit.h"
 
 static const double stepper_tol = 1e-8, reference_tol = 1e-12;

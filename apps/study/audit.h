@@ -4,7 +4,7 @@
 #define STUDY_AUDIT_H
 
 #include "../../lib/pneu.h"
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 typedef struct audit {
   double mass_flow;     /* [kg] integral of inflow less outflow */

@@ -3,7 +3,7 @@
 #ifndef STUDY_BENCHSCAN_H
 #define STUDY_BENCHSCAN_H
 
-#include "../lab/rig.h"
+#include "../lab/rig/rig.h"
 #include "speeds.h"
 
 enum { SCAN_POINTS = 25 };

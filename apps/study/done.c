@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include "../lab/outfile.h"
+#include "../lab/base/outfile.h"
 
 void done_read(done *d, const char *folder)
 {

@@ -3,7 +3,7 @@
 #ifndef STUDY_DONE_H
 #define STUDY_DONE_H
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 enum { DONE_MAX = 128, DONE_TEXT = 2048 };
 

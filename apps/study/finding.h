@@ -3,7 +3,7 @@
 #ifndef STUDY_FINDING_H
 #define STUDY_FINDING_H
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 enum { FINDING_CASES = 32, FINDING_TEXT = 480, FINDING_LABEL = 64 };
 

@@ -4,7 +4,7 @@
 #define STUDY_LOADCYCLE_H
 
 #include "../../lib/pneu.h"
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 typedef struct load_cycle {
   double work_up;   /* [J] on the load while the stem rises */

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../lab/outfile.h"
-#include "../lab/rigkeys.h"
-#include "../lab/text.h"
+#include "../lab/base/outfile.h"
+#include "../lab/rig/rigkeys.h"
+#include "../lab/base/text.h"
 
 enum { PATH_BYTES = 1024 };
 

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "../../lib/pneu.h"
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 #include "table.h"
 
 /* Result of a comparison whose data are not on this machine: not an error. */

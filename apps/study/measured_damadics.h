@@ -8,7 +8,7 @@
 #ifndef STUDY_MEASURED_DAMADICS_H
 #define STUDY_MEASURED_DAMADICS_H
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 /* Write to results_dir: measured_damadics_static.csv (a row a law of the force balance), measured_damadics_loop.csv
  * (points, models, residuals), measured_damadics_catalogue.csv (hysteresis, linearity, bench set),

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../lab/rig.h"
-#include "../lab/asymmetry.h"
+#include "../lab/rig/rig.h"
+#include "../lab/metrics/asymmetry.h"
 #include "measured.h"
 #include "measured_damadics.h"
 #include "stroke.h"

@@ -21,7 +21,7 @@
 #ifndef STUDY_MEASURED_VESSEL_H
 #define STUDY_MEASURED_VESSEL_H
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 /* Fit every law and write to results_dir: measured_vessel.csv (a row a law), measured_vessel_parameters.csv (a row a
  * fitted parameter) and measured_vessel_curves.csv (data, models, residuals over time).

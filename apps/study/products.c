@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../lab/checksum.h"
-#include "../lab/gnuplot.h"
-#include "../lab/outfile.h"
-#include "../lab/progress.h"
+#include "../lab/base/checksum.h"
+#include "../lab/base/gnuplot.h"
+#include "../lab/base/outfile.h"
+#include "../lab/base/progress.h"
 #include "agreement.h"
 #include "attribution.h"
 #include "conclusions.h"

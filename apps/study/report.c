@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/outfile.h"
+#include "../lab/base/outfile.h"
 #include "tableread.h"
 
 /* The paper's own verdicts, section 7. */

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../lab/outfile.h"
-#include "../lab/standard.h"
-#include "../lab/series.h"
+#include "../lab/base/outfile.h"
+#include "../lab/run/standard.h"
+#include "../lab/base/series.h"
 
 static const double accuracy = 1e-9; /* local error in units of full scale */
 

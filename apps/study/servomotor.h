@@ -13,9 +13,9 @@
 #include <stddef.h>
 
 #include "../../lib/pneu.h"
-#include "../lab/fit.h"
-#include "../lab/message.h"
-#include "../lab/rig.h"
+#include "../lab/fit/fit.h"
+#include "../lab/base/message.h"
+#include "../lab/rig/rig.h"
 
 /* What may be added, with xi = x/s; the force goes through pneu_input.force.
  *    name                 key                  unit   scale  start lower upper  adds to p */

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../lab/config.h"
+#include "../lab/base/config.h"
 
 enum { COMMAND_BYTES = 16384, PATH_BYTES = 1024 };
 

@@ -7,7 +7,7 @@
 
 #include <libconfig.h>
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 enum { SETS_MAX = 32 };
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../lab/whiteness.h"
+#include "../lab/base/whiteness.h"
 #include "tableread.h"
 
 int sets_left_runs(const table *residual)

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/text.h"
-#include "../lab/units.h"
+#include "../lab/base/text.h"
+#include "../lab/base/units.h"
 
 const char *sets_text(const config_setting_t *set, const char *key)
 {

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../lab/outfile.h"
+#include "../lab/base/outfile.h"
 #include "sets_read.h"
 #include "sets_section.h"
 

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/channel.h"
-#include "../lab/config.h"
-#include "../lab/rig.h"
-#include "../lab/units.h"
+#include "../lab/log/channel.h"
+#include "../lab/base/config.h"
+#include "../lab/rig/rig.h"
+#include "../lab/base/units.h"
 #include "sets_left.h"
 #include "tableread.h"
 

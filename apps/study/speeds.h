@@ -7,8 +7,8 @@
 #define STUDY_SPEEDS_H
 
 #include "../../lib/pneu.h"
-#include "../lab/message.h"
-#include "../lab/asymmetry.h"
+#include "../lab/base/message.h"
+#include "../lab/metrics/asymmetry.h"
 
 enum { SPEED_POINTS = 181 }; /* every half percent of travel */
 

@@ -4,8 +4,8 @@
 #define STUDY_STROKE_H
 
 #include "../../lib/pneu.h"
-#include "../lab/message.h"
-#include "../lab/asymmetry.h"
+#include "../lab/base/message.h"
+#include "../lab/metrics/asymmetry.h"
 
 /* A simulated stroke: dense output of the stepper, at most 20 ms apart. */
 typedef struct stroke_curve {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/config.h"
-#include "../lab/outfile.h"
+#include "../lab/base/config.h"
+#include "../lab/base/outfile.h"
 
 /* A row of the table of keys; the name comes first, as lab_config_known wants it. */
 typedef struct key {

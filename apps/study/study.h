@@ -3,8 +3,8 @@
 #ifndef STUDY_STUDY_H
 #define STUDY_STUDY_H
 
-#include "../lab/message.h"
-#include "../lab/rig.h"
+#include "../lab/base/message.h"
+#include "../lab/rig/rig.h"
 #include "table.h"
 
 enum { STUDY_ACTUATOR_MAX = 8, STUDY_LAW_MAX = 8, STUDY_BENCH_MAX = 16, STUDY_PATH_TEXT = 1024 };

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "../lab/message.h"
+#include "../lab/base/message.h"
 
 /* A cell is text, or a number where text is NULL. */
 typedef struct table_cell {

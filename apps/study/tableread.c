@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/text.h"
+#include "../lab/base/text.h"
 
 enum { FIELD_TEXT = 4096, COLUMN_MAX = 64 };
 

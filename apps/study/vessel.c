@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/response.h"
+#include "../lab/run/response.h"
 #include "measured.h"
 
 static const double tolerance = 1e-9; /* of full scale; pressures are then good to 1 Pa and better */

@@ -6,10 +6,10 @@
 #include <stddef.h>
 
 #include "../../lib/pneu.h"
-#include "../lab/fit.h"
-#include "../lab/log.h"
-#include "../lab/message.h"
-#include "../lab/rig.h"
+#include "../lab/fit/fit.h"
+#include "../lab/log/log.h"
+#include "../lab/base/message.h"
+#include "../lab/rig/rig.h"
 
 /* What can be fitted.
  *    name        key                  unit           scale  log  start   lower  upper   (in the unit)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../apps/lab/rigkeys.h"
+#include "../../apps/lab/rig/rigkeys.h"
 
 /* Text as roff takes it: some characters are others in print, and a point within a line ends no sentence. */
 static void put(const char *text)

@@ -5,7 +5,7 @@
 
 #include <omp.h>
 
-#include "../../apps/lab/outfile.h"
+#include "../../apps/lab/base/outfile.h"
 
 int bench_repeats(const bench *b, int usual)
 {

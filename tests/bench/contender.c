@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../apps/lab/cvode.h"
+#include "../../apps/lab/run/cvode.h"
 #include "fitting.h"
 #include "timing.h"
 

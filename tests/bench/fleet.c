@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../apps/lab/outfile.h"
+#include "../../apps/lab/base/outfile.h"
 #include "../blind/logs.h"
 
 enum { LOGS = 20, ROWS = 300, SEED = 7, PATHS = 600 };

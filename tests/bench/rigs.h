@@ -3,7 +3,7 @@
 #ifndef BENCH_RIGS_H
 #define BENCH_RIGS_H
 
-#include "../../apps/lab/unknowns.h"
+#include "../../apps/lab/fit/unknowns.h"
 #include "bench.h"
 
 /* A log, and the model that is to be fitted to it. */

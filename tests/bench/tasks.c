@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../apps/lab/trace.h"
+#include "../../apps/lab/trace/trace.h"
 
 double bench_task_fit(void *context)
 {

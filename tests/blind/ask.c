@@ -13,7 +13,7 @@
 
 #include <cjson/cJSON.h>
 
-#include "../../apps/lab/text.h"
+#include "../../apps/lab/base/text.h"
 
 extern char **environ;
 

@@ -3,7 +3,7 @@
 #ifndef BLIND_ASK_H
 #define BLIND_ASK_H
 
-#include "../../apps/lab/message.h"
+#include "../../apps/lab/base/message.h"
 
 enum { BLIND_FINDS = 8, BLIND_TEXT = 256, BLIND_CANDIDATES = 64 };
 typedef char blind_word[48];

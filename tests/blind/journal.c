@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../apps/lab/outfile.h"
-#include "../../apps/lab/text.h"
+#include "../../apps/lab/base/outfile.h"
+#include "../../apps/lab/base/text.h"
 
 /* Read the records of a file that begins with the right key. Nothing to read is no error. */
 static void take_up(blind_journal *j, const char *path, const char *key)

@@ -3,7 +3,7 @@
 #ifndef BLIND_JOURNAL_H
 #define BLIND_JOURNAL_H
 
-#include "../../apps/lab/message.h"
+#include "../../apps/lab/base/message.h"
 #include "record.h"
 
 typedef struct blind_journal {

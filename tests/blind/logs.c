@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../apps/lab/outfile.h"
+#include "../../apps/lab/base/outfile.h"
 
 int blind_simulate(const second_rig *rig, const blind_schedule *s, double spacing, blind_rows *rows, lab_error *error)
 {

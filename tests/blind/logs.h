@@ -3,7 +3,7 @@
 #ifndef BLIND_LOGS_H
 #define BLIND_LOGS_H
 
-#include "../../apps/lab/message.h"
+#include "../../apps/lab/base/message.h"
 #include "draw.h"
 
 /* Samples of a run; one block of memory, to be freed with blind_rows_free. */

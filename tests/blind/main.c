@@ -14,10 +14,10 @@
 
 #include <omp.h>
 
-#include "../../apps/lab/checksum.h"
-#include "../../apps/lab/cli.h"
-#include "../../apps/lab/outfile.h"
-#include "../../apps/lab/progress.h"
+#include "../../apps/lab/base/checksum.h"
+#include "../../apps/lab/base/cli.h"
+#include "../../apps/lab/base/outfile.h"
+#include "../../apps/lab/base/progress.h"
 #include "journal.h"
 #include "limit.h"
 #include "score.h"

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../apps/lab/rig.h"
-#include "../../apps/lab/standard.h"
+#include "../../apps/lab/rig/rig.h"
+#include "../../apps/lab/run/standard.h"
 
 int main(int argc, char **argv)
 {

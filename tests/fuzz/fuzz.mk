@@ -5,8 +5,8 @@ FUZZ_TARGETS ?= log rig study table
 FUZZ_RUNS    ?= -1
 
 # The readers and what they need, without the rest of the programs.
-FUZZ_READERS := $(wildcard apps/lab/rig*.c) $(filter-out %/logscene.c,$(wildcard apps/lab/log*.c)) \
-                $(addprefix apps/lab/,channel.c config.c interrupt.c message.c names.c number.c outfile.c text.c units.c) \
+FUZZ_READERS := $(wildcard apps/lab/log/*.c apps/lab/rig/*.c) \
+                $(addprefix apps/lab/base/,config.c interrupt.c message.c names.c number.c outfile.c text.c units.c) \
                 $(addprefix apps/study/,study.c table.c tableread.c)
 FUZZ_C       := $(LIB_C) $(FUZZ_READERS) tests/fuzz/targets.c tests/fuzz/libfuzzer.c
 FUZZING      := $(BUILD)/fuzzing
@@ -26,5 +26,5 @@ $(BUILD)/fuzz: $(FUZZ_C:%.c=$(BUILD)/%.o)
 
 # Where the fuzzer is not to look for new ways: nearest names take most of the time otherwise, the library holds no reader.
 ifneq ($(findstring fuzzer,$(SANITIZE)),)
-$(BUILD)/apps/lab/names.o $(LIB_O): FLAGS += -fno-sanitize=fuzzer-no-link
+$(BUILD)/apps/lab/base/names.o $(LIB_O): FLAGS += -fno-sanitize=fuzzer-no-link
 endif

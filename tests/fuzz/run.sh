@@ -16,7 +16,7 @@ export LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0
 
 # Leaks are counted once, at the end of a target's run: after every execution it would take all the time.
 # Words of the files, as the readers have them.
-cat apps/lab/rig*.c apps/lab/log*.c apps/lab/channel.h apps/study/study.c lib/*.h lib/effects/*.c |
+cat apps/lab/rig/*.c apps/lab/log/*.[ch] apps/study/study.c lib/*.h lib/effects/*.c |
   grep -o '"[A-Za-z0-9_.^/%-][A-Za-z0-9_.^/% -]*"' | sort -u >"$folder/words"
 
 for target in "$@"; do

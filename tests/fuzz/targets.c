@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../../apps/lab/log.h"
-#include "../../apps/lab/rig.h"
+#include "../../apps/lab/log/log.h"
+#include "../../apps/lab/rig/rig.h"
 #include "../../apps/study/study.h"
 #include "../../apps/study/tableread.h"
 

@@ -1,0 +1,415 @@
+#include "batch.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "batchdone.h"
+#include "batchindex.h"
+#include "batchlist.h"
+#include "../base/checksum.h"
+#include "crew.h"
+#include "../base/interrupt.h"
+#include "../base/outfile.h"
+#include "../base/progress.h"
+#include "split.h"
+#include "../base/text.h"
+#include "../base/units.h"
+
+/* What is handed out. */
+typedef struct job {
+  uint64_t key;
+  lab_entry entry;
+} job;
+
+typedef struct batch {
+  const lab_batch_options *how;
+  char shown[LAB_PATH_TEXT];                /* folder of the results, as it was given */
+  char out[LAB_PATH_TEXT - LAB_ENTRY_NAME]; /* the same, absolute */
+  pid_t leader;                             /* of this rank */
+  lab_list list;
+  lab_error fault; /* of the list, while it is read for the second time */
+  lab_progress progress;
+  int n, done, before; /* lines; done; of these, by an earlier run */
+} batch;
+
+static double seconds(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* What this process took since a time on the clock. */
+static lab_cost cost_since(double start)
+{
+  lab_cost cost;
+  struct rusage use;
+  getrusage(RUSAGE_SELF, &use);
+  cost.seconds = seconds() - start;
+  cost.cpu = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+             1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  cost.memory = (double)use.ru_maxrss / 1024; /* in kB on Linux */
+  return cost;
+}
+
+static void folder_of(const batch *b, const char *name, char folder[LAB_PATH_TEXT])
+{
+  snprintf(folder, LAB_PATH_TEXT, "%s/%s", b->out, name);
+}
+
+/* ---- Whether a line is done ---- */
+
+static uint64_t add_files(uint64_t key, const char *list)
+{
+  char text[LAB_ENTRY_TEXT];
+  const char *path[LAB_BENCH_LOGS];
+  int i, n;
+  key = lab_checksum_text(key, list);
+  strcpy(text, list);
+  n = lab_split(text, ';', path, LAB_BENCH_LOGS);
+  for (i = 0; i < n; i++)
+    key = lab_checksum_file(key, path[i]);
+  return key;
+}
+
+/* A rig file may take in others, which nobody looks for here. */
+static int has_include(const char *rig)
+{
+  lab_error ignored;
+  lab_text text;
+  int any;
+  if (lab_text_read(rig, &text, &ignored))
+    return 0;
+  any = strstr(text.data, "@include") != NULL;
+  lab_text_free(&text);
+  return any;
+}
+
+/* Checksum of all that decides about a line's row and report; 0 where that cannot be told. */
+static uint64_t key_of(const batch *b, const lab_entry *e)
+{
+  char numbers[80];
+  uint64_t key = lab_checksum_text(LAB_CHECKSUM_SEED, lab_build());
+  snprintf(numbers, sizeof numbers, "%.17g %.17g", b->how->alpha, b->how->min_gain);
+  key = lab_checksum_text(key, numbers);
+  key = lab_checksum_text(key, e->name);
+  key = lab_checksum_file(lab_checksum_text(key, e->rig), e->rig);
+  key = add_files(add_files(key, e->log), e->holdout);
+  return has_include(e->rig) ? 0 : key;
+}
+
+static int is_done(const batch *b, const lab_entry *e, uint64_t key)
+{
+  char folder[LAB_PATH_TEXT];
+  lab_done done;
+  folder_of(b, e->name, folder);
+  return lab_done_read(folder, &done) && key && done.key == key &&
+         (done.outcome.status != LAB_OK ||
+          (done.extent >= b->how->extent && lab_answer_is_there(folder, b->how->extent)));
+}
+
+/* ---- The crew's part ---- */
+
+/* The next line that is not done yet. */
+static int next(void *context, void *to)
+{
+  batch *b = context;
+  job *j = to;
+  int more;
+  while (lab_list_next(&b->list, &j->entry, &more, &b->fault) == LAB_OK && more) {
+    char folder[LAB_PATH_TEXT];
+    j->key = key_of(b, &j->entry);
+    if (!is_done(b, &j->entry, j->key)) {
+      folder_of(b, j->entry.name, folder);
+      lab_done_remove(folder);
+      lab_answer_remove(folder);
+      return 1;
+    }
+    b->before++;
+    lab_progress_count(&b->progress, ++b->done, b->n, b->before);
+    if (lab_interrupt_pending())
+      return 0;
+  }
+  return 0;
+}
+
+static int done(void *context, const void *what, const void *result, lab_error *error)
+{
+  batch *b = context;
+  const job *j = what;
+  char folder[LAB_PATH_TEXT];
+  lab_done d;
+  d.outcome = *(const lab_outcome *)result;
+  d.extent = b->how->extent;
+  d.key = d.outcome.status == LAB_WORLD ? 0 : j->key; /* the world may be better next time */
+  folder_of(b, j->entry.name, folder);
+  if (lab_done_write(folder, &d, error))
+    return error->status;
+  lab_progress_count(&b->progress, ++b->done, b->n, b->before);
+  return LAB_OK;
+}
+
+/* A job whose leader has gone ends at its next stage. */
+static void look_for_leader(void *context, const char *what)
+{
+  const batch *b = context;
+  (void)what;
+  if (getppid() != b->leader)
+    _exit(LAB_WORLD);
+}
+
+static int ask(batch *b, const lab_entry *e, lab_answer **answer, lab_error *error)
+{
+  char log_text[LAB_ENTRY_TEXT], held_text[LAB_ENTRY_TEXT];
+  const char *log[LAB_BENCH_LOGS], *held[LAB_BENCH_LOGS];
+  lab_question q = {0};
+  strcpy(log_text, e->log);
+  strcpy(held_text, e->holdout);
+  q.rig = e->rig;
+  q.log = log;
+  q.n_logs = lab_split(log_text, ';', log, LAB_BENCH_LOGS);
+  q.holdout = held;
+  q.n_holdout = lab_split(held_text, ';', held, LAB_BENCH_LOGS);
+  q.alpha = b->how->alpha;
+  q.min_gain = b->how->min_gain;
+  q.tell = look_for_leader;
+  q.context = b;
+  if (q.n_logs < 0 || q.n_holdout < 0)
+    return lab_fail(error, LAB_DATA, "more than %d logs on one line of the list", (int)LAB_BENCH_LOGS);
+  return lab_answer_find(&q, answer, error);
+}
+
+static void work(void *context, const void *what, void *result)
+{
+  const double start = seconds();
+  batch *b = context;
+  const job *j = what;
+  lab_outcome *outcome = result;
+  char folder[LAB_PATH_TEXT];
+  lab_answer *answer = NULL;
+  lab_error error;
+  folder_of(b, j->entry.name, folder);
+  if (ask(b, &j->entry, &answer, &error)) {
+    lab_row_error(&error, outcome);
+  } else {
+    look_for_leader(b, "writing");
+    if (lab_answer_write(answer, folder, b->how->extent, &error))
+      lab_row_error(&error, outcome);
+    else
+      lab_row_answer(answer, outcome);
+    lab_answer_free(answer);
+  }
+  outcome->cost = cost_since(start);
+}
+
+static void lost(void *context, const void *what, int wait, void *result)
+{
+  lab_error error;
+  (void)context;
+  (void)what;
+  lab_fail(&error, LAB_WORLD,
+           "the process at work on this line was ended by %s %d; if that comes again, please report it",
+           WIFSIGNALED(wait) ? "signal" : "status", WIFSIGNALED(wait) ? WTERMSIG(wait) : WEXITSTATUS(wait));
+  lab_row_error(&error, result);
+}
+
+/* ---- batch.csv ---- */
+
+enum { KINDS = 5 };
+static const char *const kinds[KINDS] = {"effect", "none", "unlisted", "undecided", "error"};
+
+typedef struct totals {
+  int n[KINDS];
+  int worst; /* status */
+} totals;
+
+static void count(totals *t, const lab_outcome *outcome)
+{
+  int k;
+  for (k = 0; k < KINDS; k++)
+    t->n[k] += strncmp(outcome->row, kinds[k], strcspn(outcome->row, ",")) == 0;
+  if (outcome->status > t->worst)
+    t->worst = outcome->status;
+}
+
+static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals *t, lab_error *error)
+{
+  lab_entry e;
+  int more, status;
+  while ((status = lab_list_next(&b->list, &e, &more, error)) == LAB_OK && more) {
+    char folder[LAB_PATH_TEXT];
+    lab_done d;
+    folder_of(b, e.name, folder);
+    if (!lab_done_read(folder, &d))
+      return lab_fail(error, LAB_DATA, "%s:%d: the list has changed during the run; run it again", b->list.path,
+                      e.line);
+    lab_row_cell(rows, e.name);
+    fprintf(rows, ",%s\n", d.outcome.row);
+    lab_row_cell(costs, e.name);
+    fprintf(costs, ",%.3f,%.3f,%.1f\n", d.outcome.cost.seconds, d.outcome.cost.cpu, d.outcome.cost.memory);
+    count(t, &d.outcome);
+    if (lab_index_add(index, e.name, &d.outcome, error))
+      return error->status;
+  }
+  return status;
+}
+
+static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
+{
+  char path[LAB_PATH_TEXT];
+  lab_outfile rows, costs;
+  int status;
+  folder_of(b, "batch.csv", path);
+  if (lab_list_restart(&b->list, error) || lab_out_open(&rows, path, error))
+    return error->status;
+  folder_of(b, "batch.cost.csv", path);
+  if (lab_out_open(&costs, path, error)) {
+    lab_out_abandon(&rows);
+    return error->status;
+  }
+  lab_row_header(rows.file);
+  fputs("name,seconds,cpu_seconds,memory_MB\n", costs.file);
+  status = copy_rows(b, rows.file, costs.file, index, t, error);
+  if (status != LAB_OK) {
+    lab_out_abandon(&rows);
+    lab_out_abandon(&costs);
+    return status;
+  }
+  status = lab_out_close(&costs, error);
+  if (status != LAB_OK)
+    lab_out_abandon(&rows);
+  return status == LAB_OK ? lab_out_close(&rows, error) : status;
+}
+
+/* batch.csv and what goes with it. */
+static int write_all(batch *b, totals *t, lab_error *error)
+{
+  lab_index index = {0};
+  int status = write_tables(b, &index, t, error);
+  if (status == LAB_OK)
+    status = lab_index_write(&index, b->how->list, b->out, error);
+  lab_index_free(&index);
+  return status;
+}
+
+/* "100 logs: 61 effect, 29 none, 10 error. results/fleet/batch.csv" */
+static int sum_up(const batch *b, const totals *t, lab_error *error)
+{
+  int k, said = 0;
+  printf("%d line%s:", b->n, b->n == 1 ? "" : "s");
+  for (k = 0; k < KINDS; k++)
+    if (t->n[k])
+      printf("%s %d %s", said++ ? "," : "", t->n[k], kinds[k]);
+  printf(". %s/batch.csv\n", b->shown);
+  fflush(stdout);
+  if (t->worst == LAB_OK)
+    return LAB_OK;
+  return lab_fail(error, t->worst, "%d of %d lines have the verdict error; the column message of batch.csv says why",
+                  t->n[KINDS - 1], b->n);
+}
+
+/* ---- The run ---- */
+
+/* The folder of the results, absolute. */
+static int place_out(batch *b, lab_error *error)
+{
+  const lab_batch_options *how = b->how;
+  const char *base = strrchr(how->list, '/'), *dot;
+  char cwd[LAB_PATH_TEXT];
+  int length;
+  base = base ? base + 1 : how->list;
+  dot = strrchr(base, '.');
+  snprintf(b->shown, sizeof b->shown, "results/%.*s", dot && dot > base ? (int)(dot - base) : (int)strlen(base), base);
+  if (how->out)
+    snprintf(b->shown, sizeof b->shown, "%s", how->out);
+  if (!getcwd(cwd, sizeof cwd))
+    return lab_fail(error, LAB_WORLD, "the present folder has no name: %s", strerror(errno));
+  length =
+      snprintf(b->out, sizeof b->out, "%s%s%s", *b->shown == '/' ? "" : cwd, *b->shown == '/' ? "" : "/", b->shown);
+  return length < (int)sizeof b->out ? LAB_OK : lab_fail(error, LAB_USAGE, "--out: the path is too long");
+}
+
+/* Paths in the list are taken from its folder. */
+static int move_to_list(void *context, lab_error *error)
+{
+  const batch *b = context;
+  const char *list = b->how->list, *slash = strrchr(list, '/');
+  char folder[LAB_PATH_TEXT];
+  snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - list) + 1 : 1, slash ? list : ".");
+  if (chdir(folder))
+    return lab_fail(error, LAB_WORLD, "%s: cannot go there: %s", folder, strerror(errno));
+  return LAB_OK;
+}
+
+/* Two runs in one folder would be in each other's way. The lock goes with the process, however it ends. */
+static int lock(const batch *b, lab_error *error)
+{
+  struct flock whole;
+  char path[LAB_PATH_TEXT];
+  int file;
+  if (lab_make_folder(b->out, error))
+    return error->status;
+  folder_of(b, ".lock", path);
+  memset(&whole, 0, sizeof whole);
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  file = open(path, O_RDWR | O_CREAT, 0666);
+  if (file < 0)
+    return lab_fail(error, LAB_WORLD, "%s: cannot be written: %s", path, strerror(errno));
+  if (fcntl(file, F_SETLK, &whole) && (errno == EACCES || errno == EAGAIN))
+    return lab_fail(error, LAB_WORLD, "%s: another run of closeloop --batch is at work there; wait, or give --out",
+                    b->shown);
+  return LAB_OK;
+}
+
+static int lead(batch *b, const lab_crew *crew, lab_error *error)
+{
+  totals t = {{0}, LAB_OK};
+  int status = lab_list_check(&b->list, &b->n, error);
+  if (status == LAB_OK)
+    status = lock(b, error);
+  if (status == LAB_OK)
+    status = move_to_list(b, error);
+  if (status != LAB_OK)
+    return status;
+  lab_progress_begin(&b->progress, "closeloop", b->how->quiet);
+  status = lab_crew_run(crew, error);
+  lab_progress_end(&b->progress);
+  if (status == LAB_OK && b->fault.status != LAB_OK) {
+    *error = b->fault;
+    status = error->status;
+  }
+  if (lab_interrupt_pending() && !b->how->quiet)
+    fprintf(stderr, "closeloop: stopped with %d of %d lines done; the same command goes on\n", b->done, b->n);
+  if (status == LAB_OK && !lab_interrupt_pending())
+    status = write_all(b, &t, error);
+  return status == LAB_OK && !lab_interrupt_pending() ? sum_up(b, &t, error) : status;
+}
+
+int lab_batch_run(const lab_batch_options *options, lab_error *error)
+{
+  static batch b;
+  lab_crew crew = {0, sizeof(job), sizeof(lab_outcome), move_to_list, next, work, lost, done, &b};
+  double scale, offset;
+  int status = LAB_OK;
+  b.how = options;
+  b.leader = getpid();
+  crew.at_once = options->at_once ? options->at_once : lab_crew_usual();
+  if (place_out(&b, error) || lab_unit_factor("kPa", "Pa", &scale, &offset, error)) /* loads the units once for all */
+    return error->status;
+  lab_interrupt_hold();
+  if (lab_crew_join())
+    status = lab_list_open(&b.list, options->list, error) ? error->status : lead(&b, &crew, error);
+  else
+    lab_crew_serve(&crew);
+  lab_crew_leave(&crew);
+  lab_list_close(&b.list);
+  lab_interrupt_release();
+  return status;
+}

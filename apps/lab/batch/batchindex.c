@@ -1,0 +1,296 @@
+#include "batchindex.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cjson/cJSON.h>
+
+#include "batchdone.h"
+#include "cells.h"
+#include "../base/outfile.h"
+#include "../report/pagetext.h"
+#include "../base/shown.h"
+#include "../base/template.h"
+
+/* Verdicts, the worst first. */
+static const char *const severities[] = {"error", "unlisted", "effect", "undecided", "none"};
+enum { SEVERITIES = sizeof severities / sizeof *severities };
+
+/* Of the errors of a channel (enum lab_row_cells). */
+enum { BEFORE, AFTER, HELD_BEFORE, HELD_AFTER };
+
+/* ---- Rows ---- */
+
+/* A row cut into its cells. */
+typedef struct cut_row {
+  char text[LAB_ROW_TEXT];
+  char *cell[LAB_ROW_CELLS];
+} cut_row;
+
+static void cut(const char *row, cut_row *to)
+{
+  static char empty[] = "";
+  int n;
+  snprintf(to->text, sizeof to->text, "%s", row);
+  n = lab_cells_cut(to->text, ',', to->cell, LAB_ROW_CELLS);
+  for (n = n < 0 ? 0 : n; n < LAB_ROW_CELLS; n++)
+    to->cell[n] = empty;
+}
+
+static double error_of(const cut_row *row, int channel, int stage)
+{
+  const char *cell = row->cell[LAB_ROW_ERRORS + channel * LAB_ROW_STAGES + stage];
+  return *cell ? strtod(cell, NULL) : (double)NAN;
+}
+
+/* The error of the worst channel.  Returns: NaN if there is none */
+static double worst(const cut_row *row, int stage)
+{
+  double most = (double)NAN;
+  int c;
+  for (c = 0; c < LAB_ROW_CHANNELS; c++)
+    most = fmax(most, error_of(row, c, stage));
+  return most;
+}
+
+static int severity_of(const cut_row *row)
+{
+  int s = 0;
+  while (s < SEVERITIES - 1 && strcmp(row->cell[LAB_ROW_VERDICT], severities[s]) != 0)
+    s++;
+  return s;
+}
+
+/* ---- Order ---- */
+
+static int grow(lab_index *index, lab_error *error)
+{
+  lab_index_entry *grown;
+  if (index->n < index->room)
+    return LAB_OK;
+  index->room = 2 * index->room + 256;
+  grown = realloc(index->entry, (size_t)index->room * sizeof *grown);
+  if (!grown)
+    return lab_fail_memory(error, "index.html");
+  index->entry = grown;
+  return LAB_OK;
+}
+
+int lab_index_add(lab_index *index, const char *name, const lab_outcome *outcome, lab_error *error)
+{
+  lab_index_entry *entry;
+  cut_row row;
+  double gain;
+  if (grow(index, error))
+    return error->status;
+  cut(outcome->row, &row);
+  gain = worst(&row, BEFORE) / worst(&row, AFTER);
+  entry = &index->entry[index->n];
+  entry->severity = severity_of(&row);
+  entry->gain = isfinite(gain) ? gain : 0;
+  entry->line = index->n;
+  entry->name = malloc(strlen(name) + 1);
+  if (!entry->name)
+    return lab_fail_memory(error, "index.html");
+  strcpy(entry->name, name);
+  index->n++;
+  return LAB_OK;
+}
+
+void lab_index_free(lab_index *index)
+{
+  int i;
+  for (i = 0; i < index->n; i++)
+    free(index->entry[i].name);
+  free(index->entry);
+  memset(index, 0, sizeof *index);
+}
+
+static int by_severity(const void *a, const void *b)
+{
+  const lab_index_entry *p = a, *q = b;
+  if (p->severity != q->severity)
+    return p->severity - q->severity;
+  if (p->gain != q->gain)
+    return p->gain < q->gain ? 1 : -1;
+  return p->line - q->line;
+}
+
+/* ---- Cells ---- */
+
+/* A path as an address: all but letters, digits and -._~/ as %xx. */
+static void put_address(FILE *file, const char *path)
+{
+  for (; *path; path++)
+    if (isalnum((unsigned char)*path) || strchr("-._~/", *path))
+      fputc(*path, file);
+    else
+      fprintf(file, "%%%02X", (unsigned char)*path);
+}
+
+static void put_text(FILE *file, const char *text)
+{
+  fputs("<td>", file);
+  lab_html_escape(file, text);
+  fputs("</td>", file);
+}
+
+static void put_error(FILE *file, double error)
+{
+  char text[LAB_SHOWN_TEXT];
+  put_text(file, isnan(error) ? "" : lab_shown_number(error, 3, text));
+}
+
+/* The name, with a link to what was written about it. */
+static void put_name(FILE *file, const char *name, const lab_done *done)
+{
+  fputs("<th scope=\"row\">", file);
+  if (done->outcome.status == LAB_OK) {
+    fputs("<a href=\"", file);
+    put_address(file, name);
+    fputs(done->extent >= LAB_WRITE_PLAIN ? "/report.html\">" : "/report.json\">", file);
+  }
+  lab_html_escape(file, name);
+  fputs(done->outcome.status == LAB_OK ? "</a></th>" : "</th>", file);
+}
+
+/* "1.36e-08 m2 + 3 K/W": each size as engineers write it; what is no size as it is */
+static void put_sizes(FILE *file, char *text)
+{
+  const char *plus = "";
+  fputs("<td>", file);
+  while (text && *text) {
+    char *next = strstr(text, " + "), *unit, shown[LAB_SHOWN_TEXT];
+    double value;
+    if (next) {
+      *next = '\0';
+      next += 3;
+    }
+    value = strtod(text, &unit);
+    fputs(plus, file);
+    lab_html_escape(
+        file, unit > text && *unit == ' ' && strlen(unit) < 24 ? lab_shown_quantity(value, unit + 1, 4, shown) : text);
+    plus = " + ";
+    text = next;
+  }
+  fputs("</td>", file);
+}
+
+static void put_row(FILE *file, const char *name, const lab_done *done)
+{
+  cut_row row;
+  cut(done->outcome.row, &row);
+  fputs("<tr>", file);
+  put_name(file, name, done);
+  fprintf(file, "<td><span class=\"badge %s\">%s</span></td>", severities[severity_of(&row)],
+          severities[severity_of(&row)]);
+  put_text(file, row.cell[LAB_ROW_FOUND]);
+  put_sizes(file, row.cell[LAB_ROW_SIZE]);
+  put_text(file, row.cell[LAB_ROW_ALIKE]);
+  put_error(file, worst(&row, BEFORE));
+  put_error(file, worst(&row, AFTER));
+  put_error(file, worst(&row, HELD_AFTER));
+  put_text(file, strcmp(row.cell[LAB_ROW_LIMITATIONS], "0") ? row.cell[LAB_ROW_LIMITATIONS] : "");
+  put_text(file, row.cell[LAB_ROW_MESSAGE]);
+  fputs("</tr>\n", file);
+}
+
+/* ---- The page ---- */
+
+static int add_text(cJSON *page, const char *name, char *text)
+{
+  if (text)
+    cJSON_AddStringToObject(page, name, text);
+  free(text);
+  return text != NULL;
+}
+
+/* "12 error" and so on */
+static void add_counts(const lab_index *index, cJSON *page)
+{
+  cJSON *list = cJSON_AddArrayToObject(page, "counts");
+  int s, i;
+  for (s = 0; s < SEVERITIES; s++) {
+    char text[24];
+    int n = 0;
+    cJSON *item;
+    for (i = 0; i < index->n; i++)
+      n += index->entry[i].severity == s;
+    if (n == 0)
+      continue;
+    item = cJSON_CreateObject();
+    snprintf(text, sizeof text, "%d", n);
+    cJSON_AddStringToObject(item, "n", text);
+    cJSON_AddStringToObject(item, "kind", severities[s]);
+    cJSON_AddItemToArray(list, item);
+  }
+}
+
+static cJSON *values_of(const lab_index *index, const char *list)
+{
+  const char *slash = strrchr(list, '/');
+  cJSON *page = cJSON_CreateObject();
+  char text[48];
+  snprintf(text, sizeof text, "%d line%s", index->n, index->n == 1 ? "" : "s");
+  cJSON_AddStringToObject(page, "list", slash ? slash + 1 : list);
+  cJSON_AddStringToObject(page, "lines", text);
+  cJSON_AddStringToObject(page, "version", PNEU_VERSION);
+  add_counts(index, page);
+  if (add_text(page, "style", lab_page_texts(LAB_PAGE_STYLE, LAB_PAGE_INDEX_STYLE)) &&
+      add_text(page, "script", lab_page_text(LAB_PAGE_INDEX_SCRIPT)))
+    return page;
+  cJSON_Delete(page);
+  return NULL;
+}
+
+static int put_rows(const lab_index *index, const char *folder, FILE *file, lab_error *error)
+{
+  lab_done *done = malloc(sizeof *done);
+  int i, status = done ? LAB_OK : lab_fail_memory(error, "index.html");
+  for (i = 0; i < index->n && status == LAB_OK; i++) {
+    char path[LAB_PATH_TEXT + 160];
+    snprintf(path, sizeof path, "%s/%s", folder, index->entry[i].name);
+    if (lab_done_read(path, done))
+      put_row(file, index->entry[i].name, done);
+    else
+      status = lab_fail(error, LAB_DATA, "%s: the record of what was done has gone during the run; run it again", path);
+  }
+  free(done);
+  return status;
+}
+
+/* The template on both sides of its place for the rows, which may be many. */
+static int put_page(const lab_index *index, const cJSON *page, char *template, const char *folder, FILE *file,
+                    lab_error *error)
+{
+  static const char place[] = "<!-- rows -->\n";
+  char *rows = strstr(template, place);
+  if (!rows)
+    return lab_fail(error, LAB_DATA, "template: no place for the rows");
+  *rows = '\0';
+  if (lab_template_write(file, template, page, error) || put_rows(index, folder, file, error))
+    return error->status;
+  return lab_template_write(file, rows + strlen(place), page, error);
+}
+
+int lab_index_write(lab_index *index, const char *list, const char *folder, lab_error *error)
+{
+  char path[LAB_PATH_TEXT + 160], *template = lab_page_text(LAB_PAGE_INDEX);
+  cJSON *page = values_of(index, list);
+  lab_outfile out;
+  int status = page && template ? LAB_OK : lab_fail_memory(error, "index.html");
+  qsort(index->entry, (size_t)index->n, sizeof *index->entry, by_severity);
+  snprintf(path, sizeof path, "%s/index.html", folder);
+  if (status == LAB_OK && (status = lab_out_open(&out, path, error)) == LAB_OK) {
+    status = put_page(index, page, template, folder, out.file, error);
+    if (status == LAB_OK)
+      status = lab_out_close(&out, error);
+    else
+      lab_out_abandon(&out);
+  }
+  cJSON_Delete(page);
+  free(template);
+  return status;
+}

@@ -1,0 +1,62 @@
+/* The list of a fleet run: one line a rig and its logs, as a spreadsheet saves it.
+ *
+ *   # presses of hall 2
+ *   name,rig,log,holdout
+ *   press-1,rigs/press.cfg,may/p1-a.csv;may/p1-b.csv,june/p1.csv
+ *   press-2,rigs/press.cfg,may/p2.csv,
+ *
+ * - The header names the columns, in any order; rig and log must be there, name and holdout need not.
+ * - Between cells stands the mark that the header has: comma, semicolon or tab. A cell may be in quotes, "" is a quote
+ *   in it. Several logs in one cell are separated by semicolons (in quotes if the cells are, too).
+ * - Without a name, a line is called as its first log: may/p2.csv is may-p2.
+ * - Empty lines, and lines that begin with #, are left out.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_BATCHLIST_H
+#define LAB_BATCHLIST_H
+
+#include <stdio.h>
+
+#include "../rig/rig.h"
+
+enum { LAB_ENTRY_NAME = 128, LAB_ENTRY_TEXT = 4096, LAB_LIST_CELLS = 64 };
+
+/* A line; plain bytes, to be sent from process to process. */
+typedef struct lab_entry {
+  int line;                  /* in the file */
+  char name[LAB_ENTRY_NAME]; /* also of its folder */
+  char rig[LAB_PATH_TEXT];
+  char log[LAB_ENTRY_TEXT], holdout[LAB_ENTRY_TEXT]; /* paths, separated by semicolons */
+} lab_entry;
+
+typedef struct lab_list {
+  FILE *file;
+  const char *path;
+  char *text; /* the present line, cut into cells */
+  size_t room;
+  int line; /* its number */
+  char mark;
+  int column[LAB_LIST_CELLS]; /* what each cell is */
+  int n_columns;
+} lab_list;
+
+/* Open a list and read its header.
+ * In:      path  kept
+ * Out:     list  to be closed, also after an error
+ * Returns: LAB_OK; LAB_DATA with file and line; LAB_WORLD. */
+int lab_list_open(lab_list *list, const char *path, lab_error *error);
+void lab_list_close(lab_list *list);
+
+/* Go back to the first line. */
+int lab_list_restart(lab_list *list, lab_error *error);
+
+/* Read the next line.
+ * Out:     more  0: there is none
+ * Returns: as lab_list_open. */
+int lab_list_next(lab_list *list, lab_entry *entry, int *more, lab_error *error);
+
+/* Read to the end and go back, so that whatever is wrong is known before the work begins: also a name that stands there
+ * twice, and a list without lines.
+ * Out:     n  lines that there is something to do for */
+int lab_list_check(lab_list *list, int *n, lab_error *error);
+
+#endif

@@ -1,0 +1,48 @@
+/* One line of batch.csv: what an answer comes to.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_BATCHROW_H
+#define LAB_BATCHROW_H
+
+#include <stdio.h>
+
+#include "../report/answer.h"
+
+enum { LAB_ROW_TEXT = 8192 };
+
+/* Cells of a row, after the name. */
+enum { LAB_ROW_CHANNELS = 4, LAB_ROW_STAGES = 4 };
+enum lab_row_cells {
+  LAB_ROW_VERDICT,
+  LAB_ROW_FOUND,
+  LAB_ROW_SIZE,
+  LAB_ROW_ALIKE,
+  LAB_ROW_ERRORS, /* of each channel: before, after, held out before, held out after */
+  LAB_ROW_LIMITATIONS = LAB_ROW_ERRORS + LAB_ROW_CHANNELS * LAB_ROW_STAGES,
+  LAB_ROW_MESSAGE,
+  LAB_ROW_CELLS
+};
+
+/* What a line took. */
+typedef struct lab_cost {
+  double seconds, cpu; /* [s] on the clock, of a core */
+  double memory;       /* [MB] the most that its process had */
+} lab_cost;
+
+/* What has become of a line of the list; plain bytes. */
+typedef struct lab_outcome {
+  int status; /* enum lab_status; not LAB_OK: the verdict is "error" */
+  lab_cost cost;
+  char row[LAB_ROW_TEXT]; /* the cells after the name, without an end of line */
+} lab_outcome;
+
+/* The header of batch.csv, with its end of line. */
+void lab_row_header(FILE *file);
+
+/* Out: outcome, but for its cost */
+void lab_row_answer(const lab_answer *answer, lab_outcome *outcome);
+void lab_row_error(const lab_error *error, lab_outcome *outcome);
+
+/* Write a cell, in quotes where it needs them. */
+void lab_row_cell(FILE *file, const char *text);
+
+#endif

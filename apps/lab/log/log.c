@@ -1,0 +1,306 @@
+#include "log.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "logheader.h"
+#include "loglong.h"
+#include "logshape.h"
+#include "../base/number.h"
+#include "../base/text.h"
+
+/* A command may be a measured one that overshoots a little; beyond this it is in other units. */
+static const double command_max = 1.05;
+
+struct reader {
+  lab_log_source source;
+  const lab_log_format *format;
+  lab_header header;
+  lab_log *log;
+  size_t run_room; /* entries allocated for log->run */
+  double last_t;   /* [s] of the last row taken */
+  double value;    /* long format: number of the row being read */
+  int quantity;    /* long format: its row in format->quantity */
+  lab_error *error;
+};
+
+/* ---- Fields and rows ---- */
+
+/* Long format: which quantity is this? */
+static int read_word(struct reader *r, const char *begin, const char *end)
+{
+  char shown[LAB_SHOWN];
+  int i;
+  for (i = 0; i < r->format->n_quantities; i++) {
+    const char *word = r->format->quantity[i].word;
+    if (strlen(word) == (size_t)(end - begin) && memcmp(word, begin, strlen(word)) == 0) {
+      r->quantity = i;
+      return LAB_OK;
+    }
+  }
+  return lab_fail(r->error, LAB_DATA, "unknown quantity \"%s\"; it is not in log.quantities",
+                  lab_log_show(begin, end, shown));
+}
+
+/* Where columns have weights, those of one channel are added up; its offset counts once. */
+static void put_number(struct reader *r, int i, const lab_column *column, double number)
+{
+  double *at = &r->log->value[column->channel][r->log->n];
+  int before = 0, j;
+  if (!r->format->weighted) {
+    *at = column->scale * number + column->offset;
+    return;
+  }
+  for (j = 0; j < i; j++)
+    before |= r->header.column[j].channel == column->channel;
+  *at = r->format->weight[i] * column->scale * number + (before ? *at : column->offset);
+}
+
+static int read_field(struct reader *r, int i, const char *begin, const char *end)
+{
+  const lab_column *column = &r->header.column[i];
+  char shown[LAB_SHOWN];
+  double number;
+  if (column->channel == LAB_COLUMN_IGNORED)
+    return LAB_OK;
+  if (column->channel == LAB_COLUMN_QUANTITY)
+    return read_word(r, begin, end);
+  if (lab_number_read(begin, end, r->format->decimal, r->format->thousands, &number) == LAB_NUMBER_BAD)
+    return lab_fail(r->error, LAB_DATA, "column %d \"%s\": expected a number, found \"%s\"", i + 1, r->header.text[i],
+                    lab_log_show(begin, end, shown));
+  if (column->channel == LAB_COLUMN_VALUE)
+    r->value = number;
+  else
+    put_number(r, i, column, number);
+  return LAB_OK;
+}
+
+static int ragged(struct reader *r, const char *begin, const char *end)
+{
+  int found = 1;
+  for (; begin < end; begin++)
+    found += *begin == r->format->delimiter;
+  return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d", r->header.n, found);
+}
+
+static int read_row(struct reader *r, const char *begin, const char *end)
+{
+  const char *at = begin, *stop = begin;
+  int i;
+  for (i = 0; i < r->header.n; i++, at = stop + 1) {
+    if (i > 0 && stop == end)
+      return ragged(r, begin, end);
+    stop = lab_log_field(&r->source, at, end);
+    if (read_field(r, i, at, stop))
+      return r->error->status;
+  }
+  return stop == end ? LAB_OK : ragged(r, begin, end);
+}
+
+/* Put constants, or gaps, where the row may bring nothing. */
+static void clear_row(struct reader *r)
+{
+  int i;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    if (r->log->value[i])
+      r->log->value[i][r->log->n] = r->format->constant[i];
+  if (r->format->time_step > 0)
+    r->log->value[LAB_CHANNEL_TIME][r->log->n] = (double)r->log->n * r->format->time_step;
+}
+
+/* Long format: the number goes to the channel of its quantity.  Returns: 0 if that is to be ignored. */
+static int place_value(struct reader *r)
+{
+  const lab_column *column = &r->header.quantity[r->quantity];
+  if (r->format->n_quantities == 0)
+    return 1;
+  if (column->channel < 0)
+    return 0;
+  r->log->value[column->channel][r->log->n] = column->scale * r->value + column->offset;
+  return 1;
+}
+
+/* ---- What a row must satisfy ---- */
+
+static int check_command(struct reader *r)
+{
+  const double *u = r->log->value[LAB_CHANNEL_U];
+  double now;
+  if (!u || r->format->n_quantities)
+    return LAB_OK;
+  now = u[r->log->n];
+  if (isnan(now))
+    return lab_fail(r->error, LAB_DATA, "channel u: expected a number, found a gap; u holds until the next row");
+  if (!r->format->command_is_pressure && fabs(now) > command_max)
+    return lab_fail(r->error, LAB_DATA,
+                    "channel u: expected -1..1, found %g; is its unit %%, or a pressure "
+                    "(transducer.proportional_band)?",
+                    now);
+  return LAB_OK;
+}
+
+static int add_run(struct reader *r)
+{
+  lab_log *log = r->log;
+  if (log->n_runs + 2 > r->run_room) {
+    size_t room = 2 * r->run_room + 2;
+    size_t *more = realloc(log->run, room * sizeof *more);
+    if (!more)
+      return lab_fail_memory(r->error, log->path);
+    log->run = more;
+    r->run_room = room;
+  }
+  log->run[log->n_runs++] = log->n;
+  return LAB_OK;
+}
+
+/* Time must grow within a run; a run begins at the first row, or where the format says. */
+static int check_time(struct reader *r, double t)
+{
+  if (isnan(t))
+    return lab_fail(r->error, LAB_DATA, "channel t: expected a number, found a gap");
+  if (r->log->n == 0 || (r->format->new_run == LAB_RUN_T_DROPS && t < r->last_t))
+    return add_run(r);
+  if (t <= r->last_t && r->format->n_quantities == 0)
+    return lab_fail(r->error, LAB_DATA, "channel t: expected more than %.9g s of the row before, found %.9g s%s",
+                    r->last_t, t, t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "");
+  return LAB_OK;
+}
+
+/* Take the row just read into the log, unless it is outside the window. */
+static int take_row(struct reader *r)
+{
+  double t = r->log->value[LAB_CHANNEL_TIME][r->log->n];
+  if (t < r->format->from || t > r->format->to) {
+    r->log->outside++;
+    return LAB_OK;
+  }
+  if (check_command(r) || check_time(r, t))
+    return r->error->status;
+  r->last_t = t;
+  r->log->line[r->log->n++] = r->source.lines.number;
+  return LAB_OK;
+}
+
+/* ---- The whole file ---- */
+
+static int is_blank(const char *begin, const char *end)
+{
+  while (begin < end && isspace((unsigned char)*begin))
+    begin++;
+  return begin == end;
+}
+
+static int read_rows(struct reader *r)
+{
+  const char *begin, *end;
+  int found;
+  while (lab_log_line(&r->source, &begin, &end, &found, r->error) == LAB_OK && found) {
+    if (is_blank(begin, end) && is_blank(end, r->source.lines.end))
+      return LAB_OK;
+    clear_row(r);
+    if (read_row(r, begin, end) || (place_value(r) && take_row(r))) {
+      if (r->error->status != LAB_DATA || r->format->damaged != LAB_DAMAGED_DROP)
+        return lab_log_fail_in(&r->source, r->error);
+      r->log->dropped++;
+    }
+  }
+  return found ? r->error->status : LAB_OK;
+}
+
+static int allocate(struct reader *r, size_t rows)
+{
+  lab_log *log = r->log;
+  int i;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    int present = lab_header_count(&r->header, r->format, i) > 0 || !isnan(r->format->constant[i]);
+    if (!present && i != LAB_CHANNEL_TIME)
+      continue;
+    log->value[i] = malloc(rows * sizeof *log->value[i]);
+    if (!log->value[i])
+      return lab_fail_memory(r->error, log->path);
+  }
+  log->line = malloc(rows * sizeof *log->line);
+  return log->line ? LAB_OK : lab_fail_memory(r->error, log->path);
+}
+
+static int finish(struct reader *r)
+{
+  lab_log *log = r->log;
+  if (log->n == 0)
+    return lab_fail(r->error, LAB_DATA, "%s: expected rows of data, found none (%zu damaged, %zu outside the window)",
+                    log->path, log->dropped, log->outside);
+  if (r->format->n_quantities && lab_log_join(log, r->error))
+    return r->error->status;
+  log->run[log->n_runs] = log->n;
+  return lab_log_shape(log, r->format, r->error);
+}
+
+static int read_text(struct reader *r, const char *path, double ambient, const lab_text *text)
+{
+  lab_lines_start(&r->source.lines, text);
+  r->log->path = malloc(strlen(path) + 1);
+  if (!r->log->path)
+    return lab_fail_memory(r->error, path);
+  strcpy(r->log->path, path);
+  if (lab_header_read(&r->source, ambient, &r->header, r->error) || allocate(r, lab_lines_count(text)) ||
+      read_rows(r) || finish(r))
+    return r->error->status;
+  return LAB_OK;
+}
+
+/* Channels that the file's name tells become constants. */
+static int take_name(const char *path, lab_log_format *format, lab_error *error)
+{
+  const char *file = lab_file_name(path);
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    char mark[LAB_COLUMN_TEXT], *end = NULL;
+    const char *at;
+    double scale, offset, number;
+    if (!*format->name[c])
+      continue;
+    if (lab_column_mark(format->name[c], lab_channel_unit(c, format->command_is_pressure), mark, &scale, &offset,
+                        error))
+      return error->status;
+    at = strstr(file, mark);
+    number = at ? strtod(at + strlen(mark), &end) : 0;
+    if (!at || end == at + strlen(mark))
+      return lab_fail(error, LAB_DATA, "%s: expected \"%s\" and a number in the file's name (log.name.%s)", path, mark,
+                      lab_channels[c].key);
+    format->constant[c] = format->scale[c] * (scale * number + offset) + format->offset[c];
+  }
+  return LAB_OK;
+}
+
+int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error)
+{
+  lab_log_format own = *format;
+  struct reader r = {.source = {.path = path, .format = &own}, .format = &own, .log = log, .error = error};
+  lab_text text;
+  int status;
+  memset(log, 0, sizeof *log);
+  status = take_name(path, &own, error);
+  if (status == LAB_OK)
+    status = lab_text_read(path, &text, error);
+  if (status != LAB_OK)
+    return status;
+  status = read_text(&r, path, ambient, &text);
+  lab_text_free(&text);
+  if (status != LAB_OK)
+    lab_log_free(log);
+  return status;
+}
+
+void lab_log_free(lab_log *log)
+{
+  int i;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    free(log->value[i]);
+  free(log->path);
+  free(log->line);
+  free(log->run);
+  memset(log, 0, sizeof *log);
+}

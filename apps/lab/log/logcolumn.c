@@ -1,0 +1,78 @@
+#include "logcolumn.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/names.h"
+#include "../base/units.h"
+
+/* Every name that a column may have. */
+static const struct column_name {
+  const char *name;
+  int channel;
+  int absolute; /* a pressure above vacuum */
+} column_names[] = {
+#define X(name, key, unit, quantity, meaning) {key, LAB_CHANNEL_##name, 0},
+    LAB_CHANNEL_LIST(X)
+#undef X
+        {"p_abs", LAB_CHANNEL_P, 1},
+    {"ps_abs", LAB_CHANNEL_PS, 1},
+    {"p2_abs", LAB_CHANNEL_P2, 1},
+    {"quantity", LAB_COLUMN_QUANTITY, 0},
+    {"value", LAB_COLUMN_VALUE, 0},
+    {"-", LAB_COLUMN_IGNORED, 0},
+};
+enum { NAMES = sizeof column_names / sizeof column_names[0] };
+
+/* Cut "name [unit]" into its words.  Out: unit  "" without brackets.  Returns: 0 if it is neither. */
+static int split(const char *text, char name[LAB_COLUMN_TEXT], char unit[LAB_COLUMN_TEXT])
+{
+  char rest[2] = "";
+  *unit = '\0';
+  if (sscanf(text, " %63[^][ \t] [%63[^][]] %1s", name, unit, rest) == 2)
+    return strchr(text, ']') != NULL;
+  return sscanf(text, " %63[^][ \t] %1s", name, rest) == 1;
+}
+
+static int read_unit(const char *text, const struct column_name *found, const char *unit, int command_is_pressure,
+                     lab_column *column, lab_error *error)
+{
+  const char *si = lab_channel_unit(found->channel, command_is_pressure);
+  if (!*unit)
+    return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text, found->name,
+                    si);
+  if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
+    return lab_fail_in(error, "column \"%s\"", text);
+  return LAB_OK;
+}
+
+int lab_column_read(const char *text, int command_is_pressure, double ambient, lab_column *column, lab_error *error)
+{
+  char name[LAB_COLUMN_TEXT], unit[LAB_COLUMN_TEXT];
+  const struct column_name *found;
+  int i;
+  if (!split(text, name, unit))
+    return lab_fail(error, LAB_DATA, "expected a column \"name [unit]\", found \"%s\"", text);
+  i = lab_name_index(name, column_names, NAMES, sizeof column_names[0]);
+  if (i < 0)
+    return lab_fail(error, LAB_DATA, "unknown channel \"%s\"; the nearest known one is \"%s\"", name,
+                    lab_name_nearest(name, column_names, NAMES, sizeof column_names[0]));
+  found = &column_names[i];
+  column->channel = found->channel;
+  column->scale = 1;
+  column->offset = 0;
+  if (found->channel < 0)
+    return LAB_OK;
+  if (read_unit(text, found, unit, command_is_pressure, column, error))
+    return error->status;
+  column->offset -= found->absolute ? ambient : 0;
+  return LAB_OK;
+}
+
+int lab_column_mark(const char *text, const char *si, char *mark, double *scale, double *offset, lab_error *error)
+{
+  char unit[LAB_COLUMN_TEXT];
+  if (!split(text, mark, unit) || !*unit)
+    return lab_fail(error, LAB_DATA, "expected \"mark [unit]\", found \"%s\"", text);
+  return lab_unit_factor(unit, si, scale, offset, error);
+}

@@ -1,0 +1,32 @@
+/* A column of a log: "name [unit]" and what it means.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_LOGCOLUMN_H
+#define LAB_LOGCOLUMN_H
+
+#include "channel.h"
+#include "../base/message.h"
+
+enum { LAB_COLUMN_TEXT = 64 }; /* bytes of "name [unit]" with its end */
+
+/* Roles of a column beyond the channels. */
+enum { LAB_COLUMN_IGNORED = -1, LAB_COLUMN_QUANTITY = -2, LAB_COLUMN_VALUE = -3 };
+
+typedef struct lab_column {
+  int channel;          /* enum lab_channel, or one of the roles above */
+  double scale, offset; /* SI value = scale * number + offset */
+} lab_column;
+
+/* Read "name [unit]"; p_abs, ps_abs and p2_abs become gauge; "-" is a column to ignore.
+ * In:      command_is_pressure  u is a set pressure, not an opening
+ *          ambient              [Pa] absolute
+ * Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */
+int lab_column_read(const char *text, int command_is_pressure, double ambient, lab_column *column, lab_error *error);
+
+/* Read "mark [unit]": the number behind `mark` in a file's name.
+ * In:      si  unit to convert to
+ * Out:     mark           LAB_COLUMN_TEXT bytes
+ *          scale, offset  SI value = scale * number + offset
+ * Returns: LAB_OK; LAB_DATA. */
+int lab_column_mark(const char *text, const char *si, char *mark, double *scale, double *offset, lab_error *error);
+
+#endif

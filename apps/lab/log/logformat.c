@@ -1,0 +1,410 @@
+#include "logformat.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/config.h"
+#include "../base/names.h"
+#include "../base/units.h"
+
+/* Above every value that a log can have, and an exact integer with those after it. */
+static const double lead_code = 1e15;
+
+struct word {
+  const char *name;
+};
+
+static const struct word new_run_words[] = {{"never"}, {"t drops"}};
+static const struct word runs_words[] = {{"each"}, {"mean"}};
+static const struct word damaged_words[] = {{"error"}, {"drop"}};
+static const struct mark {
+  const char *name;
+  char mark;
+} marks[] = {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}};
+
+enum {
+  NEW_RUN_WORDS = sizeof new_run_words / sizeof new_run_words[0],
+  RUNS_WORDS = sizeof runs_words / sizeof runs_words[0],
+  DAMAGED_WORDS = sizeof damaged_words / sizeof damaged_words[0],
+  MARKS = sizeof marks / sizeof marks[0],
+  SKIP_MAX = 1000000
+};
+
+void lab_log_format_default(lab_log_format *format)
+{
+  int i;
+  memset(format, 0, sizeof *format);
+  format->delimiter = ',';
+  format->decimal = '.';
+  format->comment = '#';
+  format->way_back = -1;
+  format->every = 1;
+  format->holdout_first = -1;
+  format->holdout_from = format->holdout_to = (double)NAN;
+  format->from = -INFINITY;
+  format->to = INFINITY;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    format->scale[i] = 1;
+    format->constant[i] = NAN;
+  }
+}
+
+/* ---- One reader a key ---- */
+
+/* One character, or its name. */
+static int read_mark(const config_setting_t *setting, char *mark, lab_error *error)
+{
+  const char *text = config_setting_get_string(setting);
+  int named = text ? lab_name_index(text, marks, MARKS, sizeof marks[0]) : -1;
+  if (!text || (named < 0 && strlen(text) != 1))
+    return lab_config_expected(setting, "one character, \"tab\", \"comma\" or \"semicolon\"", error);
+  if (named < 0)
+    *mark = *text;
+  else
+    *mark = marks[named].mark;
+  return LAB_OK;
+}
+
+static int read_delimiter(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_mark(setting, &format->delimiter, error);
+}
+
+static int read_decimal(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  if (read_mark(setting, &format->decimal, error))
+    return error->status;
+  if (format->decimal != '.' && format->decimal != ',')
+    return lab_config_expected(setting, "\".\" or \",\"", error);
+  return LAB_OK;
+}
+
+static int read_thousands(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_mark(setting, &format->thousands, error);
+}
+
+static int read_comment(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_mark(setting, &format->comment, error);
+}
+
+static int read_skip_lines(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_count(setting, 0, SKIP_MAX, &format->skip_lines, error);
+}
+
+static int read_columns(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_list(setting, 1, LAB_COLUMN_MAX, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++)
+    status = lab_config_text(config_setting_get_elem(setting, (unsigned)i), format->column[i], LAB_COLUMN_TEXT, error);
+  if (status == LAB_OK)
+    format->n_columns = config_setting_length(setting);
+  return status;
+}
+
+static int read_time_step(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_quantity(setting, "s", 1e-9, 1e9, &format->time_step, error);
+}
+
+static int read_window(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  if (lab_config_list(setting, 2, 2, error) ||
+      lab_config_quantity(config_setting_get_elem(setting, 0), "s", -INFINITY, INFINITY, &format->from, error) ||
+      lab_config_quantity(config_setting_get_elem(setting, 1), "s", -INFINITY, INFINITY, &format->to, error))
+    return error->status;
+  if (format->from >= format->to)
+    return lab_config_fail(setting, error, "expected a window (from, to), found one from %g s to %g s", format->from,
+                           format->to);
+  return LAB_OK;
+}
+
+static int read_new_run(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_choice(setting, new_run_words, NEW_RUN_WORDS, sizeof new_run_words[0], &format->new_run, error);
+}
+
+static int read_damaged(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_choice(setting, damaged_words, DAMAGED_WORDS, sizeof damaged_words[0], &format->damaged, error);
+}
+
+static int read_every(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_count(setting, 1, SKIP_MAX, &format->every, error);
+}
+
+static int read_first(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_count(setting, 0, SKIP_MAX, &format->first, error);
+}
+
+/* Channels that the file's name tells. */
+static int read_name(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    char mark[LAB_COLUMN_TEXT];
+    double scale, offset;
+    status = lab_config_text(member, format->name[c], LAB_COLUMN_TEXT, error);
+    if (status == LAB_OK && lab_column_mark(format->name[c], lab_channel_unit(c, format->command_is_pressure), mark,
+                                            &scale, &offset, error))
+      status = lab_config_fail_in(member, error);
+  }
+  return status;
+}
+
+static int read_weights(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_list(setting, 1, LAB_COLUMN_MAX, error);
+  for (i = 0; i < LAB_COLUMN_MAX; i++)
+    format->weight[i] = 1;
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++)
+    status = lab_config_quantity(config_setting_get_elem(setting, (unsigned)i), "1", -INFINITY, INFINITY,
+                                 &format->weight[i], error);
+  format->weighted = status == LAB_OK ? config_setting_length(setting) : 0;
+  return status;
+}
+
+static int read_way_back(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_choice(setting, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], &format->way_back, error);
+}
+
+static int read_runs(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return lab_config_choice(setting, runs_words, RUNS_WORDS, sizeof runs_words[0], &format->runs, error);
+}
+
+/* A number a channel, such as `scale` or `constants`, by `read`. */
+static int read_channels(const config_setting_t *group, const lab_log_format *format, double *value,
+                         int (*read)(const config_setting_t *, const char *, double *, lab_error *), lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    int channel = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    status = read(member, lab_channel_unit(channel, format->command_is_pressure), &value[channel], error);
+  }
+  return status;
+}
+
+static int read_one_scale(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
+{
+  (void)unit;
+  if (lab_config_quantity(setting, "1", -INFINITY, INFINITY, value, error))
+    return error->status;
+  return *value != 0 ? LAB_OK : lab_config_expected(setting, "a number other than 0", error);
+}
+
+static int read_one_constant(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
+{
+  return lab_config_quantity(setting, unit, -INFINITY, INFINITY, value, error);
+}
+
+static int read_scale(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_channels(setting, format, format->scale, read_one_scale, error);
+}
+
+static int read_offset(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  return read_channels(setting, format, format->offset, lab_config_difference, error);
+}
+
+static int read_constants(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  if (config_setting_is_group(setting) && config_setting_get_member((config_setting_t *)setting, "t"))
+    return lab_config_fail(setting, error, "time cannot be constant; for a file without t give time_step");
+  return read_channels(setting, format, format->constant, read_one_constant, error);
+}
+
+/* "first p", "last p", or a value with its unit.  Out: value  channel + 1 of the first two, as an infinite code */
+static int read_lead_value(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
+{
+  const char *text = config_setting_get_string(setting);
+  const int last = text && strncmp(text, "last ", 5) == 0, first = text && strncmp(text, "first ", 6) == 0;
+  int channel;
+  if (!first && !last)
+    return lab_config_quantity(setting, unit, -lead_code / 2, lead_code / 2, value, error);
+  channel = lab_name_index(text + (first ? 6 : 5), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+  if (channel < 0)
+    return lab_config_expected(setting, "\"first\" or \"last\" with a channel, such as \"first p\"", error);
+  *value = lead_code + (last ? LAB_CHANNEL_COUNT : 0) + channel;
+  return LAB_OK;
+}
+
+/* Take codes of read_lead_value out of a row. */
+static void decode_lead(lab_log_format *format, int row)
+{
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    const double code = format->lead[row][c] - lead_code;
+    format->lead_first[row][c] = format->lead_last[row][c] = 0;
+    if (!(code >= 0))
+      continue;
+    if (code < LAB_CHANNEL_COUNT)
+      format->lead_first[row][c] = (int)code + 1;
+    else
+      format->lead_last[row][c] = (int)code - LAB_CHANNEL_COUNT + 1;
+    format->lead[row][c] = NAN;
+  }
+}
+
+/* One row of `lead`: a group of channels, with t. */
+static int read_lead_row(const config_setting_t *setting, lab_log_format *format, int index, lab_error *error)
+{
+  double *row = format->lead[index];
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    row[c] = NAN;
+  if (read_channels(setting, format, row, read_lead_value, error))
+    return error->status;
+  decode_lead(format, index);
+  return isnan(row[LAB_CHANNEL_TIME]) ? lab_config_expected(setting, "a row with its time t", error) : LAB_OK;
+}
+
+static int read_lead(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_list(setting, 1, LAB_LEAD_MAX, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++) {
+    const config_setting_t *row = config_setting_get_elem(setting, (unsigned)i);
+    status = read_lead_row(row, format, i, error);
+    if (status == LAB_OK && i > 0 && format->lead[i][LAB_CHANNEL_TIME] <= format->lead[i - 1][LAB_CHANNEL_TIME])
+      status = lab_config_expected(row, "a time after that of the row before", error);
+  }
+  format->n_lead = status == LAB_OK ? config_setting_length(setting) : 0;
+  return status;
+}
+
+static int read_quantities(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(setting, error);
+  if (status == LAB_OK && config_setting_length(setting) > LAB_QUANTITY_MAX)
+    return lab_config_fail(setting, error, "expected at most %d quantities", LAB_QUANTITY_MAX);
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++) {
+    const config_setting_t *member = config_setting_get_elem(setting, (unsigned)i);
+    lab_long_quantity *quantity = &format->quantity[i];
+    if (strlen(config_setting_name(member)) >= sizeof quantity->word)
+      return lab_config_fail(member, error, "expected a word of less than %zu bytes", sizeof quantity->word);
+    strcpy(quantity->word, config_setting_name(member));
+    status = lab_config_text(member, quantity->column, sizeof quantity->column, error);
+  }
+  if (status == LAB_OK)
+    format->n_quantities = config_setting_length(setting);
+  return status;
+}
+
+/* ---- What differs where a log is held out ---- */
+
+static int read_holdout(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  static const struct word keys[] = {{"window"}, {"first"}};
+  const config_setting_t *window, *first;
+  lab_log_format out = *format;
+  if (lab_config_is_group(group, error) || lab_config_known(group, keys, 2, sizeof keys[0], error))
+    return error->status;
+  window = config_setting_get_member((config_setting_t *)group, "window");
+  first = config_setting_get_member((config_setting_t *)group, "first");
+  if ((window && read_window(window, &out, error)) || (first && read_first(first, &out, error)))
+    return error->status;
+  format->holdout_from = window ? out.from : (double)NAN;
+  format->holdout_to = window ? out.to : (double)NAN;
+  format->holdout_first = first ? out.first : -1;
+  return LAB_OK;
+}
+
+void lab_log_format_hold_out(lab_log_format *format)
+{
+  if (!isnan(format->holdout_from)) {
+    format->from = format->holdout_from;
+    format->to = format->holdout_to;
+  }
+  if (format->holdout_first >= 0)
+    format->first = format->holdout_first;
+}
+
+static const struct log_key {
+  const char *name;
+  int (*read)(const config_setting_t *, lab_log_format *, lab_error *);
+} log_keys[] = {
+    {"delimiter", read_delimiter},
+    {"decimal", read_decimal},
+    {"thousands", read_thousands},
+    {"comment", read_comment},
+    {"skip_lines", read_skip_lines},
+    {"columns", read_columns},
+    {"time_step", read_time_step},
+    {"window", read_window},
+    {"new_run", read_new_run},
+    {"damaged", read_damaged},
+    {"scale", read_scale},
+    {"offset", read_offset},
+    {"constants", read_constants},
+    {"quantities", read_quantities},
+    {"weights", read_weights},
+    {"first", read_first},
+    {"name", read_name},
+    {"holdout", read_holdout},
+    {"every", read_every},
+    {"way_back", read_way_back},
+    {"runs", read_runs},
+    {"lead", read_lead},
+};
+enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };
+
+/* ---- Checks over keys ---- */
+
+/* Column texts must be readable now, not at the first log. */
+static int check_columns(const config_setting_t *group, const lab_log_format *format, lab_error *error)
+{
+  lab_column column;
+  int i;
+  for (i = 0; i < format->n_columns; i++)
+    if (lab_column_read(format->column[i], format->command_is_pressure, 0, &column, error))
+      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "columns"), error);
+  for (i = 0; i < format->n_quantities; i++)
+    if (lab_column_read(format->quantity[i].column, format->command_is_pressure, 0, &column, error))
+      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "quantities"), error);
+  return LAB_OK;
+}
+
+static int check_format(const config_setting_t *group, const lab_log_format *format, lab_error *error)
+{
+  if (format->delimiter == format->decimal)
+    return lab_config_fail(group, error, "delimiter and decimal are both \"%c\": give one of them", format->decimal);
+  if (format->delimiter == format->thousands)
+    return lab_config_fail(group, error, "delimiter and thousands are both \"%c\"", format->delimiter);
+  if (format->n_quantities && (format->new_run != LAB_RUN_NEVER || format->time_step > 0))
+    return lab_config_fail(group, error, "quantities (long format) go with neither new_run nor time_step");
+  if (format->weighted && format->weighted != format->n_columns)
+    return lab_config_fail(group, error, "expected a weight for each of the %d columns, found %d", format->n_columns,
+                           format->weighted);
+  if (format->way_back >= 0 && !(format->time_step > 0))
+    return lab_config_fail(group, error, "way_back needs time_step: rows that are reversed have no time of their own");
+  if (format->runs == LAB_RUNS_MEAN && format->new_run == LAB_RUN_NEVER)
+    return lab_config_fail(group, error, "runs = \"mean\" needs new_run, which says where a run begins");
+  return check_columns(group, format, error);
+}
+
+int lab_log_format_read(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, log_keys, LOG_KEYS, sizeof log_keys[0], error);
+  for (i = 0; status == LAB_OK && i < LOG_KEYS; i++) {
+    const config_setting_t *member = config_setting_get_member((config_setting_t *)group, log_keys[i].name);
+    if (member)
+      status = log_keys[i].read(member, format, error);
+  }
+  return status == LAB_OK ? check_format(group, format, error) : status;
+}

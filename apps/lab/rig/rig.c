@@ -1,0 +1,432 @@
+#include "rig.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../base/config.h"
+#include "../base/names.h"
+#include "rigkeys.h"
+#include "rigterm.h"
+#include "../base/text.h"
+
+/* ---- Names of what can be fitted ---- */
+
+/* Effect that owns a parameter. */
+static int effect_of(int param)
+{
+  int e = 0;
+  while (e + 1 < PNEU_EFFECT_COUNT && pneu_effect_params(e + 1, NULL) <= param)
+    e++;
+  return e;
+}
+
+const char *lab_fit_name(int index, char name[LAB_FIT_TEXT])
+{
+  pneu_param_info info;
+  if (index == LAB_FIT_ORIFICE_AREA) {
+    strcpy(name, "orifice_area");
+    return name;
+  }
+  pneu_param_describe(index, &info);
+  if (index < PNEU_PARAM_BASE_COUNT)
+    snprintf(name, LAB_FIT_TEXT, "%s", info.name);
+  else
+    snprintf(name, LAB_FIT_TEXT, "%s.%s", pneu_effect_at(effect_of(index))->name, info.name);
+  return name;
+}
+
+/* ---- One reader a kind of key ---- */
+
+/* A parameter, within its bounds. */
+static int read_param(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+{
+  pneu_param_info info;
+  double value;
+  pneu_param_describe(param, &info);
+  if (lab_config_quantity(setting, info.unit, (double)info.lower, (double)info.upper, &value, error))
+    return error->status;
+  *pneu_param_at(&rig->params, param) = (pneu_real)value;
+  return LAB_OK;
+}
+
+static int read_name(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+{
+  (void)param;
+  if (lab_config_text(setting, rig->name, sizeof rig->name, error))
+    return error->status;
+  if (*rig->name && !strpbrk(rig->name, "/\n"))
+    return LAB_OK;
+  return lab_config_expected(setting, "a name without \"/\"", error);
+}
+
+static int read_action(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+{
+  (void)param;
+  return lab_config_choice(setting, lab_action_words, 2, sizeof lab_action_words[0], &rig->action, error);
+}
+
+static int read_gas(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+{
+  static const char *const words[PNEU_GAS_COUNT] = {
+#define X(name, key, text) key,
+      PNEU_GAS_LIST(X)
+#undef X
+  };
+  (void)param;
+  return lab_config_choice(setting, words, PNEU_GAS_COUNT, sizeof words[0], &rig->laws.gas, error);
+}
+
+static int read_flow(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+{
+  static const char *const words[PNEU_FLOW_COUNT] = {
+#define X(name, key, text) key,
+      PNEU_FLOW_LIST(X)
+#undef X
+  };
+  (void)param;
+  return lab_config_choice(setting, words, PNEU_FLOW_COUNT, sizeof words[0], &rig->laws.flow, error);
+}
+
+/* A friction law is an effect at its usual size. */
+static int read_friction(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+{
+  const char *effect;
+  int i, first, count;
+  (void)param;
+  if (lab_config_choice(setting, lab_friction_words, LAB_FRICTION_COUNT, sizeof lab_friction_words[0], &rig->friction,
+                        error))
+    return error->status;
+  effect = lab_friction_words[rig->friction].effect;
+  if (!effect)
+    return LAB_OK;
+  if (lab_effect_index(effect) < 0)
+    return lab_config_fail(setting, error, "this build of the library has no effect %s", effect);
+  first = pneu_effect_params(lab_effect_index(effect), &count);
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    *pneu_param_at(&rig->params, i) = info.value;
+  }
+  return LAB_OK;
+}
+
+/* Indexed by enum lab_key_kind. */
+static int (*const read_kind[])(const config_setting_t *, int, lab_rig *,
+                                lab_error *) = {read_param, read_name, read_action, read_gas, read_flow, read_friction};
+
+/* ---- Groups ---- */
+
+/* The row of a key, -1 where its group has none of that name. */
+static int key_row(const char *group, const char *key)
+{
+  int i;
+  for (i = 0; i < lab_key_count; i++)
+    if (strcmp(lab_keys[i].group, group) == 0 && strcmp(lab_keys[i].key, key) == 0)
+      return i;
+  return -1;
+}
+
+/* The nearest key of the same group, or the group where the key is at home. */
+static int unknown_key(const config_setting_t *setting, const char *group, lab_error *error)
+{
+  const char *key = config_setting_name(setting), *names[64];
+  int i, n = 0, elsewhere = lab_name_index(key, lab_keys, (size_t)lab_key_count, sizeof lab_keys[0]);
+  if (elsewhere >= 0)
+    return lab_config_fail(setting, error, "unknown key; %s belongs to the group %s", key, lab_keys[elsewhere].group);
+  for (i = 0; i < lab_key_count; i++)
+    if (strcmp(lab_keys[i].group, group) == 0)
+      names[n++] = lab_keys[i].key;
+  return lab_config_unknown(setting, names, (size_t)n, sizeof names[0], error);
+}
+
+/* A group of the key table. */
+static int read_keys(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  int i, row, status = lab_config_is_group(group, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
+    row = key_row(config_setting_name(group), config_setting_name(setting));
+    if (row < 0)
+      return unknown_key(setting, config_setting_name(group), error);
+    status = read_kind[lab_keys[row].kind](setting, lab_keys[row].param, rig, error);
+  }
+  return status;
+}
+
+/* The parameters of one effect. */
+static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, lab_error *error)
+{
+  const char *names[PNEU_PARAM_COUNT];
+  int i, k, count, first = pneu_effect_params(effect, &count), status = lab_config_is_group(group, error);
+  for (k = 0; k < count; k++) {
+    pneu_param_info info;
+    pneu_param_describe(first + k, &info);
+    names[k] = info.name;
+  }
+  if (status == LAB_OK)
+    status = lab_config_known(group, names, (size_t)count, sizeof names[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
+    k = lab_name_index(config_setting_name(setting), names, (size_t)count, sizeof names[0]);
+    status = read_param(setting, first + k, rig, error);
+  }
+  return status;
+}
+
+static int read_effects(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  const char *names[PNEU_EFFECT_COUNT + 1];
+  int i, status = lab_config_is_group(group, error);
+  for (i = 0; i < PNEU_EFFECT_COUNT; i++)
+    names[i] = pneu_effect_at(i)->name;
+  if (status == LAB_OK)
+    status = lab_config_known(group, names, PNEU_EFFECT_COUNT, sizeof names[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    status = read_effect(member, lab_effect_index(config_setting_name(member)), rig, error);
+  }
+  return status;
+}
+
+/* ---- Lists ---- */
+
+/* One more name to fit; each once, and orifice_area not beside what it scales. */
+static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab_error *error)
+{
+  const int area[2] = {PNEU_PARAM_fill_area, PNEU_PARAM_vent_area};
+  char name[LAB_FIT_TEXT];
+  int i;
+  for (i = 0; i < rig->n_fit; i++) {
+    int other = rig->fit[i];
+    if (other == index)
+      return lab_config_fail(setting, error, "%s is there twice", lab_fit_name(index, name));
+    if ((index == LAB_FIT_ORIFICE_AREA && (other == area[0] || other == area[1])) ||
+        (other == LAB_FIT_ORIFICE_AREA && (index == area[0] || index == area[1])))
+      return lab_config_fail(setting, error, "orifice_area scales fill_area and vent_area: give it alone, or these");
+  }
+  rig->fit[rig->n_fit++] = index;
+  return LAB_OK;
+}
+
+static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
+{
+  char text[LAB_FIT_COUNT][LAB_FIT_TEXT];
+  const char *names[LAB_FIT_COUNT];
+  int i, index, status = lab_config_list(list, 0, LAB_FIT_COUNT, error);
+  for (i = 0; i < LAB_FIT_COUNT; i++)
+    names[i] = lab_fit_name(i, text[i]);
+  for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
+    const config_setting_t *setting = config_setting_get_elem(list, (unsigned)i);
+    status = lab_config_choice(setting, names, LAB_FIT_COUNT, sizeof names[0], &index, error);
+    if (status == LAB_OK)
+      status = add_fit(setting, index, rig, error);
+    if (status == LAB_OK)
+      rig->fit_per_log[rig->n_fit - 1] = (unsigned char)per_log;
+  }
+  return status;
+}
+
+static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return read_fit_list(list, 0, rig, error);
+}
+
+static int read_fit_per_log(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return read_fit_list(list, 1, rig, error);
+}
+
+/* Channel of a key in the noise group, "pressure" or "p"; time and command have no noise. */
+static int noise_channel(const char *key)
+{
+  int i;
+  for (i = LAB_CHANNEL_P; i < LAB_CHANNEL_COUNT; i++)
+    if (strcmp(lab_channels[i].quantity, key) == 0 || strcmp(lab_channels[i].key, key) == 0)
+      return i;
+  return -1;
+}
+
+static int read_noise(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
+    int channel = noise_channel(config_setting_name(setting));
+    if (channel < 0)
+      return lab_config_unknown(setting, &lab_channels[LAB_CHANNEL_P].quantity, LAB_CHANNEL_COUNT - LAB_CHANNEL_P,
+                                sizeof lab_channels[0], error);
+    status = lab_config_difference(setting, lab_channels[channel].unit, &rig->noise[channel], error);
+    if (status == LAB_OK && !(rig->noise[channel] > 0))
+      status = lab_config_expected(setting, "a standard deviation above 0", error);
+  }
+  return status;
+}
+
+static int read_inputs(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  static const struct input_word {
+    const char *name;
+    int channel;
+  } words[] = {{"u", LAB_CHANNEL_U},
+               {"p", LAB_CHANNEL_P},
+               {"x", LAB_CHANNEL_X},
+               {"ps", LAB_CHANNEL_PS},
+               {"force", LAB_CHANNEL_FORCE}};
+  enum { WORDS = sizeof words / sizeof words[0] };
+  int i, word, status = lab_config_list(list, 1, WORDS, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
+    status = lab_config_choice(config_setting_get_elem(list, (unsigned)i), words, WORDS, sizeof words[0], &word, error);
+    if (status == LAB_OK)
+      rig->input[words[word].channel] = 1;
+  }
+  rig->laws.pressure_input = rig->input[LAB_CHANNEL_P];
+  rig->laws.position_input = rig->input[LAB_CHANNEL_X];
+  return status;
+}
+
+static int read_log(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  rig->log.command_is_pressure = rig->params.proportional_band > 0;
+  return lab_log_format_read(group, &rig->log, error);
+}
+
+static int read_unlisted(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  return lab_terms_read(list, LAB_TERM_MAX, rig->term, &rig->n_terms, error);
+}
+
+/* In the order of reading: effects after the friction law, log after the transducer. */
+static const struct section {
+  const char *name;
+  int (*read)(const config_setting_t *, lab_rig *, lab_error *);
+} sections[] = {
+    {"actuator", read_keys}, {"transducer", read_keys}, {"supply", read_keys},     {"ambient", read_keys},
+    {"gas", read_keys},      {"laws", read_keys},       {"fit", read_fit},         {"fit_per_log", read_fit_per_log},
+    {"noise", read_noise},   {"inputs", read_inputs},   {"effects", read_effects}, {"unlisted", read_unlisted},
+    {"log", read_log},
+};
+enum { SECTIONS = sizeof sections / sizeof sections[0] };
+
+/* ---- The whole file ---- */
+
+void lab_rig_default(lab_rig *rig)
+{
+  int i;
+  memset(rig, 0, sizeof *rig);
+  strcpy(rig->name, "rig");
+  pneu_params_default(&rig->params);
+  rig->input[LAB_CHANNEL_U] = 1;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    rig->noise[i] = NAN;
+  lab_log_format_default(&rig->log);
+}
+
+/* "study/actuators/r1-400.cfg" -> "r1-400" */
+static void name_from_path(const char *path, char name[LAB_NAME_TEXT])
+{
+  char *dot;
+  snprintf(name, LAB_NAME_TEXT, "%s", lab_file_name(path));
+  dot = strrchr(name, '.');
+  if (dot && dot > name)
+    *dot = '\0';
+}
+
+/* A rig that can fill must have something to fill from. */
+static int check_supply(const config_t *config, const lab_rig *rig, lab_error *error)
+{
+  const config_setting_t *setting = config_lookup(config, "supply.pressure");
+  if (rig->params.supply_pressure > 0 || rig->params.fill_area == 0 || rig->laws.pressure_input || !setting)
+    return LAB_OK;
+  return lab_config_fail(setting, error,
+                         "expected more than 0 Pa gauge (supply above ambient), found %g Pa; a rig "
+                         "that only vents has transducer.fill_area = 0",
+                         (double)rig->params.supply_pressure);
+}
+
+static int is_active(const pneu_model *model, int effect)
+{
+  int i;
+  for (i = 0; i < model->n_active; i++)
+    if (model->active[i] == effect)
+      return 1;
+  return 0;
+}
+
+static int check_effects_act(const lab_rig *rig, const pneu_model *model, lab_error *error)
+{
+  int e, i, count;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const int first = pneu_effect_params(e, &count);
+    for (i = 0; i < count && !is_active(model, e); i++) {
+      pneu_param_info info;
+      pneu_param_describe(first + i, &info);
+      if (!info.shape && *pneu_param_at((pneu_params *)&rig->params, first + i) != info.neutral)
+        return lab_fail(error, LAB_DATA,
+                        "%s: effects.%s.%s does nothing with the other laws and effects declared (gas law \"%s\"): %s",
+                        rig->file, pneu_effect_at(e)->name, info.name, pneu_gas_key(rig->laws.gas), info.meaning);
+    }
+  }
+  return LAB_OK;
+}
+
+static int check_terms_act(const lab_rig *rig, const pneu_model *model, lab_error *error)
+{
+  const int heats = model->thermal && rig->laws.gas != PNEU_GAS_POLYTROPIC;
+  int i;
+  for (i = 0; i < rig->n_terms; i++)
+    if (rig->term[i].equation == PNEU_TERM_HEAT && !heats)
+      return lab_fail(error, LAB_DATA,
+                      "%s: unlisted[%d]: heat does nothing with the other laws declared (gas law \"%s\"); it needs "
+                      "the gas law \"energy\"",
+                      rig->file, i, pneu_gas_key(rig->laws.gas));
+  return LAB_OK;
+}
+
+/* What is set but cannot act under the declared laws is a mistake, not a remark. */
+static int check_all_acts(const lab_rig *rig, lab_error *error)
+{
+  pneu_model model;
+  if (lab_rig_model(rig, &model, error) || check_effects_act(rig, &model, error))
+    return error->status;
+  return check_terms_act(rig, &model, error);
+}
+
+static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
+{
+  const config_setting_t *root = config_root_setting(config);
+  int i, status = lab_config_known(root, sections, SECTIONS, sizeof sections[0], error);
+  for (i = 0; status == LAB_OK && i < SECTIONS; i++) {
+    const config_setting_t *member = config_setting_get_member((config_setting_t *)root, sections[i].name);
+    if (member)
+      status = sections[i].read(member, rig, error);
+  }
+  rig->log.command_is_pressure = rig->params.proportional_band > 0;
+  return status == LAB_OK ? check_supply(config, rig, error) : status;
+}
+
+int lab_rig_read(const char *path, lab_rig *rig, lab_error *error)
+{
+  config_t config;
+  int status;
+  lab_rig_default(rig);
+  snprintf(rig->file, sizeof rig->file, "%s", path);
+  name_from_path(path, rig->name);
+  status = lab_config_read(&config, path, error);
+  if (status == LAB_OK)
+    status = read_sections(&config, rig, error);
+  config_destroy(&config);
+  return status == LAB_OK ? check_all_acts(rig, error) : status;
+}
+
+int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)
+{
+  char name[LAB_FIT_TEXT];
+  int bad, status = pneu_model_init(model, &rig->params, &rig->laws, &bad);
+  if (status != PNEU_OK)
+    return lab_fail(error, LAB_DATA, "%s: %s%s%s", rig->file, bad >= 0 ? lab_fit_name(bad, name) : "",
+                    bad >= 0 ? ": " : "", pneu_status_text(status));
+  status = pneu_model_terms(model, rig->term, rig->n_terms);
+  if (status != PNEU_OK)
+    return lab_fail(error, LAB_DATA, "%s: unlisted: %s", rig->file, pneu_status_text(status));
+  return LAB_OK;
+}

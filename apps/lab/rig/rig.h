@@ -1,0 +1,83 @@
+/* A rig: what its file declares, ready for the library. The same file is a model that closeloop has
+ * completed (model.cfg). Keys and groups are those of interface.md; missing ones take the defaults of
+ * pneu.h, every effect neutral. Three groups go further:
+ *
+ *   gas     = { gas_constant = "287.1 J/kg/K"; heat_ratio = 1.4; polytropic_index = 1.4; };
+ *   effects = { chamber_leak = { leak_area = "0.02 mm^2"; }; };   // by effect and parameter
+ *   unlisted = ( { equation = "friction"; argument = "x"; from = "0 mm"; to = "20 mm";
+ *                  values = [ 0, 15, 40, 15, 0 ]; unit = "N"; } );  // free terms, see pneu_term
+ *
+ * A parameter of an effect that is not given keeps its neutral value; friction = "stribeck" or "lugre"
+ * first sets that effect to its usual size. A free term has 2 to PNEU_TERM_KNOTS values at equal distances;
+ * its equation is supply, force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p, u
+ * or t, and numbers are in SI where no unit is given. Over t the values are the amplitudes of cosine and sine of the
+ * period to - from, of its half and so on. Between [ and ] libconfig wants all numbers with a point or none; ( and )
+ * take both. The group log is described in logformat.h.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_RIG_H
+#define LAB_RIG_H
+
+#include <stdio.h>
+
+#include "../../../lib/pneu.h"
+#include "../log/channel.h"
+#include "../log/logformat.h"
+#include "../base/message.h"
+
+enum {
+  LAB_FIT_ORIFICE_AREA = PNEU_PARAM_COUNT, /* in lab_rig.fit: scales fill_area and vent_area together */
+  LAB_FIT_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
+  LAB_TERM_MAX = 4,
+  LAB_NAME_TEXT = 64,
+  LAB_FIT_TEXT = 96, /* bytes of a name from lab_fit_name */
+  LAB_PATH_TEXT = 1024
+};
+
+enum lab_action { LAB_ACTION_NORMAL, LAB_ACTION_REVERSE };
+enum lab_friction { LAB_FRICTION_COULOMB, LAB_FRICTION_STRIBECK, LAB_FRICTION_LUGRE, LAB_FRICTION_COUNT };
+
+/* Plain data: copy it freely. */
+typedef struct lab_rig {
+  char file[LAB_PATH_TEXT]; /* where it was read */
+  char name[LAB_NAME_TEXT]; /* of the actuator; by default that of the file without its ending */
+  int action;               /* enum lab_action; for readers: x follows the air in both, see pneu_stem_extension */
+  int friction;             /* enum lab_friction */
+  pneu_params params;
+  pneu_laws laws;
+  pneu_term term[LAB_TERM_MAX]; /* free terms: what acts without a name */
+  int n_terms;
+  int n_fit;
+  int fit[LAB_FIT_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_FIT_ORIFICE_AREA */
+  unsigned char fit_per_log[LAB_FIT_COUNT]; /* 1: every log has its own value */
+  double noise[LAB_CHANNEL_COUNT];          /* standard deviation, SI; NaN: estimate it from the log */
+  unsigned char input[LAB_CHANNEL_COUNT];   /* 1: drives the model; u always does */
+  lab_log_format log;
+} lab_rig;
+
+/* What a file without any key declares.  Out: rig */
+void lab_rig_default(lab_rig *rig);
+
+/* Read a rig file.
+ * Out:     rig
+ * Returns: LAB_OK; LAB_DATA with file, line, key, what was expected and what was found; LAB_WORLD. */
+int lab_rig_read(const char *path, lab_rig *rig, lab_error *error);
+
+/* Write a file from which lab_rig_read makes the same rig, bit for bit; check ferror afterwards.
+ * In:      remark  lines for the head of the file, or NULL */
+void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark);
+
+/* Write parameters, laws and free terms as C: macros MODEL_PARAMS, MODEL_LAWS, MODEL_N_TERMS and, unless there are
+ * none, MODEL_TERMS, for initialisers. */
+void lab_rig_write_c(FILE *file, const lab_rig *rig);
+
+/* The library's model of a rig. It uses the rig's free terms where they lie: the rig must outlive it, unmoved.
+ * Out:     model
+ * Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
+int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
+
+/* Name of something fitted: "dry_friction", "orifice_area", "chamber_leak.leak_area".
+ * In:      index  0 <= index < LAB_FIT_COUNT
+ * Out:     name   Returns: name */
+const char *lab_fit_name(int index, char name[LAB_FIT_TEXT]);
+
+#endif

@@ -1,0 +1,192 @@
+#include "rig.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../base/number.h"
+#include "rigkeys.h"
+#include "rigterm.h"
+
+/* Text in quotes as libconfig reads it back. */
+static void write_text(FILE *file, const char *text)
+{
+  fputc('"', file);
+  for (; *text; text++) {
+    if (*text == '"' || *text == '\\')
+      fputc('\\', file);
+    fputc(*text, file);
+  }
+  fputc('"', file);
+}
+
+static void write_param(FILE *file, const lab_rig *rig, const char *key, int param, const char *indent)
+{
+  pneu_params p = rig->params;
+  pneu_param_info info;
+  char number[LAB_NUMBER_TEXT];
+  pneu_param_describe(param, &info);
+  lab_number_write((double)*pneu_param_at(&p, param), number);
+  if (strcmp(info.unit, "1") == 0)
+    fprintf(file, "%s%s = %s;\n", indent, key, number);
+  else
+    fprintf(file, "%s%s = \"%s %s\";\n", indent, key, number, info.unit);
+}
+
+static void write_word(FILE *file, const char *key, const char *word)
+{
+  fprintf(file, "  %s = \"%s\";\n", key, word);
+}
+
+static void write_key(FILE *file, const lab_rig *rig, const lab_key *key)
+{
+  switch (key->kind) {
+  case LAB_KEY_PARAM:
+    write_param(file, rig, key->key, key->param, "  ");
+    break;
+  case LAB_KEY_NAME:
+    fprintf(file, "  %s = ", key->key);
+    write_text(file, rig->name);
+    fputs(";\n", file);
+    break;
+  case LAB_KEY_ACTION:
+    write_word(file, key->key, lab_action_words[rig->action].word);
+    break;
+  case LAB_KEY_GAS:
+    write_word(file, key->key, pneu_gas_key(rig->laws.gas));
+    break;
+  case LAB_KEY_FLOW:
+    write_word(file, key->key, pneu_flow_key(rig->laws.flow));
+    break;
+  case LAB_KEY_FRICTION:
+    write_word(file, key->key, lab_friction_words[rig->friction].word);
+    break;
+  }
+}
+
+/* The groups of the key table. */
+static void write_keys(FILE *file, const lab_rig *rig)
+{
+  const char *group = "";
+  int i;
+  for (i = 0; i < lab_key_count; i++) {
+    if (strcmp(lab_keys[i].group, group) != 0)
+      fprintf(file, "%s%s = {\n", *group ? "};\n" : "", lab_keys[i].group);
+    group = lab_keys[i].group;
+    write_key(file, rig, &lab_keys[i]);
+  }
+  fputs("};\n", file);
+}
+
+static void write_fit(FILE *file, const lab_rig *rig, const char *key, int per_log)
+{
+  char name[LAB_FIT_TEXT];
+  int i, any = 0;
+  for (i = 0; i < rig->n_fit; i++)
+    if (rig->fit_per_log[i] == per_log)
+      fprintf(file, "%s%s\"%s\"", any ? ", " : key, any ? "" : " = ( ", lab_fit_name(rig->fit[i], name)), any = 1;
+  if (any)
+    fputs(" );\n", file);
+}
+
+static void write_noise(FILE *file, const lab_rig *rig)
+{
+  char number[LAB_NUMBER_TEXT];
+  int i, any = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    if (!isnan(rig->noise[i]))
+      fprintf(file, "%s  %s = \"%s %s\";\n", any++ ? "" : "noise = {\n", lab_channels[i].quantity,
+              lab_number_write(rig->noise[i], number), lab_channels[i].unit);
+  if (any)
+    fputs("};\n", file);
+}
+
+static void write_inputs(FILE *file, const lab_rig *rig)
+{
+  int i, any = 0;
+  fputs("inputs = [ ", file);
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    if (rig->input[i])
+      fprintf(file, "%s\"%s\"", any++ ? ", " : "", lab_channels[i].key);
+  fputs(" ];\n", file);
+}
+
+/* An effect is written if it acts, or if the friction law would switch it on. */
+static int is_written(const lab_rig *rig, int effect)
+{
+  const char *law = lab_friction_words[rig->friction].effect;
+  pneu_params p = rig->params;
+  int i, count, first = pneu_effect_params(effect, &count);
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    if (*pneu_param_at(&p, i) != info.neutral)
+      return 1;
+  }
+  return law && strcmp(law, pneu_effect_at(effect)->name) == 0;
+}
+
+static void write_effect(FILE *file, const lab_rig *rig, int effect)
+{
+  int i, count, first = pneu_effect_params(effect, &count);
+  fprintf(file, "  %s = {\n", pneu_effect_at(effect)->name);
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    write_param(file, rig, info.name, i, "    ");
+  }
+  fputs("  };\n", file);
+}
+
+static void write_effects(FILE *file, const lab_rig *rig)
+{
+  int i, any = 0;
+  for (i = 0; i < PNEU_EFFECT_COUNT; i++)
+    if (is_written(rig, i)) {
+      fputs(any++ ? "" : "effects = {\n", file);
+      write_effect(file, rig, i);
+    }
+  if (any)
+    fputs("};\n", file);
+}
+
+static void write_remark(FILE *file, const char *remark)
+{
+  while (remark && *remark) {
+    int length = (int)strcspn(remark, "\n");
+    fprintf(file, "// %.*s\n", length, remark);
+    remark += length + (remark[length] == '\n');
+  }
+}
+
+void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
+{
+  write_remark(file, remark);
+  write_keys(file, rig);
+  write_fit(file, rig, "fit", 0);
+  write_fit(file, rig, "fit_per_log", 1);
+  write_noise(file, rig);
+  write_inputs(file, rig);
+  write_effects(file, rig);
+  lab_terms_write(file, rig->term, rig->n_terms);
+  lab_log_format_write(file, &rig->log);
+}
+
+void lab_rig_write_c(FILE *file, const lab_rig *rig)
+{
+  pneu_params params = rig->params;
+  int i;
+  fputs("#define MODEL_PARAMS \\\n  { \\\n", file);
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    char number[LAB_NUMBER_TEXT];
+    pneu_param_describe(i, &info);
+    if (i == PNEU_PARAM_BASE_COUNT)
+      fputs("    { \\\n", file);
+    fprintf(file, "    %s(pneu_real)%s, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
+            lab_number_write((double)*pneu_param_at(&params, i), number), info.name, info.unit);
+  }
+  fprintf(file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n", rig->laws.gas,
+          rig->laws.flow, rig->laws.pressure_input, rig->laws.position_input, pneu_gas_key(rig->laws.gas),
+          pneu_flow_key(rig->laws.flow));
+  lab_terms_print_c(file, rig->term, rig->n_terms);
+}
