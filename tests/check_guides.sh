@@ -5,6 +5,7 @@
 set -u
 : "${BUILD:=build}" "${CC:=cc}"
 top=$(pwd)
+build=$(cd "$BUILD" && pwd)
 wrong=0
 
 # steps GUIDE FOLDER: FOLDER/1.sh, 1.want, 2.sh, ... from the page
@@ -44,19 +45,20 @@ for guide in "$@"; do
   for path in $(points_to "$guide"); do
     [ -e "$(dirname "$guide")/$path" ] || { echo "$guide points to $path"; wrong=$((wrong + 1)); }
   done
-  folder="$BUILD/guides/$(basename "$guide" .md)"
+  folder="$build/guides/$(basename "$guide" .md)"
   rm -rf "$folder"
   mkdir -p "$folder/place" "$folder/steps"
   cp -R lib study "$folder/place"
-  for name in apps tests results Makefile build sweep simulate closeloop; do
+  for name in apps tests results Makefile sweep simulate closeloop; do
     ln -s "$top/$name" "$folder/place/$name"
   done
+  ln -s "$build" "$folder/place/build"
   steps "$guide" "$folder/steps"
   n=0
   while [ -e "$folder/steps/$((n + 1)).sh" ]; do
     n=$((n + 1))
     step="$folder/steps/$n"
-    (cd "$folder/place" && CC="$CC" sh -e "$top/$step.sh") >"$step.got" 2>&1
+    (cd "$folder/place" && CC="$CC" sh -e "$step.sh") >"$step.got" 2>&1
     status=$?
     if [ $status -ne 0 ] || ! says "$step.want" "$step.got"; then
       wrong=$((wrong + 1))
