@@ -7,6 +7,7 @@
 #include "lab/batch/batch.h"
 #include "lab/base/cli.h"
 #include "lab/base/interrupt.h"
+#include "lab/base/outfile.h"
 #include "lab/base/progress.h"
 #include "lab/batch/split.h"
 
@@ -81,7 +82,8 @@ static int run_one(const lab_cli *cli, lab_error *error)
     status = write_answer(answer, error);
     lab_progress_end(&progress);
     lab_story_sentence(&answer->story, sentence, sizeof sentence);
-    puts(sentence);
+    if (status == LAB_OK)
+      status = lab_out_say(sentence, error);
     lab_answer_free(answer);
   }
   lab_progress_end(&progress);

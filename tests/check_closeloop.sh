@@ -93,6 +93,13 @@ for file in $files; do
   [ -L "$folder/full/$file.part" ] && complain "full disk: $file.part stays"
 done
 
+# an answer that cannot be said is not done
+[ -e /dev/full ] && expect 4 "full disk on standard output" \
+  sh -c "./closeloop '$folder/rig.cfg' '$folder/log.csv' --no-figures --out '$folder/unsaid' >/dev/full"
+printf 'rig,log\n%s,%s\n' rig.cfg log.csv >"$folder/list.csv"
+[ -e /dev/full ] && expect 4 "full disk on standard output of a batch" \
+  sh -c "./closeloop --batch '$folder/list.csv' --out '$folder/unsaid' >/dev/full"
+
 # the folder of temporary files fills up while gnuplot draws, which gnuplot itself does not say
 printf '#!/bin/sh\ntrap "" XFSZ\nulimit -f 8\nPATH=$REAL_PATH exec gnuplot "$@"\n' >"$folder/bin/gnuplot"
 chmod +x "$folder/bin/gnuplot"

@@ -216,6 +216,20 @@ static void test_lab_log_read__time_step__makes_time(void **state)
   lab_log_free(&log);
 }
 
+static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.time_step = 0.5;
+  format.damaged = LAB_DAMAGED_DROP;
+  format.from = 0.5;
+  log = read_log("p [kPa],x [mm]\n0,1\n1,2\nbad,2\n3,3\n");
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[0], 0.5, 0, 0);
+  assert_close(CHANNEL(log, TIME)[1], 1.5, 0, 0);
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__falling_time__starts_a_run(void **state)
 {
   lab_log log;
@@ -833,6 +847,7 @@ int main(void)
       CASE(test_lab_log_read__scale_and_offset__act_on_si),
       CASE(test_lab_log_read__constants__fill_a_channel),
       CASE(test_lab_log_read__time_step__makes_time),
+      CASE(test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken),
       CASE(test_lab_log_read__falling_time__starts_a_run),
       CASE(test_lab_log_read__many_runs__are_all_listed),
       CASE(test_lab_log_read__window__keeps_rows_inside_and_counts_the_others),

@@ -154,6 +154,15 @@ int lab_out_close(lab_outfile *out, lab_error *error)
   return status;
 }
 
+int lab_out_say(const char *line, lab_error *error)
+{
+  lab_outfile out;
+  if (lab_out_open(&out, NULL, error))
+    return error->status;
+  fprintf(out.file, "%s\n", line);
+  return lab_out_close(&out, error);
+}
+
 void lab_out_abandon(lab_outfile *out)
 {
   if (out->file && out->file != stdout)

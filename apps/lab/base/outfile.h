@@ -23,6 +23,9 @@ int lab_out_open(lab_outfile *out, const char *path, lab_error *error);
  * Returns: LAB_OK; LAB_WORLD, for a full disk and the like. */
 int lab_out_close(lab_outfile *out, lab_error *error);
 
+/* A line of its own on standard output, arrived when this returns.  Returns: LAB_OK, LAB_WORLD. */
+int lab_out_say(const char *line, lab_error *error);
+
 /* Drop what was written. */
 void lab_out_abandon(lab_outfile *out);
 

@@ -302,12 +302,16 @@ static int write_all(batch *b, totals *t, lab_error *error)
 static int sum_up(const batch *b, const totals *t, lab_error *error)
 {
   int k, said = 0;
-  printf("%d line%s:", b->n, b->n == 1 ? "" : "s");
+  lab_outfile out;
+  if (lab_out_open(&out, NULL, error))
+    return error->status;
+  fprintf(out.file, "%d line%s:", b->n, b->n == 1 ? "" : "s");
   for (k = 0; k < KINDS; k++)
     if (t->n[k])
-      printf("%s %d %s", said++ ? "," : "", t->n[k], kinds[k]);
-  printf(". %s/batch.csv\n", b->shown);
-  fflush(stdout);
+      fprintf(out.file, "%s %d %s", said++ ? "," : "", t->n[k], kinds[k]);
+  fprintf(out.file, ". %s/batch.csv\n", b->shown);
+  if (lab_out_close(&out, error))
+    return error->status;
   if (t->worst == LAB_OK)
     return LAB_OK;
   return lab_fail(error, t->worst, "%d of %d lines have the verdict error; the column message of batch.csv says why",

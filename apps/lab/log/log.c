@@ -20,6 +20,7 @@ struct reader {
   lab_header header;
   lab_log *log;
   size_t run_room; /* entries allocated for log->run */
+  size_t rows;     /* of data seen, taken or not: the clock of a file without t */
   double last_t;   /* [s] of the last row taken */
   double value;    /* long format: number of the row being read */
   int quantity;    /* long format: its row in format->quantity */
@@ -107,7 +108,7 @@ static void clear_row(struct reader *r)
     if (r->log->value[i])
       r->log->value[i][r->log->n] = r->format->constant[i];
   if (r->format->time_step > 0)
-    r->log->value[LAB_CHANNEL_TIME][r->log->n] = (double)r->log->n * r->format->time_step;
+    r->log->value[LAB_CHANNEL_TIME][r->log->n] = (double)r->rows * r->format->time_step;
 }
 
 /* Long format: the number goes to the channel of its quantity.  Returns: 0 if that is to be ignored. */
@@ -201,6 +202,7 @@ static int read_rows(struct reader *r)
     if (is_blank(begin, end) && is_blank(end, r->source.lines.end))
       return LAB_OK;
     clear_row(r);
+    r->rows++;
     if (read_row(r, begin, end) || (place_value(r) && take_row(r))) {
       if (r->error->status != LAB_DATA || r->format->damaged != LAB_DAMAGED_DROP)
         return lab_log_fail_in(&r->source, r->error);
