@@ -102,12 +102,14 @@ gallery:
 	@sh study/gallery.sh >results/GALLERY.md.part && mv results/GALLERY.md.part results/GALLERY.md
 .PHONY: gallery
 
-## Try closeloop on N rigs without its answer (500); writes results/blind.csv and blind.md, goes on after a stop
+## Try closeloop on N rigs (500) without its answer, and on more of which nothing is missing, or the noise not told; goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trials $(N) --work $(BUILD)/blind
-## Repeat trial K of them and keep its files in build/blind/kept
+	$(BUILD)/tests/blind/blind --trials $$((5 * $(N) + 100)) --series blind_nothing --work $(BUILD)/blind
+	$(BUILD)/tests/blind/blind --trials $$((2 * $(N) / 5)) --series blind_noise --work $(BUILD)/blind
+## Repeat trial K of them (SERIES=blind_noise: of that series) and keep its files in build/blind/kept
 blind-trial: closeloop $(BUILD)/tests/blind/blind
-	$(BUILD)/tests/blind/blind --trial $(K) --keep $(BUILD)/blind/kept
+	$(BUILD)/tests/blind/blind --trial $(K) $(if $(SERIES),--series $(SERIES)) --keep $(BUILD)/blind/kept
 .PHONY: blind blind-trial
 
 ## Run closeloop --batch on N logs (500) of a few hundred rows; writes results/fleet.csv, goes on after a stop
@@ -159,9 +161,13 @@ $(BUILD)/crew: FORCE
 	@echo '$(CREW)' | cmp -s - $@ || echo '$(CREW)' > $@
 .PHONY: FORCE
 
-$(BUILD)/apps/lab/base/checksum.o: apps/lab/base/checksum.c $(SOURCES)
+$(BUILD)/sources.cksum: $(SOURCES)
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(SOURCES) | cksum)"'"' -c $< -o $@
+	@cat $(SOURCES) | cksum > $@
+
+$(BUILD)/apps/lab/base/checksum.o: apps/lab/base/checksum.c $(BUILD)/sources.cksum
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(BUILD)/sources.cksum)"'"' -c $< -o $@
 
 # Scripts and templates that a program carries inside, a line a string.
 CARRIED := $(wildcard apps/lab/report/page/*) study/figures/style.gp

@@ -347,30 +347,31 @@ static void test_blind_nine_in_ten__one_of_ten_missed__is_still_nine(void **stat
 
 /* ---- Summary ---- */
 
-static void test_blind_bars__counts__meet_or_miss(void **state)
+static void test_blind_bar_word__counts__by_share_and_interval(void **state)
 {
-  const blind_bar least = {"", NULL, NULL, 1, 0.95}, most = {"", NULL, NULL, 0, 0.01}, figure = {"", NULL, NULL, -1, 0};
-  const blind_count good = {19, 20}, bad = {18, 20}, one = {1, 100}, two = {2, 100}, empty = {0, 0};
+  static const struct {
+    int at_least;
+    double share;
+    blind_count count;
+    int word;
+  } cases[] = {
+      {1, 0.95, {400, 400}, BLIND_BAR_SHOWN}, {1, 0.95, {19, 20}, BLIND_BAR_REACHED},
+      {1, 0.95, {18, 20}, BLIND_BAR_MISSED},  {1, 0.95, {9, 12}, BLIND_BAR_REFUTED},
+      {1, 0.95, {0, 0}, BLIND_BAR_REACHED},   {0, 0.01, {0, 400}, BLIND_BAR_SHOWN},
+      {0, 0.01, {1, 100}, BLIND_BAR_REACHED}, {0, 0.01, {2, 100}, BLIND_BAR_MISSED},
+      {0, 0.01, {1, 6}, BLIND_BAR_REFUTED},   {0, 0.01, {0, 0}, BLIND_BAR_REACHED},
+  };
+  size_t i;
   (void)state;
-  assert_true(blind_bar_met(&least, good) && !blind_bar_met(&least, bad) && blind_bar_met(&least, empty));
-  assert_true(blind_bar_met(&most, one) && !blind_bar_met(&most, two) && blind_bar_met(&most, empty));
-  assert_true(blind_bar_met(&figure, bad));
+  for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    const blind_bar bar = {"", NULL, NULL, cases[i].at_least, cases[i].share};
+    assert_int_equal(blind_bar_word(&bar, cases[i].count), cases[i].word);
+  }
 }
 
-static void test_blind_bar_refuted__counts__interval_beyond_the_bar(void **state)
+static blind_count bar_of_stated(const blind_record *r, int n)
 {
-  const blind_bar least = {"", NULL, NULL, 1, 0.95}, most = {"", NULL, NULL, 0, 0.01}, figure = {"", NULL, NULL, -1, 0};
-  const blind_count few = {11, 12}, too_few = {9, 12}, none = {0, 6}, one = {1, 6}, empty = {0, 0};
-  (void)state;
-  assert_true(!blind_bar_refuted(&least, few) && blind_bar_refuted(&least, too_few));
-  assert_true(!blind_bar_refuted(&most, none) && blind_bar_refuted(&most, one));
-  assert_true(!blind_bar_refuted(&least, empty) && !blind_bar_refuted(&most, empty));
-  assert_true(!blind_bar_refuted(&figure, too_few));
-}
-
-static blind_count first_bar(const blind_record *r, int n)
-{
-  return blind_bar_counts(&blind_bars[0], r, n);
+  return blind_bar_counts(&blind_bars[1], r, n);
 }
 
 static void test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit(void **state)
@@ -379,10 +380,10 @@ static void test_blind_bar_counts__right_names__counts_trials_above_twice_the_li
                        sample_record(2, "none", "")};
   (void)state;
   r[2].ratio = 1.9;
-  assert_int_equal(first_bar(r, 3).n, 2);
-  assert_int_equal(first_bar(r, 3).k, 1);
+  assert_int_equal(bar_of_stated(r, 3).n, 2);
+  assert_int_equal(bar_of_stated(r, 3).k, 1);
   strcpy(r[1].channels, "x");
-  assert_int_equal(first_bar(r, 3).n, 1);
+  assert_int_equal(bar_of_stated(r, 3).n, 1);
 }
 
 static void test_blind_summary_write__misses__are_listed_one_by_one(void **state)
@@ -393,7 +394,7 @@ static void test_blind_summary_write__misses__are_listed_one_by_one(void **state
   size_t size;
   FILE *memory = open_memstream(&text, &size);
   (void)state;
-  assert_int_equal(blind_summary_write(memory, r, 3, 1), 0);
+  assert_int_equal(blind_summary_write(memory, r, 3, 1, ""), 0);
   fclose(memory);
   assert_contains(text, "3 trials, seed 1");
   assert_contains(text, "| 1/3 | 33.3 % |");
@@ -419,8 +420,7 @@ int main(void)
       cmocka_unit_test(test_blind_wilson__ends_and_middle__are_the_closed_forms),
       cmocka_unit_test(test_blind_quantile__few_values__between_by_lines),
       cmocka_unit_test(test_blind_nine_in_ten__one_of_ten_missed__is_still_nine),
-      cmocka_unit_test(test_blind_bars__counts__meet_or_miss),
-      cmocka_unit_test(test_blind_bar_refuted__counts__interval_beyond_the_bar),
+      cmocka_unit_test(test_blind_bar_word__counts__by_share_and_interval),
       cmocka_unit_test(test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit),
       cmocka_unit_test(test_blind_summary_write__misses__are_listed_one_by_one),
   };

@@ -227,6 +227,51 @@ static void test_fit_run__start_on_a_bound__leaves_it(void **state)
   assert_int_equal(got.n_free, 2);
 }
 
+/* The data want b = -0.5; with a bound above that, what is left is the tail of a normal distribution beyond the bound.
+ */
+static void check_one_side(double lower, double upper, int state)
+{
+  line data = make_line();
+  const lab_fit_param params[2] = {{"a", "1", 1, -10, 10, 0, 0},
+                                   {"b", "1/s", 0.5 * (lower + upper), lower, upper, 0, 0}};
+  const lab_fit_problem problem = {2, params, LINE, line_residuals, NULL, &data, data.sigma, 1};
+  const lab_fit_result got = fitted(&problem, NULL);
+  const double end = state == LAB_FIT_AT_LOWER ? lower : upper, side = state == LAB_FIT_AT_LOWER ? 1 : -1;
+  const double far = side > 0 ? got.high[1] : got.low[1];
+  double theta[2], inverse[3], chi2, sd;
+  normal_equations(&data, 1, theta, inverse, &chi2);
+  sd = sqrt(inverse[2] * fmax(1, got.reduced_chi2));
+  assert_int_equal(got.state[1], state);
+  assert_close(side > 0 ? got.low[1] : got.high[1], end, 0, 0);
+  assert_close(lab_student_probability(-side * (far - theta[1]) / sd, (double)INFINITY) /
+                   lab_student_probability(-side * (end - theta[1]) / sd, (double)INFINITY),
+               0.05, 1e-6, 0);
+}
+
+static void test_fit_run__bound_active__interval_on_one_side(void **state)
+{
+  (void)state;
+  check_one_side(-0.49, 3, LAB_FIT_AT_LOWER);
+  check_one_side(-0.40, 3, LAB_FIT_AT_LOWER);
+  check_one_side(-3, -0.52, LAB_FIT_AT_UPPER);
+}
+
+static void test_fit_run__more_left_than_known_noise__wider_by_its_size(void **state)
+{
+  line data = make_line();
+  const lab_fit_problem problem = {2, line_params, LINE, line_residuals, NULL, &data, data.sigma, 1};
+  double theta[2], inverse[3], chi2;
+  lab_fit_result got;
+  int i;
+  (void)state;
+  for (i = 0; i < LINE; i++)
+    data.sigma[i] /= 10;
+  got = fitted(&problem, NULL);
+  normal_equations(&data, 1, theta, inverse, &chi2);
+  assert_true(chi2 > 2 * (LINE - 2));
+  check_line(&got, theta, inverse, chi2, chi2 / (LINE - 2), 1.959963984540054);
+}
+
 /* ---- What the data do not determine ---- */
 
 /* y = a b t + c; d does nothing */
@@ -496,6 +541,8 @@ int main(void)
       cmocka_unit_test(test_fit_run__rosenbrock__every_search_finds_the_minimum),
       cmocka_unit_test(test_fit_run__bound_active__minimum_on_the_bound_and_never_outside),
       cmocka_unit_test(test_fit_run__start_on_a_bound__leaves_it),
+      cmocka_unit_test(test_fit_run__bound_active__interval_on_one_side),
+      cmocka_unit_test(test_fit_run__more_left_than_known_noise__wider_by_its_size),
       cmocka_unit_test(test_fit_run__product_of_two__pair_named),
       cmocka_unit_test(test_fit_run__failing_region__avoided_and_counted),
       cmocka_unit_test(test_fit_run__failing_start__named),

@@ -38,7 +38,7 @@ LINTED := $(LIB_C) $(LAB_C) $(wildcard apps/*.c apps/fmu/*.c apps/fmu/runtime/*.
 lint: $(CARRIED:%=$(BUILD)/%.inc) $(BUILD)/apps/fmu/carried.inc
 	@sh study/install-packages.sh clang-tidy
 	@printf '%s\n' $(LINTED) | xargs -P 2 -n 12 sh -c \
-	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) $(FMU_XML) -I$(BUILD) -DSTUDY_BUILD="\"\"" 2>/dev/null' lint
+	  '$(TIDY) --quiet "$$@" -- -std=c99 $(filter-out -fopenmp,$(LAB_FLAGS)) $(FMU_XML) -I$(BUILD) 2>/dev/null' lint
 	@echo "lint: nothing found in $(words $(LINTED)) files"
 .PHONY: lint
 

@@ -100,9 +100,9 @@ static int all(const blind_record *r)
 
 /* "Above" is: of a size of at least twice the information limit. */
 const blind_bar blind_bars[] = {
+    {"p and x, one or two missing, above: added under the right names", one_or_two, name, -1, 0},
     {"p and x, one or two missing, above: right names, stated class, or listed below --min-gain", one_or_two, stated, 1,
      0.95},
-    {"p and x, one or two missing, above: added under the right names", one_or_two, name, -1, 0},
     {"nothing missing: something named (false alarm)", nothing, detected, 0, 0.01},
     {"unlisted, above: called unlisted, in the right equation", unlisted, name, 1, 0.90},
     {"unlisted, above: so called, or listed so below --min-gain", unlisted, stated, -1, 0},
@@ -132,15 +132,14 @@ blind_count blind_bar_counts(const blind_bar *bar, const blind_record *record, i
   return count;
 }
 
-int blind_bar_met(const blind_bar *bar, blind_count count)
+int blind_bar_word(const blind_bar *bar, blind_count count)
 {
-  const double allowed = bar->share * count.n;
-  return bar->at_least < 0 || (bar->at_least ? count.k >= allowed : count.k <= allowed);
-}
-
-int blind_bar_refuted(const blind_bar *bar, blind_count count)
-{
+  const double share = count.n ? (double)count.k / count.n : bar->share;
   double low, high;
   blind_wilson(count, &low, &high);
-  return bar->at_least > 0 ? high < bar->share : bar->at_least == 0 && low > bar->share;
+  if (bar->at_least ? high < bar->share : low > bar->share)
+    return BLIND_BAR_REFUTED;
+  if (bar->at_least ? share < bar->share : share > bar->share)
+    return BLIND_BAR_MISSED;
+  return (bar->at_least ? low >= bar->share : high <= bar->share) ? BLIND_BAR_SHOWN : BLIND_BAR_REACHED;
 }

@@ -160,7 +160,7 @@ static void draw_commands(blind_chance *c, blind_trial *t)
 static const char kinds[] = "NSSUSPSSNSSUSPSNSUSP";
 enum { PERIOD = sizeof kinds - 1 };
 
-static int kind_of(int number)
+int blind_kind_of(int number)
 {
   switch (kinds[number % PERIOD]) {
   case 'S':
@@ -248,7 +248,8 @@ void blind_draw(uint64_t seed, int number, blind_trial *t)
   int i;
   memset(t, 0, sizeof *t);
   t->number = number;
-  t->kind = kind_of(number);
+  t->kind = blind_kind_of(number);
+  t->tells_noise = 1;
   choose_effects(&c, t);
   t->channels = draw_channels(&c, t);
   draw_actuator(&c, t);

@@ -41,9 +41,10 @@ typedef struct blind_trial {
   second_rig base;     /* the same with the true values of what is fitted */
   int n_missing;
   blind_missing missing[BLIND_AT_ONCE];
-  int channels;   /* BLIND_P | BLIND_X | BLIND_T */
-  double spacing; /* [s] of the rows */
-  double step;    /* [s] of the generator */
+  int tells_noise; /* whether the rig file has the noise of the sensors, or closeloop has to find it */
+  int channels;    /* BLIND_P | BLIND_X | BLIND_T */
+  double spacing;  /* [s] of the rows */
+  double step;     /* [s] of the generator */
   blind_schedule fit, holdout;
 } blind_trial;
 
@@ -54,6 +55,9 @@ void blind_draw(uint64_t seed, int number, blind_trial *trial);
 second_rig blind_truth(const blind_trial *trial, unsigned which);
 
 enum { BLIND_ALL = ~0 };
+
+/* enum blind_kind of a trial. */
+int blind_kind_of(int number);
 
 const char *blind_kind_text(int kind);
 

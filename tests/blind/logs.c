@@ -89,7 +89,7 @@ static int write_log(const blind_trial *t, const second_rig *rig, const blind_sc
 static const char *const gas_words[] = {"isothermal", "energy"}, *const flow_words[] = {"paper", "choked", "iso6358"};
 
 /* Nothing of it tells what the trial is about. */
-static void write_rig(FILE *file, const second_rig *g, int channels)
+static void write_rig(FILE *file, const second_rig *g, int channels, int tells_noise)
 {
   int i;
   fprintf(file,
@@ -113,11 +113,14 @@ static void write_rig(FILE *file, const second_rig *g, int channels)
           g->supply, g->supply_temperature, g->ambient, g->ambient_temperature, gas_words[g->gas], flow_words[g->flow]);
   for (i = 0; i < BLIND_FITTED; i++)
     fprintf(file, "%s\"%s\"", i ? ", " : "fit        = ( ", blind_fitted_of[i].name);
-  fprintf(file, " );\nnoise      = { pressure = \"%.6g Pa\";  position = \"%.6g m\"; ", g->pressure_noise,
-          g->position_noise);
-  if (channels & BLIND_T)
-    fprintf(file, " temperature = \"%.6g K\"; ", g->temperature_noise);
-  fputs("};\n", file);
+  fputs(" );\n", file);
+  if (tells_noise) {
+    fprintf(file, "noise      = { pressure = \"%.6g Pa\";  position = \"%.6g m\"; ", g->pressure_noise,
+            g->position_noise);
+    if (channels & BLIND_T)
+      fprintf(file, " temperature = \"%.6g K\"; ", g->temperature_noise);
+    fputs("};\n", file);
+  }
   if (g->gas == SECOND_ENERGY && g->heat > 0)
     fprintf(file, "effects    = { heat_transfer = { film_conductance = \"%.10g W/K\"; }; };\n", g->heat);
 }
@@ -127,7 +130,7 @@ int blind_write_rig(const blind_trial *t, const char *folder, lab_error *error)
   lab_outfile out;
   if (lab_make_folder(folder, error) || open_in(folder, "rig.cfg", &out, error))
     return error->status;
-  write_rig(out.file, &t->declared, t->channels);
+  write_rig(out.file, &t->declared, t->channels, t->tells_noise);
   return lab_out_close(&out, error);
 }
 

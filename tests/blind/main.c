@@ -16,6 +16,7 @@
 
 #include "../../apps/lab/base/checksum.h"
 #include "../../apps/lab/base/cli.h"
+#include "../../apps/lab/base/names.h"
 #include "../../apps/lab/base/outfile.h"
 #include "../../apps/lab/base/progress.h"
 #include "journal.h"
@@ -25,16 +26,33 @@
 
 enum { PATHS = 512, TRIALS_MAX = 1000000 };
 
-static const char *closeloop = "./closeloop", *out = "results", *work = "build/blind", *keep;
+static const char *closeloop = "./closeloop", *out = "results", *work = "build/blind", *keep, *wanted = "blind";
 static int trials = 500, seed = 1, jobs, only = -1, check;
 static double timeout = 120;
 
+/* What sets the trials of a series apart. */
+static const struct series {
+  const char *name; /* also of its files */
+  const char *what;
+  int only_nothing; /* those trials alone in which nothing is missing */
+  int tells_noise;
+} all_series[] = {
+    {"blind", "", 0, 1},
+    {"blind_nothing", "Drawn as the others, but only those in which nothing is missing. ", 1, 1},
+    {"blind_noise", "The rig files do not say how large the noise is: closeloop finds it in the log. ", 0, 0},
+};
+enum { SERIES = sizeof all_series / sizeof all_series[0] };
+static const struct series *series = all_series;
+
 static const lab_option options[] = {
-    {"trials", LAB_OPTION_COUNT, &trials, "N", "how many (500)", 1, TRIALS_MAX},
+    {"trials", LAB_OPTION_COUNT, &trials, "N", "numbers 0 to N - 1, those of them that the series takes (500)", 1,
+     TRIALS_MAX},
+    {"series", LAB_OPTION_TEXT, &wanted, "NAME",
+     "blind (all), blind_nothing (nothing missing), blind_noise (noise not told)", 0, 0},
     {"trial", LAB_OPTION_COUNT, &only, "K", "this one alone: show its truth, the answer and the score", 0, TRIALS_MAX},
     {"seed", LAB_OPTION_COUNT, &seed, "N", "of everything that is drawn (1)", 0, 1000000},
     {"closeloop", LAB_OPTION_TEXT, &closeloop, "FILE", "the program to be tried (./closeloop)", 0, 0},
-    {"out", LAB_OPTION_TEXT, &out, "DIR", "where blind.csv and blind.md go (results)", 0, 0},
+    {"out", LAB_OPTION_TEXT, &out, "DIR", "where <series>.csv and <series>.md go (results)", 0, 0},
     {"work", LAB_OPTION_TEXT, &work, "DIR", "journal and logs of the trials under way (build/blind)", 0, 0},
     {"keep", LAB_OPTION_TEXT, &keep, "DIR", "leave the files of every trial there", 0, 0},
     {"timeout", LAB_OPTION_REAL, &timeout, "S", "time that closeloop has for one trial (120)", 1, 1e6},
@@ -74,6 +92,7 @@ static int one_trial(int number, blind_record *record, lab_error *error)
   snprintf(folder, sizeof folder, "%s/trial-%d", keep ? keep : work, number);
   if (status == LAB_OK) {
     blind_draw((uint64_t)seed, number, t);
+    t->tells_noise = series->tells_noise;
     status = blind_write_logs(t, folder, error);
   }
   for (i = 0; status == LAB_OK && i < t->n_missing; i++)
@@ -101,15 +120,20 @@ static int show_one(lab_error *error)
 
 /* ---- All of them ---- */
 
+static int belongs(int number)
+{
+  return !series->only_nothing || blind_kind_of(number) == BLIND_NOTHING;
+}
+
 static int run_all(int quiet, blind_journal *journal, lab_error *error)
 {
   lab_progress progress;
-  int k, done = 0, status = LAB_OK;
+  int k, left = 0, done = 0, status = LAB_OK;
   char *todo = calloc((size_t)trials, 1);
   if (!todo)
     return lab_fail_memory(error, "trials");
   for (k = 0; k < trials; k++)
-    done += !(todo[k] = (char)!blind_journal_has(journal, k));
+    left += todo[k] = (char)(belongs(k) && !blind_journal_has(journal, k));
   lab_progress_begin(&progress, "blind trials", quiet);
 #pragma omp parallel for schedule(dynamic) num_threads(jobs ? jobs : omp_get_max_threads())
   for (k = 0; k < trials; k++) {
@@ -127,7 +151,7 @@ static int run_all(int quiet, blind_journal *journal, lab_error *error)
         status = failed;
         *error = mine;
       }
-      lab_progress_show(&progress, ++done, trials);
+      lab_progress_show(&progress, ++done, left);
     }
   }
   lab_progress_end(&progress);
@@ -141,7 +165,7 @@ static int write_csv(const blind_journal *j, lab_error *error)
   char path[PATHS];
   lab_outfile file;
   int i;
-  snprintf(path, sizeof path, "%s/blind.csv", out);
+  snprintf(path, sizeof path, "%s/%s.csv", out, series->name);
   if (lab_out_open(&file, path, error))
     return error->status;
   blind_record_header(file.file);
@@ -154,10 +178,10 @@ static int write_md(const blind_journal *j, lab_error *error)
 {
   char path[PATHS];
   lab_outfile file;
-  snprintf(path, sizeof path, "%s/blind.md", out);
+  snprintf(path, sizeof path, "%s/%s.md", out, series->name);
   if (lab_out_open(&file, path, error))
     return error->status;
-  if (blind_summary_write(file.file, j->record, j->n, (uint64_t)seed)) {
+  if (blind_summary_write(file.file, j->record, j->n, (uint64_t)seed, series->what)) {
     lab_out_abandon(&file);
     return lab_fail_memory(error, "the summary");
   }
@@ -171,26 +195,39 @@ static int say_bars(const blind_journal *j)
   for (i = 0; i < blind_bar_count; i++) {
     const blind_bar *bar = &blind_bars[i];
     const blind_count c = blind_bar_counts(bar, j->record, j->n);
-    const int met = blind_bar_met(bar, c);
-    refuted += blind_bar_refuted(bar, c);
+    const int word = blind_bar_word(bar, c);
+    refuted += bar->at_least >= 0 && word == BLIND_BAR_REFUTED;
     printf("%-70s %3d of %3d", bar->what, c.k, c.n);
     if (bar->at_least >= 0)
-      printf("  (%s %g %%)%s", bar->at_least ? "at least" : "at most", 100 * bar->share, met ? "" : "  MISSED");
+      printf("  (%s %g %%)%s", bar->at_least ? "at least" : "at most", 100 * bar->share,
+             word >= BLIND_BAR_REACHED ? "" : "  MISSED");
     printf("\n");
   }
   return refuted;
+}
+
+static int choose_series(lab_error *error)
+{
+  const int found = lab_name_index(wanted, all_series, SERIES, sizeof all_series[0]);
+  if (found < 0)
+    return lab_fail(error, LAB_USAGE, "--series: unknown series \"%s\"; the nearest known one is %s", wanted,
+                    lab_name_nearest(wanted, all_series, SERIES, sizeof all_series[0]));
+  series = &all_series[found];
+  return LAB_OK;
 }
 
 static int run(const lab_cli *cli, const char *self, lab_error *error)
 {
   blind_journal journal;
   char path[PATHS], key[200];
-  int status;
+  int status = choose_series(error);
+  if (status != LAB_OK)
+    return status;
   if (access(closeloop, X_OK))
     return lab_fail(error, LAB_WORLD, "%s: %s; name the program with --closeloop", closeloop, strerror(errno));
   if (only >= 0)
     return show_one(error);
-  snprintf(path, sizeof path, "%s/journal.csv", work);
+  snprintf(path, sizeof path, "%s/%s-journal.csv", work, series->name);
   snprintf(key, sizeof key, "# seed %d, timeout %g s, closeloop %016" PRIx64 ", blind %016" PRIx64, seed, timeout,
            lab_checksum_file(LAB_CHECKSUM_SEED, closeloop), lab_checksum_file(LAB_CHECKSUM_SEED, self));
   status = blind_journal_open(&journal, path, key, trials, error);
@@ -201,7 +238,7 @@ static int run(const lab_cli *cli, const char *self, lab_error *error)
   if (status == LAB_OK)
     status = write_md(&journal, error);
   if (status == LAB_OK && say_bars(&journal) && check)
-    status = lab_fail(error, LAB_DATA, "the trials speak against a bar; %s/blind.md lists them", out);
+    status = lab_fail(error, LAB_DATA, "the trials speak against a bar; %s/%s.md lists them", out, series->name);
   blind_journal_close(&journal);
   return status;
 }

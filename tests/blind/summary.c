@@ -47,9 +47,14 @@ static void add(blind_count *c, int hit)
 static void write_totals(FILE *file, const blind_record *record, int n)
 {
   int i;
-  fputs("## Totals\n\n\"Above\": of a size of at least twice the information limit. Intervals are Wilson's, 95 %.\n\n"
-        "| what | count | share | 95 % | bar | met |\n|---|---|---|---|---|---|\n",
-        file);
+  static const char *const words[] = {"**no**", "**no**, but it may be chance", "in this sample", "yes"};
+  fputs(
+      "## Totals\n\n\"Above\": of a size of at least twice the information limit. Intervals are Wilson's, 95 %; a bar "
+      "is "
+      "met where the whole interval meets it, \"in this sample\" where only the share does. \"Listed\": closeloop says "
+      "that the effect is significant, but adds nothing, because the error would fall by less than --min-gain, 2 %.\n\n"
+      "| what | count | share | 95 % | bar | met |\n|---|---|---|---|---|---|\n",
+      file);
   for (i = 0; i < blind_bar_count; i++) {
     const blind_bar *bar = &blind_bars[i];
     const blind_count c = blind_bar_counts(bar, record, n);
@@ -62,7 +67,7 @@ static void write_totals(FILE *file, const blind_record *record, int n)
       fputs("- | - | ", file);
     if (bar->at_least >= 0)
       fprintf(file, "%s %g %% | %s |\n", bar->at_least ? "at least" : "at most", 100 * bar->share,
-              blind_bar_met(bar, c) ? "yes" : "**no**");
+              words[blind_bar_word(bar, c)]);
     else
       fputs("| |\n", file);
   }
@@ -134,11 +139,11 @@ static int write_effects(FILE *file, const blind_record *record, int n, int list
   fprintf(
       file,
       "\n## %s\n\nAlone in a log with p and x. Detected, right, stated, family and the error of the completed model "
-      "on held-out data (over noise) count trials above twice the information limit. Detection limit: "
+      "on held-out data (over noise) count trials above twice the information limit. Limit of being stated: "
       "isotonic regression of \"%s\" on size over all trials, the smallest drawn size from which it is 0.9 or "
       "more.\n\n"
       "| effect | n | above | detected | right | right or stated | right family | held-out error, median | 90th "
-      "percentile | detection limit | information limit, median | unit |\n"
+      "percentile | limit of being stated | information limit, median | unit |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       listed ? "Effects of the catalogue" : "Effects that are not in the catalogue",
       listed ? "right or stated" : "unlisted, in the right equation");
@@ -293,16 +298,19 @@ static int is_miss_below(const blind_record *r)
 
 /* ---- The whole ---- */
 
-int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t seed)
+int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t seed, const char *what)
 {
   int failed;
   fprintf(file,
-          "# Blind trials of closeloop\n\n%d trials, seed %" PRIu64 ", written by `make blind`. Rigs, effects, sizes, "
+          "# Blind trials of closeloop\n\n%d trials, seed %" PRIu64
+          ", written by `make blind`. %sRigs, effects, sizes, "
           "noise and commands are drawn at random; the logs come from the independent simulator of tests/second; "
-          "closeloop sees the rig file and the logs. Every trial is a line of blind.csv; `make blind-trial K=n` "
-          "repeats one.\n\nInformation limit: the size at which the projected statistic reaches 25, computed from the "
+          "closeloop sees the logs and the rig file, which has the true laws, supply and ambient, and a start for what "
+          "is fitted. Noise is white and Gaussian. Every trial is a line of the table beside this; `make blind-trial "
+          "K=n` repeats "
+          "one.\n\nInformation limit: the size at which the projected statistic reaches 25, computed from the "
           "simulator alone (tests/blind/limit.h).\n\n",
-          n, seed);
+          n, seed, what);
   write_totals(file, record, n);
   failed = write_effects(file, record, n, 1);
   write_sizes(file, record, n);

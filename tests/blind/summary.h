@@ -21,14 +21,19 @@ extern const int blind_bar_count;
 
 blind_count blind_bar_counts(const blind_bar *bar, const blind_record *record, int n);
 
-/* Whether a count meets a bar; one over nothing does. */
-int blind_bar_met(const blind_bar *bar, blind_count count);
+enum blind_bar_word {
+  BLIND_BAR_REFUTED, /* the 95 % interval lies wholly on the wrong side */
+  BLIND_BAR_MISSED,  /* the share does, but so small a sample may be chance */
+  BLIND_BAR_REACHED, /* the share lies on the right side, its interval not wholly */
+  BLIND_BAR_SHOWN    /* the interval does */
+};
 
-/* Whether a count speaks against a bar: its 95 % interval lies wholly on the wrong side. A sample too small to tell a
- * share of 0.95 from one of 0.92 still fails where something has broken. */
-int blind_bar_refuted(const blind_bar *bar, blind_count count);
+/* How a count stands to a bar; one over nothing reaches it.  Returns: enum blind_bar_word */
+int blind_bar_word(const blind_bar *bar, blind_count count);
 
-/* Records in the order of trials.  Returns: 0, not 0 without memory. */
-int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t seed);
+/* Records in the order of trials.
+ * In:      what  sets these trials apart from others, in a sentence; "" for nothing
+ * Returns: 0, not 0 without memory. */
+int blind_summary_write(FILE *file, const blind_record *record, int n, uint64_t seed, const char *what);
 
 #endif

@@ -42,8 +42,9 @@ typedef struct lab_fit_problem {
   lab_fit_slopes *slopes; /* NULL: central differences */
   void *context;
   const double *sigma; /* m standard deviations, each > 0, in units of the residuals; NULL: all equal */
-  int sigma_known;     /* not 0: sigma is the noise itself, so intervals are normal; else the residuals set its
-                          size and intervals are Student's t with m - n degrees of freedom */
+  int sigma_known;     /* not 0: sigma is the noise itself, so intervals are normal, and wider by the root of
+                          reduced chi-square where more than noise is left; else the residuals set its size and
+                          intervals are Student's t with m - n degrees of freedom */
 } lab_fit_problem;
 
 enum lab_fit_search {
@@ -66,7 +67,7 @@ typedef struct lab_fit_options {
 
 enum lab_fit_state {
   LAB_FIT_FREE,     /* found inside its bounds */
-  LAB_FIT_AT_LOWER, /* the data pull it against a bound: no interval */
+  LAB_FIT_AT_LOWER, /* the data pull it against a bound: the interval begins there */
   LAB_FIT_AT_UPPER,
   LAB_FIT_UNDETERMINED /* the data say nothing of it, or only of a combination: the interval is the bounds */
 };

@@ -9,6 +9,8 @@
 #include "fit_private.h"
 #include "../base/quantile.h"
 
+static const double wider = 1.1; /* from which on it is worth a word */
+
 /* Singular value decomposition of the slopes of k parameters, columns scaled to unit length. */
 typedef struct spectrum {
   int k;
@@ -254,7 +256,39 @@ static void fill_interval(const fit_run *run, int j, lab_fit_result *result)
   result->high[j] = p->log_scaled ? theta * exp(half / theta) : theta + half;
 }
 
-static void fill_intervals(const fit_run *run, lab_fit_result *result)
+/* How far from its bound a parameter is with 95 %, in z: the data pull it beyond, with this slope and curvature of half
+ * the sum of squares, so that what is left on this side is the tail of a normal distribution. */
+static double reach(double slope, double curvature, double variance)
+{
+  const double deviation = sqrt(variance / curvature), beyond = slope / curvature / deviation;
+  const double tail = 0.05 * lab_student_probability(-beyond, (double)INFINITY);
+  if (tail < 1e-6) /* so far out it is an exponential */
+    return log(20) * variance / slope;
+  return deviation * (-lab_student_quantile(tail, (double)INFINITY) - beyond);
+}
+
+/* The interval of a parameter at a bound: from there to what the data allow, the free ones following. */
+static void fill_one_side(const fit_run *run, const spectrum *s, int j, double variance, lab_fit_result *result)
+{
+  const lab_fit_param *p = &run->problem->param[j];
+  const size_t m = run->problem->m;
+  const int side = run->held[j] < 0 ? 1 : -1;
+  double *column = run->slope + (size_t)j * m, theta = result->theta[j], curvature, far;
+  size_t i;
+  int d;
+  for (d = 0; d < s->k; d++) {
+    const double along = dot(s->column[d], column, m);
+    for (i = 0; i < m; i++)
+      column[i] -= along * s->column[d][i];
+  }
+  curvature = dot(column, column, m);
+  far = side * reach(fmax(side * dot(column, run->r, m), 0), curvature, variance);
+  theta = p->log_scaled ? theta * exp(far) : theta + run->unit[j] * far;
+  theta = curvature > 0 ? fmin(fmax(theta, p->lower), p->upper) : side > 0 ? p->upper : p->lower;
+  *(side > 0 ? &result->high[j] : &result->low[j]) = theta;
+}
+
+static void fill_intervals(const fit_run *run, const spectrum *s, double variance, lab_fit_result *result)
 {
   int j;
   for (j = 0; j < result->n; j++) {
@@ -262,6 +296,8 @@ static void fill_intervals(const fit_run *run, lab_fit_result *result)
     result->low[j] = result->state[j] == LAB_FIT_UNDETERMINED ? p->lower : result->theta[j];
     result->high[j] = result->state[j] == LAB_FIT_UNDETERMINED ? p->upper : result->theta[j];
     result->deviation[j] = result->state[j] == LAB_FIT_UNDETERMINED ? (double)INFINITY : 0;
+    if (run->held[j])
+      fill_one_side(run, s, j, variance, result);
     if (result->state[j] != LAB_FIT_FREE)
       continue;
     result->n_free++;
@@ -276,12 +312,14 @@ static double noise_level(const fit_run *run, int rank, lab_fit_result *result)
   const double degrees = (double)run->problem->m - rank;
   result->degrees = degrees;
   result->reduced_chi2 = degrees > 0 ? result->chi2 / degrees : (double)NAN;
-  if (run->problem->sigma_known || !(degrees > 0)) {
-    result->quantile = lab_student_quantile(0.975, (double)INFINITY);
+  result->quantile =
+      lab_student_quantile(0.975, run->problem->sigma_known || !(degrees > 0) ? (double)INFINITY : degrees);
+  if (!(degrees > 0))
     return run->problem->sigma_known ? 1 : (double)INFINITY;
-  }
-  result->quantile = lab_student_quantile(0.975, degrees);
-  return result->reduced_chi2;
+  if (run->problem->sigma_known && result->reduced_chi2 > wider * wider)
+    remark(result, "more than noise is left, and intervals are %.2g times as wide as noise alone would have them",
+           sqrt(result->reduced_chi2));
+  return run->problem->sigma_known ? fmax(1, result->reduced_chi2) : result->reduced_chi2;
 }
 
 /* Sums over the residuals at the best point. */
@@ -311,7 +349,7 @@ int fit_spread(fit_run *run, lab_fit_result *result)
   decompose(&s, run->problem->m);
   variance = noise_level(run, note_singular(run, &s, result), result);
   fill_covariance(run, &s, variance, result);
-  fill_intervals(run, result);
+  fill_intervals(run, &s, variance, result);
   remark_free(run, result);
   return FIT_GOOD;
 }
