@@ -1,7 +1,7 @@
 #!/bin/sh
 # The guides say what happens: every command of their console blocks is run, in the order of the page, and prints what the
 # page shows. A line `...` on the page stands for any lines. What a page points to is there. Called from the top folder with the
-# folder of the guides, or with guides.
+# folder of the guides, or with pages, or both.
 set -u
 : "${BUILD:=build}" "${CC:=cc}"
 top=$(pwd)
@@ -38,8 +38,10 @@ if [ -d "$1" ]; then
   for path in $(points_to "$1/README.md"); do
     [ -e "$1/$path" ] || { echo "$1/README.md points to $path"; wrong=$((wrong + 1)); }
   done
-  # shellcheck disable=SC2046
-  set -- $(ls "$1"/*.md | grep -v README)
+  pages=$(ls "$1"/*.md | grep -v README)
+  shift
+  # shellcheck disable=SC2086
+  set -- $pages "$@"
 fi
 for guide in "$@"; do
   for path in $(points_to "$guide"); do

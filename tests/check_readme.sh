@@ -16,9 +16,12 @@ for target in $(sed -n 's/^make \([a-z-]*\).*/\1/p' README.md); do
   # shellcheck disable=SC2046
   grep -q "^$target:" Makefile $(sed -n 's/^include //p' Makefile)
 done
-# every file that the README points to is there
-for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' README.md); do
-  case $path in http*) ;; *) [ -e "$path" ] || { echo "README points to $path, which is not there"; exit 1; } ;; esac
+# every file that the top documents point to or name is there
+for page in README.md DESIGN.md CONTRIBUTING.md CHANGELOG.md; do
+  for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' $page) \
+    $(grep -o '`\(lib\|apps\|study\|tests\|packaging\|results\)/[a-z0-9_/.-]*`' $page | tr -d '`'); do
+    case $path in http*) ;; *) [ -e "$path" ] || { echo "$page points to $path, which is not there"; exit 1; } ;; esac
+  done
 done
 for kind in times sizes; do
   sh tests/readme_table.sh --check $kind README.md

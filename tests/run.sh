@@ -119,7 +119,7 @@ pass "core: symbols, headers, no heap" sh tests/check_core.sh "$BUILD/libpneu.a"
 firmware
 pass "core in single precision" env SINGLE=1 sh tests/check_core.sh "$BUILD/single/libpneu.a" lib
 [ -f tests/check_readme.sh ] && pass "README: its example and commands" sh tests/check_readme.sh
-pass "guides: every command, and what it prints" sh tests/check_guides.sh study/guides
+pass "guides: every command, and what it prints" sh tests/check_guides.sh study/guides README.md
 pass "gallery: every figure of results/" sh -c 'sh study/gallery.sh | cmp - results/GALLERY.md'
 [ -f tests/check_programs.sh ] && pass "programs: bad input, full disk, interrupted runs" sh tests/check_programs.sh
 pass "installed: users, symbols, manual, completion, uninstall" sh tests/check_install.sh && { grep '^absent:' "$log" || true; }
