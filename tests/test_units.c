@@ -127,16 +127,6 @@ static void test_lab_unit_factor__column_units__give_scale_and_offset(void **sta
   assert_close(scale, 1e-3, 0, 0);
 }
 
-static void test_lab_unit_convert__back_to_display__inverts(void **state)
-{
-  double out;
-  (void)state;
-  assert_int_equal(lab_unit_convert("Pa", "kPa", 101325, &out, &error), LAB_OK);
-  assert_close(out, 101.325, 0, 1e-15);
-  assert_int_equal(lab_unit_convert("K", "degC", 298.15, &out, &error), LAB_OK);
-  assert_close(out, 25, 1e-12, 0);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -151,7 +141,6 @@ int main(void)
       cmocka_unit_test(test_lab_quantity__no_finite_number__is_an_error),
       cmocka_unit_test(test_lab_quantity__logarithmic_unit__is_refused),
       cmocka_unit_test(test_lab_unit_factor__column_units__give_scale_and_offset),
-      cmocka_unit_test(test_lab_unit_convert__back_to_display__inverts),
   };
   return cmocka_run_group_tests_name("units", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "../../apps/lab/trace/trace.h"
+#include "../../apps/lab/base/array.h"
 
 double bench_task_fit(void *context)
 {
@@ -38,7 +39,7 @@ static double score_some(const lab_scan *s, int effects)
     pneu_param_describe(param, &info);
     *pneu_param_at(&model.params, param) = info.value;
     if (lab_scan_difference(s, &model, slope, &ignored) == 0 && lab_scan_visible(s, slope) > 0)
-      sum += lab_scan_dot(slope, s->r, s->m);
+      sum += lab_dot(slope, s->r, s->m);
   }
   free(slope);
   return sum;

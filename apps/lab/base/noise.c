@@ -3,22 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "array.h"
+
 /* Second difference of white noise has 6 times its variance; the median of |z| is 0.6745 for a normal z. */
 static const double second_difference = 2.449489742783178;
 static const double median_of_size = 0.6744897501960817;
 enum { FEWEST = 8 };
-
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static double median(double *value, size_t n)
-{
-  qsort(value, n, sizeof *value, ascending);
-  return n % 2 ? value[n / 2] : (value[n / 2 - 1] + value[n / 2]) / 2;
-}
 
 double lab_smallest_step(const double *value, size_t n)
 {
@@ -45,7 +35,7 @@ int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *
       size[m++] = fabs(d);
   }
   if (m >= FEWEST)
-    *noise = fmax(median(size, m) / (second_difference * median_of_size), lab_smallest_step(value, n) / 4);
+    *noise = fmax(lab_median(size, m) / (second_difference * median_of_size), lab_smallest_step(value, n) / 4);
   free(size);
   return LAB_OK;
 }

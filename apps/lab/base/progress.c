@@ -1,21 +1,15 @@
 #include "progress.h"
 
 #include <math.h>
-#include <time.h>
 #include <unistd.h>
 
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "clock.h"
 
 void lab_progress_begin(lab_progress *progress, const char *what, int quiet)
 {
   progress->stream = !quiet && isatty(STDERR_FILENO) ? stderr : NULL;
   progress->what = what;
-  progress->start = progress->shown = now();
+  progress->start = progress->shown = lab_clock();
   progress->written = 0;
 }
 
@@ -35,7 +29,7 @@ void lab_progress_show(lab_progress *progress, double done, double total)
   double t, gone;
   if (!progress->stream || !(done > 0) || !(total >= done))
     return;
-  t = now();
+  t = lab_clock();
   if (!is_due(progress, t))
     return;
   gone = t - progress->start;
@@ -58,7 +52,7 @@ static void duration(double s, char text[40])
 
 void lab_progress_count(lab_progress *progress, int done, int total, int before)
 {
-  const double t = now(), rate = (done - before) / (t - progress->start);
+  const double t = lab_clock(), rate = (done - before) / (t - progress->start);
   char to_go[40];
   if (!progress->stream || !is_due(progress, t))
     return;

@@ -105,15 +105,6 @@ int lab_unit_factor(const char *from, const char *to, double *scale, double *off
   return status;
 }
 
-int lab_unit_convert(const char *from, const char *to, double value, double *out, lab_error *error)
-{
-  double scale, offset;
-  int status = lab_unit_factor(from, to, &scale, &offset, error);
-  if (status == LAB_OK)
-    *out = scale * value + offset;
-  return status;
-}
-
 /* The number in front of a quantity.  Returns: where the unit begins, or NULL without a decimal number. */
 static const char *leading_number(const char *text, double *number)
 {

@@ -12,9 +12,6 @@
  * Returns: LAB_OK; LAB_DATA for an unknown unit or another dimension; LAB_WORLD without a unit database. */
 int lab_unit_factor(const char *from, const char *to, double *scale, double *offset, lab_error *error);
 
-/* Convert one value.  Out: out, in `to`.  Returns: as lab_unit_factor. */
-int lab_unit_convert(const char *from, const char *to, double value, double *out, lab_error *error);
-
 /* Read a quantity such as "400 cm^2", "25 degC" or "5 %"; a plain number is taken to be in `unit`.
  * Out:     value in `unit`
  * Returns: LAB_OK; LAB_DATA if there is no finite number in front, or as lab_unit_factor. */

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "batchdone.h"
@@ -20,6 +19,7 @@
 #include "split.h"
 #include "../base/text.h"
 #include "../base/units.h"
+#include "../base/clock.h"
 
 /* What is handed out. */
 typedef struct job {
@@ -38,20 +38,13 @@ typedef struct batch {
   int n, done, before; /* lines; done; of these, by an earlier run */
 } batch;
 
-static double seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* What this process took since a time on the clock. */
 static lab_cost cost_since(double start)
 {
   lab_cost cost;
   struct rusage use;
   getrusage(RUSAGE_SELF, &use);
-  cost.seconds = seconds() - start;
+  cost.seconds = lab_clock() - start;
   cost.cpu = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
              1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
   cost.memory = (double)use.ru_maxrss / 1024; /* in kB on Linux */
@@ -187,7 +180,7 @@ static int ask(batch *b, const lab_entry *e, lab_answer **answer, lab_error *err
 
 static void work(void *context, const void *what, void *result)
 {
-  const double start = seconds();
+  const double start = lab_clock();
   batch *b = context;
   const job *j = what;
   lab_outcome *outcome = result;

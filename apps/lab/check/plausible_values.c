@@ -1,10 +1,10 @@
 /* Checks of plausible.h on the values of a log: ranges, units, sensors, noise. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "../base/noise.h"
 #include "logscene.h"
+#include "../base/array.h"
 
 /* Wide of what effects of a usual size do: gains of a tenth, a bias of some kPa, a stop that ends the travel early. */
 static const double over_supply = 1.3, vacuum = -0.3, beyond_stop = 0.25, still_noise = 3, reach_share = 0.25;
@@ -193,12 +193,6 @@ int lab_check_reach(const lab_scene *s, lab_finding *f)
                   lab_unit_slip(LAB_CHANNEL_X, ought / high));
 }
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Median over cells in mid-travel of the force of the air and that of the declared spring.  Returns: cells. */
 static int forces(const lab_scene *s, double *air, double *spring)
 {
@@ -214,8 +208,8 @@ static int forces(const lab_scene *s, double *air, double *spring)
     a[n] = (double)q->area * s->cells[LAB_CHANNEL_P].mean[k];
     b[n++] = (double)q->spring_rate * (x + (double)q->spring_preload) + (double)q->external_force;
   }
-  qsort(a, (size_t)n, sizeof *a, ascending);
-  qsort(b, (size_t)n, sizeof *b, ascending);
+  lab_sort(a, (size_t)n);
+  lab_sort(b, (size_t)n);
   *air = n > 0 ? a[n / 2] : (double)NAN;
   *spring = n > 0 ? b[n / 2] : (double)NAN;
   return n;

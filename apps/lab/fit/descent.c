@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
+
 enum { N = LAB_DESCENT_MAX, TRIES = 12 };
 
 static const double enough = 0.02;       /* of chi-square: no decision hangs on it */
@@ -20,16 +22,6 @@ typedef struct descent {
   double g[N];         /* J'r */
   double chi2, lambda;
 } descent;
-
-static double dot(const double *a, const double *b, size_t m)
-{
-  double sum = 0;
-  size_t i;
-#pragma omp simd reduction(+ : sum)
-  for (i = 0; i < m; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
 
 int lab_solve_positive(int n, int stride, double *a, double *b)
 {
@@ -84,10 +76,10 @@ static int renew(descent *d, int all, lab_error *error)
     return status;
 #pragma omp parallel for schedule(dynamic) private(k)
   for (j = 0; j < p->n; j++) {
-    d->g[j] = dot(d->J + (size_t)j * p->m, d->r, p->m);
+    d->g[j] = lab_dot(d->J + (size_t)j * p->m, d->r, p->m);
     for (k = 0; k <= j; k++)
       if (fresh[j] || fresh[k])
-        d->A[j][k] = dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
+        d->A[j][k] = lab_dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
   }
   for (j = 0; j < p->n; j++)
     for (k = 0; k < j; k++)
@@ -197,7 +189,7 @@ static int step_down(descent *d, double *quality, int *done, lab_error *error)
     status = p->residuals(p->context, d->trial, d->r_trial, error);
     if (status != LAB_OK && status != LAB_NUMERIC)
       return status;
-    chi2 = status == LAB_OK ? dot(d->r_trial, d->r_trial, p->m) : (double)NAN;
+    chi2 = status == LAB_OK ? lab_dot(d->r_trial, d->r_trial, p->m) : (double)NAN;
     if (chi2 < d->chi2) {
       *quality = (d->chi2 - chi2) / promised;
       *done = d->chi2 - chi2 < least;
@@ -217,7 +209,7 @@ static int run(descent *d, lab_error *error)
   double quality = 1;
   if (status != LAB_OK)
     return status;
-  d->chi2 = dot(d->r, d->r, p->m);
+  d->chi2 = lab_dot(d->r, d->r, p->m);
   d->lambda = 1e-6;
   for (i = 0; i < p->steps; i++) {
     if (renew(d, all, error) || step_down(d, &quality, &done, error))

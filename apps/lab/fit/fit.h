@@ -111,11 +111,7 @@ void lab_fit_options_default(lab_fit_options *options);
 int lab_fit_run(const lab_fit_problem *problem, const lab_fit_options *options, lab_fit_result *result,
                 lab_error *error);
 
-/* Words for enum lab_fit_finish and enum lab_fit_state. */
-const char *lab_fit_finish_text(int finish);
+/* Words for enum lab_fit_state. */
 const char *lab_fit_state_text(int state);
-
-/* Print the result, a line a parameter, for a reader. */
-void lab_fit_print(FILE *file, const lab_fit_problem *problem, const lab_fit_result *result);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "fit_private.h"
 #include "../base/quantile.h"
+#include "../base/array.h"
 
 static const double wider = 1.1; /* from which on it is worth a word */
 
@@ -23,16 +24,6 @@ typedef struct spectrum {
   double floor; /* singular values below it are no more than errors of the differences */
 } spectrum;
 
-static double dot(const double *a, const double *b, size_t m)
-{
-  double sum = 0;
-  size_t i;
-#pragma omp simd reduction(+ : sum)
-  for (i = 0; i < m; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* R of the columns (modified Gram-Schmidt; Bjorck 1967: as exact as by reflections), which has their singular values.
  * The columns become orthonormal. */
 static void factorise(spectrum *s, size_t m)
@@ -42,12 +33,12 @@ static void factorise(spectrum *s, size_t m)
   memset(s->R, 0, sizeof s->R);
   for (j = 0; j < s->k; j++) {
     double *q = s->column[j];
-    const double length = s->R[j][j] = sqrt(dot(q, q, m));
+    const double length = s->R[j][j] = sqrt(lab_dot(q, q, m));
     for (i = 0; i < m && length > 0; i++)
       q[i] /= length;
     for (l = j + 1; l < s->k; l++) {
       double *other = s->column[l];
-      const double along = s->R[l][j] = dot(q, other, m);
+      const double along = s->R[l][j] = lab_dot(q, other, m);
       for (i = 0; i < m; i++)
         other[i] -= along * q[i];
     }
@@ -68,8 +59,8 @@ static void rotate(double *a, double *b, int n, double c, double s)
 static int orthogonalise(spectrum *s, int p, int q)
 {
   const size_t k = (size_t)s->k;
-  const double a = dot(s->R[p], s->R[p], k), b = dot(s->R[q], s->R[q], k);
-  const double d = dot(s->R[p], s->R[q], k), zeta = (b - a) / (2 * d);
+  const double a = lab_dot(s->R[p], s->R[p], k), b = lab_dot(s->R[q], s->R[q], k);
+  const double d = lab_dot(s->R[p], s->R[q], k), zeta = (b - a) / (2 * d);
   double t, c;
   int i;
   if (fabs(d) <= 1e-15 * sqrt(a * b) || d == 0)
@@ -98,7 +89,7 @@ static void decompose(spectrum *s, size_t m)
       for (q = p + 1; q < s->k; q++)
         turned |= orthogonalise(s, p, q);
   for (p = 0; p < s->k; p++)
-    s->singular[p] = sqrt(dot(s->R[p], s->R[p], (size_t)s->k));
+    s->singular[p] = sqrt(lab_dot(s->R[p], s->R[p], (size_t)s->k));
 }
 
 /* ---- Words ---- */
@@ -181,7 +172,7 @@ static void sort_params(const fit_run *run, lab_fit_result *result, spectrum *s)
   int j;
   for (s->k = 0, j = 0; j < run->problem->n; j++) {
     double *column = run->slope + (size_t)j * m;
-    const double length = sqrt(dot(column, column, m));
+    const double length = sqrt(lab_dot(column, column, m));
     result->state[j] = run->held[j] < 0 ? LAB_FIT_AT_LOWER : run->held[j] > 0 ? LAB_FIT_AT_UPPER : LAB_FIT_FREE;
     if (run->held[j]) {
       remark(result, "%s is at its %s bound", name_of(run, j), run->held[j] < 0 ? "lower" : "upper");
@@ -277,12 +268,12 @@ static void fill_one_side(const fit_run *run, const spectrum *s, int j, double v
   size_t i;
   int d;
   for (d = 0; d < s->k; d++) {
-    const double along = dot(s->column[d], column, m);
+    const double along = lab_dot(s->column[d], column, m);
     for (i = 0; i < m; i++)
       column[i] -= along * s->column[d][i];
   }
-  curvature = dot(column, column, m);
-  far = side * reach(fmax(side * dot(column, run->r, m), 0), curvature, variance);
+  curvature = lab_dot(column, column, m);
+  far = side * reach(fmax(side * lab_dot(column, run->r, m), 0), curvature, variance);
   theta = p->log_scaled ? theta * exp(far) : theta + run->unit[j] * far;
   theta = curvature > 0 ? fmin(fmax(theta, p->lower), p->upper) : side > 0 ? p->upper : p->lower;
   *(side > 0 ? &result->high[j] : &result->low[j]) = theta;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "metrics_private.h"
+#include "../base/array.h"
 
 enum { POINTS = 2000, SLICES = 10, HELD_LEAST = 4 };
 static const double turn_noise = 6;      /* the signal has turned from so many standard deviations on */
@@ -113,12 +114,6 @@ static void cut(lab_path *path, double band)
 
 /* ---- Slowness ---- */
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Median speed over slices of the leg's travel [m/s]: neither a halt nor a slip says how fast it was run. */
 static double leg_speed(const lab_path *path, const lab_leg *leg)
 {
@@ -134,8 +129,7 @@ static double leg_speed(const lab_path *path, const lab_leg *leg)
     speed[k] = at[i].t > last ? fabs(travel) / SLICES / (at[i].t - last) : (double)INFINITY;
     last = at[i].t;
   }
-  qsort(speed, SLICES, sizeof *speed, ascending);
-  return (speed[SLICES / 2 - 1] + speed[SLICES / 2]) / 2;
+  return lab_median(speed, SLICES);
 }
 
 static void judge_legs(const lab_measuring *m, lab_path *path)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "metrics_private.h"
+#include "../base/array.h"
 
 static const double share_63 = 0.632, share_86 = 0.865; /* ISA-75.25.01 */
 static const double share_stroke = 0.99;                /* of the change: the end of a stroke */
@@ -275,12 +276,6 @@ static double field(const lab_step_response *step, size_t offset)
   return *(const double *)(const void *)((const char *)step + offset);
 }
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* The large steps of a direction: the largest change, and how many come near it.
  * Out:     least, largest  [m] */
 static int large_steps(const lab_measuring *m, int up, double *least, double *largest)
@@ -321,7 +316,7 @@ static void report_figure(lab_measuring *m, const figure *f, int up, double *val
     lab_metric_deny(m, metric, "noise hides when the stem comes to stay within 2 %% of the change");
     return;
   }
-  qsort(value, (size_t)n, sizeof *value, ascending);
+  lab_sort(value, (size_t)n);
   if (n > 1)
     lab_metric_give(m, metric, value[n / 2], fmax(error, (value[n - 1] - value[0]) / 2),
                     "median of %d steps %s of %.3g to %.3g %% of travel", n, up ? "up" : "down", 100 * least / stroke,

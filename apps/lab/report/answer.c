@@ -2,7 +2,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "advise.h"
@@ -11,13 +10,7 @@
 #include "../base/outfile.h"
 #include "report_html.h"
 #include "../base/text.h"
-
-static double seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "../base/clock.h"
 
 static void tell(const lab_question *q, const char *what)
 {
@@ -162,7 +155,7 @@ static void begin_story(lab_answer *a)
 
 static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
 {
-  const double start = seconds();
+  const double start = lab_clock();
   lab_loop_options how;
   begin_story(a);
   lab_loop_options_default(&how);
@@ -174,7 +167,7 @@ static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
   if (lab_unknowns_open(&a->rig, a->fitted.experiment, a->fitted.n, &a->declared, error) ||
       lab_unknowns_fit(&a->declared, LAB_FIT_WHOLE, NULL, error))
     return error->status;
-  a->story.fit_s = seconds() - start;
+  a->story.fit_s = lab_clock() - start;
   a->completed = a->declared;
   if (a->fitted.remarks.doubt ? decline(&a->completed, &a->result, error)
                               : lab_loop_run(&a->completed, &how, &a->result, error))
@@ -186,7 +179,7 @@ static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
   tell(q, "looking for the test to record next");
   if (lab_advise(&a->story, error))
     return error->status;
-  a->story.total_s = seconds() - start;
+  a->story.total_s = lab_clock() - start;
   return LAB_OK;
 }
 

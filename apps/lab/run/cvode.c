@@ -88,14 +88,6 @@ void lab_cvode_free(lab_cvode *c)
   free(c);
 }
 
-const char *lab_cvode_version(void)
-{
-  static char text[25];
-  if (SUNDIALSGetVersion(text, (int)sizeof text))
-    return "unknown";
-  return text;
-}
-
 static int rhs(real t, N_Vector y, N_Vector dydt, void *data)
 {
   lab_cvode *c = data;

@@ -14,9 +14,6 @@ typedef struct lab_cvode lab_cvode;
 lab_cvode *lab_cvode_new(void);
 void lab_cvode_free(lab_cvode *cvode);
 
-/* Version of SUNDIALS that is linked, as text. */
-const char *lab_cvode_version(void);
-
 /* Run with constant input, as pneu_run does, by BDF of variable order with a dense solver, the
  * analytic Jacobian and root finding for the events.
  * In:      duration  [s] >= 0;  tol  local error in units of full scale, 1e-4 .. 1e-13

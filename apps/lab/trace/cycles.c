@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../base/array.h"
+
 static const double two_pi = 6.283185307179586;
 static const double clear = 3; /* times its surroundings: a line that stands out less is no cycle */
 enum { CELLS = 2048, FEWEST_CYCLES = 3, ROWS_PER_CYCLE = 8, OVERSAMPLED = 4, AROUND = 48 };
@@ -62,12 +64,6 @@ static void add_power(const spectrum *s, const lab_experiment *x, const double *
   }
 }
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Power over the median of its surroundings. */
 static double prominence(const spectrum *s, size_t i)
 {
@@ -76,7 +72,7 @@ static double prominence(const spectrum *s, size_t i)
   size_t k;
   for (k = from; k <= to; k++)
     around[k - from] = s->power[k];
-  qsort(around, to - from + 1, sizeof *around, ascending);
+  lab_sort(around, to - from + 1);
   return s->power[i] / (around[(to - from) / 2] + 1);
 }
 

@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "attempt.h"
 #include "nameless.h"
 #include "../base/quantile.h"
 #include "refit.h"
+#include "../base/clock.h"
 
 static const double alike_bic = 9.2;  /* refits that differ by less are alike: odds of a hundred to one */
 static const double convincing = 0.5; /* of the excess of one effect, or of none: a free term leaves at most so much, */
@@ -113,13 +113,6 @@ static void note_alike_best(lab_attempt *pool, int n)
   note_alike(&pool[0], pool[0].n_found - 1, pool + 1, n - 1);
 }
 
-static double seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The search: where it is and what it is to bring. */
 typedef struct search {
   const lab_loop_options *options;
@@ -178,7 +171,7 @@ static int extend_scanned(search *s, const lab_attempt *base, const lab_scan *sc
   if (lab_trace_effects(scan, &trace, error))
     return error->status;
   if (s->result->trace.n == 0)
-    s->result->trace_s = seconds() - start;
+    s->result->trace_s = lab_clock() - start;
   level = trace.tests > 0 ? s->options->alpha / trace.tests : 0;
   if (try_slots_first(s, base, scan, trace.candidate[0].statistic, error))
     return error->status;
@@ -196,7 +189,7 @@ static int extend_scanned(search *s, const lab_attempt *base, const lab_scan *sc
 /* Try every extension of one model. */
 static int extend(search *s, const lab_attempt *base, lab_error *error)
 {
-  const double start = seconds();
+  const double start = lab_clock();
   lab_attempt copy = *base;
   lab_scan scan;
   int status = lab_scan_open(&copy.u, &scan, error);

@@ -4,17 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double invisible = 1e-6; /* share of a slope below which it counts as absorbed */
+#include "../base/array.h"
 
-double lab_scan_dot(const double *a, const double *b, size_t m)
-{
-  double sum = 0;
-  size_t i;
-#pragma omp simd reduction(+ : sum)
-  for (i = 0; i < m; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
+static const double invisible = 1e-6; /* share of a slope below which it counts as absorbed */
 
 void lab_scan_normalise(double *v, double length, size_t m)
 {
@@ -25,17 +17,17 @@ void lab_scan_normalise(double *v, double length, size_t m)
 
 double lab_scan_project_out(const double *basis, int n, size_t m, double *v)
 {
-  double before = sqrt(lab_scan_dot(v, v, m)), left = before;
+  double before = sqrt(lab_dot(v, v, m)), left = before;
   int j, pass;
   size_t i;
   for (pass = 0; pass < 2; pass++) {
     for (j = 0; j < n; j++) {
       const double *b = basis + (size_t)j * m;
-      const double c = lab_scan_dot(b, v, m);
+      const double c = lab_dot(b, v, m);
       for (i = 0; i < m; i++)
         v[i] -= c * b[i];
     }
-    left = sqrt(lab_scan_dot(v, v, m));
+    left = sqrt(lab_dot(v, v, m));
     if (left > 0.1 * before)
       break;
   }
@@ -44,7 +36,7 @@ double lab_scan_project_out(const double *basis, int n, size_t m, double *v)
 
 double lab_scan_visible(const lab_scan *s, double *v)
 {
-  const double whole = sqrt(lab_scan_dot(v, v, s->m));
+  const double whole = sqrt(lab_dot(v, v, s->m));
   const double left = whole > 0 ? lab_scan_project_out(s->basis, s->n_basis, s->m, v) : 0;
   return left > invisible * whole ? left : 0;
 }
@@ -78,7 +70,7 @@ int lab_scan_open(lab_unknowns *u, lab_scan *s, lab_error *error)
   }
   for (j = 0; j < u->n && status == LAB_OK; j++) {
     double *column = s->basis + (size_t)j * s->m;
-    const double whole = sqrt(lab_scan_dot(column, column, s->m)),
+    const double whole = sqrt(lab_dot(column, column, s->m)),
                  left = lab_scan_project_out(s->basis, s->n_basis, s->m, column);
     if (!(left > invisible * whole))
       continue;
@@ -87,7 +79,7 @@ int lab_scan_open(lab_unknowns *u, lab_scan *s, lab_error *error)
       memcpy(s->basis + (size_t)s->n_basis * s->m, column, s->m * sizeof *column);
     s->n_basis++;
   }
-  s->chi2 = lab_scan_dot(s->r, s->r, u->n_data);
+  s->chi2 = lab_dot(s->r, s->r, u->n_data);
   s->excess = s->chi2 - (double)u->n_values;
   return status;
 }

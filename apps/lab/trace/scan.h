@@ -31,7 +31,6 @@ double lab_scan_project_out(const double *basis, int n, size_t m, double *v);
 /* Take what was fitted out of a slope.  Returns: length left; 0 where rounding is all that is left. */
 double lab_scan_visible(const lab_scan *scan, double *v);
 
-double lab_scan_dot(const double *a, const double *b, size_t m);
 void lab_scan_normalise(double *v, double length, size_t m);
 
 #endif

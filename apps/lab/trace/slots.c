@@ -6,6 +6,7 @@
 
 #include "cycles.h"
 #include "../fit/descent.h"
+#include "../base/array.h"
 
 static const double lines = 1000;    /* cycles looked at, about */
 static const double absorbed = 0.02; /* share of a knot's slope for which its neighbours may stand in */
@@ -101,12 +102,12 @@ static void try_slot(const lab_scan *s, lab_slot *slot, lab_error *all)
     if (lab_scan_difference(s, &model, column, &error))
       lab_fail_together(all, &error);
     else {
-      whole = sqrt(lab_scan_dot(column, column, s->m));
+      whole = sqrt(lab_dot(column, column, s->m));
       left = lab_scan_project_out(s->basis, s->n_basis, s->m, column);
       left = fmin(left, lab_scan_project_out(columns, slot->degrees, s->m, column));
       if (left > absorbed * whole && whole > 1e-3) {
         lab_scan_normalise(column, left, s->m);
-        score = lab_scan_dot(column, s->r, s->m);
+        score = lab_dot(column, s->r, s->m);
         slot->statistic += score * score;
         slot->degrees++;
       }
@@ -158,9 +159,9 @@ static void try_cycle(const lab_scan *s, lab_slot *slot, lab_error *all)
     term->value[i] = 0;
   }
   for (i = 0; good && i < 4; i++)
-    gram[i] = lab_scan_dot(column[i / 2], column[i % 2], s->m);
+    gram[i] = lab_dot(column[i / 2], column[i % 2], s->m);
   for (i = 0; good && i < 2; i++)
-    size[i] = score[i] = -lab_scan_dot(column[i], s->r, s->m);
+    size[i] = score[i] = -lab_dot(column[i], s->r, s->m);
   if (good && lab_solve_positive(2, 2, gram, size) == 0) {
     slot->degrees = 3; /* the period is one */
     slot->statistic = size[0] * score[0] + size[1] * score[1];

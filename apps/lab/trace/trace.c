@@ -4,26 +4,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
+#include "../base/quantile.h"
+
 /* A slope is taken at the usual size of a parameter and, where that changes the residual by far more than can just be
  * seen, at shorter ones until it does not; at a small one where the usual one fails. */
 static const double far_more = 40, just_seen = 20, small = 0.02;
 static const double shapes[] = {0.3, 1.0, 3.0}; /* over the usual shape */
 enum { SHAPES = sizeof shapes / sizeof *shapes, SIZES = 3 };
 
-double lab_chi2_p(double statistic)
-{
-  return erfc(sqrt(statistic / 2));
-}
-
 /* The statistic of one slope; the candidate keeps it if it is larger than what it has. */
 static void judge(const lab_scan *s, double *slope, double step, double room_up, double room_down, lab_candidate *c,
                   double shape_value)
 {
-  const double whole = sqrt(lab_scan_dot(slope, slope, s->m)), left = lab_scan_visible(s, slope);
+  const double whole = sqrt(lab_dot(slope, slope, s->m)), left = lab_scan_visible(s, slope);
   double score, size, statistic;
   if (!(left > 0))
     return;
-  score = lab_scan_dot(slope, s->r, s->m) / left;
+  score = lab_dot(slope, s->r, s->m) / left;
   size = -score / left * step; /* r + (size/step) slope is least */
   statistic = score * score;
   if ((size > 0 && !(room_up > 0)) || (size < 0 && !(room_down > 0)))
@@ -64,7 +62,7 @@ static int try_shape(const lab_scan *s, lab_candidate *c, double shape_value, do
       step *= small;
       continue;
     }
-    length = sqrt(lab_scan_dot(slope, slope, s->m));
+    length = sqrt(lab_dot(slope, slope, s->m));
     judge(s, slope, step, (double)info.upper - neutral, neutral - (double)info.lower, c, shape_value);
     tests++;
     if (!(length > far_more))
@@ -90,7 +88,7 @@ static int try_candidate(const lab_scan *s, lab_candidate *c, lab_error *all)
   for (k = 0; k < (c->shape >= 0 ? SHAPES : 1); k++)
     tests += try_shape(s, c, fmin(fmax(shapes[k] * (double)shape.value, (double)shape.lower), (double)shape.upper),
                        slope, all);
-  c->p_value = lab_chi2_p(c->statistic);
+  c->p_value = lab_chi2_tail(c->statistic, 1);
   c->explained = s->excess > 0 ? c->statistic / s->excess : 0;
   free(slope);
   return tests;

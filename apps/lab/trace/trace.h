@@ -36,7 +36,4 @@ typedef struct lab_trace_result {
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_trace_effects(const lab_scan *scan, lab_trace_result *result, lab_error *error);
 
-/* Two-sided p-value of a chi-square statistic with one degree of freedom. */
-double lab_chi2_p(double statistic);
-
 #endif

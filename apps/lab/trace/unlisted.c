@@ -2,10 +2,10 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "../rig/rigterm.h"
 #include "../base/shown.h"
+#include "../base/array.h"
 
 static const double active_share = 0.15; /* of the largest departure: knots below it are not where the term acts */
 
@@ -27,12 +27,6 @@ const char *lab_unlisted_equation(const pneu_term *term)
 const char *lab_unlisted_what(const pneu_term *term)
 {
   return kinds[term->equation].what;
-}
-
-static int ascending(const void *x, const void *y)
-{
-  const double a = *(const double *)x, b = *(const double *)y;
-  return (a > b) - (a < b);
 }
 
 static int ends_at_zero(const pneu_term *term)
@@ -64,7 +58,7 @@ static double median(const pneu_real *from, int n)
   int i;
   for (i = 0; i < n; i++)
     value[i] = (double)from[i];
-  qsort(value, (size_t)n, sizeof *value, ascending);
+  lab_sort(value, (size_t)n);
   return value[n / 2];
 }
 

@@ -1,0 +1,18 @@
+/* What is done to an array of numbers again and again.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_ARRAY_H
+#define LAB_ARRAY_H
+
+#include <stddef.h>
+
+/* Sum of products; in as many parts as the machine's vectors have places, so that the last digits depend on it. */
+double lab_dot(const double *a, const double *b, size_t n);
+
+/* Sort, smallest first; no NaN. */
+void lab_sort(double *value, size_t n);
+
+/* Sort, and take the median: of an even number the mean of the two in the middle.
+ * In:  n  at least 1 */
+double lab_median(double *value, size_t n);
+
+#endif
