@@ -1,9 +1,7 @@
 #include "report_html.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
-#include "../base/outfile.h"
 #include "../base/template.h"
 #include "page_private.h"
 #include "pagetext.h"
@@ -36,10 +34,8 @@ static cJSON *values_of(const telling *t)
 
 static int write_page(const cJSON *page, const char *text, const char *folder, lab_error *error)
 {
-  char path[LAB_PATH_TEXT + 32];
   lab_outfile out;
-  snprintf(path, sizeof path, "%s/report.html", folder);
-  if (lab_out_open(&out, path, error))
+  if (lab_report_open(folder, "report.html", &out, error))
     return error->status;
   if (lab_template_write(out.file, text, page, error)) {
     lab_out_abandon(&out);
