@@ -175,8 +175,9 @@ $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 	@mkdir -p $(@D)
 	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
 
-$(BUILD)/apps/lab/report/figures.o $(BUILD)/apps/lab/report/pagetext.o: $(CARRIED:%=$(BUILD)/%.inc)
-$(BUILD)/apps/lab/report/figures.o $(BUILD)/apps/lab/report/pagetext.o: LAB_FLAGS += -I$(BUILD)
+# Which of them an object carries is known once it has been compiled; before that, all must be there.
+$(filter $(BUILD)/apps/lab/report/%,$(LAB_O)): | $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/report/%.o: LAB_FLAGS += -I$(BUILD)
 
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
 	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@

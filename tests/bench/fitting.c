@@ -9,7 +9,7 @@
 
 enum { ROWS = 450, STRETCHES = 3 };
 
-static const double slope_step = 1e-3; /* as in apps/lab/fit/unknowns.c */
+static const double slope_step = 1e-3; /* as in apps/lab/fit/unknowns_fit.c */
 static const double duration[STRETCHES] = {0.5, 4.5, 3.98}, command[STRETCHES] = {0, 1, -1}, spacing = 0.02;
 static double measured_p[ROWS], measured_x[ROWS];
 

@@ -61,6 +61,11 @@ int lab_scene_predicts(const lab_scene *s, int channel)
   return can && s->y[channel] && !s->rig->input[channel];
 }
 
+int lab_scene_is_driven(const lab_scene *s)
+{
+  return s->rig->input[LAB_CHANNEL_X] || s->rig->input[LAB_CHANNEL_P] || s->y[LAB_CHANNEL_FORCE];
+}
+
 const double *lab_scene_expected(const lab_scene *s, int channel)
 {
   if (!s->has_expected)
@@ -183,6 +188,15 @@ int lab_scene_next(const lab_scene *s, lab_stretch *stretch)
   stretch->change =
       lab_scene_value(s->y[s->main], stretch->first, i, 1) - lab_scene_value(s->y[s->main], stretch->first, i, 0);
   return 1;
+}
+
+void lab_sort_in(double *value, int n)
+{
+  for (; n > 0 && value[n] < value[n - 1]; n--) {
+    const double keep = value[n];
+    value[n] = value[n - 1];
+    value[n - 1] = keep;
+  }
 }
 
 /* ---- Findings ---- */

@@ -10,7 +10,12 @@
 #include "../rig/rig.h"
 #include "show.h"
 
-enum { LAB_SCENE_CELLS = 512, LAB_SCENE_FEWEST = 8 };
+enum {
+  LAB_SCENE_CELLS = 512,
+  LAB_SCENE_FEWEST = 8,
+  LAB_SCENE_SIGNIFICANT = 8, /* in noise: a change over a stretch that counts */
+  LAB_SCENE_DEAD_TIME = 1    /* [s] the longest: sound travels 340 m */
+};
 
 typedef struct lab_cells {
   double mean[LAB_SCENE_CELLS];
@@ -40,6 +45,9 @@ void lab_scene_close(lab_scene *scene);
 /* Does the model predict this channel, and does the log have it? */
 int lab_scene_predicts(const lab_scene *scene, int channel);
 
+/* Does something other than the command move stem or chamber? */
+int lab_scene_is_driven(const lab_scene *scene);
+
 /* Expected values of a channel, n rows; NULL without. */
 const double *lab_scene_expected(const lab_scene *scene, int channel);
 
@@ -59,6 +67,9 @@ int lab_scene_next(const lab_scene *scene, lab_stretch *s);
 
 /* Mean of up to three values that are there, from row i on (way 1) or back (way -1); NaN without any. */
 double lab_scene_value(const double *y, size_t first, size_t end, int from_end);
+
+/* Sort value[n] in with the n before it, which are sorted. */
+void lab_sort_in(double *value, int n);
 
 /* What a check has found. */
 typedef struct lab_finding {

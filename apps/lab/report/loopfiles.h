@@ -5,6 +5,7 @@
 
 #include "../trace/loop.h"
 #include "../metrics/metrics.h"
+#include "../base/outfile.h"
 #include "../base/remarks.h"
 #include "../separate/separate.h"
 
@@ -33,6 +34,9 @@ typedef struct lab_story {
   double fit_s, trace_s, total_s;        /* [s] on the clock; trace_s: the scan of all effects */
   const lab_remarks *remarks;            /* what limits the conclusions; NULL: nothing */
 } lab_story;
+
+/* Open one file in a folder.  Returns: as lab_out_open */
+int lab_report_open(const char *folder, const char *name, lab_outfile *out, lab_error *error);
 
 /* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */
 int lab_story_json(const lab_story *story, const char *folder, lab_error *error);
