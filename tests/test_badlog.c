@@ -162,7 +162,7 @@ static void test_closeloop__dos_lines_and_mark__are_read(void **state)
   }
   if (run(bad_rig("rig.cfg", ""), scratch_text("dos.csv", crlf), &said))
     fail_msg("%s", said);
-  assert_contains(said, "Nothing of the catalogue is missing");
+  assert_contains(said, "Nothing is missing");
   free(said);
   free(crlf);
   free(text);

@@ -3,6 +3,8 @@
 #ifndef LAB_LOOPFILES_H
 #define LAB_LOOPFILES_H
 
+#include <cjson/cJSON.h>
+
 #include "../trace/loop.h"
 #include "../metrics/metrics.h"
 #include "../base/outfile.h"
@@ -43,6 +45,10 @@ int lab_story_json(const lab_story *story, const char *folder, lab_error *error)
 int lab_story_model(const lab_story *story, const char *folder, lab_error *error);
 int lab_story_header(const lab_story *story, const char *folder, lab_error *error);
 int lab_story_residual(const lab_story *story, const char *folder, lab_error *error);
+
+/* Add to a list of texts what the answer has to be read with: remarks on the logs, and what the fit could not
+ * determine. */
+void lab_story_limits(const lab_story *story, cJSON *list);
 
 /* One sentence: what was found, and what it did to the error. */
 void lab_story_sentence(const lab_story *story, char *text, size_t size);

@@ -7,20 +7,6 @@
 
 static const double rough = 0.1; /* half an interval over the value, from which on it is worth a word */
 
-/* The remark of a fit, a clause an item; those on instants of the command are of no use to a reader. */
-static void put_remarks(const char *remark, cJSON *list)
-{
-  while (*remark) {
-    const char *end = strstr(remark, "; ");
-    const int length = (int)(end ? end - remark : (long)strlen(remark));
-    char clause[LAB_FIT_REMARK];
-    snprintf(clause, sizeof clause, "%.*s", length, remark);
-    if (!strstr(clause, "switch_"))
-      page_say(list, "%s.", clause);
-    remark += length + (end ? 2 : 0);
-  }
-}
-
 static void put_rough(const telling *t, cJSON *list)
 {
   const lab_unknowns *u = t->story->completed;
@@ -73,10 +59,8 @@ void page_limits(const telling *t, cJSON *page)
     for (k = 0; k < r->found[i].n_alike; k++)
       page_say(list, "%s from %s: both explain it equally well.", page_effect_name(r->found[i].effect),
                page_effect_name(r->found[i].alike[k]));
-  for (i = 0; t->story->remarks && i < t->story->remarks->n; i++)
-    page_say(list, "%s", t->story->remarks->text[i]);
+  lab_story_limits(t->story, list);
   put_rough(t, list);
-  put_remarks(r->fit.remark, list);
   put_invisible(&r->trace, list);
   if (cJSON_GetArraySize(list) == 0)
     page_say(list, "Nothing to report: every parameter is determined, and no two effects are confused.");

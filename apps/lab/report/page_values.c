@@ -88,10 +88,21 @@ void page_put_interval(const telling *t, int j, cJSON *to)
 {
   const lab_fit_result *fit = &t->story->result->fit;
   const double scale = lab_shown_as(page_unit(&t->story->completed->unknown[j])).scale;
+  const char *state = lab_fit_state_text(fit->state[j]);
   char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT];
-  if (fit->state[j] == LAB_FIT_FREE)
-    page_put(to, "interval", "%s .. %s", lab_shown_number(scale * fit->low[j], page_digits(t, j), low),
-             lab_shown_number(scale * fit->high[j], page_digits(t, j), high));
-  else
-    page_put(to, "interval", "%s", lab_fit_state_text(fit->state[j]));
+  lab_shown_number(scale * fit->low[j], page_digits(t, j), low);
+  lab_shown_number(scale * fit->high[j], page_digits(t, j), high);
+  switch (fit->state[j]) {
+  case LAB_FIT_FREE:
+    page_put(to, "interval", "%s .. %s", low, high);
+    break;
+  case LAB_FIT_AT_LOWER:
+    page_put(to, "interval", "%s, at most %s", state, high);
+    break;
+  case LAB_FIT_AT_UPPER:
+    page_put(to, "interval", "%s, at least %s", state, low);
+    break;
+  default:
+    page_put(to, "interval", "%s", state);
+  }
 }

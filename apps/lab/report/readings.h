@@ -5,8 +5,8 @@
  *      "box": [69.7, 245, 799.5, 405], "name": "Pressure p", "unit": "kPa", "at": 0,
  *      "curves": [{"key": "measured", "of": 1}]}]}}
  *
- * and beside them "t", the column of time, by the clock of each log, "runs", with the entry at which each run begins and
- * the shift of its clock on the axis, and "labels", what the keys are called.
+ * and beside them "t", the column of time, by the clock of each log, "runs", with the entry at which each run begins
+ * and the shift of its clock on the axis, and "labels", what the keys are called.
  *
  * A column is a list of whole numbers, each the difference from the one before, in units of 10^-k; empty for a gap. A
  * box is left, top, right, bottom in units of the drawing; x and y are the ends of its axes.

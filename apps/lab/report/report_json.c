@@ -176,14 +176,6 @@ static void add_steps(cJSON *root, const lab_story *story)
     add_model(list, r->step[i].name, r->step[i].chi2, r->step[i].bic);
 }
 
-static void add_limitations(cJSON *to, const lab_remarks *remarks)
-{
-  cJSON *list = cJSON_AddArrayToObject(to, "limitations");
-  int i;
-  for (i = 0; remarks && i < remarks->n; i++)
-    cJSON_AddItemToArray(list, cJSON_CreateString(remarks->text[i]));
-}
-
 /* Figures of merit of what was measured, and of what the completed model does in its place. */
 static void add_metrics(cJSON *to, const lab_story *story)
 {
@@ -229,7 +221,7 @@ static cJSON *json_of(const lab_story *story)
   if (story->next.kind == LAB_ADVICE_TRIAL)
     cJSON_AddStringToObject(root, "record_next", story->next.text);
   add_steps(root, story);
-  add_limitations(root, story->remarks);
+  lab_story_limits(story, cJSON_AddArrayToObject(root, "limitations"));
   add_metrics(root, story);
   o = cJSON_AddObjectToObject(root, "timing");
   add_number(o, "fit_s", story->fit_s);

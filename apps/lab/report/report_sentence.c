@@ -32,6 +32,18 @@ static const char *found_names(const lab_story *story, char *text, size_t size)
   return text;
 }
 
+/* "wall_temperature and 2 more are" */
+static const char *listed_names(const lab_loop_result *r, char *text, size_t size)
+{
+  const char *first = r->n_listed ? pneu_effect_at(r->listed[0])->name : "something without a name";
+  const int more = r->n_listed + r->has_small - 1;
+  if (more > 0)
+    snprintf(text, size, "%s and %d more are", first, more);
+  else
+    snprintf(text, size, "%s is", first);
+  return text;
+}
+
 void lab_story_sentence(const lab_story *story, char *text, size_t size)
 {
   const lab_loop_result *r = story->result;
@@ -56,7 +68,11 @@ void lab_story_sentence(const lab_story *story, char *text, size_t size)
   else if (r->n_found > 0)
     snprintf(text, size, "The model lacks %s: with it the error falls from %.2f to %.2f times the noise.",
              found_names(story, names, sizeof names), before, after);
+  else if (r->n_listed || r->has_small)
+    snprintf(text, size,
+             "Nothing worth adding: the declared model leaves %.2f times the noise; %s significant, but would lower "
+             "that by less than --min-gain asks for.",
+             before, listed_names(r, names, sizeof names));
   else
-    snprintf(text, size, "Nothing of the catalogue is missing: the declared model leaves %.2f times the noise%s.",
-             before, r->n_listed || r->has_small ? ", and what is significant would not change that" : "");
+    snprintf(text, size, "Nothing is missing: the declared model leaves %.2f times the noise.", before);
 }

@@ -6,7 +6,6 @@
 
 #include "loop_private.h"
 #include "refit.h"
-#include "../base/clock.h"
 
 enum { BEAM = 2 };
 static const double rival = 3; /* times the best chi-square: a poorer model is not extended */

@@ -1,16 +1,9 @@
 /* Every extension of a model by one effect. */
 #include <stdlib.h>
-#include <time.h>
 
 #include "loop_private.h"
 #include "refit.h"
-
-static double seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "../base/clock.h"
 
 /* Every extension of a model by one effect, with the scan of its residual. */
 static int extend_scanned(search *s, const lab_attempt *base, const lab_scan *scan, double start, lab_error *error)
@@ -22,7 +15,7 @@ static int extend_scanned(search *s, const lab_attempt *base, const lab_scan *sc
   if (lab_trace_effects(scan, &trace, error))
     return error->status;
   if (s->result->trace.n == 0)
-    s->result->trace_s = seconds() - start;
+    s->result->trace_s = lab_clock() - start;
   level = trace.tests > 0 ? s->options->alpha / trace.tests : 0;
   if (loop_try_slots_first(s, base, scan, trace.candidate[0].statistic, error))
     return error->status;
@@ -39,7 +32,7 @@ static int extend_scanned(search *s, const lab_attempt *base, const lab_scan *sc
 
 int loop_extend(search *s, const lab_attempt *base, lab_error *error)
 {
-  const double start = seconds();
+  const double start = lab_clock();
   lab_attempt copy = *base;
   lab_scan scan;
   int status = lab_scan_open(&copy.u, &scan, error);
