@@ -6,41 +6,9 @@
 #include <string.h>
 
 #include "../lab/base/outfile.h"
+#include "report_hypotheses.h"
+#include "reporttext.h"
 #include "tableread.h"
-
-/* The paper's own verdicts, section 7. */
-static const struct {
-  const char *name, *words, *paper;
-} hypotheses[6] = {{"H1", "directional action of the spring", "not confirmed"},
-                   {"H2", "preload of the spring", "not confirmed"},
-                   {"H3", "travel limiters", "not confirmed"},
-                   {"H4", "place of the bench set", "not confirmed"},
-                   {"H5", "unequal fill and vent", "not confirmed"},
-                   {"H6", "different air processes when filling and venting", "confirmed"}};
-
-static int row_is(const table *t, size_t row, const char *gas, const char *flow)
-{
-  return !strcmp(table_text(t, row, "gas"), gas) && !strcmp(table_text(t, row, "flow"), flow);
-}
-
-/* Names of the laws as column heads: "isothermal, paper". */
-static void law_heads(const study *s, FILE *file)
-{
-  int g, f;
-  for (g = 0; g < s->n_gas; g++)
-    for (f = 0; f < s->n_flow; f++)
-      fprintf(file, " %s, %s |", pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f]));
-  fputc('\n', file);
-}
-
-static void rule(FILE *file, int columns)
-{
-  int i;
-  fputc('|', file);
-  for (i = 0; i < columns; i++)
-    fputs("---|", file);
-  fputc('\n', file);
-}
 
 static void introduction(const study *s, FILE *file)
 {
@@ -54,74 +22,19 @@ static void introduction(const study *s, FILE *file)
           rig->name);
 }
 
-/* One line of the verdict table: asymmetry with and without the cause in each law. */
-static void verdict_line(const study *s, FILE *file, const table *t, int h, int *survives)
-{
-  int g, f;
-  fprintf(file, "| %s %s | %s |", hypotheses[h].name, hypotheses[h].words, hypotheses[h].paper);
-  *survives = 1;
-  for (g = 0; g < s->n_gas; g++)
-    for (f = 0; f < s->n_flow; f++) {
-      size_t row;
-      for (row = 0; row < table_rows(t); row++)
-        if (row_is(t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])) &&
-            !strcmp(table_text(t, row, "hypothesis"), hypotheses[h].name)) {
-          const char *verdict = table_text(t, row, "verdict");
-          *survives &= !strncmp(verdict, hypotheses[h].paper, strlen(hypotheses[h].paper));
-          fprintf(file, " %.3f to %.3f: %s |", table_number(t, row, "asymmetry_base"),
-                  fabs(table_number(t, row, "asymmetry_without_cause")), verdict);
-        }
-    }
-  fputc('\n', file);
-}
-
-static int verdicts(const study *s, FILE *file, lab_error *error)
-{
-  int h, survives[6];
-  table t;
-  if (table_load(s, "hypotheses.csv", &t, error) == LAB_OK) {
-    fprintf(
-        file,
-        "## Six hypotheses in %d laws\n\nAsymmetry with the cause, and without it; confirmed where it falls below "
-        "%.0f %% of its value. Asymmetry is the area\nbetween the two strokes, each scaled to unit time and travel, "
-        "the falling one mirrored; 0 is the same shape.\n\n![Asymmetry with and without each cause](hypotheses.svg)"
-        "\n\n| hypothesis | paper |",
-        s->n_gas * s->n_flow, 100 * s->confirmed_below);
-    law_heads(s, file);
-    rule(file, 2 + s->n_gas * s->n_flow);
-    for (h = 0; h < 6; h++)
-      verdict_line(s, file, &t, h, &survives[h]);
-    fputs("\nVerdicts of the paper that survive choking and temperature change:", file);
-    for (h = 0; h < 6; h++)
-      fprintf(file, "%s", survives[h] ? (fputc(' ', file), hypotheses[h].name) : "");
-    fputs(". That do not:", file);
-    for (h = 0; h < 6; h++)
-      fprintf(file, "%s", survives[h] ? "" : (fputc(' ', file), hypotheses[h].name));
-    fputs(
-        ".\nA cause marked as necessary carries the asymmetry (a spring ties pressure to travel; without stiffness the "
-        "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none. H4 and H5 "
-        "take "
-        "nothing away\nwhere the bench set already lies in the middle of the supply range and both orifices are alike; "
-        "the other actuators\nhave tables of their own.\n\n",
-        file);
-  }
-  table_close(&t);
-  return error->status;
-}
-
 static int attribution_rows(const study *s, FILE *file, int actuator, lab_error *error)
 {
   const char *name = s->actuator[actuator].name;
-  char path[LAB_NAME_TEXT + 32] = "attribution.csv";
+  char path[REPORT_NAME_TEXT];
   table t;
   size_t row;
-  if (actuator != s->subject)
-    snprintf(path, sizeof path, "attribution_%s.csv", name);
+  report_table_name(s, actuator, "attribution", path);
   if (table_load(s, path, &t, error) == LAB_OK)
     for (row = 0; row < table_rows(&t); row++)
-      fprintf(file, "| %s | %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, table_text(&t, row, "gas"),
-              table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
-              table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
+      if (strcmp(table_text(&t, row, "cause"), "remainder") != 0) /* a check of the measure, told before */
+        fprintf(file, "| %s | %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, table_text(&t, row, "gas"),
+                table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
+                table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
   table_close(&t);
   return error->status;
 }
@@ -159,15 +72,15 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
     fputs("## Eighteen conclusions\n\nThe conditions of \"holds when\" and the evidence for each are in "
           "[conclusions.csv](conclusions.csv).\n\n| conclusion |",
           file);
-    law_heads(s, file);
-    rule(file, 1 + s->n_gas * s->n_flow);
+    report_law_heads(s, file);
+    report_rule(file, 1 + s->n_gas * s->n_flow);
     for (i = 1; i <= 18; i++) {
       fprintf(file, "| %d |", i);
       for (g = 0; g < s->n_gas; g++)
         for (f = 0; f < s->n_flow; f++)
           for (row = 0; row < table_rows(&t); row++)
             if (atoi(table_text(&t, row, "conclusion")) == i &&
-                row_is(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
+                report_is_law(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
               fprintf(file, " %s |", short_verdict(table_text(&t, row, "verdict")));
       fputc('\n', file);
     }
@@ -239,7 +152,7 @@ static void show(const study *s, FILE *file, const shown *what)
     for (i = 0; i < 10 && what->column[i]; i++)
       fprintf(file, " %s |", what->column[i]);
     fputc('\n', file);
-    rule(file, i);
+    report_rule(file, i);
     for (row = 0; row < table_rows(&t); row++) {
       fputc('|', file);
       for (i = 0; i < 10 && what->column[i]; i++)
@@ -283,7 +196,7 @@ static int write_report(const study *s, FILE *file, lab_error *error)
   size_t i;
   error->status = LAB_OK;
   introduction(s, file);
-  if (verdicts(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
+  if (report_hypotheses(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
       disagreements(s, file, error))
     return error->status;
   for (i = 0; i < sizeof tables / sizeof *tables; i++)
