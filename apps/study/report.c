@@ -135,11 +135,48 @@ static void cell(FILE *file, const char *text)
     fprintf(file, " %s |", text);
 }
 
-/* A table to show, where it exists: its columns by name, heads and words around it. */
+enum { COLUMNS = 11 };
+
+/* A table to show, where it exists: its columns by name, and words around it. */
 typedef struct shown {
   const char *file, *before;
-  const char *column[10]; /* name in the file, head in the report, ...; NULL ends */
+  const char *column[COLUMNS];               /* names in the file; NULL ends */
+  void (*after)(const table *t, FILE *file); /* may be NULL */
 } shown;
+
+/* Smallest and largest value of a column over the rows whose source is, or is not, the one named. */
+static void column_span(const table *t, const char *column, const char *source, int same, double *low, double *high)
+{
+  size_t row;
+  *low = HUGE_VAL;
+  *high = -HUGE_VAL;
+  for (row = 0; row < table_rows(t); row++)
+    if ((strcmp(table_text(t, row, "source"), source) == 0) == same) {
+      *low = fmin(*low, table_number(t, row, column));
+      *high = fmax(*high, table_number(t, row, column));
+    }
+}
+
+/* What the two pairs of steps have in common, and what not. */
+static void compare_steps(const table *t, FILE *file)
+{
+  static const struct {
+    const char *column, *words;
+  } compared[] = {{"asymmetry", "Asymmetry, by the measure used above"}, {"duration_ratio", "Fall over rise"}};
+  size_t i;
+  for (i = 0; i < sizeof compared / sizeof *compared; i++) {
+    double low, high, model_low, model_high;
+    column_span(t, compared[i].column, "measured", 1, &low, &high);
+    column_span(t, compared[i].column, "measured", 0, &model_low, &model_high);
+    fprintf(file, "- %s: measured %.3f to %.3f, models %.3f to %.3f.\n", compared[i].words, low, high, model_low,
+            model_high);
+  }
+  fputs(
+      "\nThe measured pair is asymmetric in shape as much as the models are; but its fall is the faster stroke, where "
+      "theirs is the slower\none, and both of its strokes are nearer a first-order lag than an integrator "
+      "([edges](measured_damadics_edges.csv)).\n\n",
+      file);
+}
 
 static void show(const study *s, FILE *file, const shown *what)
 {
@@ -149,17 +186,19 @@ static void show(const study *s, FILE *file, const shown *what)
   int i;
   if (table_load(s, what->file, &t, &ignored) == LAB_OK) {
     fprintf(file, "%s\n\n|", what->before);
-    for (i = 0; i < 10 && what->column[i]; i++)
+    for (i = 0; i < COLUMNS && what->column[i]; i++)
       fprintf(file, " %s |", what->column[i]);
     fputc('\n', file);
     report_rule(file, i);
     for (row = 0; row < table_rows(&t); row++) {
       fputc('|', file);
-      for (i = 0; i < 10 && what->column[i]; i++)
+      for (i = 0; i < COLUMNS && what->column[i]; i++)
         cell(file, table_text(&t, row, what->column[i]));
       fputc('\n', file);
     }
     fputc('\n', file);
+    if (what->after)
+      what->after(&t, file);
   }
   table_close(&t);
 }
@@ -170,26 +209,30 @@ static const shown tables[] = {
      "mm2 "
      "and discharge coefficient Cd of a 2.71 mm hole (the file that comes with the data says 0.84), rms of pressure in "
      "kPa\n(as fitted; each point left out in turn), rms of the gas temperature in K, which is predicted except where "
-     "`fitted_to` says so.\nWhat remains is described in `apps/study/measured_vessel.h`: thermometer lag or mixing, "
+     "`fitted_to` says so;\nn is the exponent of the gas, empty for an energy balance. A fitted n at its bound is no "
+     "finding of its own: the row repeats that of the bound.\nWhat remains is described in "
+     "`apps/study/measured_vessel.h`: thermometer lag or mixing, "
      "and "
      "an orifice whose coefficient falls with pressure.",
-     {"law", "what", "fitted_to", "Ca", "Cd_of_2.71_mm", "rmse_p", "rmse_p_left_out", "rmse_T"}},
+     {"law", "what", "fitted_to", "Ca", "Cd_of_2.71_mm", "rmse_p", "rmse_p_left_out", "rmse_T", "n", "remark"},
+     NULL},
     {"measured_damadics_static.csv",
      "## Measured: a spring-and-diaphragm servomotor\n\n![Servomotor](measured_damadics.svg)\n\nStatic loop by the "
      "balance of forces alone; rms in kPa, as fitted and on alternate points held out. Kept: friction that grows with\n"
      "position and a hardening spring. All three terms fit better with an area that would have to grow by a quarter, "
      "which is not believed.",
-     {"law", "parameters", "added_terms", "rmse", "rmse_held_out"}},
+     {"law", "parameters", "added_terms", "rmse", "rmse_held_out"},
+     NULL},
     {"measured_damadics_steps.csv",
-     "Its two step responses beside the 37-13 of the paper, which is another actuator of type 37. The "
-     "measured pair does not show\nthe asymmetry of the paper: its fall is the faster stroke, and both are near a "
-     "first-order lag.",
+     "Its two step responses beside the 37-13 of the paper, which is another actuator of type 37.",
      {"source", "gas", "flow", "rise_time", "fall_time", "duration_ratio", "asymmetry", "rise_lag_T", "fall_ramp_T",
-      "note"}},
+      "note"},
+     compare_steps},
     {"agreement.csv",
      "## Can these numbers be trusted\n\nThe library's stepper at 1e-8 against CVODE at 1e-12 on the standard "
      "experiment, and the books of mass and energy.",
-     {"actuator", "gas", "flow", "position_gap_over_stroke", "pressure_gap_over_supply", "mass_gap", "energy_gap"}}};
+     {"actuator", "gas", "flow", "position_gap_over_stroke", "pressure_gap_over_supply", "mass_gap", "energy_gap"},
+     NULL}};
 
 static int write_report(const study *s, FILE *file, lab_error *error)
 {
