@@ -7,6 +7,7 @@
 
 #include "../lab/base/outfile.h"
 #include "report_hypotheses.h"
+#include "report_paper.h"
 #include "reporttext.h"
 #include "tableread.h"
 
@@ -84,40 +85,6 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
               fprintf(file, " %s |", short_verdict(table_text(&t, row, "verdict")));
       fputc('\n', file);
     }
-    fputc('\n', file);
-  }
-  table_close(&t);
-  return error->status;
-}
-
-static void disagreement_line(FILE *file, const table *t, size_t row)
-{
-  const char *unit = table_text(t, row, "unit");
-  if (!strcmp(unit, "1"))
-    unit = "";
-  fprintf(file, "| %s | %.4g %s | %.4g %s | %s |\n", table_text(t, row, "item"), table_number(t, row, "printed"), unit,
-          table_number(t, row, "computed"), unit, table_text(t, row, "note"));
-}
-
-/* Numbers that the paper prints and that differ from ours. */
-static int disagreements(const study *s, FILE *file, lab_error *error)
-{
-  size_t row, printed = 0, wrong = 0;
-  table t;
-  if (table_load(s, "paper_numbers.csv", &t, error) == LAB_OK) {
-    for (row = 0; row < table_rows(&t); row++) {
-      wrong += !strcmp(table_text(&t, row, "agrees"), "no");
-      printed++;
-    }
-    fprintf(
-        file,
-        "## Where the paper and its equations disagree\n\n%lu of %lu statements that can be recomputed do not agree "
-        "([paper_numbers.csv](paper_numbers.csv)). Those with a number in print:\n\n"
-        "| item | printed | computed | why |\n|---|---|---|---|\n",
-        (unsigned long)wrong, (unsigned long)printed);
-    for (row = 0; row < table_rows(&t); row++)
-      if (!strcmp(table_text(&t, row, "agrees"), "no") && *table_text(&t, row, "printed"))
-        disagreement_line(file, &t, row);
     fputc('\n', file);
   }
   table_close(&t);
@@ -240,7 +207,7 @@ static int write_report(const study *s, FILE *file, lab_error *error)
   error->status = LAB_OK;
   introduction(s, file);
   if (report_hypotheses(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
-      disagreements(s, file, error))
+      report_paper(s, file, error))
     return error->status;
   for (i = 0; i < sizeof tables / sizeof *tables; i++)
     show(s, file, &tables[i]);
