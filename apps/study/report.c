@@ -197,7 +197,7 @@ static const shown tables[] = {
      compare_steps},
     {"agreement.csv",
      "## Can these numbers be trusted\n\nThe library's stepper at 1e-8 against CVODE at 1e-12 on the standard "
-     "experiment, and the books of mass and energy.",
+     "experiment, and the balances of mass and energy.",
      {"actuator", "gas", "flow", "position_gap_over_stroke", "pressure_gap_over_supply", "mass_gap", "energy_gap"},
      NULL}};
 
