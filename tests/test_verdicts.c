@@ -1,8 +1,9 @@
-/* apps/study/verdicts: no cause is exempt from being tried alone */
+/* apps/study/verdicts, removals: no cause is exempt from being tried alone; what each does without the other */
 #include "check.h"
 
 #include <string.h>
 
+#include "../apps/study/speeds.h"
 #include "../apps/study/verdicts.h"
 
 static lab_error error;
@@ -103,6 +104,58 @@ static void test_verdicts_measure__a_threshold_that_one_cause_meets__confirmed(v
   assert_string_equal(verdicts_text(&law, REMOVE_SPRING, strict), "not confirmed");
 }
 
+/* ---- Why: PAPER.md 3.5 ---- */
+
+/* Chamber pressure [Pa] gauge that balances a rising stem at a share of the travel. */
+static double rising_pressure(const pneu_params *p, double share)
+{
+  return ((double)p->spring_rate * ((double)p->spring_preload + share * (double)p->stroke) + (double)p->dry_friction) /
+         (double)p->area;
+}
+
+/* Linear symmetric air: both strokes slow down alike, as the distance to the supply shrinks. */
+static void check_symmetric_air(const lab_rig *rig)
+{
+  pneu_params p = rig->params;
+  pneu_laws laws = rig->laws;
+  speed_pair pair;
+  double slowing;
+  removals[REMOVE_AIR_PROCESS].apply(&p, &laws);
+  assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
+  slowing = ((double)p.supply_pressure - rising_pressure(&p, speed_position(0))) /
+            ((double)p.supply_pressure - rising_pressure(&p, speed_position(SPEED_POINTS - 1)));
+  assert_true(slowing > 2);
+  assert_close(speed_max(&pair.up) / speed_min(&pair.up), slowing, 0, 1e-2);
+  assert_close(speed_max(&pair.down) / speed_min(&pair.down), slowing, 0, 1e-2);
+}
+
+/* A constant load: both strokes are nearly straight, though they take different times. */
+static void check_constant_load(const lab_rig *rig)
+{
+  pneu_params p = rig->params;
+  pneu_laws laws = rig->laws;
+  speed_pair pair;
+  removals[REMOVE_SPRING].apply(&p, &laws);
+  assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
+  assert_close(speed_max(&pair.up) / speed_min(&pair.up), 1, 0.03, 0);
+  assert_close(speed_max(&pair.down) / speed_min(&pair.down), 1, 0.03, 0);
+  assert_true(fabs(pair.shape.duration_ratio - 1) > 0.1);
+}
+
+static void test_removals__spring_or_air__each_stroke_as_the_closed_form_has_it(void **state)
+{
+  static study s;
+  int a;
+  (void)state;
+  if (study_read("study/hypotheses.cfg", &s, &error))
+    fail_msg("%s", error.text);
+  for (a = 0; a < s.n_actuators; a++) {
+    check_note("%s", s.actuator[a].name);
+    check_symmetric_air(&s.actuator[a]);
+    check_constant_load(&s.actuator[a]);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -110,6 +163,7 @@ int main(void)
       cmocka_unit_test(test_verdicts_text__any_cause__judged_alike),
       cmocka_unit_test(test_verdicts_measure__every_law_and_actuator__spring_and_air_judged_alike),
       cmocka_unit_test(test_verdicts_measure__a_threshold_that_one_cause_meets__confirmed),
+      cmocka_unit_test(test_removals__spring_or_air__each_stroke_as_the_closed_form_has_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
