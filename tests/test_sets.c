@@ -189,7 +189,7 @@ static void test_sets_report__section__shows_the_way_and_the_others(void **state
                         "of the root chi-square, this one 20 % (BIC, lower is better: ");
   assert_contains(text, "BIC, lower is better: 46 against 16)");
   assert_contains(text, "lowest on the way, with presliding: 0.5 mm against 0.75 at the end");
-  assert_contains(text, "what was added last raised it, in 1: T one (0.5 to 0.75 mm).\n");
+  assert_contains(text, "what was added after that raised it, in 1: T one (0.5 to 0.75 mm).\n");
   assert_null(strstr(text, "What took no part is"));
   free(text);
 }

@@ -198,7 +198,7 @@ static void write_tally(FILE *file, const tally *t, int n)
   if (t->raised.n > 0)
     fprintf(file,
             "\nNearer than the declared model is not nearest: the error held out was lower on the way, and what was "
-            "added last raised it, in %d: %s.\n",
+            "added after that raised it, in %d: %s.\n",
             t->raised.n, t->raised.text);
 }
 
