@@ -237,11 +237,15 @@ static void test_measured_damadics__steps__fall_is_the_faster_one(void **state)
 
 static void test_measured_vessel__whole__tables_written(void **state)
 {
+  char *text;
   (void)state;
   if (!vessel_path)
     return;
   succeed(measured_vessel("study", measured_folder(), scratch_folder, &error));
-  assert_true(scratch_exists(scratch_path("measured_vessel.csv")));
+  text = scratch_read(scratch_path("measured_vessel.csv"));
+  assert_non_null(strstr(text, ",n [1],remark\n"));
+  assert_non_null(strstr(text, ",1.4,polytropic_index is at its upper bound\n")); /* the adiabatic law again */
+  free(text);
   assert_true(scratch_exists(scratch_path("measured_vessel_parameters.csv")));
   assert_true(scratch_exists(scratch_path("measured_vessel_curves.csv")));
 }

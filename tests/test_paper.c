@@ -453,6 +453,11 @@ static void test_paper_numbers__every_row__complete_and_unique(void **state)
     assert_true(row[i].item[0] && row[i].quantity[0]);
     assert_non_null(strstr(row[i].note, "(PAPER.md "));
     assert_non_null(strstr("yes no rounding", row[i].agrees));
+    check_note("%s", row[i].item);
+    assert_int_equal(row[i].cause[0] != 0, strcmp(row[i].agrees, "no") == 0); /* a cause where there is one to have */
+    assert_non_null(strstr("arithmetic derivation data modelling", row[i].kind));
+    assert_int_equal(row[i].kind[0] != 0, row[i].cause[0] != 0);
+    assert_null(strchr(row[i].cause, ',')); /* the last columns can be counted with cut */
     for (j = 0; j < i; j++)
       assert_string_not_equal(row[i].item, row[j].item);
   }
@@ -460,7 +465,7 @@ static void test_paper_numbers__every_row__complete_and_unique(void **state)
 
 static void test_paper_numbers__little_room__fills_what_fits(void **state)
 {
-  paper_row row[2] = {{NULL, NULL, NULL, 0, 0, NULL, NULL}, {NULL, NULL, NULL, 0, 0, NULL, NULL}};
+  paper_row row[2] = {{.item = NULL}, {.item = NULL}};
   (void)state;
   assert_int_equal(paper_numbers(row, 1), paper_numbers(NULL, 0));
   assert_non_null(row[0].item);
@@ -469,7 +474,7 @@ static void test_paper_numbers__little_room__fills_what_fits(void **state)
 
 static void test_paper_row_add__claim_without_number__empty_field(void **state)
 {
-  paper_row row = {"a", "b", "1", 0, 2.0, "no", "c"};
+  paper_row row = {"a", "b", "1", 0, 2.0, "no", "c", "data", "d"};
   table t;
   (void)state;
   row.printed = (double)NAN;
@@ -479,6 +484,7 @@ static void test_paper_row_add__claim_without_number__empty_field(void **state)
   assert_true(isnan(table_at(&t, 0, 3)->number));
   assert_close(table_at(&t, 0, 4)->number, 2.0, 0, 0);
   assert_string_equal(table_at(&t, 0, 6)->text, "c");
+  assert_string_equal(table_at(&t, 0, 8)->text, "d");
   table_close(&t);
 }
 
@@ -487,7 +493,7 @@ static void test_paper_numbers_table__all__header_and_rows(void **state)
   table t;
   (void)state;
   paper_numbers_table(&t);
-  assert_string_equal(t.header, "item,quantity,unit,printed,computed,agrees,note");
+  assert_string_equal(t.header, "item,quantity,unit,printed,computed,agrees,note,kind,cause");
   assert_int_equal(table_rows(&t), paper_numbers(NULL, 0));
   table_close(&t);
 }

@@ -138,8 +138,9 @@ static void test_sets_report__row__has_units_noise_and_verdict(void **state)
   (void)state;
   assert_contains(text, "| [T one](one/report.json) | position | 0.1 mm | 4 mm (40) | 0.25 mm (2.5) | 5 mm (50) | 0.75 "
                         "mm (7.5) | undecided | presliding (or position_lag), pressure_gain |");
-  assert_contains(text, "Of 1 sets 1 ran. On what took no part in the fit the completed model is nearer than the "
-                        "declared one in 1 of 1. Of 2 logs held out, each taken by itself, it is nearer in 1; ");
+  assert_contains(
+      text, "Of 1 sets 1 ran: 1 undecided. On what took no part in the fit the completed model is nearer than the "
+            "declared one in 1 of 1. Of 2 logs held out, each taken by itself, it is nearer in 1; ");
   free(text);
 }
 
@@ -183,11 +184,13 @@ static void test_sets_report__section__shows_the_way_and_the_others(void **state
   (void)state;
   assert_contains(text, "| declared model | 4 | 7 | 5 | 9 |\n| presliding | 1 | 7 | 0.5 | 9 |\n"
                         "| presliding + pressure_gain | 0.25 | 7 | 0.75 | 9 |\n\n");
-  assert_contains(text, "Each alone leaves of the misfit: presliding 50 %.");
+  assert_contains(text, "Each alone leaves of the root chi-square: presliding 50 %.");
   assert_contains(text, "Of 6 models tried, the next best with other effects is presliding + dead_time: it leaves 30 % "
-                        "of the misfit, this one 20 % ");
-  assert_contains(text, "lower is better: 46 against 16)");
+                        "of the root chi-square, this one 20 % (BIC, lower is better: ");
+  assert_contains(text, "BIC, lower is better: 46 against 16)");
   assert_contains(text, "lowest on the way, with presliding: 0.5 mm against 0.75 at the end");
+  assert_contains(text, "what was added after that raised it, in 1: T one (0.5 to 0.75 mm).\n");
+  assert_null(strstr(text, "What took no part is"));
   free(text);
 }
 
@@ -196,6 +199,7 @@ static void test_sets_report__held_out_error_that_falls__has_no_warning(void **s
   char *text = report_of("sets = ( " SET("one", "") " );", undecided, "4e-4");
   (void)state;
   assert_null(strstr(text, "lowest on the way"));
+  assert_null(strstr(text, "is not nearest"));
   free(text);
 }
 
@@ -246,6 +250,8 @@ static void test_sets_report__check__is_a_row_without_noise(void **state)
   (void)state;
   assert_contains(text, "| - the same, not fitted | position | - | - | - | 0.4 cm | 0.025 cm | | |");
   assert_contains(text, "| a.csv | position [cm] | 0.194 | - |");
+  assert_contains(text,
+                  "What took no part is a channel that was not fitted, not a run held out, in: T one (position).\n");
   free(text);
 }
 
@@ -270,7 +276,7 @@ static void test_sets_report__sets_that_did_not_run__stay_in_the_table(void **st
 
 /* ---- Its parts ---- */
 
-static void test_sets_left__slow_wave__neighbours_agree(void **state)
+static void test_sets_left__slow_wave__correlated_at_lag_1(void **state)
 {
   char text[4096] = "run [1],t [s],p [Pa],p_after [Pa]\n";
   sets_left left;
@@ -285,9 +291,9 @@ static void test_sets_left__slow_wave__neighbours_agree(void **state)
   assert_int_equal(sets_left_runs(&t), 2);
   assert_int_equal(sets_left_of(&t, 1, "p", &left, &error), LAB_OK);
   assert_int_equal(left.n, 50);
-  assert_between(left.neighbours, 0.9, 1.0);
+  assert_between(left.lag1, 0.9, 1.0);
   assert_int_equal(sets_left_of(&t, 2, "p", &left, &error), LAB_OK);
-  assert_close(left.neighbours, -0.98, 1e-9, 0);
+  assert_close(left.lag1, -0.98, 1e-9, 0);
   assert_close(left.rms, 1, 1e-12, 0);
   assert_int_equal(sets_left_of(&t, 2, "T", &left, &error), LAB_OK);
   assert_int_equal(left.n, 0);
@@ -343,7 +349,7 @@ int main(void)
       cmocka_unit_test(test_sets_report__what_is_left__is_told_by_log),
       cmocka_unit_test(test_sets_report__check__is_a_row_without_noise),
       cmocka_unit_test(test_sets_report__sets_that_did_not_run__stay_in_the_table),
-      cmocka_unit_test(test_sets_left__slow_wave__neighbours_agree),
+      cmocka_unit_test(test_sets_left__slow_wave__correlated_at_lag_1),
       cmocka_unit_test(test_sets_within__parts__in_any_order),
       cmocka_unit_test(test_sets_cfg__words__hold_no_figures),
   };

@@ -39,13 +39,14 @@ static int agreement_row(const lab_rig *rig, int gas, int flow, table *t, lab_er
 {
   lab_rig own = *rig;
   pneu_model model;
-  audit books;
+  audit balance;
   double dx = 0, dp = 0;
   own.laws = study_laws(rig, gas, flow);
   if (lab_rig_model(&own, &model, error) || compare(rig, &model, &dx, &dp, error) ||
-      audit_run(&model, stepper_tol, &books, error))
+      audit_run(&model, stepper_tol, &balance, error))
     return lab_fail_in(error, "%s, %s, %s", rig->name, pneu_gas_key(gas), pneu_flow_key(flow));
-  table_row(t, "sssgggg", rig->name, pneu_gas_key(gas), pneu_flow_key(flow), dx, dp, books.mass_gap, books.energy_gap);
+  table_row(t, "sssgggg", rig->name, pneu_gas_key(gas), pneu_flow_key(flow), dx, dp, balance.mass_gap,
+            balance.energy_gap);
   return LAB_OK;
 }
 

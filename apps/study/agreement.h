@@ -1,4 +1,4 @@
-/* The stepper against CVODE, and the audit of mass and energy, on every standard experiment.
+/* The stepper against CVODE, and the balances of mass and energy, on every standard experiment.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_AGREEMENT_H
 #define STUDY_AGREEMENT_H

@@ -16,7 +16,7 @@ static double internal_energy(const pneu_model *model, const pneu_state *state)
 
 static int add_step(void *context, const pneu_step_view *view)
 {
-  audit *books = context;
+  audit *balance = context;
   const pneu_model *model = view->model;
   const double cp = model->g * model->p.gas_constant / (model->g - 1);
   int i;
@@ -31,25 +31,25 @@ static int add_step(void *context, const pneu_step_view *view)
     in = cp * model->p.supply_temperature * out.mass_in;
     leaving = cp * out.temperature * out.mass_out;
     work = (out.pressure + model->p.ambient_pressure) * model->p.area * model->p.swept_ratio * out.velocity;
-    books->mass_flow += dt * (out.mass_in - out.mass_out);
-    books->mass_passed += dt * (out.mass_in + out.mass_out);
-    books->energy_flow += dt * (in - leaving + out.heat - work);
-    books->energy_passed += dt * (in + leaving + fabs(out.heat) + fabs(work));
+    balance->mass_flow += dt * (out.mass_in - out.mass_out);
+    balance->mass_passed += dt * (out.mass_in + out.mass_out);
+    balance->energy_flow += dt * (in - leaving + out.heat - work);
+    balance->energy_passed += dt * (in + leaving + fabs(out.heat) + fabs(work));
   }
   return 0;
 }
 
-int audit_run(const pneu_model *model, double tol, audit *books, lab_error *error)
+int audit_run(const pneu_model *model, double tol, audit *balance, lab_error *error)
 {
   static const double command[2] = {1, -1};
-  pneu_observer observer = {add_step, NULL, books};
+  pneu_observer observer = {add_step, NULL, balance};
   pneu_options options;
   pneu_workspace work;
   pneu_input input;
   pneu_state state;
   double mass, energy;
   int i, status = PNEU_OK;
-  memset(books, 0, sizeof *books);
+  memset(balance, 0, sizeof *balance);
   memset(&work, 0, sizeof work);
   pneu_options_default(&options);
   options.tol = tol;
@@ -64,9 +64,9 @@ int audit_run(const pneu_model *model, double tol, audit *books, lab_error *erro
   if (status != PNEU_OK)
     return lab_fail(error, LAB_NUMERIC, "%s in the audit, %s, p = %.6g Pa, x = %.6g m", pneu_status_text(status),
                     pneu_mode_text(state.mode), state.p, state.x);
-  books->mass_gap = (pneu_mass(model, &state) - mass - books->mass_flow) / books->mass_passed;
-  books->energy_gap = model->thermal
-                          ? (internal_energy(model, &state) - energy - books->energy_flow) / books->energy_passed
-                          : (double)NAN;
+  balance->mass_gap = (pneu_mass(model, &state) - mass - balance->mass_flow) / balance->mass_passed;
+  balance->energy_gap = model->thermal
+                            ? (internal_energy(model, &state) - energy - balance->energy_flow) / balance->energy_passed
+                            : (double)NAN;
   return LAB_OK;
 }

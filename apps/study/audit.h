@@ -1,4 +1,4 @@
-/* Books of mass and energy over a run: what came in and went out against what is there.
+/* Mass and energy balances over a run: what came in and went out against what is there.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_AUDIT_H
 #define STUDY_AUDIT_H
@@ -15,9 +15,8 @@ typedef struct audit {
   double energy_gap;    /* [1] likewise; NaN for the isothermal law, where heat is what it must be */
 } audit;
 
-/* Fill for 15 s and vent for 15 s from rest, and keep the books by Gauss quadrature of order 8 over the dense output.
- * In:      tol  local error in units of full scale
- * Returns: LAB_OK, LAB_NUMERIC. */
-int audit_run(const pneu_model *model, double tol, audit *books, lab_error *error);
+/* Fill for 15 s and vent for 15 s from rest, and add up both balances by Gauss quadrature of order 8 over the dense
+ * output. In:      tol  local error in units of full scale Returns: LAB_OK, LAB_NUMERIC. */
+int audit_run(const pneu_model *model, double tol, audit *balance, lab_error *error);
 
 #endif

@@ -87,16 +87,18 @@ static int find(const vessel *v, const vessel_law *law, unsigned char *use, find
 
 static const char summary_header[] =
     "law,what,fitted_to,Ca [mm2],Ca_low [mm2],Ca_high [mm2],Cd_of_2.71_mm [1],diameter_at_Cd_0.84 [mm],"
-    "rmse_p [kPa],max_p [kPa],rmse_p_left_out [kPa],rmse_p_second_half [kPa],lag1_p [1],rmse_T [K],max_T [K],remark";
+    "rmse_p [kPa],max_p [kPa],rmse_p_left_out [kPa],rmse_p_second_half [kPa],lag1_p [1],rmse_T [K],max_T [K],n "
+    "[1],remark";
 
-static void add_summary(table *t, const vessel_law *law, const finding *f)
+static void add_summary(table *t, const vessel *v, const vessel_law *law, const finding *f)
 {
   static const double quarter_pi = 0.78539816339744830962;
   const double area = f->fit.theta[0];
-  table_row(t, "sssggggggggggggs", law->name, law->what, law->with_T ? "p and T" : "p", 1e6 * area, 1e6 * f->fit.low[0],
-            1e6 * f->fit.high[0], area / (quarter_pi * source_diameter * source_diameter),
+  table_row(t, "sssgggggggggggggs", law->name, law->what, law->with_T ? "p and T" : "p", 1e6 * area,
+            1e6 * f->fit.low[0], 1e6 * f->fit.high[0], area / (quarter_pi * source_diameter * source_diameter),
             1e3 * sqrt(area / (source_cd * quarter_pi)), 1e-3 * f->p.rmse, 1e-3 * f->p.largest, 1e-3 * f->left_out.rmse,
-            1e-3 * f->second_half.rmse, f->p.lag1, f->T.rmse, f->T.largest, f->fit.remark);
+            1e-3 * f->second_half.rmse, f->p.lag1, f->T.rmse, f->T.largest, vessel_exponent(v, law, f->fit.theta),
+            f->fit.remark);
 }
 
 static const char parameter_header[] = "law,parameter,value,unit,ci95_low,ci95_high,state";
@@ -189,7 +191,7 @@ static int try_laws(const vessel *v, outputs *out, lab_error *error)
     status = find(v, &vessel_laws[i], use, &f, error);
     if (status != LAB_OK)
       break;
-    add_summary(&out->summary, &vessel_laws[i], &f);
+    add_summary(&out->summary, v, &vessel_laws[i], &f);
     add_parameters(&out->parameters, &vessel_laws[i], &f.fit);
     status = add_curve(&out->curves, v, &vessel_laws[i], f.fit.theta, error);
   }

@@ -206,13 +206,15 @@ typedef struct paper_row {
   double computed;    /* NaN: a matter of form, without a number */
   const char *agrees; /* "yes", "no", "rounding" */
   const char *note;
+  const char *kind, *cause; /* of a "no": "arithmetic", "derivation", "data" or "modelling", and what it comes from;
+                               several rows may share a cause. "" of the others */
 } paper_row;
 
 /* Fill at most `room` rows.  Returns: how many there are in all; rows may be NULL if room is 0. */
 size_t paper_numbers(paper_row *rows, size_t room);
 
 /* Append one row, ours or that of a simulation, to a table opened with PAPER_ROW_HEADER. */
-#define PAPER_ROW_HEADER "item,quantity,unit,printed,computed,agrees,note"
+#define PAPER_ROW_HEADER "item,quantity,unit,printed,computed,agrees,note,kind,cause"
 void paper_row_add(table *t, const paper_row *row);
 
 /* Verdict on a printed number.

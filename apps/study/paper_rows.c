@@ -28,6 +28,27 @@ typedef double (*formula)(const given *g);
 /* How the computed number must stand to the printed or implied one. */
 enum relation { SAME, AT_MOST, AT_LEAST, MORE, FORM };
 
+/* Why a claim does not agree. */
+#define X(name, kind, words) name,
+enum cause {
+  AGREES,
+#include "paper_causes.def"
+};
+#undef X
+
+#define ARITHMETIC           "arithmetic"
+#define DERIVATION           "derivation"
+#define DATA                 "data"
+#define MODELLING            "modelling"
+#define X(name, kind, words) [name] = {kind, words},
+static const struct {
+  const char *kind, *words;
+} causes[] = {
+    [AGREES] = {"", ""},
+#include "paper_causes.def"
+};
+#undef X
+
 typedef struct claim {
   const char *item, *quantity, *unit;
   double printed, digit; /* in `unit`; digit: unit of the last printed place, or what MORE must exceed */
@@ -38,6 +59,7 @@ typedef struct claim {
   formula compute;
   int actuator;
   int arg[ARGS]; /* enum paper_constant_id */
+  int cause;     /* enum cause */
   const char *note;
 } claim;
 
@@ -661,7 +683,15 @@ static double evaluate(const claim *c)
 static paper_row row_of(const claim *c)
 {
   double computed = evaluate(c);
-  paper_row row = {c->item, c->quantity, c->unit, c->printed, computed, judge(c, computed), c->note};
+  paper_row row = {c->item,
+                   c->quantity,
+                   c->unit,
+                   c->printed,
+                   computed,
+                   judge(c, computed),
+                   c->note,
+                   causes[c->cause].kind,
+                   causes[c->cause].words};
   return row;
 }
 
@@ -675,7 +705,8 @@ size_t paper_numbers(paper_row *rows, size_t room)
 
 void paper_row_add(table *t, const paper_row *row)
 {
-  table_row(t, "sssggss", row->item, row->quantity, row->unit, row->printed, row->computed, row->agrees, row->note);
+  table_row(t, "sssggssss", row->item, row->quantity, row->unit, row->printed, row->computed, row->agrees, row->note,
+            row->kind, row->cause);
 }
 
 void paper_numbers_table(table *t)

@@ -16,22 +16,18 @@
 #include "numbers.h"
 #include "report.h"
 #include "responses.h"
+#include "springair.h"
+#include "verdicts.h"
 
 /* Tables, in order of need: the report reads the others. */
 static const struct {
   const char *name;
   int (*make)(const study *s, lab_error *error);
-} tables[] = {{"standard", responses_standard},
-              {"steps", responses_steps},
-              {"static", responses_static},
-              {"numbers", numbers_make},
-              {"sweeps", hypotheses_sweep},
-              {"hypotheses", hypotheses_verdicts},
-              {"attribution", attribution_make},
-              {"conclusions", conclusions_make},
-              {"agreement", agreement_make},
-              {"vessel", measured_vessel_product},
-              {"servomotor", measured_damadics_product}};
+} tables[] = {
+    {"standard", responses_standard},   {"steps", responses_steps},          {"static", responses_static},
+    {"numbers", numbers_make},          {"sweeps", hypotheses_sweep},        {"hypotheses", verdicts_make},
+    {"spring_and_air", springair_make}, {"attribution", attribution_make},   {"conclusions", conclusions_make},
+    {"agreement", agreement_make},      {"vessel", measured_vessel_product}, {"servomotor", measured_damadics_product}};
 
 /* Figures: study/figures/<name>.gp draws <name>.svg from the table <needs>. */
 static const struct {

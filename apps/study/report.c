@@ -6,41 +6,10 @@
 #include <string.h>
 
 #include "../lab/base/outfile.h"
+#include "report_hypotheses.h"
+#include "report_paper.h"
+#include "reporttext.h"
 #include "tableread.h"
-
-/* The paper's own verdicts, section 7. */
-static const struct {
-  const char *name, *words, *paper;
-} hypotheses[6] = {{"H1", "directional action of the spring", "not confirmed"},
-                   {"H2", "preload of the spring", "not confirmed"},
-                   {"H3", "travel limiters", "not confirmed"},
-                   {"H4", "place of the bench set", "not confirmed"},
-                   {"H5", "unequal fill and vent", "not confirmed"},
-                   {"H6", "different air processes when filling and venting", "confirmed"}};
-
-static int row_is(const table *t, size_t row, const char *gas, const char *flow)
-{
-  return !strcmp(table_text(t, row, "gas"), gas) && !strcmp(table_text(t, row, "flow"), flow);
-}
-
-/* Names of the laws as column heads: "isothermal, paper". */
-static void law_heads(const study *s, FILE *file)
-{
-  int g, f;
-  for (g = 0; g < s->n_gas; g++)
-    for (f = 0; f < s->n_flow; f++)
-      fprintf(file, " %s, %s |", pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f]));
-  fputc('\n', file);
-}
-
-static void rule(FILE *file, int columns)
-{
-  int i;
-  fputc('|', file);
-  for (i = 0; i < columns; i++)
-    fputs("---|", file);
-  fputc('\n', file);
-}
 
 static void introduction(const study *s, FILE *file)
 {
@@ -54,74 +23,19 @@ static void introduction(const study *s, FILE *file)
           rig->name);
 }
 
-/* One line of the verdict table: asymmetry with and without the cause in each law. */
-static void verdict_line(const study *s, FILE *file, const table *t, int h, int *survives)
-{
-  int g, f;
-  fprintf(file, "| %s %s | %s |", hypotheses[h].name, hypotheses[h].words, hypotheses[h].paper);
-  *survives = 1;
-  for (g = 0; g < s->n_gas; g++)
-    for (f = 0; f < s->n_flow; f++) {
-      size_t row;
-      for (row = 0; row < table_rows(t); row++)
-        if (row_is(t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])) &&
-            !strcmp(table_text(t, row, "hypothesis"), hypotheses[h].name)) {
-          const char *verdict = table_text(t, row, "verdict");
-          *survives &= !strncmp(verdict, hypotheses[h].paper, strlen(hypotheses[h].paper));
-          fprintf(file, " %.3f to %.3f: %s |", table_number(t, row, "asymmetry_base"),
-                  fabs(table_number(t, row, "asymmetry_without_cause")), verdict);
-        }
-    }
-  fputc('\n', file);
-}
-
-static int verdicts(const study *s, FILE *file, lab_error *error)
-{
-  int h, survives[6];
-  table t;
-  if (table_load(s, "hypotheses.csv", &t, error) == LAB_OK) {
-    fprintf(
-        file,
-        "## Six hypotheses in %d laws\n\nAsymmetry with the cause, and without it; confirmed where it falls below "
-        "%.0f %% of its value. Asymmetry is the area\nbetween the two strokes, each scaled to unit time and travel, "
-        "the falling one mirrored; 0 is the same shape.\n\n![Asymmetry with and without each cause](hypotheses.svg)"
-        "\n\n| hypothesis | paper |",
-        s->n_gas * s->n_flow, 100 * s->confirmed_below);
-    law_heads(s, file);
-    rule(file, 2 + s->n_gas * s->n_flow);
-    for (h = 0; h < 6; h++)
-      verdict_line(s, file, &t, h, &survives[h]);
-    fputs("\nVerdicts of the paper that survive choking and temperature change:", file);
-    for (h = 0; h < 6; h++)
-      fprintf(file, "%s", survives[h] ? (fputc(' ', file), hypotheses[h].name) : "");
-    fputs(". That do not:", file);
-    for (h = 0; h < 6; h++)
-      fprintf(file, "%s", survives[h] ? "" : (fputc(' ', file), hypotheses[h].name));
-    fputs(
-        ".\nA cause marked as necessary carries the asymmetry (a spring ties pressure to travel; without stiffness the "
-        "pressure\ndoes not change during a stroke), but with the air process made symmetric it leaves none. H4 and H5 "
-        "take "
-        "nothing away\nwhere the bench set already lies in the middle of the supply range and both orifices are alike; "
-        "the other actuators\nhave tables of their own.\n\n",
-        file);
-  }
-  table_close(&t);
-  return error->status;
-}
-
 static int attribution_rows(const study *s, FILE *file, int actuator, lab_error *error)
 {
   const char *name = s->actuator[actuator].name;
-  char path[LAB_NAME_TEXT + 32] = "attribution.csv";
+  char path[REPORT_NAME_TEXT];
   table t;
   size_t row;
-  if (actuator != s->subject)
-    snprintf(path, sizeof path, "attribution_%s.csv", name);
+  report_table_name(s, actuator, "attribution", path);
   if (table_load(s, path, &t, error) == LAB_OK)
     for (row = 0; row < table_rows(&t); row++)
-      fprintf(file, "| %s | %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, table_text(&t, row, "gas"),
-              table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
-              table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
+      if (strcmp(table_text(&t, row, "cause"), "remainder") != 0) /* a check of the measure, told before */
+        fprintf(file, "| %s | %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, table_text(&t, row, "gas"),
+                table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
+                table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
   table_close(&t);
   return error->status;
 }
@@ -159,52 +73,18 @@ static int conclusions(const study *s, FILE *file, lab_error *error)
     fputs("## Eighteen conclusions\n\nThe conditions of \"holds when\" and the evidence for each are in "
           "[conclusions.csv](conclusions.csv).\n\n| conclusion |",
           file);
-    law_heads(s, file);
-    rule(file, 1 + s->n_gas * s->n_flow);
+    report_law_heads(s, file);
+    report_rule(file, 1 + s->n_gas * s->n_flow);
     for (i = 1; i <= 18; i++) {
       fprintf(file, "| %d |", i);
       for (g = 0; g < s->n_gas; g++)
         for (f = 0; f < s->n_flow; f++)
           for (row = 0; row < table_rows(&t); row++)
             if (atoi(table_text(&t, row, "conclusion")) == i &&
-                row_is(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
+                report_is_law(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
               fprintf(file, " %s |", short_verdict(table_text(&t, row, "verdict")));
       fputc('\n', file);
     }
-    fputc('\n', file);
-  }
-  table_close(&t);
-  return error->status;
-}
-
-static void disagreement_line(FILE *file, const table *t, size_t row)
-{
-  const char *unit = table_text(t, row, "unit");
-  if (!strcmp(unit, "1"))
-    unit = "";
-  fprintf(file, "| %s | %.4g %s | %.4g %s | %s |\n", table_text(t, row, "item"), table_number(t, row, "printed"), unit,
-          table_number(t, row, "computed"), unit, table_text(t, row, "note"));
-}
-
-/* Numbers that the paper prints and that differ from ours. */
-static int disagreements(const study *s, FILE *file, lab_error *error)
-{
-  size_t row, printed = 0, wrong = 0;
-  table t;
-  if (table_load(s, "paper_numbers.csv", &t, error) == LAB_OK) {
-    for (row = 0; row < table_rows(&t); row++) {
-      wrong += !strcmp(table_text(&t, row, "agrees"), "no");
-      printed++;
-    }
-    fprintf(
-        file,
-        "## Where the paper and its equations disagree\n\n%lu of %lu statements that can be recomputed do not agree "
-        "([paper_numbers.csv](paper_numbers.csv)). Those with a number in print:\n\n"
-        "| item | printed | computed | why |\n|---|---|---|---|\n",
-        (unsigned long)wrong, (unsigned long)printed);
-    for (row = 0; row < table_rows(&t); row++)
-      if (!strcmp(table_text(&t, row, "agrees"), "no") && *table_text(&t, row, "printed"))
-        disagreement_line(file, &t, row);
     fputc('\n', file);
   }
   table_close(&t);
@@ -222,11 +102,48 @@ static void cell(FILE *file, const char *text)
     fprintf(file, " %s |", text);
 }
 
-/* A table to show, where it exists: its columns by name, heads and words around it. */
+enum { COLUMNS = 11 };
+
+/* A table to show, where it exists: its columns by name, and words around it. */
 typedef struct shown {
   const char *file, *before;
-  const char *column[10]; /* name in the file, head in the report, ...; NULL ends */
+  const char *column[COLUMNS];               /* names in the file; NULL ends */
+  void (*after)(const table *t, FILE *file); /* may be NULL */
 } shown;
+
+/* Smallest and largest value of a column over the rows whose source is, or is not, the one named. */
+static void column_span(const table *t, const char *column, const char *source, int same, double *low, double *high)
+{
+  size_t row;
+  *low = HUGE_VAL;
+  *high = -HUGE_VAL;
+  for (row = 0; row < table_rows(t); row++)
+    if ((strcmp(table_text(t, row, "source"), source) == 0) == same) {
+      *low = fmin(*low, table_number(t, row, column));
+      *high = fmax(*high, table_number(t, row, column));
+    }
+}
+
+/* What the two pairs of steps have in common, and what not. */
+static void compare_steps(const table *t, FILE *file)
+{
+  static const struct {
+    const char *column, *words;
+  } compared[] = {{"asymmetry", "Asymmetry, by the measure used above"}, {"duration_ratio", "Fall over rise"}};
+  size_t i;
+  for (i = 0; i < sizeof compared / sizeof *compared; i++) {
+    double low, high, model_low, model_high;
+    column_span(t, compared[i].column, "measured", 1, &low, &high);
+    column_span(t, compared[i].column, "measured", 0, &model_low, &model_high);
+    fprintf(file, "- %s: measured %.3f to %.3f, models %.3f to %.3f.\n", compared[i].words, low, high, model_low,
+            model_high);
+  }
+  fputs(
+      "\nThe measured pair is asymmetric in shape as much as the models are; but its fall is the faster stroke, where "
+      "theirs is the slower\none, and both of its strokes are nearer a first-order lag than an integrator "
+      "([edges](measured_damadics_edges.csv)).\n\n",
+      file);
+}
 
 static void show(const study *s, FILE *file, const shown *what)
 {
@@ -236,17 +153,19 @@ static void show(const study *s, FILE *file, const shown *what)
   int i;
   if (table_load(s, what->file, &t, &ignored) == LAB_OK) {
     fprintf(file, "%s\n\n|", what->before);
-    for (i = 0; i < 10 && what->column[i]; i++)
+    for (i = 0; i < COLUMNS && what->column[i]; i++)
       fprintf(file, " %s |", what->column[i]);
     fputc('\n', file);
-    rule(file, i);
+    report_rule(file, i);
     for (row = 0; row < table_rows(&t); row++) {
       fputc('|', file);
-      for (i = 0; i < 10 && what->column[i]; i++)
+      for (i = 0; i < COLUMNS && what->column[i]; i++)
         cell(file, table_text(&t, row, what->column[i]));
       fputc('\n', file);
     }
     fputc('\n', file);
+    if (what->after)
+      what->after(&t, file);
   }
   table_close(&t);
 }
@@ -257,34 +176,38 @@ static const shown tables[] = {
      "mm2 "
      "and discharge coefficient Cd of a 2.71 mm hole (the file that comes with the data says 0.84), rms of pressure in "
      "kPa\n(as fitted; each point left out in turn), rms of the gas temperature in K, which is predicted except where "
-     "`fitted_to` says so.\nWhat remains is described in `apps/study/measured_vessel.h`: thermometer lag or mixing, "
+     "`fitted_to` says so;\nn is the exponent of the gas, empty for an energy balance. A fitted n at its bound is no "
+     "finding of its own: the row repeats that of the bound.\nWhat remains is described in "
+     "`apps/study/measured_vessel.h`: thermometer lag or mixing, "
      "and "
      "an orifice whose coefficient falls with pressure.",
-     {"law", "what", "fitted_to", "Ca", "Cd_of_2.71_mm", "rmse_p", "rmse_p_left_out", "rmse_T"}},
+     {"law", "what", "fitted_to", "Ca", "Cd_of_2.71_mm", "rmse_p", "rmse_p_left_out", "rmse_T", "n", "remark"},
+     NULL},
     {"measured_damadics_static.csv",
      "## Measured: a spring-and-diaphragm servomotor\n\n![Servomotor](measured_damadics.svg)\n\nStatic loop by the "
      "balance of forces alone; rms in kPa, as fitted and on alternate points held out. Kept: friction that grows with\n"
      "position and a hardening spring. All three terms fit better with an area that would have to grow by a quarter, "
      "which is not believed.",
-     {"law", "parameters", "added_terms", "rmse", "rmse_held_out"}},
+     {"law", "parameters", "added_terms", "rmse", "rmse_held_out"},
+     NULL},
     {"measured_damadics_steps.csv",
-     "Its two step responses beside the 37-13 of the paper, which is another actuator of type 37. The "
-     "measured pair does not show\nthe asymmetry of the paper: its fall is the faster stroke, and both are near a "
-     "first-order lag.",
+     "Its two step responses beside the 37-13 of the paper, which is another actuator of type 37.",
      {"source", "gas", "flow", "rise_time", "fall_time", "duration_ratio", "asymmetry", "rise_lag_T", "fall_ramp_T",
-      "note"}},
+      "note"},
+     compare_steps},
     {"agreement.csv",
      "## Can these numbers be trusted\n\nThe library's stepper at 1e-8 against CVODE at 1e-12 on the standard "
-     "experiment, and the books of mass and energy.",
-     {"actuator", "gas", "flow", "position_gap_over_stroke", "pressure_gap_over_supply", "mass_gap", "energy_gap"}}};
+     "experiment, and the balances of mass and energy.",
+     {"actuator", "gas", "flow", "position_gap_over_stroke", "pressure_gap_over_supply", "mass_gap", "energy_gap"},
+     NULL}};
 
 static int write_report(const study *s, FILE *file, lab_error *error)
 {
   size_t i;
   error->status = LAB_OK;
   introduction(s, file);
-  if (verdicts(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
-      disagreements(s, file, error))
+  if (report_hypotheses(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
+      report_paper(s, file, error))
     return error->status;
   for (i = 0; i < sizeof tables / sizeof *tables; i++)
     show(s, file, &tables[i]);

@@ -48,7 +48,7 @@ int sets_left_of(const table *residual, int run, const char *key, sets_left *lef
   left->rms = sqrt(left->rms / (double)left->n);
   lab_whiteness_test(&all, 1, &white);
   if (white.lags > 0)
-    left->neighbours = white.correlation[1];
+    left->lag1 = white.correlation[1];
   free(value);
   return LAB_OK;
 }

@@ -12,7 +12,7 @@ typedef struct sets_left {
   size_t n;              /* measured values; 0 if the run has none of the channel */
   double rms, mean;      /* NaN without values */
   double worst, worst_t; /* the largest, with its sign, and when [s] */
-  double neighbours;     /* correlation from one value to the next: 0 for white noise, 1 for a slow wave */
+  double lag1;           /* autocorrelation at lag 1: 0 for white noise, 1 for a slow wave */
 } sets_left;
 
 /* Number of runs in the table. */

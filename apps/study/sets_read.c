@@ -101,6 +101,24 @@ const char *sets_names(char *names, const cJSON *json)
   return names;
 }
 
+static double held_value(const cJSON *model, const char *channel, const char *unit)
+{
+  return sets_error_of(sets_member(model, "holdout"), channel, unit).value;
+}
+
+const cJSON *sets_best_on_the_way(const cJSON *json, const char *channel, const char *unit)
+{
+  const double final = sets_errors_of(json, channel, unit).held_after.value;
+  const cJSON *model, *best = NULL;
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
+  cJSON_ArrayForEach(model, sets_member(json, "path"))
+  {
+    if (!best || held_value(model, channel, unit) < held_value(best, channel, unit))
+      best = model;
+  }
+  return best && strcmp(sets_digits(a, held_value(best, channel, unit)), sets_digits(b, final)) != 0 ? best : NULL;
+}
+
 int sets_held_logs(const cJSON *json, const char *channel, int *better, char *worse)
 {
   const cJSON *log, *logs = sets_member(sets_member(sets_member(json, "error"), "holdout"), "logs");

@@ -48,10 +48,14 @@ const char *sets_names(char *names, const cJSON *json);
 /* Why no effect may be named, whatever is left: a sentence of closeloop.  Returns: NULL if there is no such reason */
 const char *sets_doubt(const cJSON *json);
 
-/* Logs held out, and how many of them the completed model foretells better than the declared one.
+/* Logs held out, and how many of them the completed model predicts better than the declared one.
  * Out:     worse  names of the others, joined by ", "; SETS_NAMES_TEXT bytes
  * Returns: number of logs, 0 if the report does not tell them apart */
 int sets_held_logs(const cJSON *json, const char *channel, int *better, char *worse);
+
+/* The model on the way whose error held out is lowest, where that of the final one is higher, to the digits shown.
+ * Returns: NULL where the final one is lowest, or nothing was held out */
+const cJSON *sets_best_on_the_way(const cJSON *json, const char *channel, const char *unit);
 
 /* Whether every part of model `a` ("x + y") is one of model `b`, in whatever order. */
 int sets_within(const char *a, const char *b);

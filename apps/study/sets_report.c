@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,18 +46,27 @@ static void write_found(FILE *file, const cJSON *json)
 }
 
 /* Verdicts of closeloop in words of the table. */
+static const char *const verdicts[][2] = {{"effect", "explained"},
+                                          {"unlisted", "explained, without a name"},
+                                          {"none", "nothing missing"},
+                                          {"undecided", "undecided"}};
+
+enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
+
+/* Returns: VERDICTS if it is none of them */
+static int verdict_of(const cJSON *json)
+{
+  const char *verdict = cJSON_GetStringValue(sets_member(json, "verdict"));
+  int i = 0;
+  while (i < VERDICTS && (!verdict || strcmp(verdict, verdicts[i][0]) != 0))
+    i++;
+  return i;
+}
+
 static const char *verdict_words(const cJSON *json)
 {
-  static const char *const words[][2] = {{"effect", "explained"},
-                                         {"unlisted", "explained, without a name"},
-                                         {"none", "nothing missing"},
-                                         {"undecided", "undecided"}};
-  const char *verdict = cJSON_GetStringValue(sets_member(json, "verdict"));
-  size_t i;
-  for (i = 0; verdict && i < sizeof words / sizeof *words; i++)
-    if (!strcmp(verdict, words[i][0]))
-      return words[i][1];
-  return "-";
+  const int i = verdict_of(json);
+  return i < VERDICTS ? verdicts[i][1] : "-";
 }
 
 /* A channel that is predicted and not fitted: its errors are those of a hold-out. */
@@ -96,11 +106,32 @@ static void write_row(FILE *file, const sets_result *r, const cJSON *json)
 
 /* ---- What the table says ---- */
 
+/* Names in a row. */
+typedef struct names {
+  char text[4 * SETS_NAMES_TEXT];
+  int n;
+} names;
+
+static void add_name(names *to, const char *format, ...)
+{
+  const size_t used = strlen(to->text);
+  const size_t comma = (size_t)snprintf(to->text + used, sizeof to->text - used, "%s", to->n++ ? "; " : "");
+  va_list rest;
+  if (used + comma >= sizeof to->text)
+    return;
+  va_start(rest, format);
+  vsnprintf(to->text + used + comma, sizeof to->text - used - comma, format, rest);
+  va_end(rest);
+}
+
 /* What is counted over the sets, and what breaks it. */
 typedef struct tally {
   int ran, held, lower;
-  int logs, logs_lower;            /* the same over the logs held out */
-  char not_lower[SETS_NAMES_TEXT]; /* titles of the sets whose error held out does not fall */
+  int verdict[VERDICTS + 1];
+  int logs, logs_lower; /* the same over the logs held out */
+  names not_lower;      /* sets whose error held out does not fall */
+  names by_channel;     /* those that are judged by a channel that was not fitted */
+  names raised;         /* those whose error held out was lower on the way */
 } tally;
 
 /* The error on what took no part: of the runs held out, or of the channel that was not fitted. */
@@ -113,36 +144,62 @@ static void independent_error(const config_setting_t *set, const cJSON *json, do
   *after = *check ? other.after.value : held.held_after.value;
 }
 
+static void count_raised(tally *t, const config_setting_t *set, const cJSON *json)
+{
+  const char *channel = sets_text(set, "judged"), *unit = sets_text(set, "unit");
+  const cJSON *best = sets_best_on_the_way(json, channel, unit);
+  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
+  if (best)
+    add_name(&t->raised, "%s (%s to %s %s)", sets_text(set, "title"),
+             sets_digits(a, sets_error_of(sets_member(best, "holdout"), channel, unit).value),
+             sets_digits(b, sets_errors_of(json, channel, unit).held_after.value), unit);
+}
+
 static void count(tally *t, const sets_result *r, const cJSON *json)
 {
-  const size_t used = strlen(t->not_lower);
+  const char *title = sets_text(r->set, "title"), *check = sets_text(r->set, "check");
   char worse[SETS_NAMES_TEXT];
   double before, after;
   int better;
   if (!json)
     return;
   t->ran++;
+  t->verdict[verdict_of(json)]++;
   t->logs += sets_held_logs(json, sets_text(r->set, "judged"), &better, worse);
   t->logs_lower += better;
+  count_raised(t, r->set, json);
   independent_error(r->set, json, &before, &after);
   if (isnan(before) || isnan(after))
     return;
   t->held++;
   t->lower += after < before;
   if (after >= before)
-    snprintf(t->not_lower + used, sizeof t->not_lower - used, "%s%s", used ? "; " : "", sets_text(r->set, "title"));
+    add_name(&t->not_lower, "%s", title);
+  if (*check)
+    add_name(&t->by_channel, "%s (%s)", title, check);
 }
 
 static void write_tally(FILE *file, const tally *t, int n)
 {
-  fprintf(file,
-          "\nOf %d sets %d ran. On what took no part in the fit the completed model is nearer than the declared one "
-          "in %d of %d",
-          n, t->ran, t->lower, t->held);
-  if (*t->not_lower)
-    fprintf(file, "; not in: %s", t->not_lower);
+  int i, any = 0;
+  fprintf(file, "\nOf %d sets %d ran", n, t->ran);
+  for (i = 0; i < VERDICTS; i++)
+    if (t->verdict[i] > 0)
+      fprintf(file, "%s %d %s", any++ ? "," : ":", t->verdict[i], verdicts[i][1]);
+  fprintf(file, ". On what took no part in the fit the completed model is nearer than the declared one in %d of %d",
+          t->lower, t->held);
+  if (t->not_lower.n > 0)
+    fprintf(file, "; not in: %s", t->not_lower.text);
   fprintf(file, ". Of %d logs held out, each taken by itself, it is nearer in %d; the sections name the others.\n",
           t->logs, t->logs_lower);
+  if (t->by_channel.n > 0)
+    fprintf(file, "\nWhat took no part is a channel that was not fitted, not a run held out, in: %s.\n",
+            t->by_channel.text);
+  if (t->raised.n > 0)
+    fprintf(file,
+            "\nNearer than the declared model is not nearest: the error held out was lower on the way, and what was "
+            "added after that raised it, in %d: %s.\n",
+            t->raised.n, t->raised.text);
 }
 
 /* ---- The report ---- */
@@ -160,17 +217,19 @@ static const char head[] =
     "which the rig file declares with where it is from. At 1 nothing but noise is left.\n"
     "- Explained: what is left passes for noise. Undecided: it does not, so that the effects found come nearest but "
     "may stand in for others.\n"
-    "- Misfit: what the fit makes small, the root of the sum of squares over the noise, as a share of that of the "
-    "declared model. It takes into account that noise has a memory, which root mean squares do not.\n"
-    "- Next to next: correlation of what is left from one value to the next. At 0 it is noise, near 1 a slow wave.\n\n"
+    "- Root chi-square: what the fit makes small, the root of the sum of squares over the noise, as a share of that of "
+    "the declared model. It takes into account that noise is correlated in time, which root mean squares do not.\n"
+    "- BIC: Schwarz's criterion, chi-square and a penalty for each parameter.\n"
+    "- Lag-1 autocorrelation of what is left: at 0 it is noise, near 1 a slow wave.\n\n"
     "| set | channel | noise | before | after | held out, before | held out, after | verdict | effects found |\n"
     "|---|---|---|---|---|---|---|---|---|\n";
 
 static int write_all(FILE *file, const sets_result *result, int n, cJSON *const *json, const char *out_dir,
                      lab_error *error)
 {
-  tally t = {0};
+  static tally t;
   int i, status = LAB_OK;
+  memset(&t, 0, sizeof t);
   fputs(head, file);
   for (i = 0; i < n; i++) {
     write_row(file, &result[i], json[i]);

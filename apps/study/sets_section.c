@@ -117,7 +117,7 @@ static const char *name_of(const cJSON *model)
   return cJSON_GetStringValue(sets_member(model, "model"));
 }
 
-static double misfit(const story *s, const cJSON *model)
+static double root_chi2(const story *s, const cJSON *model)
 {
   const cJSON *declared = cJSON_GetArrayItem(sets_member(s->json, "path"), 0);
   return 100 * sqrt(sets_number(model, "chi2") / sets_number(declared, "chi2"));
@@ -154,16 +154,14 @@ static void write_path(FILE *file, const story *s)
  */
 static void write_overfit(FILE *file, const story *s)
 {
-  const cJSON *model, *best = NULL;
+  const cJSON *best = sets_best_on_the_way(s->json, s->channel, s->unit);
   char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
-  cJSON_ArrayForEach(model, sets_member(s->json, "path")) if (!best || held_error(s, model).value <
-                                                                           held_error(s, best).value) best = model;
-  if (!best || !strcmp(sets_digits(a, held_error(s, best).value), sets_digits(b, s->errors.held_after.value)))
-    return;
-  fprintf(file,
-          "- Held out, the error is lowest on the way, with %s: %s %s against %s at the end. What was added after that "
-          "does not carry over to other runs.\n",
-          name_of(best), a, s->unit, b);
+  if (best)
+    fprintf(file,
+            "- Held out, the error is lowest on the way, with %s: %s %s against %s at the end. What was added after "
+            "that does not carry over to other runs.\n",
+            name_of(best), sets_digits(a, held_error(s, best).value), s->unit,
+            sets_digits(b, s->errors.held_after.value));
 }
 
 /* Of the models tried the one of lowest criterion that does without a part of the final one. */
@@ -186,10 +184,11 @@ static void write_rival(FILE *file, const story *s)
   if (!next)
     return;
   fprintf(file,
-          "- Of %d models tried, the next best with other effects is %s: it leaves %s %% of the misfit, this one %s %% "
-          "(Schwarz's criterion, which counts parameters too, lower is better: %s against %s).\n",
-          cJSON_GetArraySize(sets_member(s->json, "steps")), name_of(next), sets_digits(a, misfit(s, next)),
-          sets_digits(b, misfit(s, last)), sets_digits(c, sets_number(next, "bic")),
+          "- Of %d models tried, the next best with other effects is %s: it leaves %s %% of the root chi-square, this "
+          "one %s %% "
+          "(BIC, lower is better: %s against %s).\n",
+          cJSON_GetArraySize(sets_member(s->json, "steps")), name_of(next), sets_digits(a, root_chi2(s, next)),
+          sets_digits(b, root_chi2(s, last)), sets_digits(c, sets_number(next, "bic")),
           sets_digits(d, sets_number(last, "bic")));
 }
 
@@ -224,8 +223,8 @@ static void write_singles(FILE *file, const story *s)
   cJSON_ArrayForEach(model, sets_member(s->json, "steps"))
   {
     if (is_single(s->json, model) && !is_beaten(s->json, model))
-      fprintf(file, "%s%s %s %%", any++ ? ", " : "- Each alone leaves of the misfit: ", name_of(model),
-              sets_digits(a, misfit(s, model)));
+      fprintf(file, "%s%s %s %%", any++ ? ", " : "- Each alone leaves of the root chi-square: ", name_of(model),
+              sets_digits(a, root_chi2(s, model)));
   }
   if (any)
     fputs(".\n", file);
@@ -339,7 +338,7 @@ static int write_left(FILE *file, const config_setting_t *set, const table *resi
     write_run(file, set, run, runs);
     fprintf(file, " %s [%s] | %s | %s | %s | %s | %s | %.2f |\n", quantity, unit, sets_digits(a, scale * left.rms),
             sets_digits(b, scale * left.rms / noise), sets_digits(c, scale * left.mean),
-            sets_digits(d, scale * left.worst), sets_digits(e, left.worst_t), left.neighbours);
+            sets_digits(d, scale * left.worst), sets_digits(e, left.worst_t), left.lag1);
   }
   return LAB_OK;
 }
@@ -354,7 +353,7 @@ static int write_residual(FILE *file, const story *s, const char *out_dir, lab_e
   status = table_load_file(path, &residual, error);
   if (status == LAB_OK) {
     fputs("\nWhere what is left is (measured less predicted, runs fitted):\n\n"
-          "| run | channel | root mean square | in noise | mean | largest | at t [s] | next to next |\n"
+          "| run | channel | root mean square | in noise | mean | largest | at t [s] | lag-1 autocorrelation |\n"
           "|---|---|---|---|---|---|---|---|\n",
           file);
     status = write_left(file, s->set, &residual, s->channel, s->unit, sets_noise(&s->errors), error);

@@ -162,6 +162,13 @@ static pneu_params parameters(const vessel *v, const vessel_law *law, const doub
   return p;
 }
 
+double vessel_exponent(const vessel *v, const vessel_law *law, const double *theta)
+{
+  if (law->gas == PNEU_GAS_ISOTHERMAL)
+    return 1;
+  return law->gas == PNEU_GAS_POLYTROPIC ? (double)parameters(v, law, theta).polytropic_index : (double)NAN;
+}
+
 static int respond(const pneu_model *model, const double *t, size_t n, lab_trace *trace, lab_error *error)
 {
   const lab_response_options options = {LAB_STEPPER, tolerance, t[n - 1], 0, 0, 0};

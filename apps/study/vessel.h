@@ -67,6 +67,9 @@ const char *vessel_item_key(int item);
 const char *vessel_item_unit(int item);
 double vessel_item_scale(int item);
 
+/* Exponent of a law's gas [1]: 1 if isothermal, n if polytropic; NaN for an energy balance.  In: theta  as below */
+double vessel_exponent(const vessel *v, const vessel_law *law, const double *theta);
+
 /* Pressure and temperature under a law.
  * In:      theta  law->n values, SI;  t  n times [s], increasing from 0
  * Out:     p [Pa] gauge, T [K]
