@@ -115,8 +115,8 @@ def export(path, version, name=None):
     return str(fmu)
 
 
-def native(path, tolerance=1e-10):
-    out = subprocess.run([NATIVE, path, str(tolerance)], check=True, capture_output=True, text=True).stdout
+def native(path, tolerance=1e-10, log=()):
+    out = subprocess.run([NATIVE, path, str(tolerance), *log], check=True, capture_output=True, text=True).stdout
     return np.array([[float(cell) for cell in line.split(",")] for line in out.splitlines()])
 
 
@@ -189,6 +189,11 @@ class Instance:
         references = [self.reference[name] for name in names]
         return (self.fmu.getReal if self.version == 2 else self.fmu.getFloat64)(references)
 
+    def slope(self, name, value, order=1):
+        """FMI 2 alone."""
+        one = (ctypes.c_uint * 1)(self.reference[name]), 1, (ctypes.c_int * 1)(order), (ctypes.c_double * 1)(value)
+        self.fmu.fmi2SetRealInputDerivatives(self.fmu.component, *one)
+
     def step(self, t, h):
         self.fmu.doStep(currentCommunicationPoint=t, communicationStepSize=h)
 
@@ -257,6 +262,199 @@ def check_agreement():
                     worst[version, kind] = max(error, worst.get((version, kind), 0))
     for (version, kind), error in sorted(worst.items()):
         print(f"worst FMI {version} {kind}: {error:.1e} of stroke")
+
+
+# Models driven by pressure, by position or by both: study files, and the R1-400 with more to it.
+PUMPED = """effects = { heat_transfer = { film_resistance = "0.5 K/W"; }; stribeck_friction = { stribeck_excess = "0.05";
+  stribeck_velocity = "20 mm/s"; }; presliding = { presliding_length = "0.05 mm"; }; dead_time = { dead_time = "0.05 s"; }; };\n"""
+RECORDS = (
+    ("soft-bellows-pressure-position", "soft-bellows-pressure-position/16067V.txt"),
+    ("printed-cylinder-o-ring", "printed-cylinder-friction-leak/friction/O-ring257_3bar.csv"),
+    ("tube-fill", "tube-fill-vent-pneuact/Fig6_data/tube_l3_p4_start.csv"),
+    ("tube-vent", "tube-fill-vent-pneuact/Fig6_data/tube_l3_p4_end.csv"),
+    ("damadics-servomotor-static-step", "damadics-servomotor-static-step/static_hysteresis_fig5.csv"),
+)
+LOOP = "study/schedules/pressure-loop.csv"
+
+
+def turns(t, low, high, period):
+    """A line up and down between two values, with a rest at either end."""
+    return low + (high - low) * np.clip(1.5 - 2.5 * np.abs((t / period + 0.9) % 2 - 1), 0, 1)
+
+
+def driven_model(path, name, inputs=None):
+    """A model file without what concerns its log alone, and other inputs if asked for."""
+    text = Path(path).read_text()
+    text = text[: text.find("\nlog = {") + 1 or None]
+    text = "".join(line for line in text.splitlines(True) if not line.startswith(("fit ", "noise ")))
+    if inputs:
+        text = "".join(line for line in text.splitlines(True) if not line.startswith("inputs "))
+        text += f"inputs = ( {inputs} );\n"
+    out = SCRATCH / f"{name}.cfg"
+    out.write_text(text)
+    return out
+
+
+def driven_cases():
+    """Names, model files and logs: times, command, supply, pressure [kPa], position [mm]."""
+    t = np.arange(0, 401) * 0.05
+    command = np.sign(np.sin(t / 2 + 0.1)) * (np.abs(np.sin(t / 2 + 0.1)) > 0.5)
+    for name, low, high in (("damadics", 0, 140), ("damadics-servomotor-static-step", 0, 140), ("soft-bellows-pressure-position", 0, 60)):
+        yield name, driven_model(f"study/measured/{name}.cfg", name), (t, command, 400, turns(t, low, high, 7), None)
+    for seal in ("o-ring", "x-ring", "napn"):
+        path = driven_model(f"study/measured/printed-cylinder-{seal}.cfg", seal)
+        yield f"printed cylinder, {seal}", path, (t, command, 400, turns(t, 0, 500, 9), turns(t, 5, 45, 4))
+    for name in ("tube-fill", "tube-vent"):
+        yield name, driven_model(f"study/measured/{name}.cfg", name), (t / 10, command, 300, 0 * t, 0 * t + 500)
+    loop = np.genfromtxt(LOOP, delimiter=",", comments="#", skip_header=4)
+    slow = np.arange(0, 1086.0)
+    path = driven_model("study/schedules/r1-400-pressure.cfg", "loop")
+    yield "pressure-loop.csv", path, (slow, 0 * slow, 400, np.interp(slow, *loop.T), None)
+    for gas in ("isothermal", "energy"):
+        for flow in ("paper", "choked"):
+            path = driven_model(model(f"driven-{gas}-{flow}", gas=gas, flow=flow), f"driven-{gas}-{flow}", '"u", "x"')
+            yield f"driven stem {gas} {flow}", path, (t, command, 400, 0 * t, turns(t, 2, 18, 1.3))
+    path = driven_model(model("pumped", flow="choked", more=PUMPED), "pumped", '"u", "x"')
+    yield "driven stem, effects", path, (t, command, 400, 0 * t, turns(t, 3, 21, 1.3))
+
+
+def write_log(path, columns):
+    """A log of what is not None."""
+    t, *_ = columns
+    words = ("t [s]", "u [1]", "ps [kPa]", "p [kPa]", "x [mm]")
+    there = [(word, c + 0 * t) for word, c in zip(words, columns) if c is not None]
+    rows = [",".join(word for word, _ in there)]
+    rows += [",".join(f"{value:.17g}" for value in row) for row in zip(*(c for _, c in there))]
+    path.write_text("\n".join(rows) + "\n")
+
+
+def signals(names, reference, every=False):
+    """What drives the model, as FMPy has it: two rows where anything jumps or turns, or at all times."""
+    t, p, x = reference[:, 0], reference[:, 1], reference[:, 2]
+    values = {"pressure": p, "position": x, "u": reference[:, 6], "supply": reference[:, 7]}
+    values.update(pressure_rate=reference[:, 8], velocity=reference[:, 9])
+    held = ("u", "supply", "pressure_rate", "velocity")
+    rows = []
+    for i in range(len(t)):
+        if i and all(values[n][i] == values[n][i - 1] for n in held) and i + 1 < len(t) and not every:
+            continue
+        if i:
+            rows.append((t[i], *(values[n][i - 1 if n in held else i] for n in names)))
+        rows.append((t[i], *(values[n][i] for n in names)))
+    return np.array(rows, dtype=[(n, np.float64) for n in ("time", *names)])
+
+
+def always(t, recorder):
+    """For simulate_fmu: record at the ends of all steps."""
+    recorder.sample(t, force=True)
+    return True
+
+
+def driven_errors(fmu, kind, reference, **how):
+    """Differences of position, pressure and, where it is an output, holding force; in shares of full scale."""
+    variables = {v.name: v for v in read_model_description(fmu).modelVariables}
+    names = [v.name for v in variables.values() if v.causality == "input" and v.name != "force"]
+    first = dict(start_pressure=reference[0, 1], start_position=reference[0, 2], start_temperature=reference[0, 3])
+    t = reference[:, 0]
+    with contextlib.redirect_stdout(None):
+        result = simulate_fmu(
+            fmu,
+            fmi_type=kind,
+            start_time=t[0],
+            stop_time=t[-1],
+            relative_tolerance=TOLERANCE[kind],
+            input=signals(names, reference, "step_finished" in how),
+            start_values={n: v for n, v in first.items() if n in variables},
+            output=[n for n in ("shown_position", "shown_pressure", "holding_force") if n in variables],
+            record_events=False,
+            **how,
+        )
+    if "step_finished" in how:
+        result = result[np.searchsorted(result["time"], t - 1e-9 * (1 + t))]
+    else:
+        result = result[:: round((len(result) - 1) / (len(t) - 1))]
+    scale = reference[:, 1].max() + 1e5
+    errors = [
+        np.abs(result["shown_position"] - reference[:, 2]).max() / float(variables["stroke"].start),
+        np.abs(result["shown_pressure"] - reference[:, 1]).max() / scale,
+    ]
+    if "holding_force" in variables:  # where the inputs turn it has two values
+        turns_here = np.any(np.diff(reference[:, 6:], axis=0, prepend=reference[:1, 6:]) != 0, axis=1)
+        wrong = np.abs(result["holding_force"] - reference[:, 5]) / (float(variables["area"].start) * scale)
+        errors.append(wrong[~turns_here].max())
+    return errors
+
+
+def check_driven():
+    """Pressure or position as inputs: the same as without an FMU."""
+    worst = {}
+    for name, path, columns in driven_cases():
+        log = SCRATCH / f"{path.stem}.csv"
+        write_log(log, columns)
+        reference = native(path, 1e-10, [log])
+        for version in VERSIONS:
+            fmu = export(path, version)
+            problems = validate_fmu(fmu)
+            check(f"{name}, FMI {version}: valid", not problems, "; ".join(problems))
+            for kind, parts in (("ModelExchange", 10), ("CoSimulation", 1)):  # as for INTERVAL
+                how = dict(output_interval=reference[1, 0] / parts)
+                errors = driven_errors(fmu, kind, reference, **how)
+                check(f"{name}, FMI {version}, {kind}", max(errors) <= WANTED, " ".join(f"{e:.1e}" for e in errors))
+                worst[version, kind] = max(*errors, worst.get((version, kind), 0))
+    for (version, kind), error in sorted(worst.items()):
+        print(f"worst driven FMI {version} {kind}: {error:.1e} of full scale")
+
+
+def check_measured():
+    """The study's files as they are, driven by what was measured, where MEASURED has it."""
+    for name, log in RECORDS:
+        log = Path(os.environ.get("MEASURED", "nothere")) / log
+        if not log.exists():
+            print(f"absent: {log}")
+            continue
+        path = Path(f"study/measured/{name}.cfg")
+        reference = native(path, 1e-10, [log])
+        for version in VERSIONS:
+            fmu = export(path, version)
+            for kind in KINDS:
+                how = dict(output_interval=(reference[-1, 0] - reference[0, 0]) / 5000, step_finished=always)
+                errors = driven_errors(fmu, kind, reference, **how)
+                check(f"{name}, {len(reference)} rows, FMI {version}, {kind}", max(errors) <= WANTED, " ".join(f"{e:.1e}" for e in errors))
+
+
+def check_slopes():
+    """What FMI itself has for slopes; and what comes of an input whose slope is not told."""
+    path = SCRATCH / "damadics.cfg"
+    reference = native(path, 1e-10, [SCRATCH / "damadics.csv"])
+    for version, told, wanted in ((2, True, WANTED), (2, False, 0.05), (3, False, 0.05)):
+        a = Instance(export(path, version))
+        a.initialize(start_position=reference[0, 2], pressure=reference[0, 1])
+        worst = 0
+        for row, after in zip(reference[:-1], reference[1:]):
+            a.set(pressure=row[1])
+            if told:
+                a.slope("pressure", row[8])
+            a.step(row[0], after[0] - row[0])
+            worst = max(worst, abs(a.get("shown_position")[0] - after[2]) / 0.04017645)
+        what = "by fmi2SetRealInputDerivatives" if told else "untold: held for a step"
+        check(f"FMI {version}: slope of pressure {what}", worst <= wanted, f"{worst:.1e} of stroke")
+        if told:
+            check("slope of an output, slope of a slope: refused", refused(a.slope, "shown_pressure", 1.0) and refused(a.slope, "pressure", 1.0, 2))
+    pumped = SCRATCH / "driven-energy-choked.cfg"
+    for fmu in (export(pumped, version) for version in VERSIONS):
+        start = dict(start_pressure=1e5, position=0.015)
+        smooth = Instance(fmu).initialize(velocity=-0.005, **start)
+        smooth.step(0.0, 1.0)
+        jump = Instance(fmu).initialize(**start)
+        jump.set(position=0.01)
+        jump.step(0.0, 1.0)
+        a, b = (i.get("shown_pressure", "temperature") for i in (smooth, jump))
+        check("a jump of position compresses as a stroke does", np.allclose(a, b, rtol=1e-9, atol=0) and a[0] > 1.5e5, str(b))
+        on_stop = Instance(fmu).initialize(position=0.021, velocity=0.001, start_pressure=1e5)
+        on_stop.step(0.0, 1.0)
+        seen = on_stop.get("shown_position", "shown_pressure")
+        check("beyond a stop: on the stop, at rest", seen == [0.02, 1e5], str(seen))
+        check("pressure is an output and not to be set", refused(on_stop.set, pressure=1e5))
 
 
 def check_inputs(fmu):
@@ -547,6 +745,9 @@ def main():
     check_bytes(plain)
     check_ramp()
     check_agreement()
+    check_driven()
+    check_measured()
+    check_slopes()
     check_sources(SCRATCH / "terms.cfg")
     check_disorder(SCRATCH / "effects.cfg")
     print(f"{failed} wrong")

@@ -218,8 +218,7 @@ FMI2_EXPORT(fmi2Status, fmi2SetRealInputDerivatives,
             (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[],
              const fmi2Real value[]))
 {
-  (void)r, (void)n, (void)order, (void)value;
-  return (fmi2Status)fmu_absent(c, "fmi2SetRealInputDerivatives");
+  return (fmi2Status)fmu_set_slopes(c, r, n, order, value);
 }
 
 FMI2_EXPORT(fmi2Status, fmi2GetRealOutputDerivatives,

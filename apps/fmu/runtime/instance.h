@@ -31,6 +31,7 @@ typedef struct fmu_memory {
   int stale; /* parameters, start values or inputs have been set since the state at rest was made */
   double time, stop_time, tol;
   double input[FMU_INPUT_COUNT];
+  double set_at[FMU_INPUT_COUNT]; /* [s] when; from then on pressure and position run with their slopes */
   double start[FMU_START_COUNT];
   pneu_params params;
   pneu_state state;
@@ -77,6 +78,10 @@ int fmu_reset(fmu_instance *instance);
 int fmu_get_real(fmu_instance *instance, const unsigned *reference, size_t n, double *value);
 int fmu_get_integer(fmu_instance *instance, const unsigned *reference, size_t n, int *value);
 int fmu_set_real(fmu_instance *instance, const unsigned *reference, size_t n, const double *value);
+
+/* Slopes of inputs for the next steps of co-simulation: of pressure and position that drive the model, the same as
+ * setting their rates; of others, which hold, FMU_WARNING. */
+int fmu_set_slopes(fmu_instance *instance, const unsigned *reference, size_t n, const int *order, const double *slope);
 
 /* ---- Model exchange ---- */
 

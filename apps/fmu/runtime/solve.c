@@ -77,6 +77,7 @@ int fmu_set_time(fmu_instance *instance, double time)
   if (!(time * 0 == 0))
     return fmu_say(instance, FMU_ERROR, "time is not a number");
   fmu_pass_to(instance, time);
+  fmu_impose(instance);
   return FMU_OK;
 }
 
@@ -182,7 +183,7 @@ static int run_to(fmu_instance *i, double end)
 int fmu_step(fmu_instance *instance, double from, double length)
 {
   fmu_memory *m, before;
-  int status;
+  int status, k;
   if (fmu_may(instance, FMU_CALL_STEP))
     return FMU_ERROR;
   m = &instance->m;
@@ -192,6 +193,9 @@ int fmu_step(fmu_instance *instance, double from, double length)
   if (from + length > m->stop_time + 1e-9 * (1 + fabs(m->stop_time)))
     return fmu_say(instance, FMU_ERROR, "a step beyond the stop time of %g s", m->stop_time);
   before = *m;
+  for (k = 0; k < FMU_INPUT_COUNT; k++) /* what has not been set anew is as it was */
+    m->set_at[k] = m->time;
+  fmu_impose(instance);
   status = run_to(instance, from + length);
   if (status != PNEU_OK) {
     *m = before;
