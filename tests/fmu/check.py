@@ -218,6 +218,21 @@ class Instance:
     def forget(self, state):
         (self.fmu.freeFMUState if self.version == 3 else self.fmu.freeFMUstate)(state)
 
+    def whole(self, name):
+        return (self.fmu.getInteger if self.version == 2 else self.fmu.getInt32)([self.reference[name]])[0]
+
+    def update(self):
+        """What an importer does at an event of model exchange, but for entering event mode.  Returns: next time, or None"""
+        event = (self.fmu.newDiscreteStates if self.version == 2 else self.fmu.updateDiscreteStates)()
+        self.fmu.enterContinuousTimeMode()
+        return event[5] if event[4] else None
+
+    def step_done(self, t, **values):
+        """The end of an integrator's step.  Returns: whether it asks for event mode"""
+        self.fmu.setTime(t)
+        self.set(**values)
+        return bool(self.fmu.completedIntegratorStep()[0])
+
     def close(self):
         self.fmu.freeInstance()
 
@@ -616,6 +631,36 @@ def check_ramp():
         check(f"FMI {version}: a set pressure that runs, delayed", error < 1e-5, f"{error:.1e} of stroke")
 
 
+def check_events(fmu):
+    """Model exchange, call by call: a push that jumps moves the stem at that event; a command that runs through a dead time
+    asks to be stopped at once, and twice in a dead time from then on."""
+    a = Instance(fmu, "ModelExchange").initialize(start_position=0.01, start_pressure=0.2e6)
+    a.update()
+    modes = [a.whole("mode")]
+    a.fmu.enterEventMode()
+    a.set(force=-2000.0)
+    a.update()
+    modes.append(a.whole("mode"))
+    a.fmu.enterEventMode()
+    a.set(force=2000.0)
+    a.update()
+    modes.append(a.whole("mode"))
+    check(f"FMI {a.version}: a force that jumps", modes == [1, 2, 3], str(modes))
+    path = model("run", more='effects = { dead_time = { dead_time = "0.05 s"; }; };\n')
+    a = Instance(export(path, a.version), "ModelExchange").initialize()
+    quiet = a.update() is None and not a.step_done(0.01, u=0.0)
+    asked = [a.step_done(0.02, u=0.1)]
+    a.fmu.enterEventMode()
+    stop = a.update()
+    asked += [a.step_done(0.03, u=0.2), a.step_done(0.05, u=0.4)]
+    good = quiet and asked == [True, False, True] and stop is not None and abs(stop - 0.045) < 1e-12
+    check(f"FMI {a.version}: a running command asks to be stopped", good, f"{asked}, until {stop}")
+    a.fmu.enterEventMode()
+    a.set(u=-1.0)
+    again = a.update()
+    check(f"FMI {a.version}: a jump after that acts a dead time later", again is not None and again <= 0.075 + 1e-12, str(again))
+
+
 def check_life(fmu):
     """Ends and new beginnings in any order."""
     for kind in KINDS:
@@ -739,6 +784,7 @@ def main():
         check_state(fmu)
         check_instances(fmu)
         check_steps(fmu)
+        check_events(fmu)
         check_life(fmu)
         check_beyond(fmu)
     check_sources(SCRATCH / "plain.cfg")
