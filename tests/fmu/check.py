@@ -141,6 +141,10 @@ def standard(fmu, kind):
     return result[:: round(0.01 / INTERVAL[kind])]
 
 
+def slips_in(mode):
+    return np.count_nonzero(np.diff((mode == 1).astype(int)) == 1)
+
+
 def deviation(result, reference, stroke):
     return np.abs(result["shown_position"] - reference[:, 2]).max() / stroke
 
@@ -269,9 +273,12 @@ def check_agreement():
                 wrong = np.count_nonzero(result["mode"] != reference[:, 4])
                 check(f"{what}: modes", wrong <= 2, f"{wrong} of {len(reference)} rows differ")
                 if name == "stick and slip" and kind == "ModelExchange":
-                    # each slip begins where the last one ended, and errors grow with them; but none may be missed
-                    slips = np.count_nonzero(np.diff((result["mode"] == 1).astype(int)) == 1)
-                    check(f"{what}: events", slips > 20, f"{slips} slips, {error:.1e} of stroke")
+                    # each slip begins where the last one ended: errors grow a thousandfold, those of CVODE without an FMU too
+                    alone = native(path, TOLERANCE[kind], ["cvode"])
+                    usual = np.abs(alone[:, 2] - reference[:, 2]).max() / stroke_of(fmu)
+                    slips, wanted = slips_in(result["mode"]), slips_in(reference[:, 4])
+                    check(f"{what}: as CVODE without an FMU", error <= 1.5 * usual, f"{error:.1e} and {usual:.1e} of stroke")
+                    check(f"{what}: every slip", slips == wanted > 100, f"{slips} of {wanted}")
                 else:
                     check(what, error <= WANTED, f"{error:.1e} of stroke")
                     worst[version, kind] = max(error, worst.get((version, kind), 0))

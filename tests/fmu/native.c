@@ -1,9 +1,10 @@
 /* Without an FMU: the standard experiment, or what a model does when the inputs of a log drive it. To all digits: time,
  * pressure, position, temperature, mode, holding force, and what drives the model from that time on: command, supply,
  * slopes of pressure and position.
- *   native MODEL.cfg TOL [LOG.csv] */
+ *   native MODEL.cfg TOL [LOG.csv | cvode]      cvode: the standard experiment by CVODE in the place of the stepper */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../../apps/lab/follow.h"
 #include "../../apps/lab/log.h"
@@ -58,17 +59,19 @@ static int respond(const pneu_model *model, const lab_response_options *options,
 
 int main(int argc, char **argv)
 {
-  lab_response_options options = {LAB_STEPPER, 0, 0, 0, 0, 0};
+  const char *how = argc == 4 ? argv[3] : "";
+  const int by_cvode = strcmp(how, "cvode") == 0;
+  lab_response_options options = {by_cvode ? LAB_CVODE : LAB_STEPPER, 0, 0, 0, 0, 0};
   lab_error error;
   lab_rig rig;
   pneu_model model;
   if (argc != 3 && argc != 4) {
-    fprintf(stderr, "native: expected MODEL.cfg TOL [LOG.csv]\n");
+    fprintf(stderr, "native: expected MODEL.cfg TOL [LOG.csv | cvode]\n");
     return 1;
   }
   options.tol = atof(argv[2]);
   if (lab_rig_read(argv[1], &rig, &error) || lab_rig_model(&rig, &model, &error) ||
-      (argc == 4 ? follow(&model, &rig, argv[3], &options, &error) : respond(&model, &options, &error))) {
+      (*how && !by_cvode ? follow(&model, &rig, how, &options, &error) : respond(&model, &options, &error))) {
     fprintf(stderr, "native: %s\n", error.text);
     return 1;
   }
