@@ -31,6 +31,8 @@ static const flag flags[] = {
     {"canSerializeFMUstate", 2, 1, 1, 0},
     {"canGetAndSetFMUState", 3, 1, 1, 0},
     {"canSerializeFMUState", 3, 1, 1, 0},
+    {"providesDirectionalDerivative", 2, 1, 1, 0},
+    {"providesDirectionalDerivatives", 3, 1, 1, 0},
     {"canHandleVariableCommunicationStepSize", 0, 1, 0, 0},
     {"canInterpolateInputs", 2, 1, 0, 1},
     {"needsCompletedIntegratorStep", 3, 0, 1, 0},

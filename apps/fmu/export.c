@@ -145,7 +145,8 @@ static int add_page(maker *m, lab_error *error)
       "events "
       "inside the communication step located to 1e-9 s; inputs hold during a step, but for pressure and position "
       "whose slope is given.</p>\n"
-      "<p>Not applied: the effect channel_skew, the age of the position in a recorder.</p>\n</body></html>\n";
+      "<p>Not applied: the effect channel_skew, the age of the position in a recorder. Derivatives by direction are "
+      "provided.</p>\n</body></html>\n";
   return fmu_package_add(&m->package, "documentation/index.html", page, sizeof page - 1, error);
 }
 

@@ -139,8 +139,7 @@ FMI2_EXPORT(fmi2Status, fmi2GetDirectionalDerivative,
             (fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
              size_t n_known, const fmi2Real seed[], fmi2Real sensitivity[]))
 {
-  (void)unknown, (void)n_unknown, (void)known, (void)n_known, (void)seed, (void)sensitivity;
-  return (fmi2Status)fmu_absent(c, "fmi2GetDirectionalDerivative");
+  return (fmi2Status)fmu_derivative(c, unknown, n_unknown, known, n_known, seed, sensitivity);
 }
 
 /* ---- Model exchange ---- */

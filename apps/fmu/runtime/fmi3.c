@@ -102,6 +102,15 @@ FMI3_EXPORT(fmi3SetFloat64,
   return (fmi3Status)(n == n_values ? fmu_set_real(c, r, n, value) : fmu_absent(c, "an array"));
 }
 
+FMI3_EXPORT(fmi3GetDirectionalDerivative,
+            (fmi3Instance c, const fmi3ValueReference unknown[], size_t n_unknown, const fmi3ValueReference known[],
+             size_t n_known, const fmi3Float64 seed[], size_t n_seed, fmi3Float64 sensitivity[], size_t n_sensitivity))
+{
+  if (n_seed != n_known || n_sensitivity != n_unknown)
+    return (fmi3Status)fmu_absent(c, "an array");
+  return (fmi3Status)fmu_derivative(c, unknown, n_unknown, known, n_known, seed, sensitivity);
+}
+
 /* ---- FMU state ---- */
 
 FMI3_EXPORT(fmi3GetFMUState, (fmi3Instance c, fmi3FMUState *state))

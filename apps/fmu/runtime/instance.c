@@ -20,6 +20,7 @@ static const struct {
     [FMU_CALL_EXIT_INITIALIZATION] = {"leaving initialization", FMU_INITIALIZING},
     [FMU_CALL_TERMINATE] = {"terminating", RUNNING},
     [FMU_CALL_GET] = {"getting values", BEFORE | RUNNING | FMU_TERMINATED},
+    [FMU_CALL_DIFFERENTIATE] = {"asking for derivatives", FMU_INITIALIZING | RUNNING | FMU_TERMINATED},
     [FMU_CALL_SET_PARAMETER] = {"setting parameters and start values", BEFORE},
     [FMU_CALL_SET_INPUT] = {"setting inputs", BEFORE | RUNNING},
     [FMU_CALL_ENTER_EVENT] = {"entering event mode", FMU_CONTINUOUS},

@@ -83,6 +83,12 @@ int fmu_set_real(fmu_instance *instance, const unsigned *reference, size_t n, co
  * setting their rates; of others, which hold, FMU_WARNING. */
 int fmu_set_slopes(fmu_instance *instance, const unsigned *reference, size_t n, const int *order, const double *slope);
 
+/* Derivatives of unknowns along a direction: sums over the knowns of d unknown/d known times seed. Knowns are states
+ * and inputs; before initialisation has ended inputs, start values and parameters.  Returns: FMU_OK, FMU_DISCARD,
+ * FMU_ERROR. */
+int fmu_derivative(fmu_instance *instance, const unsigned *unknown, size_t n_unknown, const unsigned *known,
+                   size_t n_known, const double *seed, double *sensitivity);
+
 /* ---- Model exchange ---- */
 
 int fmu_enter_event(fmu_instance *instance);

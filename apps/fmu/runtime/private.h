@@ -12,6 +12,7 @@ enum fmu_call {
   FMU_CALL_EXIT_INITIALIZATION,
   FMU_CALL_TERMINATE,
   FMU_CALL_GET,
+  FMU_CALL_DIFFERENTIATE,
   FMU_CALL_SET_PARAMETER,
   FMU_CALL_SET_INPUT,
   FMU_CALL_ENTER_EVENT,
@@ -60,6 +61,9 @@ void fmu_arm(fmu_instance *instance);
 /* Rates of the FMU's states; the indicators. */
 int fmu_rates(const fmu_instance *instance, double *rate);
 void fmu_indicators(const fmu_instance *instance, double *z);
+
+/* The value of a real variable. */
+int fmu_value(fmu_instance *instance, unsigned reference, double *value);
 
 /* Index of the event that has fired, -1 if none. */
 int fmu_fired(const fmu_instance *instance);

@@ -142,6 +142,8 @@ int fmu_has_parameter(const fmu_data *data, int i)
   fmu_shape shape;
   if (i < 0 || i >= PNEU_PARAM_COUNT || i == PNEU_PARAM_supply_pressure)
     return 0;
+  if (i == pneu_effect_params(PNEU_EFFECT_channel_skew, NULL))
+    return 0;
   if (i == PNEU_PARAM_proportional_band)
     return params.proportional_band > 0;
   if (i < PNEU_PARAM_BASE_COUNT)

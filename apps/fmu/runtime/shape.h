@@ -77,8 +77,9 @@ int fmu_fits(const fmu_shape *shape, const pneu_model *model);
  * balance of mass or of forces there is no use for what enters it. */
 int fmu_has_variable(const pneu_laws *law, unsigned reference);
 
-/* Whether parameter i can be set in an FMU of this model: not the supply's, which is an input; not those that change
- * what the command means; not those that switch on an effect with a state of which the model has none. */
+/* Whether parameter i can be set in an FMU of this model: not the supply's, which is an input; not the recorder's
+ * skew; not those that change what the command means; not those that switch on an effect with a state of which the
+ * model has none. */
 int fmu_has_parameter(const fmu_data *data, int i);
 
 /* Where a state lies.  Returns: NULL where the model at hand has none. */

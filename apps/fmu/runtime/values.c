@@ -67,7 +67,7 @@ static int get_rate(fmu_instance *i, unsigned reference, double *value)
   return FMU_OK;
 }
 
-static int get_one(fmu_instance *i, unsigned r, double *value)
+int fmu_value(fmu_instance *i, unsigned r, double *value)
 {
   fmu_memory *m = &i->m;
   double z[FMU_INDICATOR_COUNT];
@@ -103,7 +103,7 @@ int fmu_get_real(fmu_instance *instance, const unsigned *reference, size_t n, do
   size_t k;
   int status = fmu_may(instance, FMU_CALL_GET);
   for (k = 0; k < n && status == FMU_OK; k++)
-    status = get_one(instance, reference[k], &value[k]);
+    status = fmu_value(instance, reference[k], &value[k]);
   return status;
 }
 
