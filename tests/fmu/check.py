@@ -503,6 +503,12 @@ def check_jump(path):
         seen = on_stop.get("shown_position", "shown_pressure")
         check("beyond a stop: on the stop, at rest", seen == [0.02, 1e5], str(seen))
         check("pressure is an output and not to be set", refused(on_stop.set, pressure=1e5))
+        t, v = next((t, 0.01 / t) for t in np.arange(1, 1000) / 997 if 0.01 + 0.01 / t * t > 0.02)
+        ends = Instance(fmu, "ModelExchange").initialize(position=0.01, velocity=v, start_pressure=1e5)
+        ends.update()
+        ends.fmu.setTime(t)
+        rate = ends.get("der(pressure)")[0]
+        check("a line that ends on a stop: moves to its end", rate < -1e5, f"{rate:.4g} Pa/s")
 
 
 def check_names():

@@ -23,11 +23,11 @@ double fmu_driven_position(const fmu_instance *i)
   return fmax(0, fmin(on_line(&i->m, FMU_INPUT_POSITION, FMU_INPUT_VELOCITY), (double)i->m.params.stroke));
 }
 
-/* Beyond a stop it rests. */
+/* Beyond a stop it rests; a line that ends on one may be beyond by rounding. */
 static double driven_velocity(const fmu_instance *i)
 {
-  const int inside = on_line(&i->m, FMU_INPUT_POSITION, FMU_INPUT_VELOCITY) == fmu_driven_position(i);
-  return inside ? i->m.input[FMU_INPUT_VELOCITY] : 0;
+  const double beyond = on_line(&i->m, FMU_INPUT_POSITION, FMU_INPUT_VELOCITY) - fmu_driven_position(i);
+  return fabs(beyond) <= TRAVEL_MARGIN * i->model.scale[2] ? i->m.input[FMU_INPUT_VELOCITY] : 0;
 }
 
 void fmu_drive(const fmu_instance *i, pneu_input *input)
