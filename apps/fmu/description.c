@@ -258,6 +258,19 @@ static void head(fmu_xml *xml, const fmu_description *d)
     fmu_xml_whole(xml, "numberOfEventIndicators", FMU_INDICATOR_COUNT);
 }
 
+static void log_categories(fmu_xml *xml)
+{
+  static const char *const categories[] = {"logStatusWarning", "logStatusError"};
+  size_t i;
+  fmu_xml_open(xml, "LogCategories");
+  for (i = 0; i < sizeof categories / sizeof categories[0]; i++) {
+    fmu_xml_open(xml, "Category");
+    fmu_xml_text(xml, "name", categories[i]);
+    fmu_xml_close(xml);
+  }
+  fmu_xml_close(xml);
+}
+
 void fmu_describe(fmu_xml *xml, const fmu_description *d)
 {
   fmu_xml_open(xml, "fmiModelDescription");
@@ -265,11 +278,7 @@ void fmu_describe(fmu_xml *xml, const fmu_description *d)
   interface(xml, d, 0);
   interface(xml, d, 1);
   units(xml, d->list);
-  fmu_xml_open(xml, "LogCategories");
-  fmu_xml_open(xml, "Category");
-  fmu_xml_text(xml, "name", "logStatusError");
-  fmu_xml_close(xml);
-  fmu_xml_close(xml);
+  log_categories(xml);
   fmu_xml_open(xml, "DefaultExperiment");
   fmu_xml_real(xml, "startTime", 0);
   fmu_xml_real(xml, "stopTime", 30.5);

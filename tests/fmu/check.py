@@ -7,6 +7,7 @@ Installs FMPy from PyPI into VENV at the first time; ends with status 3 where th
 """
 import contextlib
 import ctypes
+import io
 import os
 import shutil
 import subprocess
@@ -503,6 +504,14 @@ def check_jump(path):
         seen = on_stop.get("shown_position", "shown_pressure")
         check("beyond a stop: on the stop, at rest", seen == [0.02, 1e5], str(seen))
         check("pressure is an output and not to be set", refused(on_stop.set, pressure=1e5))
+        for velocity, warnings in ((0.0, 1), (0.1, 0)):
+            moved = Instance(fmu, "ModelExchange").initialize(position=0.01, velocity=velocity)
+            moved.update()
+            with contextlib.redirect_stdout(io.StringIO()) as told:
+                moved.step_done(0.01, position=0.011)
+                moved.step_done(0.02, position=0.012)
+            seen = told.getvalue().count("velocity is 0")
+            check(f"position moves, velocity is {velocity}: told {warnings} times", seen == warnings, told.getvalue().strip())
         t, v = next((t, 0.01 / t) for t in np.arange(1, 1000) / 997 if 0.01 + 0.01 / t * t > 0.02)
         ends = Instance(fmu, "ModelExchange").initialize(position=0.01, velocity=v, start_pressure=1e5)
         ends.update()

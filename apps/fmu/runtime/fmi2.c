@@ -9,7 +9,7 @@ static void say(const fmu_instance *instance, int status, const char *text)
 {
   const fmi2CallbackLogger logger = (fmi2CallbackLogger)instance->logger;
   if (logger)
-    logger(instance->environment, instance->name, (fmi2Status)status, "logStatusError", "%s", text);
+    logger(instance->environment, instance->name, (fmi2Status)status, fmu_category(status), "%s", text);
 }
 
 /* ---- Life ---- */
@@ -26,7 +26,7 @@ FMI2_EXPORT(const char *, fmi2GetVersion, (void))
 
 FMI2_EXPORT(fmi2Status, fmi2SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]))
 {
-  (void)on, (void)n, (void)categories; /* only errors are told, and always */
+  (void)on, (void)n, (void)categories; /* only warnings and errors are told, and always */
   return c ? fmi2OK : fmi2Error;
 }
 

@@ -9,7 +9,7 @@ static void say(const fmu_instance *instance, int status, const char *text)
 {
   const fmi3LogMessageCallback logger = (fmi3LogMessageCallback)instance->logger;
   if (logger)
-    logger(instance->environment, (fmi3Status)status, "logStatusError", text);
+    logger(instance->environment, (fmi3Status)status, fmu_category(status), text);
 }
 
 /* ---- Life ---- */
@@ -22,7 +22,7 @@ const char *FMI3_NAME(fmi3GetVersion)(void)
 
 FMI3_EXPORT(fmi3SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String categories[]))
 {
-  (void)on, (void)n, (void)categories; /* only errors are told, and always */
+  (void)on, (void)n, (void)categories; /* only warnings and errors are told, and always */
   return c ? fmi3OK : fmi3Error;
 }
 

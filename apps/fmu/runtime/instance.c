@@ -46,6 +46,11 @@ int fmu_say(const fmu_instance *instance, int status, const char *format, ...)
   return status;
 }
 
+const char *fmu_category(int status)
+{
+  return status == FMU_WARNING ? "logStatusWarning" : "logStatusError";
+}
+
 int fmu_may(fmu_instance *instance, int call)
 {
   if (!instance)
@@ -210,6 +215,7 @@ int fmu_refresh(fmu_instance *i)
   if (status != PNEU_OK)
     return fmu_say(i, FMU_ERROR, "no state at rest: start_position must be within 0..stroke, pressures above vacuum");
   fmu_impose(i);
+  m->x_seen = m->state.x;
   fmu_pass_to(i, m->time);
   fmu_arm(i);
   m->stale = 0;

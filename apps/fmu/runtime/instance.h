@@ -37,6 +37,8 @@ typedef struct fmu_memory {
   pneu_state state;
   double threshold[PNEU_EVENT_MAX]; /* above which an event function has fired */
   int choked;
+  double x_seen; /* at the end of the last step of model exchange */
+  int warned;
   fmu_delay delay;
 } fmu_memory;
 
@@ -62,6 +64,9 @@ typedef struct fmu_event {
 fmu_instance *fmu_new(int kind, const char *name, const char *token, void *environment, void (*logger)(void),
                       void (*say)(const fmu_instance *, int, const char *));
 void fmu_free(fmu_instance *instance);
+
+/* The category of a message, as modelDescription.xml lists them. */
+const char *fmu_category(int status);
 
 /* What is not supported.  Returns: FMU_ERROR */
 int fmu_absent(fmu_instance *instance, const char *what);

@@ -59,11 +59,25 @@ int fmu_update(fmu_instance *instance, fmu_event *event)
   return FMU_OK;
 }
 
+/* Without its velocity a position that moves pumps no gas: the importer is told, once. */
+static void see_position(fmu_instance *i)
+{
+  fmu_memory *m = &i->m;
+  const double moved = fabs(m->state.x - m->x_seen);
+  m->x_seen = m->state.x;
+  if (!i->model.law.position_input || m->warned || m->input[FMU_INPUT_VELOCITY] != 0 ||
+      moved <= 1e-6 * i->model.scale[2])
+    return;
+  m->warned = 1;
+  fmu_say(i, FMU_WARNING, "position moves, velocity is 0: where it is not given too, the gas is not pumped");
+}
+
 /* An importer that has stepped over a crossing is called to it. */
 int fmu_completed_step(fmu_instance *instance, int *enter_event)
 {
   if (fmu_may(instance, FMU_CALL_COMPLETED_STEP))
     return FMU_ERROR;
+  see_position(instance);
   if (instance->m.delay.length > 0)
     fmu_delay_follow(&instance->m.delay, instance->m.time, instance->m.input[FMU_INPUT_U]);
   *enter_event = fmu_fired(instance) >= 0 || fmu_delay_asks(&instance->m.delay, instance->m.time);
