@@ -113,6 +113,18 @@ static void test_lab_respond__dead_time_beyond_the_shortest_command__keeps_their
   check_delay(0.55, 7, t, row);
 }
 
+/* 1.1 + 0.03 and 1.13 are apart by rounding. */
+static void test_lab_respond__dead_time_that_ends_with_another_change__makes_one_of_them(void **state)
+{
+  static const double t[] = {0, 0.23, 0.7, 1.13, 1.16, 2.03};
+  static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {3, 4}, {4, 4}, {5, 5}};
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  assert_true(1.1 + 0.03 != 1.13);
+  check_delay(0.03, 6, t, row);
+}
+
 /* Position as it was `skew` ago; before the start, as at the start; a younger one from beyond the end of the log. */
 static void check_skew(double skew, int integrator)
 {
@@ -281,6 +293,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_respond__dead_time__delays_the_command_and_nothing_else),
+      cmocka_unit_test(test_lab_respond__dead_time_that_ends_with_another_change__makes_one_of_them),
       cmocka_unit_test(test_lab_respond__dead_time_beyond_the_shortest_command__keeps_their_order),
       cmocka_unit_test(test_lab_respond__channel_skew__shifts_position_alone),
       cmocka_unit_test(test_lab_respond__negative_skew__looks_beyond_the_end),

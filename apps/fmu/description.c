@@ -22,16 +22,20 @@ typedef struct flag {
   const char *name;
   int fmi; /* 0: both */
   int co_simulation, model_exchange;
+  int driven; /* not 0: only where pressure or position is an input */
 } flag;
 
 static const flag flags[] = {
-    {"canNotUseMemoryManagementFunctions", 2, 1, 1},
-    {"canGetAndSetFMUstate", 2, 1, 1},
-    {"canSerializeFMUstate", 2, 1, 1},
-    {"canGetAndSetFMUState", 3, 1, 1},
-    {"canSerializeFMUState", 3, 1, 1},
-    {"canHandleVariableCommunicationStepSize", 0, 1, 0},
-    {"needsCompletedIntegratorStep", 3, 0, 1},
+    {"canNotUseMemoryManagementFunctions", 2, 1, 1, 0},
+    {"canGetAndSetFMUstate", 2, 1, 1, 0},
+    {"canSerializeFMUstate", 2, 1, 1, 0},
+    {"canGetAndSetFMUState", 3, 1, 1, 0},
+    {"canSerializeFMUState", 3, 1, 1, 0},
+    {"providesDirectionalDerivative", 2, 1, 1, 0},
+    {"providesDirectionalDerivatives", 3, 1, 1, 0},
+    {"canHandleVariableCommunicationStepSize", 0, 1, 0, 0},
+    {"canInterpolateInputs", 2, 1, 0, 1},
+    {"needsCompletedIntegratorStep", 3, 0, 1, 0},
 };
 enum { FLAGS = sizeof flags / sizeof flags[0] };
 
@@ -47,13 +51,20 @@ static void sources(fmu_xml *xml, int fmi, const char *element)
     }
 }
 
+static int has_flag(const fmu_description *d, const flag *f, int co_simulation)
+{
+  const pneu_laws *law = &d->data->law;
+  return (!f->fmi || f->fmi == d->fmi) && (co_simulation ? f->co_simulation : f->model_exchange) &&
+         (!f->driven || law->pressure_input || law->position_input);
+}
+
 static void interface(fmu_xml *xml, const fmu_description *d, int co_simulation)
 {
   int i;
   fmu_xml_open(xml, co_simulation ? "CoSimulation" : "ModelExchange");
   fmu_xml_text(xml, "modelIdentifier", d->identifier);
   for (i = 0; i < FLAGS; i++)
-    if ((!flags[i].fmi || flags[i].fmi == d->fmi) && (co_simulation ? flags[i].co_simulation : flags[i].model_exchange))
+    if (has_flag(d, &flags[i], co_simulation))
       fmu_xml_text(xml, flags[i].name, "true");
   if (d->fmi == 2) {
     fmu_xml_open(xml, "SourceFiles");
@@ -190,7 +201,7 @@ static int is_output(const fmu_variable *v)
 
 static int is_rate(const fmu_variable *v)
 {
-  return v->rate_of != 0;
+  return v->rate_of != 0 && v->causality == FMU_LOCAL;
 }
 
 static int is_initial(const fmu_variable *v)
@@ -206,13 +217,14 @@ static int is_event(const fmu_variable *v)
 static void unknowns(fmu_xml *xml, const fmu_description *d, const char *group, const char *element,
                      int (*belongs)(const fmu_variable *))
 {
-  int i;
-  if (d->fmi == 2)
-    fmu_xml_open(xml, group);
+  int i, n = 0;
   for (i = 0; i < d->list->n; i++)
-    if (belongs(&d->list->variable[i]))
+    if (belongs(&d->list->variable[i])) {
+      if (d->fmi == 2 && n++ == 0)
+        fmu_xml_open(xml, group);
       unknown(xml, d, element, i);
-  if (d->fmi == 2)
+    }
+  if (n > 0)
     fmu_xml_close(xml);
 }
 
@@ -246,6 +258,19 @@ static void head(fmu_xml *xml, const fmu_description *d)
     fmu_xml_whole(xml, "numberOfEventIndicators", FMU_INDICATOR_COUNT);
 }
 
+static void log_categories(fmu_xml *xml)
+{
+  static const char *const categories[] = {"logStatusWarning", "logStatusError"};
+  size_t i;
+  fmu_xml_open(xml, "LogCategories");
+  for (i = 0; i < sizeof categories / sizeof categories[0]; i++) {
+    fmu_xml_open(xml, "Category");
+    fmu_xml_text(xml, "name", categories[i]);
+    fmu_xml_close(xml);
+  }
+  fmu_xml_close(xml);
+}
+
 void fmu_describe(fmu_xml *xml, const fmu_description *d)
 {
   fmu_xml_open(xml, "fmiModelDescription");
@@ -253,11 +278,7 @@ void fmu_describe(fmu_xml *xml, const fmu_description *d)
   interface(xml, d, 0);
   interface(xml, d, 1);
   units(xml, d->list);
-  fmu_xml_open(xml, "LogCategories");
-  fmu_xml_open(xml, "Category");
-  fmu_xml_text(xml, "name", "logStatusError");
-  fmu_xml_close(xml);
-  fmu_xml_close(xml);
+  log_categories(xml);
   fmu_xml_open(xml, "DefaultExperiment");
   fmu_xml_real(xml, "startTime", 0);
   fmu_xml_real(xml, "stopTime", 30.5);

@@ -131,6 +131,10 @@ static int add_page(maker *m, lab_error *error)
       "velocity, mass flow, what the sensors show, mode of the stem, whether flow is choked. x grows in the direction "
       "in "
       "which the air drives the stem.</p>\n"
+      "<p>Where the model file makes pressure an input, it is one here, in the place of command and supply; where "
+      "position is one, holding_force is an output. From the time at which it is set to the next it runs along a "
+      "straight line, with the slope pressure_rate or velocity. Without pressure_rate it holds, for a step of "
+      "co-simulation; velocity is needed always, since it pumps the gas.</p>\n"
       "<p><b>Parameters</b> are fixed: they can be set before initialisation ends. The stem starts at rest, at "
       "start_position with start_pressure. Built in are the laws of gas and flow, free terms, and which effects have a "
       "state of their own: such an effect can be switched off here, but not on.</p>\n"
@@ -139,8 +143,10 @@ static int add_page(maker *m, lab_error *error)
       "command "
       "that changes continuously is then kept step by step. <b>Co-simulation</b>: the library's own stepper, with "
       "events "
-      "inside the communication step located to 1e-9 s; inputs hold during a step.</p>\n"
-      "<p>Not applied: the effect channel_skew, the age of the position in a recorder.</p>\n</body></html>\n";
+      "inside the communication step located to 1e-9 s; inputs hold during a step, but for pressure and position "
+      "whose slope is given.</p>\n"
+      "<p>Not applied: the effect channel_skew, the age of the position in a recorder. Derivatives by direction are "
+      "provided.</p>\n</body></html>\n";
   return fmu_package_add(&m->package, "documentation/index.html", page, sizeof page - 1, error);
 }
 
@@ -168,8 +174,9 @@ static int add_all(maker *m, lab_error *error)
 static int prepare(maker *m, int fmi, lab_error *error)
 {
   pneu_model model;
-  if (lab_rig_model(m->rig, &model, error) || fmu_data_of(m->rig, fmi, &m->data, error))
+  if (lab_rig_model(m->rig, &model, error))
     return error->status;
+  fmu_data_of(m->rig, fmi, &m->data);
   fmu_list_of(&m->data, &model, &m->list);
   identify(m->rig->name, m->identifier);
   m->description.fmi = fmi;

@@ -15,7 +15,7 @@ typedef char fmu_room_for_terms[(int)FMU_TERM_MAX >= (int)LAB_TERM_MAX ? 1 : -1]
 static uint64_t add_numbers(uint64_t sum, const fmu_data *data)
 {
   pneu_params params = data->params;
-  const int laws[] = {data->law.gas, data->law.flow, data->n_terms};
+  const int laws[] = {data->law.gas, data->law.flow, data->law.pressure_input, data->law.position_input, data->n_terms};
   int i, k;
   for (i = 0; i < PNEU_PARAM_COUNT; i++)
     sum = lab_checksum(sum, pneu_param_at(&params, i), sizeof(pneu_real));
@@ -47,13 +47,8 @@ static void make_token(fmu_data *data, int fmi)
            sum[1] & UINT64_C(0xffffffffffff));
 }
 
-int fmu_data_of(const lab_rig *rig, int fmi, fmu_data *data, lab_error *error)
+void fmu_data_of(const lab_rig *rig, int fmi, fmu_data *data)
 {
-  if (rig->laws.pressure_input || rig->laws.position_input)
-    return lab_fail(error, LAB_DATA,
-                    "%s: inputs: pressure or position drives this model, and an FMU is driven by command, supply and "
-                    "force; export a copy of the file without \"p\" and \"x\" in `inputs`",
-                    rig->file);
   memset(data, 0, sizeof *data);
   strcpy(data->mark, FMU_MARK);
   data->params = rig->params;
@@ -61,7 +56,6 @@ int fmu_data_of(const lab_rig *rig, int fmi, fmu_data *data, lab_error *error)
   data->n_terms = rig->n_terms;
   memcpy(data->term, rig->term, (size_t)rig->n_terms * sizeof rig->term[0]);
   make_token(data, fmi);
-  return LAB_OK;
 }
 
 /* ---- Header ---- */

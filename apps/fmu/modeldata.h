@@ -7,9 +7,8 @@
 #include "runtime/data.h"
 
 /* Out:     data  its token made from the model, from the version of FMI and from what export-fmu carries: the same
- *                model gives the same token
- * Returns: LAB_OK; LAB_DATA for a model whose pressure or position is an input. */
-int fmu_data_of(const lab_rig *rig, int fmi, fmu_data *data, lab_error *error);
+ *                model gives the same token */
+void fmu_data_of(const lab_rig *rig, int fmi, fmu_data *data);
 
 /* The header model_data.h.  Out: text  to be freed.  Returns: LAB_OK, LAB_WORLD. */
 int fmu_data_header(const lab_rig *rig, const fmu_data *data, char **text, size_t *size, lab_error *error);

@@ -13,7 +13,11 @@ typedef struct words {
 static const words input_words[FMU_INPUT_COUNT] = {
     {"u", "1", "opening: 1 fill fully open, -1 vent fully open, 0 shut; beyond counts as the nearest"},
     {"supply", "Pa", "supply pressure, gauge"},
-    {"force", "N", "force on the stem, positive against the air, added to external_force"}};
+    {"force", "N", "force on the stem, positive against the air, added to external_force"},
+    {"pressure", "Pa", "pressure in the chamber, gauge: it drives the model"},
+    {"pressure_rate", "Pa/s", "slope of pressure from the time at which it was set; 0: it holds"},
+    {"position", "m", "position of the stem: it drives the model; beyond 0..stroke counts as on the stop"},
+    {"velocity", "m/s", "slope of position: it pumps the gas, and friction has its sign"}};
 static const words set_pressure = {"u", "Pa", "set pressure, gauge"};
 
 static const words start_words[FMU_START_COUNT] = {
@@ -29,7 +33,8 @@ static const words output_words[FMU_OUTPUT_COUNT] = {
     {"mass_flow", "kg/s", "mass flow into the chamber"},
     {"shown_pressure", "Pa", "pressure as its sensor shows it, gauge"},
     {"shown_temperature", "K", "temperature as its sensor shows it"},
-    {"shown_position", "m", "position as its sensor shows it"}};
+    {"shown_position", "m", "position as its sensor shows it"},
+    {"holding_force", "N", "force that holds the stem at its velocity, positive against the air"}};
 
 static const words event_words[FMU_INDICATOR_COUNT] = {
     {"event[1]", NULL, "first event function of the stem's mode: break-away upwards, reversal, upper stop"},
@@ -56,8 +61,13 @@ static void add_inputs(fmu_list *list, const fmu_data *data)
   const int regulates = data->params.proportional_band > 0;
   int i;
   for (i = 0; i < FMU_INPUT_COUNT; i++) {
-    fmu_variable *v = add(list, FMU_REF_INPUT + (unsigned)i, FMU_INPUT,
-                          i == FMU_INPUT_U && regulates ? &set_pressure : &input_words[i]);
+    fmu_variable *v;
+    if (!fmu_has_variable(&data->law, FMU_REF_INPUT + (unsigned)i))
+      continue;
+    v = add(list, FMU_REF_INPUT + (unsigned)i, FMU_INPUT,
+            i == FMU_INPUT_U && regulates ? &set_pressure : &input_words[i]);
+    if (i == FMU_INPUT_PRESSURE_RATE || i == FMU_INPUT_VELOCITY)
+      v->rate_of = FMU_REF_INPUT + (unsigned)i - 1;
     v->start = i == FMU_INPUT_SUPPLY ? (double)data->params.supply_pressure : 0;
     if (i == FMU_INPUT_U && !regulates) {
       v->lower = -1;
@@ -70,23 +80,28 @@ static void add_starts(fmu_list *list, const fmu_data *data)
 {
   int i;
   for (i = 0; i < FMU_START_COUNT; i++) {
-    fmu_variable *v = add(list, FMU_REF_START + (unsigned)i, FMU_PARAMETER, &start_words[i]);
+    fmu_variable *v;
+    if (!fmu_has_variable(&data->law, FMU_REF_START + (unsigned)i))
+      continue;
+    v = add(list, FMU_REF_START + (unsigned)i, FMU_PARAMETER, &start_words[i]);
     v->start = i == FMU_START_TEMPERATURE ? (double)data->params.ambient_temperature : 0;
     v->lower = i == FMU_START_PRESSURE ? NONE : 0;
   }
 }
 
-static void add_outputs(fmu_list *list)
+static void add_outputs(fmu_list *list, const fmu_data *data)
 {
   static const words mode = {"mode", NULL, NULL}, choked = {"choked", NULL, "1: the flow in use is choked"};
   int i, at = 0;
   for (i = 0; i < FMU_OUTPUT_COUNT; i++)
-    add(list, FMU_REF_OUTPUT + (unsigned)i, FMU_OUTPUT, &output_words[i]);
+    if (fmu_has_variable(&data->law, FMU_REF_OUTPUT + (unsigned)i))
+      add(list, FMU_REF_OUTPUT + (unsigned)i, FMU_OUTPUT, &output_words[i]);
   for (i = 0; i < PNEU_MODE_COUNT; i++)
     at += snprintf(list->modes + at, sizeof list->modes - (size_t)at, "%s%d %s", i ? ", " : "", i, pneu_mode_text(i));
   add(list, FMU_REF_MODE, FMU_OUTPUT, &mode)->integer = 1;
   list->variable[list->n - 1].meaning = list->modes;
-  add(list, FMU_REF_CHOKED, FMU_OUTPUT, &choked)->integer = 1;
+  if (fmu_has_variable(&data->law, FMU_REF_CHOKED))
+    add(list, FMU_REF_CHOKED, FMU_OUTPUT, &choked)->integer = 1;
 }
 
 /* A state of an effect is named after it, the others are outputs; then their rates. */
@@ -162,7 +177,7 @@ void fmu_list_of(const fmu_data *data, const pneu_model *model, fmu_list *list)
   fmu_shape_of(model, &list->shape);
   add(list, FMU_REF_TIME, FMU_INDEPENDENT, &the_time);
   add_inputs(list, data);
-  add_outputs(list);
+  add_outputs(list, data);
   add_starts(list, data);
   add_parameters(list, data);
   add_states(list, model);
@@ -184,8 +199,9 @@ int fmu_dependencies(const fmu_data *data, const fmu_list *list, int output, int
   int i, n = 0;
   if (reference == FMU_REF_OUTPUT + FMU_OUTPUT_MASS_FLOW || list->variable[output].integer)
     return -1;
-  if (reference >= FMU_REF_OUTPUT + FMU_OUTPUT_SHOWN_PRESSURE && data->n_terms > 0)
-    return -1; /* a free term over the opening may be added to what is shown */
+  if (reference >= FMU_REF_OUTPUT + FMU_OUTPUT_SHOWN_PRESSURE &&
+      (data->n_terms > 0 || data->law.pressure_input || data->law.position_input))
+    return -1; /* a free term over the opening may be added to what is shown, or it shows an input */
   for (i = 0; i < list->shape.n; i++) {
     const unsigned state = fmu_state_reference(list->shape.kind[i]);
     if (reference == state || reference >= FMU_REF_OUTPUT + FMU_OUTPUT_SHOWN_PRESSURE)

@@ -24,7 +24,7 @@ typedef struct fmu_variable {
   double lower, upper, start; /* NaN: none */
   double nominal;             /* of a state; else NaN */
   int jumps;                  /* a state that events set anew */
-  unsigned rate_of;           /* reference of the state whose rate it is; 0: it is none */
+  unsigned rate_of;           /* reference of the state or input whose rate it is; 0: it is none */
 } fmu_variable;
 
 typedef struct fmu_list {

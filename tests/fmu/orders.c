@@ -1,6 +1,7 @@
 /* An FMI 3 importer without manners, linked with the sources of an FMU under the sanitizers: calls in any order, with
- * any numbers, on several instances; then one with fixed steps, that knows events by changes of sign alone. orders
- * TOKEN CALLS SEED      the second prints time, position and mode at its end */
+ * any numbers, on several instances; then, if asked for, one with fixed steps, that knows events by changes of sign
+ * alone and prints time, position and mode.
+ *   orders TOKEN CALLS SEED [STEP] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,8 +43,8 @@ static fmi3Instance make(void)
 static int call(fmi3Instance *c, fmi3FMUState *state, double *t)
 {
   static fmi3Byte bytes[BYTES_MAX];
-  fmi3ValueReference r = any_reference();
-  fmi3Float64 v = any_number(), x[STATES_MAX];
+  fmi3ValueReference r = any_reference(), pair[2];
+  fmi3Float64 v = any_number(), x[STATES_MAX], seeds[2] = {any_number(), any_number()};
   fmi3Int32 whole;
   fmi3Boolean a, b, d, e, f;
   size_t n = 0, z = 0, size = 0;
@@ -75,7 +76,7 @@ static int call(fmi3Instance *c, fmi3FMUState *state, double *t)
   case 7:
     return fmi3SetFloat64(*c, &r, 1, &v, 1);
   case 8:
-    r = 1 + draw(3);
+    r = 1 + draw(7);
     return fmi3SetFloat64(*c, &r, 1, &v, 1);
   case 9:
     r = 41 + draw(3);
@@ -92,7 +93,7 @@ static int call(fmi3Instance *c, fmi3FMUState *state, double *t)
     return fmi3SetTime(*c, *t += 1e-3 * draw(10));
   case 15:
     status = fmi3GetContinuousStates(*c, x, n);
-    if (status == fmi3OK && draw(2))
+    if (status == fmi3OK && n > 0 && draw(2))
       x[draw((unsigned)n)] = any_number();
     return status == fmi3OK ? (int)fmi3SetContinuousStates(*c, x, n) : status;
   case 16:
@@ -120,7 +121,9 @@ static int call(fmi3Instance *c, fmi3FMUState *state, double *t)
     }
     return fmi3OK;
   case 24:
-    return fmi3GetDirectionalDerivative(*c, &r, 1, &r, 1, x, 1, x, 1);
+    pair[0] = any_reference();
+    pair[1] = 1 + draw(7);
+    return fmi3GetDirectionalDerivative(*c, &r, 1, pair, 2, seeds, 2, x, 1);
   default:
     return fmi3EnterStepMode(*c);
   }
@@ -221,9 +224,9 @@ static int fixed_steps(double h)
 
 int main(int argc, char **argv)
 {
-  if (argc != 4)
+  if (argc != 4 && argc != 5)
     return 2;
   token = argv[1];
   seed = strtoull(argv[3], NULL, 10);
-  return disorder(atol(argv[2])) || fixed_steps(2e-6);
+  return disorder(atol(argv[2])) || (argc == 5 && fixed_steps(atof(argv[4])));
 }

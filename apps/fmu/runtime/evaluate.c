@@ -7,6 +7,29 @@
 #define SPEED_MARGIN  1e-10 /* of full speed */
 #define TRAVEL_MARGIN 1e-12 /* of the stroke */
 
+/* An input on its line, now. */
+static double on_line(const fmu_memory *m, int input, int rate)
+{
+  return m->input[input] + m->input[rate] * (m->time - m->set_at[input]);
+}
+
+double fmu_driven_pressure(const fmu_instance *i)
+{
+  return on_line(&i->m, FMU_INPUT_PRESSURE, FMU_INPUT_PRESSURE_RATE);
+}
+
+double fmu_driven_position(const fmu_instance *i)
+{
+  return fmax(0, fmin(on_line(&i->m, FMU_INPUT_POSITION, FMU_INPUT_VELOCITY), (double)i->m.params.stroke));
+}
+
+/* Beyond a stop it rests; a line that ends on one may be beyond by rounding. */
+static double driven_velocity(const fmu_instance *i)
+{
+  const double beyond = on_line(&i->m, FMU_INPUT_POSITION, FMU_INPUT_VELOCITY) - fmu_driven_position(i);
+  return fabs(beyond) <= TRAVEL_MARGIN * i->model.scale[2] ? i->m.input[FMU_INPUT_VELOCITY] : 0;
+}
+
 void fmu_drive(const fmu_instance *i, pneu_input *input)
 {
   const fmu_memory *m = &i->m;
@@ -15,6 +38,30 @@ void fmu_drive(const fmu_instance *i, pneu_input *input)
   input->u = m->params.proportional_band > 0 ? u : fmax(-1, fmin(1, u));
   input->supply_pressure = m->input[FMU_INPUT_SUPPLY];
   input->force = m->input[FMU_INPUT_FORCE];
+  input->pressure_rate = m->input[FMU_INPUT_PRESSURE_RATE];
+  input->position_rate = driven_velocity(i);
+}
+
+static void compress(const pneu_model *model, double x, pneu_state *s)
+{
+  const double ratio = pneu_volume(model, s->x) / pneu_volume(model, x), ambient = model->p.ambient_pressure;
+  const double exponent = model->thermal ? model->g : 1;
+  s->p = (s->p + ambient) * pow(ratio, exponent) - ambient;
+  s->T *= pow(ratio, exponent - 1);
+}
+
+void fmu_impose(fmu_instance *i)
+{
+  pneu_state *s = &i->m.state;
+  if (i->model.law.position_input) {
+    const double x = fmu_driven_position(i);
+    if (i->m.phase == FMU_STEPPING && x != s->x)
+      compress(&i->model, x, s);
+    s->x = x;
+    s->v = driven_velocity(i);
+  }
+  if (i->model.law.pressure_input)
+    s->p = fmu_driven_pressure(i);
 }
 
 void fmu_within(const fmu_instance *i, pneu_state *s)

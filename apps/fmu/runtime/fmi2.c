@@ -9,7 +9,7 @@ static void say(const fmu_instance *instance, int status, const char *text)
 {
   const fmi2CallbackLogger logger = (fmi2CallbackLogger)instance->logger;
   if (logger)
-    logger(instance->environment, instance->name, (fmi2Status)status, "logStatusError", "%s", text);
+    logger(instance->environment, instance->name, (fmi2Status)status, fmu_category(status), "%s", text);
 }
 
 /* ---- Life ---- */
@@ -26,7 +26,7 @@ FMI2_EXPORT(const char *, fmi2GetVersion, (void))
 
 FMI2_EXPORT(fmi2Status, fmi2SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]))
 {
-  (void)on, (void)n, (void)categories; /* only errors are told, and always */
+  (void)on, (void)n, (void)categories; /* only warnings and errors are told, and always */
   return c ? fmi2OK : fmi2Error;
 }
 
@@ -139,8 +139,7 @@ FMI2_EXPORT(fmi2Status, fmi2GetDirectionalDerivative,
             (fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
              size_t n_known, const fmi2Real seed[], fmi2Real sensitivity[]))
 {
-  (void)unknown, (void)n_unknown, (void)known, (void)n_known, (void)seed, (void)sensitivity;
-  return (fmi2Status)fmu_absent(c, "fmi2GetDirectionalDerivative");
+  return (fmi2Status)fmu_derivative(c, unknown, n_unknown, known, n_known, seed, sensitivity);
 }
 
 /* ---- Model exchange ---- */
@@ -218,8 +217,7 @@ FMI2_EXPORT(fmi2Status, fmi2SetRealInputDerivatives,
             (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[],
              const fmi2Real value[]))
 {
-  (void)r, (void)n, (void)order, (void)value;
-  return (fmi2Status)fmu_absent(c, "fmi2SetRealInputDerivatives");
+  return (fmi2Status)fmu_set_slopes(c, r, n, order, value);
 }
 
 FMI2_EXPORT(fmi2Status, fmi2GetRealOutputDerivatives,

@@ -9,7 +9,7 @@ static void say(const fmu_instance *instance, int status, const char *text)
 {
   const fmi3LogMessageCallback logger = (fmi3LogMessageCallback)instance->logger;
   if (logger)
-    logger(instance->environment, (fmi3Status)status, "logStatusError", text);
+    logger(instance->environment, (fmi3Status)status, fmu_category(status), text);
 }
 
 /* ---- Life ---- */
@@ -22,7 +22,7 @@ const char *FMI3_NAME(fmi3GetVersion)(void)
 
 FMI3_EXPORT(fmi3SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String categories[]))
 {
-  (void)on, (void)n, (void)categories; /* only errors are told, and always */
+  (void)on, (void)n, (void)categories; /* only warnings and errors are told, and always */
   return c ? fmi3OK : fmi3Error;
 }
 
@@ -100,6 +100,15 @@ FMI3_EXPORT(fmi3SetFloat64,
             (fmi3Instance c, const fmi3ValueReference r[], size_t n, const fmi3Float64 value[], size_t n_values))
 {
   return (fmi3Status)(n == n_values ? fmu_set_real(c, r, n, value) : fmu_absent(c, "an array"));
+}
+
+FMI3_EXPORT(fmi3GetDirectionalDerivative,
+            (fmi3Instance c, const fmi3ValueReference unknown[], size_t n_unknown, const fmi3ValueReference known[],
+             size_t n_known, const fmi3Float64 seed[], size_t n_seed, fmi3Float64 sensitivity[], size_t n_sensitivity))
+{
+  if (n_seed != n_known || n_sensitivity != n_unknown)
+    return (fmi3Status)fmu_absent(c, "an array");
+  return (fmi3Status)fmu_derivative(c, unknown, n_unknown, known, n_known, seed, sensitivity);
 }
 
 /* ---- FMU state ---- */

@@ -83,18 +83,14 @@ NO_MODE(fmi3ExitConfigurationMode)
 NO_MODE(fmi3EvaluateDiscreteStates)
 NO_MODE(fmi3EnterStepMode)
 
-/* Derivatives by direction, forward and adjoint. */
-#define NO_DERIVATIVE(name)                                                                                            \
-  FMI3_EXPORT(name, (fmi3Instance c, const fmi3ValueReference unknown[], size_t n_unknown,                             \
-                     const fmi3ValueReference known[], size_t n_known, const fmi3Float64 seed[], size_t n_seed,        \
-                     fmi3Float64 sensitivity[], size_t n_sensitivity))                                                 \
-  {                                                                                                                    \
-    (void)unknown, (void)n_unknown, (void)known, (void)n_known, (void)seed, (void)n_seed, (void)sensitivity;           \
-    (void)n_sensitivity;                                                                                               \
-    return (fmi3Status)fmu_absent(c, #name);                                                                           \
-  }
-NO_DERIVATIVE(fmi3GetDirectionalDerivative)
-NO_DERIVATIVE(fmi3GetAdjointDerivative)
+FMI3_EXPORT(fmi3GetAdjointDerivative,
+            (fmi3Instance c, const fmi3ValueReference unknown[], size_t n_unknown, const fmi3ValueReference known[],
+             size_t n_known, const fmi3Float64 seed[], size_t n_seed, fmi3Float64 sensitivity[], size_t n_sensitivity))
+{
+  (void)unknown, (void)n_unknown, (void)known, (void)n_known, (void)seed, (void)n_seed, (void)sensitivity;
+  (void)n_sensitivity;
+  return (fmi3Status)fmu_absent(c, "fmi3GetAdjointDerivative");
+}
 
 FMI3_EXPORT(fmi3GetNumberOfVariableDependencies, (fmi3Instance c, fmi3ValueReference r, size_t *n))
 {

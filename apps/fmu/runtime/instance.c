@@ -20,6 +20,7 @@ static const struct {
     [FMU_CALL_EXIT_INITIALIZATION] = {"leaving initialization", FMU_INITIALIZING},
     [FMU_CALL_TERMINATE] = {"terminating", RUNNING},
     [FMU_CALL_GET] = {"getting values", BEFORE | RUNNING | FMU_TERMINATED},
+    [FMU_CALL_DIFFERENTIATE] = {"asking for derivatives", FMU_INITIALIZING | RUNNING | FMU_TERMINATED},
     [FMU_CALL_SET_PARAMETER] = {"setting parameters and start values", BEFORE},
     [FMU_CALL_SET_INPUT] = {"setting inputs", BEFORE | RUNNING},
     [FMU_CALL_ENTER_EVENT] = {"entering event mode", FMU_CONTINUOUS},
@@ -43,6 +44,11 @@ int fmu_say(const fmu_instance *instance, int status, const char *format, ...)
   if (instance->say)
     instance->say(instance, status, text);
   return status;
+}
+
+const char *fmu_category(int status)
+{
+  return status == FMU_WARNING ? "logStatusWarning" : "logStatusError";
 }
 
 int fmu_may(fmu_instance *instance, int call)
@@ -136,11 +142,14 @@ int fmu_terminate(fmu_instance *instance)
 
 int fmu_setup(fmu_instance *instance, double tol, double start_time, double stop_time)
 {
+  int k;
   if (fmu_may(instance, FMU_CALL_SETUP))
     return FMU_ERROR;
   if (!(start_time * 0 == 0) || !(stop_time >= start_time) || !(tol >= 0))
     return fmu_say(instance, FMU_ERROR, "start time, stop time or tolerance is not a number, or out of order");
   instance->m.time = start_time;
+  for (k = 0; k < FMU_INPUT_COUNT; k++)
+    instance->m.set_at[k] = start_time;
   instance->m.stop_time = stop_time;
   if (tol > 0)
     instance->m.tol = fmin(fmax(tol, 1e-10), 1e-2);
@@ -188,7 +197,9 @@ static int make_model(fmu_instance *i)
 int fmu_refresh(fmu_instance *i)
 {
   fmu_memory *m = &i->m;
+  const pneu_laws *law = &fmu_model_data.law;
   pneu_input input;
+  double p, x;
   int status;
   if (!m->stale || !(m->phase & BEFORE))
     return FMU_OK;
@@ -196,12 +207,15 @@ int fmu_refresh(fmu_instance *i)
     return FMU_ERROR;
   fmu_delay_begin(&m->delay, (double)i->model.command_delay, m->time, m->input[FMU_INPUT_U]);
   fmu_drive(i, &input);
+  p = law->pressure_input ? fmu_driven_pressure(i) : m->start[FMU_START_PRESSURE];
+  x = law->position_input ? fmu_driven_position(i) : m->start[FMU_START_POSITION];
   status = input.supply_pressure > -m->params.ambient_pressure
-               ? pneu_state_rest(&i->model, m->start[FMU_START_PRESSURE], m->start[FMU_START_TEMPERATURE],
-                                 m->start[FMU_START_POSITION], &input, &m->state)
+               ? pneu_state_rest(&i->model, p, m->start[FMU_START_TEMPERATURE], x, &input, &m->state)
                : PNEU_E_NONFINITE;
   if (status != PNEU_OK)
     return fmu_say(i, FMU_ERROR, "no state at rest: start_position must be within 0..stroke, pressures above vacuum");
+  fmu_impose(i);
+  m->x_seen = m->state.x;
   fmu_pass_to(i, m->time);
   fmu_arm(i);
   m->stale = 0;

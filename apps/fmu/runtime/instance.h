@@ -31,11 +31,14 @@ typedef struct fmu_memory {
   int stale; /* parameters, start values or inputs have been set since the state at rest was made */
   double time, stop_time, tol;
   double input[FMU_INPUT_COUNT];
+  double set_at[FMU_INPUT_COUNT]; /* [s] when; from then on pressure and position run with their slopes */
   double start[FMU_START_COUNT];
   pneu_params params;
   pneu_state state;
   double threshold[PNEU_EVENT_MAX]; /* above which an event function has fired */
   int choked;
+  double x_seen; /* at the end of the last step of model exchange */
+  int warned;
   fmu_delay delay;
 } fmu_memory;
 
@@ -62,6 +65,9 @@ fmu_instance *fmu_new(int kind, const char *name, const char *token, void *envir
                       void (*say)(const fmu_instance *, int, const char *));
 void fmu_free(fmu_instance *instance);
 
+/* The category of a message, as modelDescription.xml lists them. */
+const char *fmu_category(int status);
+
 /* What is not supported.  Returns: FMU_ERROR */
 int fmu_absent(fmu_instance *instance, const char *what);
 
@@ -77,6 +83,16 @@ int fmu_reset(fmu_instance *instance);
 int fmu_get_real(fmu_instance *instance, const unsigned *reference, size_t n, double *value);
 int fmu_get_integer(fmu_instance *instance, const unsigned *reference, size_t n, int *value);
 int fmu_set_real(fmu_instance *instance, const unsigned *reference, size_t n, const double *value);
+
+/* Slopes of inputs for the next steps of co-simulation: of pressure and position that drive the model, the same as
+ * setting their rates; of others, which hold, FMU_WARNING. */
+int fmu_set_slopes(fmu_instance *instance, const unsigned *reference, size_t n, const int *order, const double *slope);
+
+/* Derivatives of unknowns along a direction: sums over the knowns of d unknown/d known times seed. Knowns are states
+ * and inputs; before initialisation has ended inputs, start values and parameters.  Returns: FMU_OK, FMU_DISCARD,
+ * FMU_ERROR. */
+int fmu_derivative(fmu_instance *instance, const unsigned *unknown, size_t n_unknown, const unsigned *known,
+                   size_t n_known, const double *seed, double *sensitivity);
 
 /* ---- Model exchange ---- */
 

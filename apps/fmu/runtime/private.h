@@ -12,6 +12,7 @@ enum fmu_call {
   FMU_CALL_EXIT_INITIALIZATION,
   FMU_CALL_TERMINATE,
   FMU_CALL_GET,
+  FMU_CALL_DIFFERENTIATE,
   FMU_CALL_SET_PARAMETER,
   FMU_CALL_SET_INPUT,
   FMU_CALL_ENTER_EVENT,
@@ -37,6 +38,16 @@ int fmu_refresh(fmu_instance *instance);
 /* Inputs as the library takes them: a command beyond -1..1 counts as -1 or 1. */
 void fmu_drive(const fmu_instance *instance, pneu_input *input);
 
+/* Pressure and position that drive the model, now: on the lines that begin where and when they were set. A position
+ * beyond a stop, as noise at rest is, counts as on the stop. */
+double fmu_driven_pressure(const fmu_instance *instance);
+double fmu_driven_position(const fmu_instance *instance);
+
+/* Put pressure and position into the state where they are inputs. Between steps of co-simulation a position that is not
+ * where the last slope has led to is a jump, which compresses the gas without loss: its mass stays. In model exchange
+ * position is continuous, and velocity is its slope. */
+void fmu_impose(fmu_instance *instance);
+
 /* The state, brought back to where the model has a meaning. Solvers try states beyond a stop, where at some point there
  * is no volume left; what they find there they throw away, because the stop is an event. */
 void fmu_within(const fmu_instance *instance, pneu_state *state);
@@ -50,6 +61,9 @@ void fmu_arm(fmu_instance *instance);
 /* Rates of the FMU's states; the indicators. */
 int fmu_rates(const fmu_instance *instance, double *rate);
 void fmu_indicators(const fmu_instance *instance, double *z);
+
+/* The value of a real variable. */
+int fmu_value(fmu_instance *instance, unsigned reference, double *value);
 
 /* Index of the event that has fired, -1 if none. */
 int fmu_fired(const fmu_instance *instance);

@@ -2,6 +2,30 @@
 
 #include <stddef.h>
 
+/* What depends on the inputs of the model: 1, it is there only where pressure or position is one; -1, only where not.
+ */
+static const struct {
+  unsigned reference;
+  signed char pressure, position;
+} conditions[] = {
+    {FMU_REF_INPUT + FMU_INPUT_U, -1, 0},
+    {FMU_REF_INPUT + FMU_INPUT_SUPPLY, -1, 0},
+    {FMU_REF_INPUT + FMU_INPUT_FORCE, 0, -1},
+    {FMU_REF_INPUT + FMU_INPUT_PRESSURE, 1, 0},
+    {FMU_REF_INPUT + FMU_INPUT_PRESSURE_RATE, 1, 0},
+    {FMU_REF_INPUT + FMU_INPUT_POSITION, 0, 1},
+    {FMU_REF_INPUT + FMU_INPUT_VELOCITY, 0, 1},
+    {FMU_REF_START + FMU_START_PRESSURE, -1, 0},
+    {FMU_REF_START + FMU_START_TEMPERATURE, -1, 0},
+    {FMU_REF_START + FMU_START_POSITION, 0, -1},
+    {FMU_REF_OUTPUT + FMU_OUTPUT_PRESSURE, -1, 0},
+    {FMU_REF_OUTPUT + FMU_OUTPUT_POSITION, 0, -1},
+    {FMU_REF_OUTPUT + FMU_OUTPUT_VELOCITY, 0, -1},
+    {FMU_REF_OUTPUT + FMU_OUTPUT_MASS_FLOW, -1, 0},
+    {FMU_REF_OUTPUT + FMU_OUTPUT_HOLDING_FORCE, 0, 1},
+    {FMU_REF_CHOKED, -1, 0},
+};
+
 static const unsigned char state_counts[PNEU_EFFECT_COUNT + 1] = {
 #define PNEU_EFFECT(name, n_param, n_state) n_state,
 #include "../../../lib/effects.def"
@@ -29,6 +53,22 @@ unsigned fmu_state_reference(int kind)
   return (unsigned)(kind < FMU_STATE_EFFECT ? FMU_REF_OUTPUT + kind : FMU_REF_STATE + kind);
 }
 
+/* Whether something that is there only where it is driven (1), or not driven (-1), is there. */
+static int goes_with(int condition, int driven)
+{
+  return condition == 0 || (condition > 0) == (driven != 0);
+}
+
+int fmu_has_variable(const pneu_laws *law, unsigned reference)
+{
+  size_t i;
+  for (i = 0; i < sizeof conditions / sizeof conditions[0]; i++)
+    if (conditions[i].reference == reference)
+      return goes_with(conditions[i].pressure, law->pressure_input) &&
+             goes_with(conditions[i].position, law->position_input);
+  return 1;
+}
+
 int fmu_model(const fmu_data *data, const pneu_params *params, pneu_model *model, int *bad)
 {
   const int status = pneu_model_init(model, params, &data->law, bad);
@@ -48,14 +88,17 @@ static int is_active(const pneu_model *model, int effect)
 void fmu_shape_of(const pneu_model *model, fmu_shape *shape)
 {
   int i, j, n = 0;
-  shape->kind[n++] = FMU_STATE_P;
+  if (!model->law.pressure_input)
+    shape->kind[n++] = FMU_STATE_P;
   if (model->thermal)
     shape->kind[n++] = FMU_STATE_T;
   for (i = 0; i < model->n_active; i++)
     for (j = 0; j < state_counts[model->active[i]]; j++)
       shape->kind[n++] = first_state(model->active[i]) + j;
-  shape->kind[n++] = FMU_STATE_X;
-  shape->kind[n++] = FMU_STATE_V;
+  if (!model->law.position_input) {
+    shape->kind[n++] = FMU_STATE_X;
+    shape->kind[n++] = FMU_STATE_V;
+  }
   shape->n = n;
 }
 
@@ -98,6 +141,8 @@ int fmu_has_parameter(const fmu_data *data, int i)
   pneu_model model, changed;
   fmu_shape shape;
   if (i < 0 || i >= PNEU_PARAM_COUNT || i == PNEU_PARAM_supply_pressure)
+    return 0;
+  if (i == pneu_effect_params(PNEU_EFFECT_channel_skew, NULL))
     return 0;
   if (i == PNEU_PARAM_proportional_band)
     return params.proportional_band > 0;

@@ -3,7 +3,8 @@
  * libpneu's packed vector has no entries for a stem at rest. An FMU has the same states always: those of the packed
  * vector of a moving stem, less the clock, which is the importer's; at rest x and v have the derivative 0. Effects
  * without states can be switched on and off by their parameters; one with a state of its own can be switched off, and
- * its state then stands still, but not on where the exported model has no place for the state.
+ * its state then stands still, but not on where the exported model has no place for the state. Pressure and position
+ * are no states where they are inputs.
  * SPDX-License-Identifier: MIT */
 #ifndef FMU_SHAPE_H
 #define FMU_SHAPE_H
@@ -13,7 +14,16 @@
 /* Kinds of states; an effect's are FMU_STATE_EFFECT + its place in the catalogue's states. */
 enum fmu_state_kind { FMU_STATE_P, FMU_STATE_T, FMU_STATE_X, FMU_STATE_V, FMU_STATE_EFFECT };
 
-enum fmu_input { FMU_INPUT_U, FMU_INPUT_SUPPLY, FMU_INPUT_FORCE, FMU_INPUT_COUNT };
+enum fmu_input {
+  FMU_INPUT_U,
+  FMU_INPUT_SUPPLY,
+  FMU_INPUT_FORCE,
+  FMU_INPUT_PRESSURE, /* what drives the model, and its slope */
+  FMU_INPUT_PRESSURE_RATE,
+  FMU_INPUT_POSITION,
+  FMU_INPUT_VELOCITY,
+  FMU_INPUT_COUNT
+};
 enum fmu_start { FMU_START_PRESSURE, FMU_START_TEMPERATURE, FMU_START_POSITION, FMU_START_COUNT };
 
 /* Outputs; the first are those that may be states, in the order of fmu_state_kind. */
@@ -26,6 +36,7 @@ enum fmu_output {
   FMU_OUTPUT_SHOWN_PRESSURE,
   FMU_OUTPUT_SHOWN_TEMPERATURE,
   FMU_OUTPUT_SHOWN_POSITION,
+  FMU_OUTPUT_HOLDING_FORCE,
   FMU_OUTPUT_COUNT
 };
 
@@ -62,8 +73,13 @@ void fmu_shape_of(const pneu_model *model, fmu_shape *shape);
 /* Whether every state of the model has its place in the shape. */
 int fmu_fits(const fmu_shape *shape, const pneu_model *model);
 
-/* Whether parameter i can be set in an FMU of this model: not the supply's, which is an input; not those that change
- * what the command means; not those that switch on an effect with a state of which the model has none. */
+/* Whether an FMU of these laws has an input, start value or output: what drives the model is no output, and without a
+ * balance of mass or of forces there is no use for what enters it. */
+int fmu_has_variable(const pneu_laws *law, unsigned reference);
+
+/* Whether parameter i can be set in an FMU of this model: not the supply's, which is an input; not the recorder's
+ * skew; not those that change what the command means; not those that switch on an effect with a state of which the
+ * model has none. */
 int fmu_has_parameter(const fmu_data *data, int i);
 
 /* Where a state lies.  Returns: NULL where the model at hand has none. */

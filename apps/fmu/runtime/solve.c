@@ -59,11 +59,25 @@ int fmu_update(fmu_instance *instance, fmu_event *event)
   return FMU_OK;
 }
 
+/* Without its velocity a position that moves pumps no gas: the importer is told, once. */
+static void see_position(fmu_instance *i)
+{
+  fmu_memory *m = &i->m;
+  const double moved = fabs(m->state.x - m->x_seen);
+  m->x_seen = m->state.x;
+  if (!i->model.law.position_input || m->warned || m->input[FMU_INPUT_VELOCITY] != 0 ||
+      moved <= 1e-6 * i->model.scale[2])
+    return;
+  m->warned = 1;
+  fmu_say(i, FMU_WARNING, "position moves, velocity is 0: where it is not given too, the gas is not pumped");
+}
+
 /* An importer that has stepped over a crossing is called to it. */
 int fmu_completed_step(fmu_instance *instance, int *enter_event)
 {
   if (fmu_may(instance, FMU_CALL_COMPLETED_STEP))
     return FMU_ERROR;
+  see_position(instance);
   if (instance->m.delay.length > 0)
     fmu_delay_follow(&instance->m.delay, instance->m.time, instance->m.input[FMU_INPUT_U]);
   *enter_event = fmu_fired(instance) >= 0 || fmu_delay_asks(&instance->m.delay, instance->m.time);
@@ -77,6 +91,7 @@ int fmu_set_time(fmu_instance *instance, double time)
   if (!(time * 0 == 0))
     return fmu_say(instance, FMU_ERROR, "time is not a number");
   fmu_pass_to(instance, time);
+  fmu_impose(instance);
   return FMU_OK;
 }
 
@@ -182,7 +197,7 @@ static int run_to(fmu_instance *i, double end)
 int fmu_step(fmu_instance *instance, double from, double length)
 {
   fmu_memory *m, before;
-  int status;
+  int status, k;
   if (fmu_may(instance, FMU_CALL_STEP))
     return FMU_ERROR;
   m = &instance->m;
@@ -192,6 +207,9 @@ int fmu_step(fmu_instance *instance, double from, double length)
   if (from + length > m->stop_time + 1e-9 * (1 + fabs(m->stop_time)))
     return fmu_say(instance, FMU_ERROR, "a step beyond the stop time of %g s", m->stop_time);
   before = *m;
+  for (k = 0; k < FMU_INPUT_COUNT; k++) /* what has not been set anew is as it was */
+    m->set_at[k] = m->time;
+  fmu_impose(instance);
   status = run_to(instance, from + length);
   if (status != PNEU_OK) {
     *m = before;

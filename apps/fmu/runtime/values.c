@@ -27,7 +27,7 @@ static int get_output(const fmu_instance *i, int which, double *value)
   {
     const double output[FMU_OUTPUT_COUNT] = {i->m.state.p,        o.temperature,          i->m.state.x,
                                              i->m.state.v,        o.mass_in - o.mass_out, o.shown_pressure,
-                                             o.shown_temperature, o.shown_position};
+                                             o.shown_temperature, o.shown_position,       o.holding_force};
     *value = output[which];
   }
   return FMU_OK;
@@ -67,10 +67,12 @@ static int get_rate(fmu_instance *i, unsigned reference, double *value)
   return FMU_OK;
 }
 
-static int get_one(fmu_instance *i, unsigned r, double *value)
+int fmu_value(fmu_instance *i, unsigned r, double *value)
 {
   fmu_memory *m = &i->m;
   double z[FMU_INDICATOR_COUNT];
+  if (!fmu_has_variable(&fmu_model_data.law, r))
+    return unknown(i, r);
   if (r == FMU_REF_TIME)
     *value = m->time;
   else if (is_in(r, FMU_REF_INPUT, FMU_INPUT_COUNT))
@@ -101,7 +103,7 @@ int fmu_get_real(fmu_instance *instance, const unsigned *reference, size_t n, do
   size_t k;
   int status = fmu_may(instance, FMU_CALL_GET);
   for (k = 0; k < n && status == FMU_OK; k++)
-    status = get_one(instance, reference[k], &value[k]);
+    status = fmu_value(instance, reference[k], &value[k]);
   return status;
 }
 
@@ -113,7 +115,7 @@ int fmu_get_integer(fmu_instance *instance, const unsigned *reference, size_t n,
   for (k = 0; k < n; k++)
     if (reference[k] == FMU_REF_MODE)
       value[k] = instance->m.state.mode;
-    else if (reference[k] == FMU_REF_CHOKED)
+    else if (reference[k] == FMU_REF_CHOKED && fmu_has_variable(&fmu_model_data.law, FMU_REF_CHOKED))
       value[k] = instance->m.choked;
     else
       return unknown(instance, reference[k]);
@@ -126,9 +128,12 @@ static int set_input(fmu_instance *i, int which, double value)
 {
   if (fmu_may(i, FMU_CALL_SET_INPUT))
     return FMU_ERROR;
-  if (which == FMU_INPUT_SUPPLY && value <= -i->m.params.ambient_pressure)
-    return fmu_say(i, FMU_ERROR, "supply must be above vacuum, found %g Pa gauge", value);
+  if ((which == FMU_INPUT_SUPPLY || which == FMU_INPUT_PRESSURE) && value <= -i->m.params.ambient_pressure)
+    return fmu_say(i, FMU_ERROR, "a pressure must be above vacuum, found %g Pa gauge", value);
   i->m.input[which] = value;
+  i->m.set_at[which] = i->m.time;
+  if (!i->m.stale)
+    fmu_impose(i);
   return FMU_OK;
 }
 
@@ -157,6 +162,8 @@ static int set_one(fmu_instance *i, unsigned r, double value)
 {
   if (!(value * 0 == 0))
     return fmu_say(i, FMU_ERROR, "reference %u: not a number, or infinite", r);
+  if (!fmu_has_variable(&fmu_model_data.law, r))
+    return fmu_say(i, FMU_ERROR, "reference %u cannot be set", r);
   i->m.stale |= (i->m.phase & (FMU_INSTANTIATED | FMU_INITIALIZING)) != 0;
   if (is_in(r, FMU_REF_INPUT, FMU_INPUT_COUNT))
     return set_input(i, (int)(r - FMU_REF_INPUT), value);
@@ -165,6 +172,25 @@ static int set_one(fmu_instance *i, unsigned r, double value)
   if (is_in(r, FMU_REF_PARAMETER, PNEU_PARAM_COUNT) && fmu_has_parameter(&fmu_model_data, (int)(r - FMU_REF_PARAMETER)))
     return set_parameter(i, (int)(r - FMU_REF_PARAMETER), value);
   return fmu_say(i, FMU_ERROR, "reference %u cannot be set", r);
+}
+
+int fmu_set_slopes(fmu_instance *instance, const unsigned *reference, size_t n, const int *order, const double *slope)
+{
+  static const int slope_of[FMU_INPUT_COUNT] = {
+      [FMU_INPUT_PRESSURE] = FMU_INPUT_PRESSURE_RATE, [FMU_INPUT_POSITION] = FMU_INPUT_VELOCITY};
+  int status = fmu_may(instance, FMU_CALL_SET_INPUT);
+  size_t k;
+  for (k = 0; k < n && status <= FMU_WARNING; k++) {
+    const int is_input = is_in(reference[k], FMU_REF_INPUT, FMU_INPUT_COUNT);
+    const unsigned rate = is_input ? (unsigned)slope_of[reference[k] - FMU_REF_INPUT] : 0;
+    if (!is_input || order[k] != 1)
+      return fmu_say(instance, FMU_ERROR, "reference %u, order %d: only inputs have slopes", reference[k], order[k]);
+    if (rate)
+      status = set_one(instance, FMU_REF_INPUT + rate, slope[k]) ? FMU_ERROR : status;
+    else if (slope[k] != 0)
+      status = fmu_say(instance, FMU_WARNING, "reference %u holds during a step", reference[k]);
+  }
+  return status;
 }
 
 int fmu_set_real(fmu_instance *instance, const unsigned *reference, size_t n, const double *value)

@@ -163,11 +163,13 @@ static int same(const pneu_input *a, const pneu_input *b)
          a->pressure_rate == b->pressure_rate && a->position_rate == b->position_rate;
 }
 
-/* The schedule with commands that act late, the other inputs in time.  Out: late, of 2 n rows at most */
+/* The schedule with commands that act late, the other inputs in time; what only rounding keeps apart happens at once.
+ * Out: late, of 2 n rows at most */
 static void delay_commands(const lab_schedule *s, double delay, double *t, pneu_input *input, lab_schedule *late)
 {
   size_t prompt = 0, acting = 0, n = 0; /* the row whose inputs, and the one whose command hold */
   for (;;) {
+    const double rounding = 1e-12 * (1 + fabs(s->t[prompt]));
     const double next = prompt + 1 < s->n ? s->t[prompt + 1] : (double)INFINITY;
     const double next_command = acting + 1 < s->n ? s->t[acting + 1] + delay : (double)INFINITY;
     input[n] = s->input[prompt];
@@ -178,8 +180,8 @@ static void delay_commands(const lab_schedule *s, double delay, double *t, pneu_
     }
     if (next == (double)INFINITY && next_command == (double)INFINITY)
       break;
-    prompt += next <= next_command;
-    acting += next_command <= next;
+    prompt += next <= next_command + rounding && next < (double)INFINITY;
+    acting += next_command <= next + rounding && next_command < (double)INFINITY;
   }
   late->n = n;
   late->t = t;
