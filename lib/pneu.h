@@ -360,7 +360,7 @@ typedef struct pneu_output {
   pneu_real supply;            /* [Pa] gauge, at the transducer */
   pneu_real friction;          /* [N] level of dry friction while sliding */
   pneu_real holding_force;     /* [N] that keeps the stem at its velocity, positive against the air */
-  int choked;                  /* 1: the flow in use is choked */
+  int choked;                  /* 1: flow through the transducer is choked; 0: it is not, or the transducer is shut */
   pneu_real shown_pressure;    /* [Pa] gauge, by its sensor */
   pneu_real shown_temperature; /* [K] by its sensor */
   pneu_real shown_position;    /* [m] by its sensor */

@@ -23,7 +23,6 @@ static void transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
 {
   const pneu_real p_chamber = t->p, T_chamber = t->T;
   t->mass_in = t->mass_out = t->mass_in_T = 0;
-  t->choked = 0;
   t->p = p;
   t->T = T;
   pneu_transducer_flow(t);
