@@ -454,8 +454,8 @@ int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *la
  *          values. On error the model keeps what it has. */
 int pneu_model_terms(pneu_model *model, const pneu_term *term, int n);
 
-/* Words for a status and a mode, keys of a gas law and a flow law.  Returns: a constant string, "unknown" out of range.
- */
+/* Words for a status and a mode, keys of a gas law and a flow law.
+ * Returns: a constant string, "unknown" out of range. */
 const char *pneu_status_text(int status);
 const char *pneu_mode_text(int mode);
 const char *pneu_gas_key(int law);
@@ -542,9 +542,10 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
  * impact is taken as inelastic).  In/out: state */
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state);
 
-/* Mode that the balance of forces asks for at the present instant, after an input has jumped; a stem that moves goes
- * on, and a driven one takes the input's rate as v. At rest, a state that is not physical (absolute pressure,
- * temperature or volume <= 0) counts as stuck. In/out: state, mode and v */
+/* Mode that the balance of forces asks for at the present instant, after an input has jumped. A stem that
+ * moves goes on; a driven one takes the input's rate as v. At rest a state that is not physical (absolute
+ * pressure, temperature or volume <= 0) counts as stuck.
+ * In/out: state, mode and v */
 void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state);
 
 /* ---- Stepping ---- */
@@ -568,9 +569,9 @@ void pneu_options_default(pneu_options *options);
  *          (tests/test_standard.c; measured at 1e-8 in results/agreement.csv: 1.8e-8 and 3.1e-6). Mass and energy are
  *          kept to 6e-8 of what has passed at 1e-8 (results/agreement.csv)
  * Omits:   waves in the line, inertia of the gas
- * Returns: PNEU_OK, or the reason for stopping; `state` is then the last accepted one. PNEU_E_NONFINITE also, before
- *          anything is done, for a state or input outside the range that pneu_step documents, for a duration or a
- *          tolerance outside its own. */
+ * Returns: PNEU_OK, or the reason for stopping; `state` is then the last accepted one. PNEU_E_NONFINITE also for a
+ *          state or input outside the range that pneu_step documents, a duration or a tolerance outside its own:
+ *          nothing is done then. */
 int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real duration,
              const pneu_options *options, const pneu_observer *observer, pneu_workspace *work);
 
@@ -617,8 +618,9 @@ typedef struct pneu_flow {
  * Domain:  ideal gas; steady. Within PNEU_BLEND (5e-4) of equal pressures the root is replaced
  *          by an odd polynomial that is linear at zero, with value, slope and curvature
  *          continuous at the edge.
- * Error:   exact to 1e-12 of itself outside the blend (tests; in double); inside it at most 18 % of the flow at its
- * edge lies between polynomial and root, with subsonic_index 0.2 at most 47 %. Slopes: to 1e-6 of difference quotients.
+ * Error:   exact to 1e-12 of itself outside the blend (tests; in double); inside it at most 18 % of the flow
+ *          at its edge lies between polynomial and root, with subsonic_index 0.2 at most 47 %. Slopes: to
+ *          1e-6 of difference quotients.
  * Omits:   vena contracta shift with ratio, upstream kinetic energy, heat, inertia of the gas.
  * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;
  *          iso6358: ISO 6358-1:2013, with C = area * pneu_sonic_conductance(model, 1);
