@@ -42,7 +42,7 @@ at_home() {
   home=$BUILD/order4
   order=-DPNEU_ORDER=4
   [ -n "${built:-}" ] && return 0
-  # shellcheck disable=SC2046
+  # shellcheck disable=SC2046,SC2086
   $MAKE --no-print-directory BUILD="$home" LAB= CFLAGS=$order $(printf "$home/tests/test_%s " $quick) \
     >"$scratch/order4.log" 2>&1 || { tail "$scratch/order4.log"; exit 2; }
   built=1
