@@ -190,8 +190,8 @@ static void set_wall_temperature(pneu_params *p, second_rig *g, double size)
 }
 
 /* What an effect may differ by is three times what it was measured to (PNEU_SHOW=1 prints it), the larger of both laws
- * and rounded up to one digit: what is left is the steps of either side, largest in pressure just after the stem has
- * landed, and a fault ten times smaller than that of a wrong digit is seen. */
+ * and rounded up to one digit. What is left is the steps of either side, most of it in pressure; a leak that is larger
+ * by 0.003 % on one side alone is seen. */
 typedef struct effect_case {
   const char *name;
   void (*set)(pneu_params *p, second_rig *g, double size);
