@@ -119,7 +119,7 @@ fleet: closeloop $(BUILD)/tests/bench/fleet
 
 ## Break the library one sign or factor at a time, see that a test notices: MUTANTS=10 SEED=1 draws some, else all
 mutate: tests
-	@CC='$(CC)' BUILD='$(BUILD)' HELPERS='$(HELP)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
+	@CC='$(CC)' MAKE='$(MAKE)' BUILD='$(BUILD)' LINK='-fopenmp $(LAB_LIBS) -lcmocka' MUTANTS='$(MUTANTS)' \
 	  SEED='$(or $(SEED),1)' OUT='$(if $(MUTANTS)$(FILES),,results/mutation.csv)' sh tests/mutate.sh
 .PHONY: mutate
 

@@ -280,12 +280,12 @@ static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pn
     mixed_flow(t, area, p_up, T_up, p_down, t->extent == PNEU_EXTENT_SLOPES, flow);
 }
 
-void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
+int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
 {
   const int out = p_other < t->p;
   pneu_flow flow = {0, 0, 0, 0, 0};
   if (area <= 0)
-    return;
+    return 0;
   if (out) {
     flow_between(t, area, t->p, t->T, p_other, resistance, 0, &flow);
     t->mass_out += flow.q;
@@ -294,12 +294,12 @@ void pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T
     t->mass_in += flow.q;
     t->mass_in_T += flow.q * T_other;
   }
-  t->choked |= flow.choked;
   if (t->extent < PNEU_EXTENT_SLOPES)
-    return;
+    return flow.choked;
   if (out) {
     t->dout_dp += flow.dq_dup;
     t->dout_dT += flow.dq_dT;
   } else
     t->din_dp += flow.dq_ddown;
+  return flow.choked;
 }

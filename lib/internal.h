@@ -76,8 +76,8 @@ struct pneu_terms {
   pneu_real film;                     /* [W/K] its conductance */
   pneu_real bristle_force;            /* [N] */
   pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
-  int choked;
-  int extent; /* enum pneu_extent */
+  int choked;                         /* flow through the transducer */
+  int extent;                         /* enum pneu_extent */
 };
 typedef struct pneu_terms pneu_terms;
 
@@ -102,8 +102,8 @@ int pneu_is_physical(const pneu_model *model, const pneu_state *state);
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 
-/* Flow between the chamber and a reservoir, either way, added to the sums. */
-void pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
+/* Flow between the chamber and a reservoir, either way, added to the sums.  Returns: whether it is choked. */
+int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
 
 /* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
  * the model's constants by `prepare`.  Out: rate, of their states (may be NULL) */

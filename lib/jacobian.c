@@ -3,9 +3,9 @@
 
 /* Difference quotients, with steps by the size of each entry or a share of its full scale: a thousandth, and a tenth
  * for states of effects. These start at 0, their rates are nearly linear in them, and so short a step would leave
- * single precision one digit. */
-static void differences(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                        const pneu_real *f0, int n, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
+ * single precision one digit.  Returns: PNEU_RETRY_STATE where a step leaves the model's domain. */
+static int differences(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                       const pneu_real *f0, int n, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
   const pneu_real small = PNEU_M(sqrt)(PNEU_EPS);
   pneu_real scale[PNEU_STATE_MAX], z[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
@@ -17,14 +17,13 @@ static void differences(const pneu_model *model, const pneu_state *state, const 
     const int of_effect = j > model->thermal && j < model->n_gas;
     const pneu_real size = PNEU_M(fabs)(y[j]), floor = (of_effect ? PNEU_C(0.1) : PNEU_C(1e-3)) * scale[j];
     z[j] = y[j] + small * (size > floor ? size : floor);
-    if (pneu_rhs(model, state, input, z, f) != PNEU_OK) {
-      z[j] = y[j];
-      pneu_rhs(model, state, input, z, f);
-    }
+    if (pneu_rhs(model, state, input, z, f) != PNEU_OK)
+      return PNEU_RETRY_STATE;
     for (i = 0; i < n; i++)
-      jac[i][j] = z[j] == y[j] ? 0 : (f[i] - f0[i]) / (z[j] - y[j]);
+      jac[i][j] = (f[i] - f0[i]) / (z[j] - y[j]);
     z[j] = y[j];
   }
+  return PNEU_OK;
 }
 
 /* Rows of p and T in the order of their formulae in chamber.c. */
@@ -93,10 +92,8 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   pneu_terms t;
   const int n = pneu_dimension(model, state->mode);
-  if (!is_analytic(model)) {
-    differences(model, state, input, y, f0, n, jac);
-    return PNEU_OK;
-  }
+  if (!is_analytic(model))
+    return differences(model, state, input, y, f0, n, jac);
   if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_SLOPES, &t, NULL) != PNEU_OK)
     return PNEU_RETRY_STATE;
   base_jacobian(&t, model->n_gas, n, f0, jac);
@@ -112,8 +109,7 @@ int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pn
   if (!is_analytic(model)) {
     if (pneu_rhs(model, state, input, work->y0, work->f0) != PNEU_OK)
       return PNEU_RETRY_STATE;
-    differences(model, state, input, work->y0, work->f0, n, work->jac);
-    return PNEU_OK;
+    return differences(model, state, input, work->y0, work->f0, n, work->jac);
   }
   if (pneu_evaluate(model, state, input, work->y0, PNEU_EXTENT_SLOPES, &t, NULL) != PNEU_OK)
     return PNEU_RETRY_STATE;

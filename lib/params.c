@@ -35,13 +35,13 @@ const pneu_effect *pneu_effect_at(int i)
 
 int pneu_effect_params(int i, int *count)
 {
-  int first = PNEU_PARAM_BASE_COUNT;
+  int e, first = PNEU_PARAM_BASE_COUNT;
   if (i < 0 || i >= PNEU_EFFECT_COUNT)
     return -1;
   if (count)
     *count = param_counts[i];
-  while (i > 0)
-    first += param_counts[--i];
+  for (e = 0; e < i; e++)
+    first += param_counts[e];
   return first;
 }
 
@@ -76,6 +76,6 @@ void pneu_params_default(pneu_params *p)
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
-    *pneu_param_at(p, i) = i < PNEU_PARAM_BASE_COUNT || info.shape ? info.value : info.neutral;
+    *pneu_param_at(p, i) = info.neutral;
   }
 }

@@ -15,8 +15,9 @@
  *              smaller library. Compile the library and its user with the same one: it sets array sizes.
  *   Free terms the same holds for PNEU_TERM_KNOTS, room for the knots of a free term. 0 leaves free
  *              terms out of the code.
- *   Method     PNEU_ORDER 5 (in double) is exact to many digits; 4 (in single) needs half the memory and less than half
- *              the work, and its error is below the rounding of single precision. The same holds for it.
+ *   Method     PNEU_ORDER 5 (in double) is Rodas5P, exact to many digits; 4 (in single) is ROS4: less than half the
+ * work, a fifth less workspace for the base model, and more exact in single precision up to steps of 2 ms. The same
+ * holds for it.
  *
  * The equations are derived in DESIGN.md; [B] stands for M. Bartys, "Dynamics of single-action
  * pneumatic actuators", whose model this library extends.
@@ -272,7 +273,7 @@ typedef struct pneu_param_info {
   const char *name, *unit;
   pneu_real lower, upper;
   pneu_real value;   /* base model: default. Effect: the size it starts from when switched on */
-  pneu_real neutral; /* effect: value at which the model is the base model */
+  pneu_real neutral; /* effect: value at which the model is the base model; else, and of a form, as `value` */
   int shape;         /* effect: not 0 if it only gives form to what another parameter switches on */
   const char *meaning;
 } pneu_param_info;
@@ -316,7 +317,7 @@ typedef struct pneu_effect {
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
-  pneu_real g;                         /* exponent of the energy balance: 1, n or gamma */
+  pneu_real g;                         /* exponent of the energy balance: n or gamma */
   pneu_real critical_ratio;            /* of the isentropic nozzle */
   pneu_real nozzle[PNEU_NOZZLE_TERMS]; /* of its flow function, see lib/flow.c */
   pneu_real choked_gain;               /* choked flow is area p_up choked_gain / sqrt(T_up) [sqrt(kg K/J)] */
@@ -360,7 +361,7 @@ typedef struct pneu_output {
   pneu_real supply;            /* [Pa] gauge, at the transducer */
   pneu_real friction;          /* [N] level of dry friction while sliding */
   pneu_real holding_force;     /* [N] that keeps the stem at its velocity, positive against the air */
-  int choked;                  /* 1: the flow in use is choked */
+  int choked;                  /* 1: flow through the transducer is choked; 0: it is not, or the transducer is shut */
   pneu_real shown_pressure;    /* [Pa] gauge, by its sensor */
   pneu_real shown_temperature; /* [K] by its sensor */
   pneu_real shown_position;    /* [m] by its sensor */
@@ -375,9 +376,9 @@ typedef struct pneu_shown {
 } pneu_shown;
 
 typedef struct pneu_options {
-  pneu_real tol;   /* local error in units of stroke, full pressure and so on; 1e-10..1e-2 */
-  pneu_real h_max; /* [s] longest step; 0: none */
-  int max_steps;   /* per run */
+  pneu_real tol;   /* local error in units of stroke, full pressure and so on (pneu_scales); 1e-10..1e-2 */
+  pneu_real h_max; /* [s] longest step; 0 or less: none */
+  int max_steps;   /* per run, > 0 */
 } pneu_options;
 
 typedef struct pneu_stats {
@@ -405,8 +406,8 @@ typedef struct pneu_step_view {
   pneu_real t, h;          /* [s] from the start of the run */
 } pneu_step_view;
 
-/* Called after each accepted step and each event; any pointer may be NULL. A result other than
- * 0 stops the run with PNEU_E_STOPPED. */
+/* Called after each accepted step and each event; any pointer may be NULL. A result other than 0 stops the run with
+ * PNEU_E_STOPPED: the state is then that at the start of the step shown, or that after the event. */
 typedef struct pneu_observer {
   int (*step)(void *context, const pneu_step_view *view);
   int (*event)(void *context, pneu_real t, const pneu_state *state, int mode_before);
@@ -439,7 +440,8 @@ int pneu_effect_params(int i, int *count);
  *          law  laws and roles
  * Out:     model
  *          bad  index of the parameter at fault, or -1 (may be NULL)
- * Returns: PNEU_OK, PNEU_E_PARAM, PNEU_E_LAW. On error `model` must not be used. */
+ * Returns: PNEU_OK; PNEU_E_PARAM for a parameter outside its bounds or not finite; PNEU_E_LAW for an unknown law of gas
+ *          or flow. On error `model` must not be used. */
 int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *law, int *bad);
 
 /* Add free terms to an initialised model, in place of those that it has; it has none after pneu_model_init.
@@ -447,12 +449,13 @@ int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *la
  *                read-only memory. NULL with n = 0
  *          n     >= 0
  * Out:     model
- * Returns: PNEU_OK; PNEU_E_LAW for an unknown equation or argument; PNEU_E_PARAM for a number that is not finite, for
- *          from >= to, for knots fewer than 2 or more than PNEU_TERM_KNOTS, over a cycle an odd number of values. On
- *          error the model keeps what it has. */
+ * Returns: PNEU_OK; PNEU_E_LAW for an unknown equation or argument; PNEU_E_PARAM for n < 0, for a number that is not
+ *          finite, for from >= to, for knots fewer than 2 or more than PNEU_TERM_KNOTS, over a cycle an odd number of
+ *          values. On error the model keeps what it has. */
 int pneu_model_terms(pneu_model *model, const pneu_term *term, int n);
 
-/* Words for a status, a mode, a gas law, a flow law.  Returns: a constant string, "unknown" out of range. */
+/* Words for a status and a mode, keys of a gas law and a flow law.
+ * Returns: a constant string, "unknown" out of range. */
 const char *pneu_status_text(int status);
 const char *pneu_mode_text(int mode);
 const char *pneu_gas_key(int law);
@@ -465,48 +468,53 @@ void pneu_input_default(const pneu_model *model, pneu_input *input);
 
 /* A state at rest.
  * In:      pressure     chamber pressure [Pa] gauge, > -ambient_pressure
- *          temperature  of the gas [K]; isothermal law: ambient is taken instead
+ *          temperature  of the gas [K], > 0; where it is no state (isothermal law, pressure an input) ambient is taken
+ *                       instead. Absolute pressure times temperature at most 1e30 Pa K
  *          position     [m], 0..stroke; a stem beyond a stop that an effect has moved is put onto it, and one
  *                       pressed onto a stop that yields sinks in until it is carried
  * Out:     state        mode chosen from the balance of forces
- * Returns: PNEU_OK or PNEU_E_NONFINITE. */
+ * Returns: PNEU_OK, or PNEU_E_NONFINITE outside these ranges: `state` then is as it was. */
 int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real temperature, pneu_real position,
                     const pneu_input *input, pneu_state *state);
 
 /* Everything that can be read off a state.
- * Returns: PNEU_OK, or PNEU_RETRY_STATE if the state is not physical (mass, temperature or volume <= 0). */
+ * Returns: PNEU_OK, or PNEU_RETRY_STATE if the state is not physical: absolute pressure or temperature <= 0, or volume,
+ *          unless pressure is an input. `out` is set only with PNEU_OK. */
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out);
 
-/* What the sensors show of a state: the same as the last three of pneu_observe, without an evaluation where no effect
- * of a sensor is active.  Returns: as pneu_observe; `shown` is set only with PNEU_OK. */
+/* What the sensors show of a state: the same as the last three of pneu_observe, and the force on a driven stem; without
+ * an evaluation where there is neither an effect of a sensor nor a free term nor a driven stem.  Returns: as
+ * pneu_observe; `shown` is set only with PNEU_OK. */
 int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown);
 
-/* Packed vector for an external integrator: p, [T], states of effects, x, v. At rest x and v are
- * frozen and left out.
- * Returns: the number of entries in the state's mode. Out: y */
+/* Packed vector for an external integrator: p, [T], states of effects, [clock], x, v, in their units of pneu_state. At
+ * rest x and v are frozen and left out, so is v of a driven stem.
+ * Returns: the number of entries in the state's mode. Out: y, PNEU_STATE_MAX entries at most */
 int pneu_pack(const pneu_model *model, const pneu_state *state, pneu_real *y);
 void pneu_unpack(const pneu_model *model, const pneu_real *y, pneu_state *state);
 
 /* Number of packed entries in a mode.  In: mode  enum pneu_mode. */
 int pneu_dimension(const pneu_model *model, int mode);
 
-/* Full scale of each packed entry, the unit of pneu_options.tol: absolute supply pressure, ambient
- * temperature, 1 for states of effects, stroke, and stroke times the rate at which the stem's
- * velocity settles.  Out: scale, PNEU_STATE_MAX entries at most */
+/* Full scale of each packed entry of a moving stem, the unit of pneu_options.tol: absolute supply pressure, ambient
+ * temperature, 1 for states of effects and the clock, stroke (1 m for a vessel), and the stroke in 10 ms for velocity,
+ * whatever the stem.  Out: scale, PNEU_STATE_MAX entries at most */
 void pneu_scales(const pneu_model *model, pneu_real *scale);
 
 /* Time derivative of the packed vector in the state's mode: [B, Eqs. 2, 7, 8] and what was added.
  * In:      state  its mode, and x, v where they are frozen
  *          y      packed vector
- * Out:     dydt   as many entries
- * Returns: PNEU_OK or PNEU_RETRY_STATE. */
+ * Out:     dydt   as many entries, per second
+ * Returns: PNEU_OK, or PNEU_RETRY_STATE where pneu_observe has it: `dydt` then means nothing. */
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
              pneu_real *dydt);
 
-/* d(dydt)/dy, row by row; analytic where no effect and no free term is active, else by differences (relative
- * accuracy about the square root of the machine's).
+/* d(dydt)/dy, row by row; analytic, exact to rounding, where no effect and no free term is active, pressure is no input
+ * and proportional_band is 0; else by one-sided differences, exact to about the square root of the machine's accuracy
+ * but at kinks.
  * In:      f0   dydt at y
- * Out:     jac  jac[i][j] = d f_i / d y_j */
+ * Out:     jac  jac[i][j] = d f_i / d y_j, as many rows and columns as pneu_dimension says
+ * Returns: PNEU_OK, or PNEU_RETRY_STATE where pneu_rhs has it, at y or at a difference from it. */
 int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   const pneu_real *f0, pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX]);
 
@@ -524,39 +532,46 @@ enum {
 
 /* Event functions of the state's mode: an event happens where g rises through 0.
  * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
- *             velocity [m/s] and distance beyond the stop [m] while moving
- * Returns: their number. */
+ *             velocity [m/s] against the mode's and distance beyond the stop [m] while sliding; with bristles
+ *             distance beyond the upper and the lower stop
+ * Returns: their number; 0 driven, for a vessel, and at rest where the state is not physical. */
 int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                 pneu_real *g);
 
-/* Mode after event `which` of pneu_events fired; sets x and v exactly (v = 0 on a stop: the impact
- * is taken as inelastic).  In/out: state */
+/* Mode after event `which` of pneu_events fired, 0 <= which < its result; sets x and v exactly (v = 0 on a stop: the
+ * impact is taken as inelastic).  In/out: state */
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state);
 
-/* Mode that the balance of forces [N] asks for at the present instant, after an input has jumped. A state that is not
- * physical (p, T or volume <= 0) counts as stuck.
- * In/out: state */
+/* Mode that the balance of forces asks for at the present instant, after an input has jumped. A stem that
+ * moves goes on; a driven one takes the input's rate as v. At rest a state that is not physical (absolute
+ * pressure, temperature or volume <= 0) counts as stuck.
+ * In/out: state, mode and v */
 void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state);
 
 /* ---- Stepping ---- */
 
-/* Default options: tol 1e-6, no longest step, 100000 steps.  Out: options */
+/* Default options: tol 1e-6 (single: 1e-4), no longest step, 100000 steps.  Out: options */
 void pneu_options_default(pneu_options *options);
 
 /* Run with constant input and adaptive steps to the end of a stretch of time.
  * Method:  Rodas5P (Steinebach 2023, BIT 63:27): Rosenbrock-Wanner, order 5(4), L-stable, stiffly
- *          accurate. Events are located to 1e-9 s (single: 1e-6 s) by repeating the step.
+ *          accurate; PNEU_ORDER 4: ROS4 (Hairer and Wanner 1996, IV.7), order 4(3), L-stable. Events are located to
+ *          1e-9 s (single: 1e-6 s) by repeating the step.
  * In:      input     constant throughout; a command change is the start of a new run
- *          duration  [s] >= 0
+ *          duration  [s] >= 0, finite
  *          options   see pneu_options
  *          observer  may be NULL
  * In/out:  state     at the start, then at the end
  *          work      scratch; statistics are added to work->stats
- * Error:   largest over a fill-and-vent of both actuators of the study in four laws, against CVODE at 1e-12: 2e-6 of
- *          stroke at tol 1e-6, 2e-8 at 1e-8; mass and energy are kept to 6e-8 at 1e-8 (results/agreement.csv)
+ * Error:   largest over a fill-and-vent of both actuators of the study in four laws, in double, against CVODE: position
+ *          2e-6 of stroke at tol 1e-6, 3e-8 at 1e-8; pressure 2e-4 and 5e-6 of the supply's, in the milliseconds after
+ *          the stem has landed, when a dead volume of 2 or 4 cm3 empties and an error of time becomes one of pressure
+ *          (tests/test_standard.c; measured at 1e-8 in results/agreement.csv: 1.8e-8 and 3.1e-6). Mass and energy are
+ *          kept to 6e-8 of what has passed at 1e-8 (results/agreement.csv)
  * Omits:   waves in the line, inertia of the gas
  * Returns: PNEU_OK, or the reason for stopping; `state` is then the last accepted one. PNEU_E_NONFINITE also for a
- *          state or input outside its documented range, a duration that is no number, a tolerance not in 0..1. */
+ *          state or input outside the range that pneu_step documents, a duration or a tolerance outside its own:
+ *          nothing is done then. */
 int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real duration,
              const pneu_options *options, const pneu_observer *observer, pneu_workspace *work);
 
@@ -564,8 +579,9 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * most PNEU_PARTS_MAX where modes switch within it, its error is large, or a trial point leaves the chamber without
  * volume, each end on an event located in at most PNEU_LOCATE_MAX repeats: PNEU_STEP_RHS_MAX evaluations in all. A stem
  * that has used up the parts, by bouncing between its stops, is held for what is left of the step.
- * In:      state  made of numbers; p > -ambient_pressure; T > 0 but under the isothermal law; x on or between the
- *                 stops, to a thousandth of the stroke, or, driven, where there is volume; a mode of enum pneu_mode
+ * In:      state  made of numbers; p > -ambient_pressure; T > 0 where it is a state; x on or between the stops, to a
+ *                 thousandth of the stroke, or, driven, anywhere; volume > 0 unless pressure is an input; a mode of
+ *                 enum pneu_mode
  *          input  made of numbers; u in -1..1 unless proportional_band is set; supply_pressure > -ambient_pressure
  *          dt  [s] > 0. The step is split where its local error exceeds 1e-4 of full scale, as far as the parts
  *              reach: what decides is how stiff the gas is, V_0/(A stroke)
@@ -577,9 +593,10 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  *          dt is outside them, or PNEU_E_SINGULAR: `state` then is unchanged, bit for bit. */
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work);
 
-/* State inside an accepted step, order 4: its error falls with the fifth power of the step's length.
+/* State inside an accepted step. Order 4: its error falls with the fifth power of the step's length; PNEU_ORDER 4:
+ * order 2, with the third power. At the ends it is the step itself.
  * In:      theta  0..1: start to end of the step
- * Out:     state */
+ * Out:     state, in the mode of the step */
 void pneu_dense(const pneu_step_view *view, pneu_real theta, pneu_state *state);
 
 /* ---- Parts that are useful alone ---- */
@@ -601,8 +618,9 @@ typedef struct pneu_flow {
  * Domain:  ideal gas; steady. Within PNEU_BLEND (5e-4) of equal pressures the root is replaced
  *          by an odd polynomial that is linear at zero, with value, slope and curvature
  *          continuous at the edge.
- * Error:   exact to 1e-12 of itself outside the blend (tests); inside it at most 18 % of the flow at its edge lies
- *          between polynomial and root. Slopes: to 1e-6 of difference quotients.
+ * Error:   exact to 1e-12 of itself outside the blend (tests; in double); inside it at most 18 % of the flow
+ *          at its edge lies between polynomial and root, with subsonic_index 0.2 at most 47 %. Slopes: to
+ *          1e-6 of difference quotients.
  * Omits:   vena contracta shift with ratio, upstream kinetic energy, heat, inertia of the gas.
  * Source:  paper: [B, Eq. 8]; choked: Saint-Venant and Wantzel 1839, as in ISO 6358-1 Annex;
  *          iso6358: ISO 6358-1:2013, with C = area * pneu_sonic_conductance(model, 1);

@@ -178,6 +178,12 @@ static int usable(const pneu_model *model, const pneu_state *state, const pneu_i
          (state->x >= model->lower_stop - margin && state->x <= model->upper_stop + margin);
 }
 
+/* Whether duration and tolerance lie in their documented ranges; tolerance with room for rounding. */
+static int in_range(pneu_real duration, pneu_real tol)
+{
+  return duration >= 0 && duration * 0 == 0 && tol >= PNEU_C(0.9999e-10) && tol <= PNEU_C(1.0001e-2);
+}
+
 /* Try steps from the present state until one is accepted. */
 static int advance(run *r)
 {
@@ -230,7 +236,7 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
 {
   run r;
   int status = PNEU_OK;
-  if (!usable(model, state, input) || !(duration * 0 == 0) || !(options->tol > 0 && options->tol < 1))
+  if (!usable(model, state, input) || !in_range(duration, options->tol))
     return PNEU_E_NONFINITE;
   r.model = model;
   r.input = input;

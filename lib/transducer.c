@@ -20,8 +20,8 @@ void pneu_transducer_flow(pneu_terms *t)
 {
   const pneu_params *p = &t->model->p;
   if (t->opening > 0) {
-    pneu_exchange(t, t->opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
+    t->choked = pneu_exchange(t, t->opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
     t->drawn = t->mass_in; /* the first flow of all */
   } else if (t->opening < 0)
-    pneu_exchange(t, -t->opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
+    t->choked = pneu_exchange(t, -t->opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
 }

@@ -49,7 +49,7 @@ static void test_pneu_effect_at__parameters__start_off_neutral_and_within_bounds
       assert_true(has_text(info->name) && has_text(info->unit) && has_text(info->meaning));
       assert_between(info->value, info->lower, info->upper);
       assert_between(info->neutral, info->lower, info->upper);
-      assert_true(info->shape || info->value != info->neutral);
+      assert_true(info->shape ? info->value == info->neutral : info->value != info->neutral);
     }
     assert_false(pneu_effect_at(e)->param[0].shape);
   }
@@ -145,7 +145,12 @@ static int acts_in_run(int e, int gas)
   return !delay && (gas == PNEU_GAS_ENERGY || !thermal);
 }
 
-/* The base model is the limit of the effect, not a case apart. */
+static int fewer(int a, int b)
+{
+  return a < b ? a : b;
+}
+
+/* The base model is the limit of the effect, not a case apart. The last sample of a run may be lost to rounding. */
 static void test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model(void **state)
 {
   static fixture_sample base[SAMPLES], small[SAMPLES];
@@ -156,12 +161,11 @@ static void test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model(
     pneu_params p = ground(e, &gas);
     double far, near;
     const int n = standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, base);
+    assert_in_range(n, 305, 306);
     set_share(&p, e, 1);
-    standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small);
-    far = largest_difference(base, small, n);
+    far = largest_difference(base, small, fewer(n, standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small)));
     set_share(&p, e, 1e-3);
-    standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small);
-    near = largest_difference(base, small, n);
+    near = largest_difference(base, small, fewer(n, standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small)));
     check_note("%s: %g at full size, %g at a thousandth", names[e], far, near);
     assert_between(far, acts_in_run(e, gas) ? 1e-5 : 0, acts_in_run(e, gas) ? 2 : 1e-6);
     assert_between(near, 0, 0.02 * far + 1e-5);

@@ -30,6 +30,18 @@ static void footprint_chamber_leak(void)
     s = fixture_rest(&m, 2e5, 0, &input);
     assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
   }
+  { /* a leak that chokes says nothing about the transducer: shut, filling beyond its critical pressure, before it */
+    static const double u[] = {0, 1, 1}, pressure[] = {3e5, 3e5, 1e5};
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+    int i;
+    for (i = 0; i < COUNT(u); i++) {
+      const pneu_input input = fixture_input(&m, u[i]);
+      s = fixture_rest(&m, pressure[i], 0, &input);
+      check_note("u = %g at %g Pa", u[i], pressure[i]);
+      assert_true(fixture_look(&m, &s, &input).out > 0);
+      assert_int_equal(fixture_look(&m, &s, &input).choked, i == 2);
+    }
+  }
 }
 
 /* q = c (p^2 - p_a^2) in a shut vessel: (p - p_a)/(p + p_a) decays at 2 p_a c R T/V, from above and below; under the

@@ -189,25 +189,49 @@ static void set_wall_temperature(pneu_params *p, second_rig *g, double size)
   BOTH("wall_loss", wall_loss, 0.5);
 }
 
+/* What an effect may differ by is three times what it was measured to (PNEU_SHOW=1 prints it), the larger of both laws
+ * and rounded up to one digit. What is left is the steps of either side, most of it in pressure; a leak that is larger
+ * by 0.003 % on one side alone is seen. */
 typedef struct effect_case {
   const char *name;
   void (*set)(pneu_params *p, second_rig *g, double size);
+  apart most;
 } effect_case;
 
-#define CASE(name)                                                                                                     \
-  {                                                                                                                    \
-#name, set_##name                                                                                                  \
-  }
+/* clang-format off */
+#define CASE(name, p, x, T) {#name, set_##name, {p, x, T}}
 static const effect_case cases[] = {
-    CASE(area_variation),    CASE(chamber_leak),    CASE(channel_skew),          CASE(choked_flow),
-    CASE(connecting_tube),   CASE(dead_time),       CASE(exhaust_back_pressure), CASE(friction_position),
-    CASE(friction_pressure), CASE(heat_transfer),   CASE(laminar_leak),          CASE(porous_leak),
-    CASE(position_bias),     CASE(position_gain),   CASE(position_lag),          CASE(presliding),
-    CASE(pressure_bias),     CASE(pressure_gain),   CASE(pressure_lag),          CASE(spring_hardening),
-    CASE(spring_hysteresis), CASE(stop_compliance), CASE(stribeck_friction),     CASE(supply_droop),
-    CASE(temperature_lag),   CASE(transducer_lag),  CASE(travel_limit),          CASE(vent_restriction),
-    CASE(wall_temperature),
+    CASE(area_variation,        3e-6, 2e-7, 2e-6),
+    CASE(chamber_leak,          2e-6, 5e-8, 8e-7),
+    CASE(channel_skew,          3e-6, 5e-8, 2e-6),
+    CASE(choked_flow,           2e-6, 7e-8, 2e-6),
+    CASE(connecting_tube,       6e-7, 3e-8, 1e-6),
+    CASE(dead_time,             7e-6, 3e-7, 4e-6),
+    CASE(exhaust_back_pressure, 4e-6, 2e-7, 3e-6),
+    CASE(friction_position,     3e-6, 2e-7, 2e-6),
+    CASE(friction_pressure,     4e-6, 2e-7, 3e-6),
+    CASE(heat_transfer,         3e-6, 2e-7, 2e-6),
+    CASE(laminar_leak,          2e-6, 7e-8, 2e-6),
+    CASE(porous_leak,           3e-6, 1e-7, 2e-6),
+    CASE(position_bias,         3e-6, 2e-7, 2e-6),
+    CASE(position_gain,         5e-6, 2e-7, 3e-6),
+    CASE(position_lag,          3e-6, 2e-9, 2e-6),
+    CASE(presliding,            1e-6, 3e-7, 5e-7),
+    CASE(pressure_bias,         9e-7, 7e-8, 4e-7),
+    CASE(pressure_gain,         3e-6, 2e-7, 2e-6),
+    CASE(pressure_lag,          4e-8, 2e-7, 2e-6),
+    CASE(spring_hardening,      3e-6, 2e-7, 2e-6),
+    CASE(spring_hysteresis,     9e-7, 5e-8, 4e-7),
+    CASE(stop_compliance,       9e-6, 7e-6, 3e-6),
+    CASE(stribeck_friction,     9e-6, 7e-6, 3e-6),
+    CASE(supply_droop,          4e-6, 2e-7, 3e-6),
+    CASE(temperature_lag,       3e-6, 2e-7, 2e-9),
+    CASE(transducer_lag,        6e-7, 3e-8, 4e-7),
+    CASE(travel_limit,          4e-6, 2e-7, 2e-6),
+    CASE(vent_restriction,      3e-6, 2e-7, 2e-6),
+    CASE(wall_temperature,      2e-6, 8e-8, 2e-6),
 };
+/* clang-format on */
 
 /* ---- one experiment on both sides ---- */
 
@@ -312,15 +336,15 @@ static apart compare(const experiment *e)
 }
 
 /* PNEU_SHOW in the environment prints the differences. */
-static void assert_agrees(const experiment *e, double tol, const char *what)
+static void assert_agrees(const experiment *e, const apart *most, const char *what)
 {
   const apart d = compare(e);
   check_note("p %.1e, x %.1e, T %.1e apart: %s", d.p, d.x, d.T, what);
   if (getenv("PNEU_SHOW"))
     printf("%s\n", check_case);
-  assert_between(d.p, 0, tol);
-  assert_between(d.x, 0, tol);
-  assert_between(d.T, 0, tol);
+  assert_between(d.p, 0, most->p);
+  assert_between(d.x, 0, most->x);
+  assert_between(d.T, 0, most->T);
 }
 
 /* ---- tests ---- */
@@ -339,11 +363,12 @@ static int comparable(const effect_case *c, int gas)
 
 static void test_lab_respond__base_model__is_that_of_the_second_implementation(void **state)
 {
+  static const apart most = {3e-6, 1e-7, 2e-6}; /* as for the effects */
   int law;
   (void)state;
   for (law = 0; law < COUNT(laws); law++) {
     const experiment e = random_experiment(1, laws[law][0], laws[law][1]);
-    assert_agrees(&e, 1e-5, "base");
+    assert_agrees(&e, &most, "base");
   }
 }
 
@@ -359,17 +384,19 @@ static void test_lab_respond__each_effect__is_that_of_the_second_implementation(
         continue;
       cases[i].set(&e.p, &e.g, law ? 0.8 : 1);
       snprintf(what, sizeof what, "%s, %s", cases[i].name, pneu_gas_key(laws[law][0]));
-      assert_agrees(&e, 1e-5, what);
+      assert_agrees(&e, &cases[i].most, what);
     }
 }
 
 /* Some of the effects at once, at random sizes: order and interplay. */
 static void test_lab_respond__random_sets_of_effects__agree_with_the_second_implementation(void **state)
 {
+  static const apart most[] = {{2e-6, 3e-9, 3e-15}, {7e-7, 6e-7, 2e-7}, {7e-6, 5e-6, 3e-15}, {6e-7, 3e-9, 3e-9},
+                               {7e-6, 6e-7, 3e-15}, {3e-8, 3e-8, 4e-9}, {8e-7, 6e-8, 3e-15}, {3e-8, 2e-8, 8e-9}};
   uint64_t seed = 5;
   int draw, i;
   (void)state;
-  for (draw = 0; draw < 8; draw++) {
+  for (draw = 0; draw < COUNT(most); draw++) {
     const int *law = laws[draw % 2];
     experiment e = random_experiment((uint64_t)(100 + draw), law[0], law[1]);
     char what[600];
@@ -381,7 +408,7 @@ static void test_lab_respond__random_sets_of_effects__agree_with_the_second_impl
       cases[i].set(&e.p, &e.g, size);
       at += snprintf(what + at, sizeof what - (size_t)at, " %s", cases[i].name);
     }
-    assert_agrees(&e, 1e-4, what);
+    assert_agrees(&e, &most[draw], what);
   }
 }
 

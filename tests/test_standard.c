@@ -80,14 +80,14 @@ static void run_lab(const experiment *e, int integrator, double tol, lab_trace *
     fail_msg("%s", error.text);
 }
 
-static gap against_cvode(const experiment *e)
+static gap against_cvode(const experiment *e, double tol)
 {
   const pneu_params p = fixture_params(e->actuator);
   lab_trace a, b;
   pneu_stats stats, reference;
   gap g = {0, 0};
   int i;
-  run_lab(e, LAB_STEPPER, 1e-8, &a, &stats);
+  run_lab(e, LAB_STEPPER, tol, &a, &stats);
   run_lab(e, LAB_CVODE, 1e-11, &b, &reference);
   for (i = 0; i < ROWS; i++)
     widen(&g, &p, a.x[i] - b.x[i], a.p[i] - b.p[i]);
@@ -97,18 +97,23 @@ static gap against_cvode(const experiment *e)
   return g;
 }
 
-static void test_lab_respond__standard_experiment__stepper_agrees_with_cvode(void **state)
+/* What pneu.h says of pneu_run. */
+static void test_lab_respond__standard_experiment__stepper_agrees_with_cvode_as_documented(void **state)
 {
-  int i;
+  static const struct {
+    double tol, x, p;
+  } most[] = {{1e-6, 2e-6, 2e-4}, {1e-8, 3e-8, 5e-6}};
+  int i, k;
   (void)state;
-  for (i = 0; i < CASES; i++) {
-    const experiment e = nth(i);
-    const gap g = against_cvode(&e);
-    note(&e, 0);
-    print_message("%s: %.2g of stroke, %.2g of supply pressure\n", check_case, g.x, g.p);
-    assert_between(g.x, 0, 2e-7); /* the requirement is 1e-5 */
-    assert_between(g.p, 0, 1e-5);
-  }
+  for (k = 0; k < COUNT(most); k++)
+    for (i = 0; i < CASES; i++) {
+      const experiment e = nth(i);
+      const gap g = against_cvode(&e, most[k].tol);
+      note(&e, 0);
+      print_message("%s, tol %g: %.2g of stroke, %.2g of supply pressure\n", check_case, most[k].tol, g.x, g.p);
+      assert_between(g.x, 0, most[k].x);
+      assert_between(g.p, 0, most[k].p);
+    }
 }
 
 static void test_lab_respond__standard_experiment__is_the_run_of_the_library(void **state)
@@ -147,8 +152,9 @@ static void run_theirs(const experiment *e)
   assert_int_equal(second_run(&rig, at, to, 2, 30.5, 0.01, &log, NULL), 0);
 }
 
-/* They differ by the step of the second and by the shape of the blend at equal pressures: it is
- * linear there, ours an odd polynomial; either moves the last 0.05 % of pressure, none of the stroke. */
+/* They differ by the step of the second and by the shape of the blend at equal pressures: it is linear there, ours an
+ * odd polynomial; either moves the last 0.05 % of pressure, none of the stroke. Measured in double: 1.8e-8 of stroke,
+ * 6.6e-5 of supply pressure; three times that is allowed. */
 static void test_fixture_trace__standard_experiment__agrees_with_the_second_implementation(void **state)
 {
   int i, k;
@@ -163,8 +169,8 @@ static void test_fixture_trace__standard_experiment__agrees_with_the_second_impl
       widen(&g, &p, ours[k].x - their_x[k], ours[k].p - their_p[k]);
     note(&e, 0);
     print_message("%s: %.2g of stroke, %.2g of supply pressure\n", check_case, g.x, g.p);
-    assert_between(g.x, 0, TOL(1e-5, 1e-3));
-    assert_between(g.p, 0, TOL(1e-3, 3e-3));
+    assert_between(g.x, 0, TOL(6e-8, 1e-3));
+    assert_between(g.p, 0, TOL(2e-4, 3e-3));
   }
 }
 
@@ -172,7 +178,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
 #ifndef PNEU_SINGLE
-      cmocka_unit_test(test_lab_respond__standard_experiment__stepper_agrees_with_cvode),
+      cmocka_unit_test(test_lab_respond__standard_experiment__stepper_agrees_with_cvode_as_documented),
       cmocka_unit_test(test_lab_respond__standard_experiment__is_the_run_of_the_library),
 #endif
       cmocka_unit_test(test_fixture_trace__standard_experiment__agrees_with_the_second_implementation),

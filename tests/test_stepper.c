@@ -373,7 +373,7 @@ static void test_pneu_step__fill_and_vent__is_as_exact_as_documented(void **stat
 static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
 {
   static const double tol[] = {1e-4, 1e-6, 1e-8};
-  const pneu_state exact = fill_for(1.2, 1e-11, 0, NULL);
+  const pneu_state exact = fill_for(1.2, 1e-10, 0, NULL);
   long steps = 0;
   int i;
   (void)state;
@@ -863,9 +863,10 @@ static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **
   }
 }
 
-static void test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing(void **state)
+static void test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_state_kept(void **state)
 {
-  static const double bad[][2] = {{NAN, 1e-6}, {INFINITY, 1e-6}, {1, NAN}, {1, 0}, {1, -1}};
+  static const double bad[][2] = {{NAN, 1e-6},   {INFINITY, 1e-6}, {-1, 1e-6}, {-1e-9, 1e-6}, {1, NAN},
+                                  {1, INFINITY}, {1, 0},           {1, -1},    {1, 9e-11},    {1, 1.1e-2}};
   const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
   (void)state;
@@ -879,8 +880,27 @@ static void test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_
     options.tol = (pneu_real)bad[i][1];
     status = pneu_run(&s.model, &at, &s.input, (pneu_real)bad[i][0], &options, NULL, &work);
     check_note("duration %g, tol %g: %s", bad[i][0], bad[i][1], pneu_status_text(status));
-    assert_true(state_is_finite(&at));
-    assert_between(status, -99, -1);
+    assert_int_equal(status, PNEU_E_NONFINITE);
+    assert_memory_equal(&at, &s.start, sizeof at);
+  }
+}
+
+static void test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_taken(void **state)
+{
+  static const double good[][2] = {{0, 1e-6}, {1e-3, TOL(1e-10, 1e-6)}, {1e-3, 1e-2}};
+  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(good); i++) {
+    pneu_state at = s.start;
+    pneu_options options;
+    pneu_workspace work;
+    clear(&work);
+    pneu_options_default(&options);
+    options.tol = (pneu_real)good[i][1];
+    check_note("duration %g, tol %g", good[i][0], good[i][1]);
+    assert_int_equal(pneu_run(&s.model, &at, &s.input, (pneu_real)good[i][0], &options, NULL, &work), PNEU_OK);
+    assert_true((at.x != s.start.x) == (good[i][0] > 0));
   }
 }
 
@@ -978,7 +998,7 @@ static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
     pneu_workspace work;
     clear(&work);
     pneu_options_default(&options);
-    options.tol = (pneu_real)0.9;
+    options.tol = (pneu_real)1e-2;
     work.h = (pneu_real)h;
     check_note("h = %g", h);
     assert_int_equal(pneu_run(&m, &s, &input, (pneu_real)1e4, &options, NULL, &work), PNEU_OK);
@@ -1053,7 +1073,8 @@ int main(void)
     cmocka_unit_test(test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept),
     cmocka_unit_test(test_pneu_run__nan_in_state_or_input__is_refused),
     cmocka_unit_test(test_pneu_step__step_not_positive__is_refused_and_state_kept),
-    cmocka_unit_test(test_pneu_run__duration_or_tolerance_no_number__is_an_error_or_does_nothing),
+    cmocka_unit_test(test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_state_kept),
+    cmocka_unit_test(test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_taken),
     cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
     cmocka_unit_test(test_pneu_run__driven_to_where_there_is_no_volume__is_refused),
     cmocka_unit_test(test_pneu_run__event_after_event_at_one_time__is_ended),

@@ -91,7 +91,8 @@ static void add_starts(fmu_list *list, const fmu_data *data)
 
 static void add_outputs(fmu_list *list, const fmu_data *data)
 {
-  static const words mode = {"mode", NULL, NULL}, choked = {"choked", NULL, "1: the flow in use is choked"};
+  static const words mode = {"mode", NULL, NULL},
+                     choked = {"choked", NULL, "1: flow through the transducer is choked; 0: it is not, or shut"};
   int i, at = 0;
   for (i = 0; i < FMU_OUTPUT_COUNT; i++)
     if (fmu_has_variable(&data->law, FMU_REF_OUTPUT + (unsigned)i))

@@ -3,9 +3,11 @@
  * Air passes the end of the tube both ways while the pressures differ by less than a millionth of the supply's: a stiff
  * flow whose temperature changed at a point would hold the steps short at every rest.
  * The state is p_t over the absolute supply pressure. R_t counts as 1e4 Pa s/kg at least (10 Pa at 1 g/s): with less
- * the two pressures are one to rounding, and the equations stiff for nothing. Size: 12.6 mL/m and 128 mu L/(pi rho d^4)
- * = 8e5 Pa s/kg per metre of 4 mm bore at 3 bar; bends and fittings add to it.
- */
+ * the two pressures are one to rounding, and the equations stiff for nothing.
+ * Size: 12.6 mL/m and 128 mu L/(pi rho d^4) = 8e5 Pa s/kg per metre of 4 mm bore at 3 bar abs; bends and fittings add
+ * to it. That is laminar flow: it holds below Re = 4 q/(pi d mu) = 2300, which is 0.13 g/s. The fill orifice of the
+ * R1-400 passes 1 g/s when choked, Re 18,000, where by Blasius the tube resists eight times as much and in proportion
+ * to q^0.75: a resistance fitted to a log is one of the flow at which it was recorded. */
 #include "../internal.h"
 
 #define LEAST  PNEU_C(1e4)                     /* [Pa s/kg] */
@@ -23,7 +25,6 @@ static void transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
 {
   const pneu_real p_chamber = t->p, T_chamber = t->T;
   t->mass_in = t->mass_out = t->mass_in_T = 0;
-  t->choked = 0;
   t->p = p;
   t->T = T;
   pneu_transducer_flow(t);
