@@ -1,5 +1,6 @@
 #!/bin/sh
-# Say which programs and headers of a part of packages.txt are missing and how to get them; fails where any is.
+# Say which programs and headers of a part of packages.txt, or of the compiler, are missing and how to get them; fails where
+# any is. Without a compiler no header is seen.
 #   missing.sh PART FOUND COMPILER [FLAGS...]
 # FOUND is written where none is, and FOUND.d beside it, so that make looks again when a header has gone.
 set -eu
@@ -20,7 +21,7 @@ is_there() {
   esac >/dev/null 2>&1
 }
 
-all=$(awk -v part="$part" '$1 == part { print $5 }' "$table")
+all=$(awk -v part="$part" '$1 == part || $1 == "compiler" { print $5 }' "$table")
 missing=""
 for name in $all; do
   is_there "$name" "$@" || missing="$missing $name"

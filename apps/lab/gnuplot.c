@@ -49,7 +49,8 @@ static int run(const char *const arguments[], int in, int out)
 static int cannot(int status, const char *script, const char *out, lab_error *error)
 {
   if (status == no_program)
-    return lab_fail(error, LAB_WORLD, "gnuplot is not installed; install it, or use --no-figures");
+    return lab_fail(error, LAB_WORLD,
+                    "gnuplot is not installed; install it (Debian: gnuplot-nox), or use --no-figures");
   if (status == 0)
     return lab_fail(error, LAB_WORLD, "%s: what gnuplot drew is not whole; is the folder of temporary files full?",
                     out);
