@@ -171,7 +171,7 @@ uninstall:
 
 # ---- Debian packages ----
 
-DEB_TOOLS := debhelper dpkg-dev fakeroot lintian doxygen
+DEB_TOOLS := build-essential debhelper dpkg-dev fakeroot lintian doxygen
 
 ## Build packages for Debian (libpneu0, -dev, -doc, pneu-tools) and check them by lintian: build/deb; MAINTAINER="Name <address>"; installs the tools
 deb:
