@@ -162,6 +162,7 @@ stage: $(STATIC) $(SHARED) $(INSTALLED_PROGS) man $(READY)/pneu.pc $(READY)/pneu
 install: stage
 	@sh packaging/install.sh install $(STAGE) '$(DESTDIR)' '$(INSTALLED_LIST)'
 	@echo "installed below $(DESTDIR)$(PREFIX); what and where: $(DESTDIR)$(INSTALLED_LIST)"
+	@[ -n '$(DESTDIR)' ] || sh packaging/install.sh found '$(LIBDIR)' '$(BINDIR)'
 
 ## Remove what make install has put there, and no more
 uninstall:
@@ -170,7 +171,7 @@ uninstall:
 
 # ---- Debian packages ----
 
-DEB_TOOLS := debhelper dpkg-dev fakeroot lintian doxygen
+DEB_TOOLS := build-essential debhelper dpkg-dev fakeroot lintian doxygen
 
 ## Build packages for Debian (libpneu0, -dev, -doc, pneu-tools) and check them by lintian: build/deb; MAINTAINER="Name <address>"; installs the tools
 deb:

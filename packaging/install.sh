@@ -3,6 +3,8 @@
 #   install.sh install STAGE DESTDIR LIST      STAGE/usr/lib/x goes to DESTDIR/usr/lib/x; LIST, a path without DESTDIR,
 #                                              names what was put there: files, and the folders made for them
 #   install.sh uninstall DESTDIR LIST          removes what LIST names, folders only where nothing else is in them
+#   install.sh found LIBDIR BINDIR             lets the loader know of LIBDIR, where that is its to know; says what to set where
+#                                              shell, pkg-config and loader would not find what is there
 # Installing over another version leaves nothing of that one behind.
 set -eu
 umask 022
@@ -54,6 +56,21 @@ put() {
   chmod 644 "$list"
 }
 
+# before NAME FOLDER: how a shell puts the folder before what the variable has
+before() { printf ' %s=%s${%s:+:$%s}' "$1" "$2" "$1" "$1"; }
+
+found() {
+  PATH=$PATH:/usr/sbin:/sbin
+  loader=$(ldconfig -v -N -X 2>/dev/null | grep -xF "$1:" || true)
+  [ -z "$loader" ] || [ "$(id -u)" -ne 0 ] || ldconfig
+  settings=$(
+    case :$PATH: in *:$2:*) ;; *) before PATH "$2" ;; esac
+    [ "$(pkg-config --variable=pcfiledir pneu 2>/dev/null)" = "$1/pkgconfig" ] || before PKG_CONFIG_PATH "$1/pkgconfig"
+    [ -n "$loader" ] || before LD_LIBRARY_PATH "$1"
+  )
+  [ -z "$settings" ] || echo "to use it from there: export$settings"
+}
+
 case $1 in
 install)
   put "$2" "${3:-/}" "$4"
@@ -69,8 +86,11 @@ uninstall)
   cat "$destination/$3" >"$listed"
   remove "$destination" <"$listed"
   ;;
+found)
+  found "$2" "$3"
+  ;;
 *)
-  echo "install.sh: install or uninstall" >&2
+  echo "install.sh: install, uninstall or found" >&2
   exit 2
   ;;
 esac

@@ -1,46 +1,41 @@
 #!/bin/sh
-# Install what is missing, on Debian and Ubuntu; name it for other systems.
-# Exits 0 where everything is there.
-#   install-packages.sh            what `make all` needs
+# Install what is missing, on Debian and Ubuntu; elsewhere name it.
+# Exits 0 where everything is there, or there is no apt-get.
+#   install-packages.sh            what `make study` needs
 #   install-packages.sh tests      also what only make check uses
 #   install-packages.sh PACKAGE... these
 set -eu
 
-apt_packages="gcc g++ make pkg-config libsundials-dev libnlopt-dev libconfig-dev libudunits2-dev libcjson-dev
-libcminpack-dev libzip-dev libxml2-dev libcmocka-dev gnuplot-nox"
+# packages PART...: of packages.txt
+packages() {
+  for part in "$@"; do
+    awk -v part="$part" '$1 == part && $2 != "-" { print $2 }' "$(dirname "$0")/packages.txt"
+  done
+}
+
 case "${1:-}" in
-"") ;;
-tests) apt_packages="$apt_packages libopenmpi-dev openmpi-bin python3-venv" ;;
-*) apt_packages=$* ;;
+"") wanted=$(packages compiler programs figures) ;;
+tests) wanted=$(packages compiler programs figures tests mpi parts) ;;
+*) wanted=$* ;;
 esac
 
 missing() {
-  for package in $apt_packages; do
+  for package in $wanted; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || printf '%s ' "$package"
   done
 }
 
-name_others() {
-  cat <<WORDS
-This system has no apt-get. Install by its own package manager: $apt_packages
-Libraries for make all elsewhere:
-  dnf:  dnf install gcc gcc-c++ make pkgconf sundials-devel NLopt-devel libconfig-devel udunits2-devel cjson-devel cminpack-devel libzip-devel libxml2-devel libcmocka-devel gnuplot openmpi-devel
-  brew: brew install sundials nlopt libconfig udunits cjson cminpack libzip libxml2 cmocka gnuplot libomp open-mpi
-WORDS
-}
-
 if ! command -v apt-get >/dev/null 2>&1; then
-  name_others
+  # shellcheck disable=SC2086
+  echo "no apt-get: install what is missing of these by hand:" $wanted >&2
   exit 0
 fi
-
 list=$(missing)
-[ -z "$list" ] && exit 0
+[ -n "$list" ] || exit 0
 
 as_root=
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo >/dev/null 2>&1; then
-    echo "missing: $list" >&2
     echo "neither root nor sudo: ask an administrator for  apt-get install $list" >&2
     exit 1
   fi

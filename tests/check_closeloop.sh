@@ -30,7 +30,8 @@ printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02
 ./simulate study/actuators/r1-400.cfg --step | awk 'NR == 1 || NR % 5 == 0' >"$folder/log.csv"
 
 expect 0 "first run" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/whole"
-expect 0 "second run" ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/again"
+expect 0 "second run, no locale" env LC_ALL=C ./closeloop "$folder/rig.cfg" "$folder/log.csv" --out "$folder/again"
+grep warning "$folder/err" && complain "without a locale there are warnings"
 for file in $files; do
   [ -s "$folder/whole/$file" ] || complain "$file is not written"
   [ "$file" = report.json ] || cmp "$folder/whole/$file" "$folder/again/$file" || complain "$file differs from run to run"

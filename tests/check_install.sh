@@ -221,10 +221,12 @@ $MAKE --no-print-directory BUILD="$BUILD" PREFIX=/usr DESTDIR="$folder/shared" u
 
 # An absolute prefix, without DESTDIR, and libraries in a folder of the kind of machine
 install_to PREFIX="$folder/opt" LIBDIR="$folder/opt/lib/kind"
-PKG_CONFIG_PATH="$folder/opt/lib/kind/pkgconfig"
 if have pkg-config; then
-  $CC "$folder/pkg-config/strokes.c" $(pkg-config --cflags --libs pneu) -o "$folder/kind" &&
-    run_shared "$folder/opt/lib/kind" "$folder/kind" >/dev/null || wrong "LIBDIR=lib/kind, pkg-config"
+  (
+    eval "$(sed -n 's/^to use it from there: //p' "$folder/make.log")" &&
+      $CC "$folder/pkg-config/strokes.c" $(pkg-config --cflags --libs pneu) -o "$folder/kind" &&
+      "$folder/kind" >/dev/null && [ "$(command -v sweep)" = "$folder/opt/bin/sweep" ]
+  ) || wrong "LIBDIR=lib/kind: what make install says to set is not enough"
 fi
 (cd "$away" && MEASURED=nothere "$folder/opt/bin/sweep" hypotheses.cfg --quiet --no-figures --results found >/dev/null 2>&1 &&
   cmp found/hypotheses.csv study/hypotheses.csv) || wrong "sweep does not find the installed study"

@@ -23,12 +23,11 @@ static const char *vessel_path, *loop_path;
 
 /* ---- Vessel ---- */
 
-static int open_vessel(vessel *v)
+static void open_vessel(vessel *v)
 {
   if (!vessel_path)
-    return 0;
+    skip();
   succeed(vessel_open("study/measured/vessel.cfg", vessel_path, v, &error));
-  return 1;
 }
 
 typedef struct vessel_fitted {
@@ -57,8 +56,7 @@ static void test_vessel__record__read_whole(void **state)
   vessel v;
   size_t i, n_p = 0, n_T = 0;
   (void)state;
-  if (!open_vessel(&v))
-    return;
+  open_vessel(&v);
   for (i = 0; i < v.log.n; i++) {
     n_p += !isnan(v.log.value[LAB_CHANNEL_P][i]);
     n_T += !isnan(v.log.value[LAB_CHANNEL_T][i]);
@@ -76,8 +74,7 @@ static void test_vessel__energy_balance__pressure_below_2_5_kPa_and_the_source_s
   vessel v;
   int i;
   (void)state;
-  if (!open_vessel(&v))
-    return;
+  open_vessel(&v);
   for (i = 0; i < 2; i++) {
     const vessel_fitted f = fit_law(&v, laws[i]);
     assert_between(f.p.rmse, 1.5e3, 2.5e3);             /* measured: 1.96 and 2.02 kPa */
@@ -93,8 +90,7 @@ static void test_vessel__simpler_laws__worse_by_what_the_study_says(void **state
   vessel v;
   vessel_fitted f;
   (void)state;
-  if (!open_vessel(&v))
-    return;
+  open_vessel(&v);
   f = fit_law(&v, "isothermal");
   assert_close(f.p.rmse, 13.84e3, 0.1e3, 0);
   assert_close(f.T.rmse, 32.3, 0.1, 0); /* 298 K throughout: no fit in it */
@@ -111,12 +107,11 @@ static void test_vessel__simpler_laws__worse_by_what_the_study_says(void **state
 
 /* ---- Static loop ---- */
 
-static int open_servo(servomotor *s)
+static void open_servo(servomotor *s)
 {
   if (!loop_path)
-    return 0;
+    skip();
   succeed(servo_read("study/measured/damadics.cfg", loop_path, s, &error));
-  return 1;
 }
 
 static const servo_law *servo_law_named(const char *name)
@@ -141,8 +136,7 @@ static void test_servo__loop__read_whole(void **state)
   servomotor s;
   size_t i, sliding = 0;
   (void)state;
-  if (!open_servo(&s))
-    return;
+  open_servo(&s);
   for (i = 0; i < s.n; i++)
     sliding += s.sliding[i];
   assert_int_equal(s.n, 43);
@@ -154,8 +148,7 @@ static void test_servo__kept_law__below_0_3_kPa_where_coulomb_is_not(void **stat
   servomotor s;
   lab_fit_result fit;
   (void)state;
-  if (!open_servo(&s))
-    return;
+  open_servo(&s);
   fit = fit_servo(&s, "coulomb");
   assert_between(fit.rmse, 0.5e3, 0.65e3); /* measured: 0.573 kPa */
   fit = fit_servo(&s, "friction-position+hardening");
@@ -168,8 +161,7 @@ static void test_servo__friction_by_travel_or_by_pressure__a_static_loop_cannot_
 {
   servomotor s;
   (void)state;
-  if (!open_servo(&s))
-    return;
+  open_servo(&s);
   assert_close(fit_servo(&s, "friction-position").rmse, fit_servo(&s, "friction-pressure").rmse, 0, 1e-6);
 }
 
@@ -182,8 +174,7 @@ static void test_servo__slow_ramp__passes_where_the_forces_balance(void **state)
   lab_fit_result fit;
   int i, compared = 0;
   (void)state;
-  if (!open_servo(&s))
-    return;
+  open_servo(&s);
   fit = fit_servo(&s, "coulomb");
   succeed(servo_ramp(&s, law, fit.theta, 115e3, N, p, x, &error));
   assert_true(x[0] == 0 && x[N - 1] == s.rig.params.stroke && x[2 * N - 1] == 0);
@@ -221,7 +212,7 @@ static void test_measured_damadics__steps__fall_is_the_faster_one(void **state)
   char *text;
   (void)state;
   if (!loop_path)
-    return;
+    skip();
   succeed(measured_damadics("study", measured_folder(), scratch_folder, &error));
   assert_true(scratch_exists(scratch_path("measured_damadics_static.csv")));
   assert_true(scratch_exists(scratch_path("measured_damadics_loop.csv")));
@@ -240,7 +231,7 @@ static void test_measured_vessel__whole__tables_written(void **state)
   char *text;
   (void)state;
   if (!vessel_path)
-    return;
+    skip();
   succeed(measured_vessel("study", measured_folder(), scratch_folder, &error));
   text = scratch_read(scratch_path("measured_vessel.csv"));
   assert_non_null(strstr(text, ",n [1],remark\n"));

@@ -165,7 +165,7 @@ static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
   snprintf(cfg, sizeof cfg, "%s/rig/null-a/rig.cfg", folder ? folder : "../shared/data");
   if (!scratch_exists(cfg)) {
     printf("absent: %s\n", cfg);
-    return;
+    skip();
   }
   for (i = 0; i < sizeof names / sizeof names[0]; i++)
     for (k = 0; k < 2; k++) {

@@ -102,6 +102,10 @@ derive() {
   mv "$base.csv.part" "$base.csv"
 }
 
+if ! command -v curl >/dev/null 2>&1; then
+  say "curl is missing, which loads them: apt-get install curl ca-certificates"
+  exit 1
+fi
 failed=0
 while IFS=$tab read -r sum repository commit remote local; do
   case $sum in '#'* | '') continue ;; esac

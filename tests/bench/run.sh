@@ -11,6 +11,6 @@ if ! python3 tests/bench/rivals.py "$BUILD/pic/libbench.so" "$BUILD/rivals" "$re
   "$BUILD/pic/bench" "$results" "$scratch" . ${2:+"$2"}
 fi
 for figure in work_precision scaling; do
-  gnuplot -e "IN='$results'; OUT='$results/$figure.svg'" "study/figures/$figure.gp"
+  LC_ALL=C.UTF-8 gnuplot -e "IN='$results'; OUT='$results/$figure.svg'" "study/figures/$figure.gp"
 done
 [ "$results" != results ] || sh tests/readme_table.sh --refresh times README.md

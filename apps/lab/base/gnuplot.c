@@ -14,6 +14,10 @@
 
 static const int no_program = 127; /* as the shell says it */
 
+/* Figures are in UTF-8 whatever the user's locale; in that of a bare container, C, gnuplot warns of each that it cannot
+ * write a degree sign. */
+static const char locale[] = "C.UTF-8";
+
 /* A Ctrl-C on a terminal reaches all that run there: let a figure that was begun be finished. */
 static void put_off_signals(void)
 {
@@ -32,6 +36,7 @@ static int run(const char *const arguments[], int in, int out)
   const pid_t child = fork();
   if (child == 0) {
     put_off_signals();
+    setenv("LC_ALL", locale, 1);
     if ((in < 0 || dup2(in, STDIN_FILENO) >= 0) && (out < 0 || dup2(out, STDOUT_FILENO) >= 0))
       execvp("gnuplot", (char *const *)arguments);
     _exit(no_program);
@@ -44,7 +49,8 @@ static int run(const char *const arguments[], int in, int out)
 static int cannot(int status, const char *script, const char *out, lab_error *error)
 {
   if (status == no_program)
-    return lab_fail(error, LAB_WORLD, "gnuplot is not installed; install it, or use --no-figures");
+    return lab_fail(error, LAB_WORLD,
+                    "gnuplot is not installed; install it (Debian: gnuplot-nox), or use --no-figures");
   if (status == 0)
     return lab_fail(error, LAB_WORLD, "%s: what gnuplot drew is not whole; is the folder of temporary files full?",
                     out);
