@@ -110,7 +110,7 @@ gallery:
 blind: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trials $(N) --work $(BUILD)/blind
 	$(BUILD)/tests/blind/blind --trials $$((5 * $(N) + 100)) --series blind_nothing --work $(BUILD)/blind
-	$(BUILD)/tests/blind/blind --trials $$((2 * $(N) / 5)) --series blind_noise --work $(BUILD)/blind
+	$(BUILD)/tests/blind/blind --trials $$(($(N) / 5)) --series blind_noise --work $(BUILD)/blind
 ## Repeat trial K of them (SERIES=blind_noise: of that series) and keep its files in build/blind/kept
 blind-trial: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trial $(K) $(if $(SERIES),--series $(SERIES)) --keep $(BUILD)/blind/kept
