@@ -269,8 +269,6 @@ static void test_fit_run__more_left_than_known_noise__wider_by_its_size(void **s
   got = fitted(&problem, NULL);
   normal_equations(&data, 1, theta, inverse, &chi2);
   assert_true(chi2 > 2 * (LINE - 2));
-  assert_non_null(strstr(got.remark, "more than noise is left"));
-  got.remark[0] = '\0';
   check_line(&got, theta, inverse, chi2, chi2 / (LINE - 2), 1.959963984540054);
 }
 

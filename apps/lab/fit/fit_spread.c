@@ -10,8 +10,6 @@
 #include "../base/quantile.h"
 #include "../base/array.h"
 
-static const double wider = 1.1; /* from which on it is worth a word */
-
 /* Singular value decomposition of the slopes of k parameters, columns scaled to unit length. */
 typedef struct spectrum {
   int k;
@@ -296,6 +294,16 @@ static void fill_intervals(const fit_run *run, const spectrum *s, double varianc
   }
 }
 
+/* What is beyond the bounds is no part of an interval. */
+static void clip_intervals(const fit_run *run, lab_fit_result *result)
+{
+  int j;
+  for (j = 0; j < result->n; j++) {
+    result->low[j] = fmax(result->low[j], run->problem->param[j].lower);
+    result->high[j] = fmin(result->high[j], run->problem->param[j].upper);
+  }
+}
+
 /* Degrees of freedom, what they make of the sum of squares, and the width of an interval.
  * Returns: the variance of a residual over sigma. */
 static double noise_level(const fit_run *run, int rank, lab_fit_result *result)
@@ -307,9 +315,6 @@ static double noise_level(const fit_run *run, int rank, lab_fit_result *result)
       lab_student_quantile(0.975, run->problem->sigma_known || !(degrees > 0) ? (double)INFINITY : degrees);
   if (!(degrees > 0))
     return run->problem->sigma_known ? 1 : (double)INFINITY;
-  if (run->problem->sigma_known && result->reduced_chi2 > wider * wider)
-    remark(result, "more than noise is left, and intervals are %.2g times as wide as noise alone would have them",
-           sqrt(result->reduced_chi2));
   return run->problem->sigma_known ? fmax(1, result->reduced_chi2) : result->reduced_chi2;
 }
 
@@ -342,5 +347,6 @@ int fit_spread(fit_run *run, lab_fit_result *result)
   fill_covariance(run, &s, variance, result);
   fill_intervals(run, &s, variance, result);
   remark_free(run, result);
+  clip_intervals(run, result);
   return FIT_GOOD;
 }

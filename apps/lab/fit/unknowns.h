@@ -87,6 +87,10 @@ void lab_unknowns_view(lab_unknowns *u, size_t window);
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_unknowns_rough(const lab_unknowns *u, size_t *window, lab_error *error);
 
+/* Whether what is left for the present unknowns is noise of up to one and a half times the size that was declared:
+ * white, and as large everywhere.  Out: white  Returns: as lab_unknowns_residuals. */
+int lab_unknowns_white(const lab_unknowns *u, int *white, lab_error *error);
+
 /* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double doubtful = 2.25; /* times the expected chi-square: more is not a slip in the noise declared */
 static const double name_bonus = 20; /* of BIC, by which a free term must be better than an effect */
 
 /* What is left is noise: chi-square within six standard deviations of its expectation, or the error within a twentieth
@@ -22,7 +23,10 @@ static double bic(const lab_unknowns *u, double chi2)
 
 int lab_attempt_fit(lab_attempt *a, int steps, lab_error *error)
 {
-  const int status = lab_unknowns_fit(&a->u, steps, &a->chi2, error);
+  int status = lab_unknowns_fit(&a->u, steps, &a->chi2, error);
+  a->white = 0;
+  if (status == LAB_OK && !is_noise(a->chi2, a->u.n_values) && a->chi2 < doubtful * (double)a->u.n_values)
+    status = lab_unknowns_white(&a->u, &a->white, error);
   a->fitted = status == LAB_OK;
   a->bic = bic(&a->u, a->chi2);
   return status;
@@ -32,7 +36,7 @@ int lab_any_is_noise(const lab_attempt *a, int n)
 {
   int i, any = 0;
   for (i = 0; i < n; i++)
-    any |= a[i].fitted && is_noise(a[i].chi2, a[i].u.n_values);
+    any |= a[i].fitted && (a[i].white || is_noise(a[i].chi2, a[i].u.n_values));
   return any;
 }
 

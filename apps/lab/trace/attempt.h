@@ -10,6 +10,7 @@ typedef struct lab_attempt {
   double chi2; /* of the residuals, with priors */
   double bic;  /* Schwarz 1978, over the measured values; a free term costs more than an effect */
   int fitted;
+  int white; /* more is left than the declared noise, but it is noise */
   int n_found;
   lab_found found[LAB_LOOP_EFFECTS];
 } lab_attempt;
@@ -32,7 +33,8 @@ void lab_attempt_explain(lab_attempt *a, double chi2_before);
 void lab_attempt_name(const lab_attempt *a, char *text, size_t size);
 
 /* Whether one of n attempts leaves only noise: chi-square within six standard deviations of its expectation, or the
- * error within a twentieth of the noise, as far as a declared noise can be trusted. */
+ * error within a twentieth of the noise, as far as a declared noise can be trusted; or white noise, up to half as large
+ * again as declared. */
 int lab_any_is_noise(const lab_attempt *a, int n);
 
 /* Whether one of n attempts leaves nothing to explain: chi-square within a standard deviation of its expectation. */

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../base/quantile.h"
+
 static const double rival = 3;                /* times the best chi-square: what leaves more falls behind */
 static const double worth = 0.05;             /* of the best statistic: leaders have at least so much, */
 static const double foremost = 0.2;           /* and those that are refitted first so much */
@@ -11,8 +13,9 @@ static const double much = 0.5;               /* of what the declared model leav
 enum { FIRST = 3, BRIEF = 8, FINALISTS = 3 }; /* steps of a fit; models fitted to the end */
 
 /* Where a refit begins. The present fit may have bent its parameters to stand in for the effect; then the values
- * before any fit, with the effect at its usual size, are nearer to the truth. */
-enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, STARTS };
+ * before any fit, with the effect at its usual size, are nearer to the truth, or at the largest size there is: a film
+ * that lets no heat through. */
+enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, FROM_BOUND, STARTS };
 
 /* The model with one candidate of some size, before it is fitted.  Returns: 0, or -1 if there is no room. */
 static int take_up(const lab_attempt *base, const lab_candidate *c, double size, int as_declared, lab_attempt *a)
@@ -46,7 +49,9 @@ static void refit_from(const lab_attempt *base, const lab_candidate *c, int star
   usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
   if (start == FROM_SLOPE && c->size != 0)
     usual = c->size;
-  if (take_up(base, c, usual, start == FROM_DECLARED, a))
+  if (start == FROM_BOUND)
+    usual = (double)(info.upper - info.neutral);
+  if (take_up(base, c, usual, start == FROM_DECLARED || start == FROM_BOUND, a))
     return;
   if (lab_attempt_fit(a, FIRST, &error)) {
     lab_fail_together(all, &error);
@@ -136,7 +141,7 @@ static void refit_race(const lab_attempt *base, const lab_candidate *leader, int
  * explain, and all from the other starts for as long as none leaves only noise. */
 static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, int n, lab_attempt *a, lab_error *all)
 {
-  const int starts = base->n_found == 0 ? STARTS : STARTS - 1, first = count_near(leader, n, foremost);
+  const int starts = base->n_found == 0 ? STARTS : FROM_USUAL, first = count_near(leader, n, foremost);
   int i, start;
   for (i = 0; i < n; i++)
     a[i].fitted = 0;
@@ -158,8 +163,49 @@ int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
   return poor;
 }
 
+/* Effects whose slope asks for a sign that they cannot have, as clearly as others pass: a fit that has bent so far that
+ * it overshoots wants less of what is missing.  Returns: how many, at most `room` */
+static int list_bent(const lab_trace_result *trace, double level, int room, lab_candidate *bent)
+{
+  int i, n = 0;
+  for (i = 0; i < trace->n && n < room; i++)
+    if (trace->candidate[i].statistic == 0 && lab_chi2_tail(trace->candidate[i].against, 1) < level)
+      bent[n++] = trace->candidate[i];
+  return n;
+}
+
+/* What a refit took off chi-square stands in for the statistic of an effect whose slope had the wrong sign. */
+static void judge_bent(const lab_attempt *base, lab_attempt *a, int n)
+{
+  int i;
+  for (i = 0; i < n; i++)
+    if (a[i].fitted) {
+      lab_found *found = &a[i].found[a[i].n_found - 1];
+      found->statistic = fmax(base->chi2 - a[i].chi2, 0);
+      found->p_value = lab_chi2_tail(found->statistic, 1);
+    }
+}
+
+/* The last resort among single effects: those with a slope of the wrong sign, from the values before any fit.
+ * In:      n  attempts so far
+ * Returns: how many there are then */
+static int refit_bent(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int n,
+                      lab_error *error)
+{
+  lab_candidate bent[LAB_REFIT_MAX] = {{0}};
+  const int more = list_bent(trace, level, LAB_REFIT_MAX - n, bent);
+  int i;
+  for (i = 0; i < more; i++)
+    a[n + i].fitted = 0;
+  refit_race(base, bent, more, FROM_DECLARED, a + n, error);
+  refit_race(base, bent, more, FROM_BOUND, a + n, error);
+  fit_finalists(a + n, more, error);
+  judge_bent(base, a + n, more);
+  return n + more;
+}
+
 /* Refit the leaders; where none of them is any good beside the declared model, which what is missing may have bent
- * beyond the reach of slopes, all that pass. */
+ * beyond the reach of slopes, all that pass; and then those whose slope it has turned round. */
 int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int *n,
                       lab_error *error)
 {
@@ -168,10 +214,12 @@ int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, do
   *n = leaders;
   error->status = LAB_OK;
   refit_leaders(base, trace->candidate, leaders, a, error);
-  if (error->status != LAB_OK || base->n_found > 0 || all <= leaders || lab_any_is_noise(base, 1) ||
+  if (error->status != LAB_OK || base->n_found > 0 || lab_any_is_noise(base, 1) ||
       !lab_refit_all_poor(base, a, leaders))
     return error->status;
   *n = all;
   refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders, error);
+  if (error->status == LAB_OK && lab_refit_all_poor(base, a, all))
+    *n = refit_bent(base, trace, level, a, all, error);
   return error->status;
 }

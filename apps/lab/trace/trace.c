@@ -24,8 +24,10 @@ static void judge(const lab_scan *s, double *slope, double step, double room_up,
   score = lab_dot(slope, s->r, s->m) / left;
   size = -score / left * step; /* r + (size/step) slope is least */
   statistic = score * score;
-  if ((size > 0 && !(room_up > 0)) || (size < 0 && !(room_down > 0)))
+  if ((size > 0 && !(room_up > 0)) || (size < 0 && !(room_down > 0))) {
+    c->against = fmax(c->against, statistic);
     statistic = 0;
+  }
   if (c->visible > 0 && statistic <= c->statistic)
     return;
   c->statistic = statistic;

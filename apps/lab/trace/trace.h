@@ -21,6 +21,7 @@ typedef struct lab_candidate {
   double shape_value;
   double size;      /* by which the parameter would have to leave neutral, by the slope */
   double statistic; /* T; 0 where the sign is impossible or the log does not see it */
+  double against;   /* the same where the sign is impossible: what a bent fit makes of an effect that is there */
   double p_value;   /* of T alone */
   double explained; /* share of the chi-square excess that the slope explains */
   double visible;   /* [1] length of s' over length of s: what fitting has left of it; 0: invisible */

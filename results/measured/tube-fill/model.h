@@ -13,7 +13,7 @@
     (pneu_real)500, /* viscous_friction [N.s/m] */ \
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
-    (pneu_real)3.033763796044373e-06, /* fill_area [m2] */ \
+    (pneu_real)3.033652564999602e-06, /* fill_area [m2] */ \
     (pneu_real)4e-06, /* vent_area [m2] */ \
     (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
@@ -42,14 +42,14 @@
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
       (pneu_real)300000, /* crossover_pressure [Pa] */ \
-      (pneu_real)0.13848120928088758, /* position_bias [m] */ \
+      (pneu_real)0.1384747071143751, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \
       (pneu_real)1000, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
-      (pneu_real)0.02813544565170577, /* pressure_time [s] */ \
+      (pneu_real)0.02813517483824457, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \
       (pneu_real)0.001, /* hysteresis_length [m] */ \
@@ -57,7 +57,7 @@
       (pneu_real)10000, /* stop_damping [N.s/m] */ \
       (pneu_real)0, /* stribeck_excess [1] */ \
       (pneu_real)0.001, /* stribeck_velocity [m/s] */ \
-      (pneu_real)113841489.82378487, /* supply_resistance [Pa.s/kg] */ \
+      (pneu_real)113836361.63020366, /* supply_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* temperature_time [s] */ \
       (pneu_real)0, /* transducer_time [s] */ \
       (pneu_real)0, /* travel_loss [m] */ \

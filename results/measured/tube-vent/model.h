@@ -14,7 +14,7 @@
     (pneu_real)1000, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)1.4e-06, /* fill_area [m2] */ \
-    (pneu_real)6.905456254832735e-06, /* vent_area [m2] */ \
+    (pneu_real)6.906022108762754e-06, /* vent_area [m2] */ \
     (pneu_real)0.3, /* critical_ratio [1] */ \
     (pneu_real)0.5, /* subsonic_index [1] */ \
     (pneu_real)0, /* proportional_band [Pa] */ \
@@ -30,9 +30,9 @@
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
-      (pneu_real)67665957.19035737, /* tube_resistance [Pa.s/kg] */ \
-      (pneu_real)1.2358111163808145e-05, /* tube_volume [m3] */ \
-      (pneu_real)0.025165365406971743, /* dead_time [s] */ \
+      (pneu_real)67670189.95914473, /* tube_resistance [Pa.s/kg] */ \
+      (pneu_real)1.2359130810408409e-05, /* tube_volume [m3] */ \
+      (pneu_real)0.025165359447890775, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
       (pneu_real)0, /* friction_per_pressure [m2] */ \
@@ -42,7 +42,7 @@
       (pneu_real)0, /* laminar_leak [kg/s/Pa2] */ \
       (pneu_real)0, /* porous_leak [kg/s/Pa2] */ \
       (pneu_real)300000, /* crossover_pressure [Pa] */ \
-      (pneu_real)0.19348814321011373, /* position_bias [m] */ \
+      (pneu_real)0.19348997946825763, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
       (pneu_real)0, /* presliding_length [m] */ \

@@ -1,0 +1,75 @@
+/* Whether what a model leaves is noise, only more of it than was declared. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "../base/array.h"
+#include "../base/whiteness.h"
+#include "unknowns.h"
+
+static const double most = 1.5;         /* times the declared noise: beyond that the declaration means something else */
+static const double white_level = 0.01; /* p-value */
+static const double even = 0.85;        /* of the root mean square: noise has its size everywhere, not in bursts */
+static const double median_of_size = 0.6744897501960817; /* of a normal value */
+
+/* Residuals of one channel of all experiments, as stretches; gaps, which are 0, as NaN.  Returns: stretches */
+static int gather(const lab_unknowns *u, int channel, double *r, lab_stretch *stretch)
+{
+  int e, c, n = 0;
+  size_t i;
+  for (e = 0; e < u->n_experiments; e++)
+    for (c = 0; c < u->experiment[e].n_channels; c++, r += u->experiment[e].n) {
+      if (u->experiment[e].channel[c] != channel)
+        continue;
+      for (i = 0; i < u->experiment[e].n; i++)
+        if (r[i] == 0)
+          r[i] = (double)NAN;
+      stretch[n++] = (lab_stretch){r, u->experiment[e].n};
+    }
+  return n;
+}
+
+/* Of even size throughout, and no more than can be a mistake in the noise.  In: size  room for all values */
+static int is_even(const lab_stretch *stretch, int n, double *size)
+{
+  double sum = 0, rms;
+  size_t i, m = 0;
+  int k;
+  for (k = 0; k < n; k++)
+    for (i = 0; i < stretch[k].n; i++)
+      if (!isnan(stretch[k].value[i])) {
+        size[m++] = fabs(stretch[k].value[i]);
+        sum += stretch[k].value[i] * stretch[k].value[i];
+      }
+  rms = m > 0 ? sqrt(sum / (double)m) : 0;
+  return m > 0 && rms < most && lab_median(size, m) / median_of_size > even * rms;
+}
+
+static int all_white(const lab_unknowns *u, double *r, double *size, lab_stretch *stretch)
+{
+  int c, white = 1;
+  for (c = 0; c < LAB_CHANNEL_COUNT && white; c++) {
+    const int n = gather(u, c, r, stretch);
+    lab_whiteness w;
+    if (n == 0)
+      continue;
+    lab_whiteness_test(stretch, n, &w);
+    white = w.p_value >= white_level && is_even(stretch, n, size);
+  }
+  return white;
+}
+
+int lab_unknowns_white(const lab_unknowns *u, int *white, lab_error *error)
+{
+  double *r = malloc((u->m + 1) * sizeof *r), *size = malloc((u->n_rows + 1) * sizeof *size);
+  lab_stretch *stretch = malloc((size_t)(u->n_experiments + 1) * sizeof *stretch);
+  int status = r && size && stretch ? LAB_OK : lab_fail_memory(error, "residuals");
+  *white = 0;
+  if (status == LAB_OK && u->window == 0)
+    status = lab_unknowns_residuals((void *)u, NULL, r, error);
+  if (status == LAB_OK && u->window == 0)
+    *white = all_white(u, r, size, stretch);
+  free(r);
+  free(size);
+  free(stretch);
+  return status;
+}
