@@ -456,6 +456,28 @@ static void test_closeloop__part_of_a_stroke__is_a_limitation(void **state)
 
 /* ---- Too much ---- */
 
+static void test_closeloop__measured_supply_that_is_no_input__is_said(void **state)
+{
+  const char *path = scratch_path("supply.csv");
+  FILE *file = fopen(path, "w");
+  char *said, *report;
+  size_t i;
+  (void)state;
+  assert_non_null(file);
+  fprintf(file, "%s,ps [kPa]\n", header);
+  for (i = 0; i < sound.n; i++)
+    fprintf(file, "%.3f,%g,%.7g,%.7g,%.7g\n", sound.t[i], sound.u[i], sound.p[i], sound.x[i],
+            400 + 5 * sin(sound.t[i]));
+  assert_int_equal(fclose(file), 0);
+  if (run(bad_rig("rig.cfg", ""), path, &said))
+    fail_msg("%s", said);
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_contains(report, "ps was measured and varies by 9.");
+  assert_contains(report, "inputs = ( \\\"ps\\\" )");
+  free(said);
+  free(report);
+}
+
 static void test_closeloop__many_rows__are_thinned_and_said(void **state)
 {
   enum { MANY = 50001 };
@@ -669,6 +691,7 @@ int main(void)
       cmocka_unit_test(test_closeloop__short_log__is_undecided),
       cmocka_unit_test(test_closeloop__still_log__is_refused),
       cmocka_unit_test(test_closeloop__part_of_a_stroke__is_a_limitation),
+      cmocka_unit_test(test_closeloop__measured_supply_that_is_no_input__is_said),
       cmocka_unit_test(test_closeloop__many_rows__are_thinned_and_said),
       cmocka_unit_test(test_closeloop__command_of_wrong_sign__is_refused),
       cmocka_unit_test(test_closeloop__no_command__is_refused),

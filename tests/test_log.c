@@ -334,6 +334,17 @@ static void test_lab_log_read__long_format_with_command__holds_it(void **state)
   lab_log_free(&log);
 }
 
+static void test_lab_log_read__position_in_percent__is_of_the_stroke(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.stroke = 0.02;
+  log = read_log("t [s],x [%]\n0,50\n1,100\n");
+  assert_close(CHANNEL(log, X)[0], 0.01, 0, 1e-15);
+  assert_close(CHANNEL(log, X)[1], 0.02, 0, 1e-15);
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void **state)
 {
   lab_log log;
@@ -854,6 +865,7 @@ int main(void)
       CASE(test_lab_log_read__damaged_rows_to_drop__are_counted),
       CASE(test_lab_log_read__long_format__joins_rows_of_one_time),
       CASE(test_lab_log_read__long_format_with_command__holds_it),
+      CASE(test_lab_log_read__position_in_percent__is_of_the_stroke),
       CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one),
       CASE(test_lab_log_read__weights__add_columns_up),
       CASE(test_lab_log_read__way_back__is_reversed),

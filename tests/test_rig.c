@@ -655,6 +655,7 @@ static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(vo
   }
   rig.params.supply_pressure = (pneu_real)(1e6 / 7);
   rig.log.command_is_pressure = 1;
+  rig.log.stroke = (double)rig.params.stroke;
   again = write_and_read(&rig);
   assert_same(&rig, &again);
 }

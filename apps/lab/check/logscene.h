@@ -106,6 +106,7 @@ int lab_check_steps(const lab_scene *, lab_finding *);
 int lab_check_noise(const lab_scene *, lab_finding *);
 int lab_check_jump(const lab_scene *, lab_finding *);
 int lab_check_part(const lab_scene *, lab_finding *);
+int lab_check_unused(const lab_scene *, lab_finding *);
 int lab_check_absolute(const lab_scene *, lab_finding *);
 
 /* Nothing that the model predicts moves. */

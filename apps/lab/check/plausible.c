@@ -35,6 +35,7 @@ static const struct check {
     {"noise", lab_check_noise, LIMIT},
     {"jump in time", lab_check_jump, LIMIT},
     {"part of the stroke", lab_check_part, LIMIT},
+    {"measured and not used", lab_check_unused, LIMIT},
 };
 
 /* "log.csv:12", "log.csv", or "log.csv, run 3" */

@@ -329,6 +329,48 @@ int lab_check_part(const lab_scene *s, lab_finding *f)
                   lab_show(LAB_CHANNEL_X, stroke, whole));
 }
 
+/* Range of the middle nine tenths of some of the values, as spikes do not make it. */
+static double inner_range(const double *y, size_t n)
+{
+  double some[LAB_SCENE_CELLS];
+  const size_t step = n / LAB_SCENE_CELLS + 1;
+  size_t i, m = 0;
+  for (i = 0; i < n; i += step)
+    if (!isnan(y[i]))
+      some[m++] = y[i];
+  lab_sort(some, m);
+  return m > 0 ? some[m - 1 - m / 20] - some[m / 20] : 0;
+}
+
+/* What would drive the model, was measured, and does not count. */
+int lab_check_unused(const lab_scene *s, lab_finding *f)
+{
+  const pneu_params *p = &s->rig->params;
+  const struct {
+    int channel;
+    double scale;
+    const char *instead;
+  } drives[] = {{LAB_CHANNEL_PS, (double)p->supply_pressure, "supply pressure"},
+                {LAB_CHANNEL_FORCE, (double)(p->supply_pressure * p->area), "external force"}};
+  const double share = 0.01;
+  size_t i;
+  for (i = 0; i < sizeof drives / sizeof drives[0]; i++) {
+    const int c = drives[i].channel;
+    char text[LAB_SHOW_TEXT];
+    double range;
+    if (!s->y[c] || s->rig->input[c] || s->rig->laws.position_input)
+      continue;
+    range = inner_range(s->y[c], s->n);
+    if (range > share * drives[i].scale)
+      return lab_find(
+          f,
+          "%s was measured and varies by %s, but the model takes the %s as declared: inputs = ( \"%s\" ) in "
+          "the rig file makes it follow",
+          lab_channels[c].key, lab_show(c, range, text), drives[i].instead, lab_channels[c].key);
+  }
+  return 0;
+}
+
 int lab_check_absolute(const lab_scene *s, lab_finding *f)
 {
   const double ambient = (double)s->rig->params.ambient_pressure;

@@ -34,19 +34,29 @@ static int split(const char *text, char name[LAB_COLUMN_TEXT], char unit[LAB_COL
   return sscanf(text, " %63[^][ \t] %1s", name, rest) == 1;
 }
 
-static int read_unit(const char *text, const struct column_name *found, const char *unit, int command_is_pressure,
+/* Whether a position is given as a share of the stroke. */
+static int is_share(const char *unit, const lab_column_frame *frame)
+{
+  return frame->stroke > 0 && (!strcmp(unit, "%") || !strcmp(unit, "percent"));
+}
+
+static int read_unit(const char *text, const struct column_name *found, const char *unit, const lab_column_frame *frame,
                      lab_column *column, lab_error *error)
 {
-  const char *si = lab_channel_unit(found->channel, command_is_pressure);
+  const char *si = lab_channel_unit(found->channel, frame->command_is_pressure);
   if (!*unit)
     return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text, found->name,
                     si);
+  if (found->channel == LAB_CHANNEL_X && is_share(unit, frame)) {
+    column->scale = 0.01 * frame->stroke;
+    return LAB_OK;
+  }
   if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
     return lab_fail_in(error, "column \"%s\"", text);
   return LAB_OK;
 }
 
-int lab_column_read(const char *text, int command_is_pressure, double ambient, lab_column *column, lab_error *error)
+int lab_column_read(const char *text, const lab_column_frame *frame, lab_column *column, lab_error *error)
 {
   char name[LAB_COLUMN_TEXT], unit[LAB_COLUMN_TEXT];
   const struct column_name *found;
@@ -63,9 +73,9 @@ int lab_column_read(const char *text, int command_is_pressure, double ambient, l
   column->offset = 0;
   if (found->channel < 0)
     return LAB_OK;
-  if (read_unit(text, found, unit, command_is_pressure, column, error))
+  if (read_unit(text, found, unit, frame, column, error))
     return error->status;
-  column->offset -= found->absolute ? ambient : 0;
+  column->offset -= found->absolute ? frame->ambient : 0;
   return LAB_OK;
 }
 

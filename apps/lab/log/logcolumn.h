@@ -16,11 +16,16 @@ typedef struct lab_column {
   double scale, offset; /* SI value = scale * number + offset */
 } lab_column;
 
-/* Read "name [unit]"; p_abs, ps_abs and p2_abs become gauge; "-" is a column to ignore.
- * In:      command_is_pressure  u is a set pressure, not an opening
- *          ambient              [Pa] absolute
- * Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */
-int lab_column_read(const char *text, int command_is_pressure, double ambient, lab_column *column, lab_error *error);
+/* What the units of a column may refer to. */
+typedef struct lab_column_frame {
+  double ambient;          /* [Pa] absolute */
+  double stroke;           /* [m]; 0: unknown */
+  int command_is_pressure; /* u is a set pressure, not an opening */
+} lab_column_frame;
+
+/* Read "name [unit]"; p_abs, ps_abs and p2_abs become gauge; x may be a share of the stroke ("%"); "-" is a column to
+ * ignore. Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */
+int lab_column_read(const char *text, const lab_column_frame *frame, lab_column *column, lab_error *error);
 
 /* Read "mark [unit]": the number behind `mark` in a file's name.
  * In:      si  unit to convert to

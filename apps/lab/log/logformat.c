@@ -367,13 +367,14 @@ enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };
 /* Column texts must be readable now, not at the first log. */
 static int check_columns(const config_setting_t *group, const lab_log_format *format, lab_error *error)
 {
+  const lab_column_frame frame = {0, format->stroke, format->command_is_pressure};
   lab_column column;
   int i;
   for (i = 0; i < format->n_columns; i++)
-    if (lab_column_read(format->column[i], format->command_is_pressure, 0, &column, error))
+    if (lab_column_read(format->column[i], &frame, &column, error))
       return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "columns"), error);
   for (i = 0; i < format->n_quantities; i++)
-    if (lab_column_read(format->quantity[i].column, format->command_is_pressure, 0, &column, error))
+    if (lab_column_read(format->quantity[i].column, &frame, &column, error))
       return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "quantities"), error);
   return LAB_OK;
 }

@@ -82,6 +82,7 @@ typedef struct lab_log_format {
   double offset[LAB_CHANNEL_COUNT];   /* SI */
   double constant[LAB_CHANNEL_COUNT]; /* SI; NaN: none */
   int command_is_pressure;            /* u is a set pressure [Pa], not an opening */
+  double stroke;                      /* [m] of which x may be a share; 0: unknown */
 } lab_log_format;
 
 /* The format of interface.md.  Out: format */

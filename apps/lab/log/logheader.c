@@ -44,8 +44,9 @@ const char *lab_log_field(const lab_log_source *source, const char *begin, const
 static int read_column(const char *text, const lab_log_format *format, double ambient, lab_column *column,
                        lab_error *error)
 {
+  const lab_column_frame frame = {ambient, format->stroke, format->command_is_pressure};
   double scale, offset;
-  if (lab_column_read(text, format->command_is_pressure, ambient, column, error))
+  if (lab_column_read(text, &frame, column, error))
     return error->status;
   if (column->channel < 0)
     return LAB_OK;

@@ -284,9 +284,16 @@ static int read_inputs(const config_setting_t *list, lab_rig *rig, lab_error *er
   return status;
 }
 
-static int read_log(const config_setting_t *group, lab_rig *rig, lab_error *error)
+/* What units in a log may refer to. */
+static void tell_log(lab_rig *rig)
 {
   rig->log.command_is_pressure = rig->params.proportional_band > 0;
+  rig->log.stroke = (double)rig->params.stroke;
+}
+
+static int read_log(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  tell_log(rig);
   return lab_log_format_read(group, &rig->log, error);
 }
 
@@ -319,6 +326,7 @@ void lab_rig_default(lab_rig *rig)
   for (i = 0; i < LAB_CHANNEL_COUNT; i++)
     rig->noise[i] = NAN;
   lab_log_format_default(&rig->log);
+  tell_log(rig);
 }
 
 /* "study/actuators/r1-400.cfg" -> "r1-400" */
@@ -400,7 +408,7 @@ static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
     if (member)
       status = sections[i].read(member, rig, error);
   }
-  rig->log.command_is_pressure = rig->params.proportional_band > 0;
+  tell_log(rig);
   return status == LAB_OK ? check_supply(config, rig, error) : status;
 }
 
