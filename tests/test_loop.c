@@ -106,6 +106,34 @@ static void test_lab_loop_run__nothing_missing__says_none_and_finds_the_paramete
   assert_close(u.rig.params.dry_friction, 480, 0, 2e-2);
 }
 
+static void test_lab_loop_run__noisier_than_declared__is_noise_all_the_same(void **state)
+{
+  static lab_unknowns u;
+  static lab_loop_result result;
+  second_rig g = true_rig();
+  (void)state;
+  g.pressure_noise *= 1.25;
+  g.position_noise *= 1.25;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1.25, 0.1, 0);
+}
+
+/* The fit bends so far that the slope of the missing film has the wrong sign, and the truth is at its bound. */
+static void test_lab_loop_run__adiabatic_chamber__lacks_heat_transfer(void **state)
+{
+  static lab_unknowns u;
+  static lab_loop_result result;
+  second_rig g = true_rig();
+  (void)state;
+  g.gas = SECOND_ENERGY;
+  g.heat = 0;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "heat_transfer");
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+}
+
 static void test_lab_loop_run__leak__is_named_and_sized(void **state)
 {
   static lab_unknowns u;
@@ -190,6 +218,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_loop_run__nothing_missing__says_none_and_finds_the_parameters),
+      cmocka_unit_test(test_lab_loop_run__noisier_than_declared__is_noise_all_the_same),
+      cmocka_unit_test(test_lab_loop_run__adiabatic_chamber__lacks_heat_transfer),
       cmocka_unit_test(test_lab_loop_run__leak__is_named_and_sized),
       cmocka_unit_test(test_lab_loop_run__friction_bump__is_a_force_at_its_place),
       cmocka_unit_test(test_lab_loop_run__stick_slip__is_seen_coarsely_and_named),

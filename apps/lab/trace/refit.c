@@ -163,37 +163,42 @@ int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
   return poor;
 }
 
-/* Effects whose slope asks for a sign that they cannot have, as clearly as others pass: a fit that has bent so far that
- * it overshoots wants less of what is missing.  Returns: how many, at most `room` */
-static int list_bent(const lab_trace_result *trace, double level, int room, lab_candidate *bent)
+/* What was not refitted yet and may all the same be missing: what passes, though it explains little, and effects whose
+ * slope asks for a sign that they cannot have as clearly as others pass. A fit that has bent so far that it overshoots
+ * wants less of what is missing. In:      n  foremost candidates that were refitted Returns: how many, at most `room`
+ */
+static int list_bent(const lab_trace_result *trace, double level, int n, int room, lab_candidate *bent)
 {
-  int i, n = 0;
-  for (i = 0; i < trace->n && n < room; i++)
-    if (trace->candidate[i].statistic == 0 && lab_chi2_tail(trace->candidate[i].against, 1) < level)
-      bent[n++] = trace->candidate[i];
-  return n;
+  int i, count = 0;
+  for (i = n; i < trace->n && count < room; i++) {
+    const lab_candidate *c = &trace->candidate[i];
+    if (c->p_value < level || (c->statistic == 0 && lab_chi2_tail(c->against, 1) < level))
+      bent[count++] = *c;
+  }
+  return count;
 }
 
 /* What a refit took off chi-square stands in for the statistic of an effect whose slope had the wrong sign. */
 static void judge_bent(const lab_attempt *base, lab_attempt *a, int n)
 {
   int i;
-  for (i = 0; i < n; i++)
-    if (a[i].fitted) {
-      lab_found *found = &a[i].found[a[i].n_found - 1];
+  for (i = 0; i < n; i++) {
+    lab_found *found = a[i].fitted ? &a[i].found[a[i].n_found - 1] : NULL;
+    if (found && found->statistic == 0) {
       found->statistic = fmax(base->chi2 - a[i].chi2, 0);
       found->p_value = lab_chi2_tail(found->statistic, 1);
     }
+  }
 }
 
-/* The last resort among single effects: those with a slope of the wrong sign, from the values before any fit.
+/* The last resort among single effects: those that the bent fit has hidden, from the values before any fit.
  * In:      n  attempts so far
  * Returns: how many there are then */
 static int refit_bent(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int n,
                       lab_error *error)
 {
   lab_candidate bent[LAB_REFIT_MAX] = {{0}};
-  const int more = list_bent(trace, level, LAB_REFIT_MAX - n, bent);
+  const int more = list_bent(trace, level, n, LAB_REFIT_MAX - n, bent);
   int i;
   for (i = 0; i < more; i++)
     a[n + i].fitted = 0;
@@ -205,7 +210,7 @@ static int refit_bent(const lab_attempt *base, const lab_trace_result *trace, do
 }
 
 /* Refit the leaders; where none of them is any good beside the declared model, which what is missing may have bent
- * beyond the reach of slopes, all that pass; and then those whose slope it has turned round. */
+ * beyond the reach of slopes, all that pass; and while none leaves only noise, what the bent fit has hidden. */
 int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int *n,
                       lab_error *error)
 {
@@ -214,12 +219,13 @@ int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, do
   *n = leaders;
   error->status = LAB_OK;
   refit_leaders(base, trace->candidate, leaders, a, error);
-  if (error->status != LAB_OK || base->n_found > 0 || lab_any_is_noise(base, 1) ||
-      !lab_refit_all_poor(base, a, leaders))
+  if (base->n_found > 0 || lab_any_is_noise(base, 1))
     return error->status;
-  *n = all;
-  refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders, error);
-  if (error->status == LAB_OK && lab_refit_all_poor(base, a, all))
-    *n = refit_bent(base, trace, level, a, all, error);
+  if (error->status == LAB_OK && lab_refit_all_poor(base, a, leaders)) {
+    *n = all;
+    refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders, error);
+  }
+  if (error->status == LAB_OK && !lab_any_is_noise(a, *n))
+    *n = refit_bent(base, trace, level, a, *n, error);
   return error->status;
 }
