@@ -214,7 +214,7 @@ static int is_beaten(const cJSON *json, const cJSON *model)
   return 0;
 }
 
-/* What each effect does alone. */
+/* What each effect does alone, if it does anything. */
 static void write_singles(FILE *file, const story *s)
 {
   const cJSON *model;
@@ -222,7 +222,7 @@ static void write_singles(FILE *file, const story *s)
   int any = 0;
   cJSON_ArrayForEach(model, sets_member(s->json, "steps"))
   {
-    if (is_single(s->json, model) && !is_beaten(s->json, model))
+    if (is_single(s->json, model) && !is_beaten(s->json, model) && root_chi2(s, model) < 99)
       fprintf(file, "%s%s %s %%", any++ ? ", " : "- Each alone leaves of the root chi-square: ", name_of(model),
               sets_digits(a, root_chi2(s, model)));
   }

@@ -9,10 +9,10 @@
     (pneu_real)0, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.1, /* moving_mass [kg] */ \
-    (pneu_real)3.5939711737365765, /* dry_friction [N] */ \
+    (pneu_real)3.593972939745585, /* dry_friction [N] */ \
     (pneu_real)0, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
-    (pneu_real)-0.32730487247098883, /* external_force [N] */ \
+    (pneu_real)-0.3273047695777053, /* external_force [N] */ \
     (pneu_real)8.93e-07, /* fill_area [m2] */ \
     (pneu_real)8.93e-07, /* vent_area [m2] */ \
     (pneu_real)0.3, /* critical_ratio [1] */ \
@@ -35,7 +35,7 @@
       (pneu_real)0, /* dead_time [s] */ \
       (pneu_real)0, /* exhaust_resistance [Pa.s/kg] */ \
       (pneu_real)0, /* friction_slope [1] */ \
-      (pneu_real)1.0020460556351198e-05, /* friction_per_pressure [m2] */ \
+      (pneu_real)1.0020457762779514e-05, /* friction_per_pressure [m2] */ \
       (pneu_real)0, /* film_resistance [K/W] */ \
       (pneu_real)0, /* film_conductance [W/K] */ \
       (pneu_real)0, /* free_convection [W/K^1.333333333333333] */ \
@@ -45,10 +45,10 @@
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
-      (pneu_real)7.325378396033865e-05, /* presliding_length [m] */ \
-      (pneu_real)363.8126120431058, /* bristle_damping [N.s/m] */ \
+      (pneu_real)7.325549243192044e-05, /* presliding_length [m] */ \
+      (pneu_real)363.811458886533, /* bristle_damping [N.s/m] */ \
       (pneu_real)0, /* pressure_bias [Pa] */ \
-      (pneu_real)-0.008841299876420827, /* pressure_gain [1] */ \
+      (pneu_real)-0.00884130138621489, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
       (pneu_real)0, /* hysteresis_force [N] */ \

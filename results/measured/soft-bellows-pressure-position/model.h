@@ -6,11 +6,11 @@
     (pneu_real)4.000000000000001e-05, /* dead_volume [m3] */ \
     (pneu_real)1, /* swept_ratio [1] */ \
     (pneu_real)0.04, /* stroke [m] */ \
-    (pneu_real)1536.4648266777237, /* spring_rate [N/m] */ \
+    (pneu_real)1628.0838854203391, /* spring_rate [N/m] */ \
     (pneu_real)0, /* spring_preload [m] */ \
     (pneu_real)0.0332, /* moving_mass [kg] */ \
-    (pneu_real)0, /* dry_friction [N] */ \
-    (pneu_real)0.11040981650780411, /* viscous_friction [N.s/m] */ \
+    (pneu_real)6.336671353920885, /* dry_friction [N] */ \
+    (pneu_real)0.1462242338778352, /* viscous_friction [N.s/m] */ \
     (pneu_real)0, /* damping [N.s/m] */ \
     (pneu_real)0, /* external_force [N] */ \
     (pneu_real)8.93e-07, /* fill_area [m2] */ \
@@ -26,7 +26,7 @@
     (pneu_real)1.4, /* heat_ratio [1] */ \
     (pneu_real)1.4, /* polytropic_index [1] */ \
     { \
-      (pneu_real)0.8889349857484007, /* area_loss [1] */ \
+      (pneu_real)0.853913254029026, /* area_loss [1] */ \
       (pneu_real)0, /* leak_area [m2] */ \
       (pneu_real)0, /* channel_skew [s] */ \
       (pneu_real)0, /* choked_share [1] */ \
@@ -45,14 +45,14 @@
       (pneu_real)0, /* position_bias [m] */ \
       (pneu_real)0, /* position_gain [1] */ \
       (pneu_real)0, /* position_time [s] */ \
-      (pneu_real)0, /* presliding_length [m] */ \
-      (pneu_real)1000, /* bristle_damping [N.s/m] */ \
-      (pneu_real)3368.511013908577, /* pressure_bias [Pa] */ \
+      (pneu_real)0.009996281669191932, /* presliding_length [m] */ \
+      (pneu_real)0.01828602973671816, /* bristle_damping [N.s/m] */ \
+      (pneu_real)3106.653210963458, /* pressure_bias [Pa] */ \
       (pneu_real)0, /* pressure_gain [1] */ \
       (pneu_real)0, /* pressure_time [s] */ \
       (pneu_real)0, /* spring_cubic [N/m3] */ \
-      (pneu_real)7.654450685975816, /* hysteresis_force [N] */ \
-      (pneu_real)0.012137555289300394, /* hysteresis_length [m] */ \
+      (pneu_real)0, /* hysteresis_force [N] */ \
+      (pneu_real)0.001, /* hysteresis_length [m] */ \
       (pneu_real)0, /* stop_compliance [m/N] */ \
       (pneu_real)10000, /* stop_damping [N.s/m] */ \
       (pneu_real)0, /* stribeck_excess [1] */ \
