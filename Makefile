@@ -52,6 +52,9 @@ LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 # What was made by another program is made again: the sources' checksum goes into the record of what is done.
 SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*/*.[ch] apps/lab/report/page/* apps/study/*.[ch] apps/study/*.def))
 
+# What is being made, or with V=1 how.
+say = $(if $(V),,@echo '  $@' &&)
+
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: all help study check check-core check-single check-san check-readme verify bench figures install-packages clean
@@ -88,7 +91,7 @@ measured: $(STATIC) closeloop $(BUILD)/measured
 .PHONY: measured
 
 $(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
 
 ## Build the core for Cortex-M4F and M0+, 32-bit x86 and a big-endian machine and run it there, emulated; installs the tools
 firmware-check: $(STATIC)
@@ -138,16 +141,16 @@ tests: $(TESTS)
 
 $(STATIC): $(LIB_O)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(say) $(AR) rcs $@ $^
 
 $(LAB): $(LAB_O)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(say) $(AR) rcs $@ $^
 
 # What tests share: each takes what it needs, so that a test of the core links no reader.
 $(HELP): $(HELP_O)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(say) $(AR) rcs $@ $^
 
 # What is missing is named before the compiler stumbles over it.
 $(BUILD)/found/%: study/packages.txt
@@ -156,11 +159,11 @@ $(BUILD)/found/%: study/packages.txt
 
 $(BUILD)/lib/%.o: lib/%.c | $(BUILD)/found/compiler
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
+	$(say) $(CC) $(FLAGS) $(DEPS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/apps/%.o: apps/%.c | $(BUILD)/found/programs
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
+	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/apps/lab/batch/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
 $(BUILD)/apps/lab/batch/mpi/crew.o: | $(BUILD)/found/mpi
@@ -177,45 +180,45 @@ $(BUILD)/sources.cksum: $(SOURCES)
 
 $(BUILD)/apps/lab/base/checksum.o: apps/lab/base/checksum.c $(BUILD)/sources.cksum
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(BUILD)/sources.cksum)"'"' -c $< -o $@
+	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(BUILD)/sources.cksum)"'"' -c $< -o $@
 
 # Scripts and templates that a program carries inside, a line a string.
 CARRIED := $(wildcard apps/lab/report/page/*) study/figures/style.gp
 $(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
 	@mkdir -p $(@D)
-	sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
+	$(say) sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
 
 # Which of them an object carries is known once it has been compiled; before that, all must be there.
 $(filter $(BUILD)/apps/lab/report/%,$(LAB_O)): | $(CARRIED:%=$(BUILD)/%.inc)
 $(BUILD)/apps/lab/report/%.o: LAB_FLAGS += -I$(BUILD)
 
 $(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@
 
 $(TESTS:%=%.o) $(BUILD)/tests/fixture.o: | $(BUILD)/found/tests
 $(BUILD)/tests/%.o: tests/%.c | $(BUILD)/found/programs
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
+	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
-	$(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
+	$(say) $(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
 
 # What is timed is a shared library, so that rivals in another language can share its process.
 $(BUILD)/libbench.so: $(BENCH_O) $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) -shared -Wl,-Bsymbolic -Wl,--whole-archive $^ -Wl,--no-whole-archive $(LDFLAGS) $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) -shared -Wl,-Bsymbolic -Wl,--whole-archive $^ -Wl,--no-whole-archive $(LDFLAGS) $(LAB_LIBS) -o $@
 
 $(BUILD)/bench: $(BUILD)/tests/bench/main.o $(BUILD)/libbench.so
-	$(CC) $(FLAGS) $(CFLAGS) $< $(LDFLAGS) -L$(BUILD) -lbench -Wl,-rpath,'$$ORIGIN' -o $@
+	$(say) $(CC) $(FLAGS) $(CFLAGS) $< $(LDFLAGS) -L$(BUILD) -lbench -Wl,-rpath,'$$ORIGIN' -o $@
 
 $(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$(BLIND_O)) $(LAB)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
 # No $(STATIC) here: what it links with proves that the trials know nothing of the library.
 $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
 include apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk packaging/install.mk
 

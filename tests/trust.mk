@@ -2,10 +2,10 @@
 
 ALLOC := $(BUILD)/tests/alloc
 $(ALLOC)/closeloop $(ALLOC)/simulate: $(ALLOC)/%: $(BUILD)/apps/%.o $(ALLOC)/fail.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc $(LAB_LIBS) -o $@
 
 $(ALLOC)/export-fmu: $(BUILD)/apps/export-fmu.o $(ALLOC)/fail.o $(FMU) $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc $(FMU_LIBS) $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc $(FMU_LIBS) $(LAB_LIBS) -o $@
 
 ## Run closeloop, simulate and export-fmu with memory that runs out, at one call after the other
 alloc:

@@ -15,23 +15,23 @@ $(BUILD)/fmu2.so: OTHER := %/fmi3.c %/fmi3_absent.c
 $(BUILD)/fmu3.so: OTHER := %/fmi2.c
 $(BUILD)/fmu2.so $(BUILD)/fmu3.so: $(FMU_FILES)
 	@mkdir -p $(@D)
-	$(CC) $(FMU_FLAGS) $(CFLAGS) -shared -s $(LIB_C) $(filter-out $(OTHER),$(FMU_RUNTIME)) $(LDFLAGS) -lm -o $@
+	$(say) $(CC) $(FMU_FLAGS) $(CFLAGS) -shared -s $(LIB_C) $(filter-out $(OTHER),$(FMU_RUNTIME)) $(LDFLAGS) -lm -o $@
 
 FMU_CARRIED := $(foreach file,$(FMU_FILES),$(file)=$(file)) fmu2.so=$(BUILD)/fmu2.so fmu3.so=$(BUILD)/fmu3.so \
                icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png license.txt=LICENSE
 $(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(BUILD)/fmu2.so $(BUILD)/fmu3.so $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh
 	@mkdir -p $(@D)
-	sh apps/fmu/carry.sh $(FMU_CARRIED) > $@
+	$(say) sh apps/fmu/carry.sh $(FMU_CARRIED) > $@
 
 $(BUILD)/apps/fmu/carried.o: $(BUILD)/apps/fmu/carried.inc
 $(BUILD)/apps/fmu/%.o: LAB_FLAGS += -I$(BUILD) $(FMU_XML)
 
 $(FMU): $(FMU_C:%.c=$(BUILD)/%.o)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(say) $(AR) rcs $@ $^
 
 export-fmu: $(BUILD)/apps/export-fmu.o $(FMU) $(LAB) $(STATIC) $(BUILD)/crew
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(FMU_LIBS) $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(FMU_LIBS) $(LAB_LIBS) -o $@
 
 $(BUILD)/tests/fmu/native: $(BUILD)/tests/fmu/native.o $(LAB) $(STATIC)
-	$(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -o $@

@@ -22,7 +22,7 @@ fuzz:
 .PHONY: fuzz
 
 $(BUILD)/fuzz: $(FUZZ_C:%.c=$(BUILD)/%.o)
-	$(CC) $(FLAGS) -fsanitize=fuzzer $^ -lconfig -ludunits2 -lm -o $@
+	$(say) $(CC) $(FLAGS) -fsanitize=fuzzer $^ -lconfig -ludunits2 -lm -o $@
 
 # Where the fuzzer is not to look for new ways: nearest names take most of the time otherwise, the library holds no reader.
 ifneq ($(findstring fuzzer,$(SANITIZE)),)
