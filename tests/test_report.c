@@ -400,6 +400,23 @@ static void test_lab_evidence_collect__leak__white_only_when_completed(void **st
   lab_evidence_free(&v);
 }
 
+static void test_lab_story_undetermined__clauses_on_instants__are_left_out(void **state)
+{
+  static lab_loop_result outcome;
+  lab_story s = {0};
+  char text[LAB_FIT_REMARK];
+  (void)state;
+  s.result = &outcome;
+  strcpy(outcome.fit.remark,
+         "switch_3 is at its upper bound; dead_volume is at its lower bound; switch_4 and damping are hard "
+         "to tell apart; damping has no effect on the data");
+  lab_story_undetermined(&s, text);
+  assert_string_equal(text, "dead_volume is at its lower bound; damping has no effect on the data");
+  strcpy(outcome.fit.remark, "switch_3 is at its upper bound");
+  lab_story_undetermined(&s, text);
+  assert_string_equal(text, "");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -414,6 +431,7 @@ int main(void)
       cmocka_unit_test(test_lab_report_html__twice__same_bytes),
       cmocka_unit_test(test_lab_report_html__nothing_found_two_runs__is_told_as_well),
       cmocka_unit_test(test_lab_evidence_collect__leak__white_only_when_completed),
+      cmocka_unit_test(test_lab_story_undetermined__clauses_on_instants__are_left_out),
   };
   return cmocka_run_group_tests(tests, tell_story, forget_story);
 }

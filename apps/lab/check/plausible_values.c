@@ -169,6 +169,8 @@ int lab_check_dead(const lab_scene *s, lab_finding *f)
     char found[LAB_SHOW_TEXT], want[LAB_SHOW_TEXT];
     if (!(ought > 0.25 * scale_of(s, c)) || ought < 30 * s->sigma[c] || moves(s, c))
       continue;
+    if (isnan(lab_scene_span(s, c)))
+      return lab_find(f, "channel %s has no values: name its column \"-\" to leave it out", lab_channels[c].key);
     return lab_find(f,
                     "channel %s stays constant within %s, expected it to move by about %s: is the sensor dead, the "
                     "supply shut, the stem blocked, or is it the wrong log? Name a column \"-\" to leave it out%s",

@@ -46,6 +46,9 @@ int lab_story_model(const lab_story *story, const char *folder, lab_error *error
 int lab_story_header(const lab_story *story, const char *folder, lab_error *error);
 int lab_story_residual(const lab_story *story, const char *folder, lab_error *error);
 
+/* What the fit could not determine, in words; "" where all is well.  Out: text */
+void lab_story_undetermined(const lab_story *story, char text[LAB_FIT_REMARK]);
+
 /* Add to a list of texts what the answer has to be read with: remarks on the logs, and what the fit could not
  * determine. */
 void lab_story_limits(const lab_story *story, cJSON *list);

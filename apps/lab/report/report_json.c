@@ -122,12 +122,14 @@ static void add_parameters(cJSON *to, const lab_story *story)
   const lab_unknowns *u = story->completed;
   const lab_fit_result *fit = &story->result->fit;
   cJSON *o = cJSON_AddObjectToObject(to, "parameters");
+  char undetermined[LAB_FIT_REMARK];
   int j;
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM)
       add_interval(o, u->unknown[j].name, u->unknown[j].value, u->unknown[j].unit, fit->low[j], fit->high[j]);
-  if (fit->remark[0])
-    cJSON_AddStringToObject(to, "undetermined", fit->remark);
+  lab_story_undetermined(story, undetermined);
+  if (*undetermined)
+    cJSON_AddStringToObject(to, "undetermined", undetermined);
 }
 
 static void add_candidates(cJSON *to, const lab_trace_result *trace)

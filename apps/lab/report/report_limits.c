@@ -7,17 +7,38 @@
 
 static const double wider = 1.1; /* times, from which on it is worth a word */
 
-/* The remark of a fit, a clause an item; those on instants of the command are of no use to a reader. */
+/* The next clause of the remark of a fit that is of use to a reader: not one on instants of the command, which have no
+ * name. In/out:  remark  moves on Returns: its length, 0 at the end;  Out: clause  where it begins */
+static int next_clause(const char **remark, const char **clause)
+{
+  while (**remark) {
+    const char *end = strstr(*remark, "; "), *name = strstr(*remark, "switch_");
+    const int length = (int)(end ? end - *remark : (long)strlen(*remark));
+    *clause = *remark;
+    *remark += length + (end ? 2 : 0);
+    if (!name || name >= *clause + length)
+      return length;
+  }
+  return 0;
+}
+
+void lab_story_undetermined(const lab_story *story, char text[LAB_FIT_REMARK])
+{
+  const char *remark = story->result->fit.remark, *clause;
+  int length;
+  char *to = text;
+  for (*to = '\0'; (length = next_clause(&remark, &clause)) > 0;)
+    to += sprintf(to, "%s%.*s", to > text ? "; " : "", length, clause);
+}
+
 static void add_clauses(const char *remark, cJSON *list)
 {
-  while (*remark) {
-    const char *end = strstr(remark, "; ");
-    const int length = (int)(end ? end - remark : (long)strlen(remark));
-    char clause[LAB_FIT_REMARK + 2];
-    snprintf(clause, sizeof clause, "%.*s.", length, remark);
-    if (!strstr(clause, "switch_"))
-      cJSON_AddItemToArray(list, cJSON_CreateString(clause));
-    remark += length + (end ? 2 : 0);
+  const char *clause;
+  int length;
+  while ((length = next_clause(&remark, &clause)) > 0) {
+    char text[LAB_FIT_REMARK + 2];
+    snprintf(text, sizeof text, "%.*s.", length, clause);
+    cJSON_AddItemToArray(list, cJSON_CreateString(text));
   }
 }
 
