@@ -23,6 +23,6 @@ for page in README.md DESIGN.md CONTRIBUTING.md CHANGELOG.md; do
     case $path in http*) ;; *) [ -e "$path" ] || { echo "$page points to $path, which is not there"; exit 1; } ;; esac
   done
 done
-for kind in times sizes; do
+for kind in times sizes trials; do
   sh tests/readme_table.sh --check $kind README.md
 done
