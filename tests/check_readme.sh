@@ -19,7 +19,7 @@ done
 # every file that the top documents point to or name is there
 for page in README.md DESIGN.md CONTRIBUTING.md CHANGELOG.md; do
   for path in $(sed -n 's/.*](\([^)#]*\)).*/\1/p' $page) \
-    $(grep -o '`\(lib\|apps\|study\|tests\|packaging\|results\)/[a-z0-9_/.-]*`' $page | tr -d '`'); do
+    $(grep -o '`\(lib\|apps\|study\|tests\|packaging\|results\)/[a-z0-9_/.-]*`' $page | tr -d '`' | grep -v '/\.'); do
     case $path in http*) ;; *) [ -e "$path" ] || { echo "$page points to $path, which is not there"; exit 1; } ;; esac
   done
 done

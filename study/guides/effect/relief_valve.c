@@ -6,7 +6,7 @@ enum { RELIEF_SLOPE, RELIEF_PRESSURE };
 
 static const pneu_param_info params[] = {
     {"relief_slope", "m2/Pa", 0, PNEU_C(1e-9), PNEU_C(1e-13), 0, 0, "effective area that opens for each pascal"},
-    {"relief_pressure", "Pa", 0, PNEU_C(1e7), PNEU_C(1e5), PNEU_C(2e5), 1, "gauge pressure at which it lifts"}};
+    {"relief_pressure", "Pa", 0, PNEU_C(1e7), PNEU_C(1e5), PNEU_C(1e5), 1, "gauge pressure at which it lifts"}};
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
