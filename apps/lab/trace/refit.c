@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/quantile.h"
 
@@ -172,7 +173,8 @@ static int list_bent(const lab_trace_result *trace, double level, int n, int roo
   int i, count = 0;
   for (i = n; i < trace->n && count < room; i++) {
     const lab_candidate *c = &trace->candidate[i];
-    if (c->p_value < level || (c->statistic == 0 && lab_chi2_tail(c->against, 1) < level))
+    if (strcmp(pneu_effect_at(c->effect)->equation, "force") != 0 &&
+        (c->p_value < level || (c->statistic == 0 && lab_chi2_tail(c->against, 1) < level)))
       bent[count++] = *c;
   }
   return count;
