@@ -166,8 +166,11 @@ int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
 
 /* What was not refitted yet and may all the same be missing: what passes, though it explains little, and effects whose
  * slope asks for a sign that they cannot have as clearly as others pass. A fit that has bent so far that it overshoots
- * wants less of what is missing. In:      n  foremost candidates that were refitted Returns: how many, at most `room`
- */
+ * wants less of what is missing. Forces are not among them: p and x show them at once, where orifice and preload can
+ * take up what the gas does.
+ *
+ * In:      n  foremost candidates that were refitted
+ * Returns: how many, at most `room` */
 static int list_bent(const lab_trace_result *trace, double level, int n, int room, lab_candidate *bent)
 {
   int i, count = 0;
