@@ -3,21 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct instant {
-  double t;
-  size_t row;
-};
-
-static int by_time(const void *a, const void *b)
-{
-  const struct instant *x = a, *y = b;
-  if (x->t != y->t)
-    return x->t < y->t ? -1 : 1;
-  return x->row < y->row ? -1 : x->row > y->row;
-}
+#include "instants.h"
 
 /* Put the rows of one channel in order, joined into `to[i]` for the i-th instant. */
-static int join_channel(const lab_log *log, const struct instant *order, const size_t *to, int channel, double *joined,
+static int join_channel(const lab_log *log, const lab_instant *order, const size_t *to, int channel, double *joined,
                         lab_error *error)
 {
   double *value = log->value[channel];
@@ -40,7 +29,7 @@ static int join_channel(const lab_log *log, const struct instant *order, const s
 }
 
 /* Where each row goes, by time.  Returns: the number of instants. */
-static size_t number_instants(const struct instant *order, size_t n, size_t *to)
+static size_t number_instants(const lab_instant *order, size_t n, size_t *to)
 {
   size_t i, last = 0;
   for (i = 0; i < n; i++) {
@@ -51,7 +40,7 @@ static size_t number_instants(const struct instant *order, size_t n, size_t *to)
 }
 
 /* Lines of the first row of each of n instants. */
-static void join_lines(lab_log *log, const struct instant *order, const size_t *to, size_t n, double *scratch)
+static void join_lines(lab_log *log, const lab_instant *order, const size_t *to, size_t n, double *scratch)
 {
   size_t i;
   for (i = log->n; i-- > 0;)
@@ -74,16 +63,13 @@ static int hold_command(lab_log *log, lab_error *error)
   return LAB_OK;
 }
 
-static int join(lab_log *log, struct instant *order, size_t *to, double *scratch, lab_error *error)
+static int join(lab_log *log, lab_instant *order, size_t *to, double *scratch, lab_error *error)
 {
   size_t i, n;
   int channel;
-  for (i = 0; i < log->n; i++) {
-    order[i].t = log->value[LAB_CHANNEL_TIME][i];
-    order[i].row = i;
+  for (i = 0; i < log->n; i++)
     scratch[i] = 0;
-  }
-  qsort(order, log->n, sizeof *order, by_time);
+  lab_instants_of(log, order);
   n = number_instants(order, log->n, to);
   for (channel = 0; channel < LAB_CHANNEL_COUNT; channel++)
     if (log->value[channel] && join_channel(log, order, to, channel, scratch, error))
@@ -95,7 +81,7 @@ static int join(lab_log *log, struct instant *order, size_t *to, double *scratch
 
 int lab_log_join(lab_log *log, lab_error *error)
 {
-  struct instant *order = malloc(log->n * sizeof *order);
+  lab_instant *order = malloc(log->n * sizeof *order);
   size_t *to = malloc(log->n * sizeof *to);
   double *scratch = malloc(log->n * sizeof *scratch);
   int status = order && to && scratch ? join(log, order, to, scratch, error) : lab_fail_memory(error, log->path);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "instants.h"
+
 /* ---- The way back of a loop ---- */
 
 static void swap_rows(lab_log *log, size_t a, size_t b)
@@ -65,21 +67,8 @@ static int keep_every(lab_log *log, size_t every, size_t offset, lab_error *erro
 
 /* ---- Many runs into one ---- */
 
-struct instant {
-  double t;
-  size_t row;
-};
-
-static int by_time(const void *a, const void *b)
-{
-  const struct instant *x = a, *y = b;
-  if (x->t != y->t)
-    return x->t < y->t ? -1 : 1;
-  return x->row < y->row ? -1 : x->row > y->row;
-}
-
 /* Mean of a channel over the rows of each instant, gaps left out; a command is that of the first row. */
-static void mean_channel(const lab_log *log, const struct instant *order, int channel, double *mean)
+static void mean_channel(const lab_log *log, const lab_instant *order, int channel, double *mean)
 {
   const double *value = log->value[channel];
   size_t i, k, n = 0;
@@ -95,7 +84,7 @@ static void mean_channel(const lab_log *log, const struct instant *order, int ch
   }
 }
 
-static size_t mean_lines(lab_log *log, const struct instant *order, double *scratch)
+static size_t mean_lines(lab_log *log, const lab_instant *order, double *scratch)
 {
   size_t i, n = 0;
   for (i = 0; i < log->n; i++)
@@ -108,20 +97,16 @@ static size_t mean_lines(lab_log *log, const struct instant *order, double *scra
 
 static int mean_of_runs(lab_log *log, lab_error *error)
 {
-  struct instant *order = malloc(log->n * sizeof *order);
+  lab_instant *order = malloc(log->n * sizeof *order);
   double *scratch = malloc(log->n * sizeof *scratch);
-  size_t i, n;
+  size_t n;
   int c;
   if (!order || !scratch) {
     free(order);
     free(scratch);
     return lab_fail_memory(error, log->path);
   }
-  for (i = 0; i < log->n; i++) {
-    order[i].t = log->value[LAB_CHANNEL_TIME][i];
-    order[i].row = i;
-  }
-  qsort(order, log->n, sizeof *order, by_time);
+  lab_instants_of(log, order);
   n = mean_lines(log, order, scratch);
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (log->value[c]) {
