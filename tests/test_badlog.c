@@ -400,6 +400,33 @@ static void test_closeloop__spikes__are_left_out_and_said(void **state)
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p are far from both neighbours");
 }
 
+static void test_closeloop__values_that_stand_alone__are_left_out_and_said(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 57; i < b.n; i += 131)
+    b.p[i] += 4;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p stand alone");
+}
+
+/* Where more than single values is beyond the model, what lasts a row may be real, too. */
+static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(void **state)
+{
+  bad_log b = sound;
+  char *report;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] += (i / 50) % 4 == 0 ? (i * 7919 % 13 < 6 ? 1.5 : -1.5) : 0;
+  for (i = 57; i < b.n; i += 131)
+    b.p[i] += 5;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "More than noise is left");
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_null(strstr(report, "stand alone"));
+  free(report);
+}
+
 static void test_closeloop__coarse_steps__are_a_limitation(void **state)
 {
   bad_log b = sound;
@@ -686,6 +713,8 @@ int main(void)
       cmocka_unit_test(test_closeloop__saturated_pressure__is_left_out_and_said),
       cmocka_unit_test(test_closeloop__saturated_position__is_left_out_and_said),
       cmocka_unit_test(test_closeloop__spikes__are_left_out_and_said),
+      cmocka_unit_test(test_closeloop__values_that_stand_alone__are_left_out_and_said),
+      cmocka_unit_test(test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay),
       cmocka_unit_test(test_closeloop__coarse_steps__are_a_limitation),
       cmocka_unit_test(test_closeloop__too_few_rows__is_refused),
       cmocka_unit_test(test_closeloop__short_log__is_undecided),

@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include "advise.h"
+#include "../fit/outliers.h"
 #include "../metrics/appraise.h"
 #include "../base/interrupt.h"
 #include "../base/outfile.h"
 #include "report_html.h"
 #include "../base/text.h"
 #include "../base/clock.h"
+#include "../trace/second_look.h"
 
 static void tell(const lab_question *q, const char *what)
 {
@@ -49,23 +51,45 @@ static int read_files(const lab_question *q, lab_answer *a, lab_error *error)
 
 /* ---- Judging ---- */
 
-/* Error of a model on runs. Nothing that the logs share is fitted; what each log has for itself is, and so are the
- * instants at which the command changed, within the row that shows each. */
-static int judge(const lab_rig *model, lab_experiment *run, int n, lab_errors *errors, lab_error *error)
+/* Fit to runs what each log has for itself, and the instants at which the command changed, within the row that shows
+ * each; nothing that the logs share. */
+static int fit_own(const lab_rig *model, const lab_experiment *run, int n, lab_unknowns *u, lab_error *error)
 {
-  lab_unknowns *u = malloc(sizeof *u);
   lab_rig own = *model;
-  int j, status;
+  int j;
   for (own.n_fit = j = 0; j < model->n_fit; j++)
     if (model->fit_per_log[j]) {
       own.fit_per_log[own.n_fit] = 1;
       own.fit[own.n_fit++] = model->fit[j];
     }
-  status = u ? lab_unknowns_open(&own, run, n, u, error) : lab_fail_memory(error, "the held-out log");
-  if (status == LAB_OK && u->n > 0)
-    status = lab_unknowns_fit(u, LAB_FIT_WHOLE, NULL, error);
+  if (lab_unknowns_open(&own, run, n, u, error))
+    return error->status;
+  return u->n > 0 ? lab_unknowns_fit(u, LAB_FIT_WHOLE, NULL, error) : LAB_OK;
+}
+
+/* Error of a model on runs. */
+static int judge(const lab_rig *model, const lab_experiment *run, int n, lab_errors *errors, lab_error *error)
+{
+  lab_unknowns *u = malloc(sizeof *u);
+  int status = u ? fit_own(model, run, n, u, error) : lab_fail_memory(error, "the held-out log");
   if (status == LAB_OK)
     status = lab_loop_errors(u, errors, error);
+  free(u);
+  return status;
+}
+
+/* Where values that stand alone were left out of the logs fitted, they are from those held out, too: no model can have
+ * them. */
+static int leave_out_held(lab_answer *a, lab_error *error)
+{
+  lab_unknowns *u = malloc(sizeof *u);
+  lab_outliers out = {0};
+  int status = u ? fit_own(&a->completed.rig, a->held.experiment, a->held.n, u, error)
+                 : lab_fail_memory(error, "the held-out log");
+  if (status == LAB_OK)
+    status = lab_outliers_take(u, a->held.log, &out, error);
+  lab_remarks_join(&a->fitted.remarks, &out.remarks);
+  lab_outliers_free(&out);
   free(u);
   return status;
 }
@@ -101,14 +125,16 @@ static int retrace(lab_answer *a, lab_error *error)
 }
 
 /* A model that cannot follow the held-out log has no error on it; that is said, and the rest is written. */
-static int hold_out(lab_answer *a, lab_error *error)
+static int hold_out(lab_answer *a, size_t left_out, lab_error *error)
 {
   lab_story *story = &a->story;
   lab_bench *held = &a->held;
   int i, status;
   if (held->n == 0)
     return LAB_OK;
-  status = judge(&a->declared.rig, held->experiment, held->n, &story->holdout_before, error);
+  status = left_out > 0 ? leave_out_held(a, error) : LAB_OK;
+  if (status == LAB_OK)
+    status = judge(&a->declared.rig, held->experiment, held->n, &story->holdout_before, error);
   if (status == LAB_OK)
     status = judge(&a->completed.rig, held->experiment, held->n, &story->holdout_after, error);
   for (i = 0; i < a->result.n_path && status == LAB_OK; i++)
@@ -153,28 +179,41 @@ static void begin_story(lab_answer *a)
   a->story.remarks = &a->fitted.remarks;
 }
 
-static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
+/* Fit the declared model, and add what it lacks.  Out: left_out  values that turned out to be no measurement */
+static int complete(const lab_question *q, lab_answer *a, size_t *left_out, lab_error *error)
 {
   const double start = lab_clock();
   lab_loop_options how;
-  begin_story(a);
   lab_loop_options_default(&how);
   how.tell = q->tell;
   how.context = q->context;
   how.alpha = q->alpha;
   how.min_gain = q->min_gain;
+  *left_out = 0;
   tell(q, "fitting the declared model");
   if (lab_unknowns_open(&a->rig, a->fitted.experiment, a->fitted.n, &a->declared, error) ||
       lab_unknowns_fit(&a->declared, LAB_FIT_WHOLE, NULL, error))
     return error->status;
   a->story.fit_s = lab_clock() - start;
   a->completed = a->declared;
-  if (a->fitted.remarks.doubt ? decline(&a->completed, &a->result, error)
-                              : lab_loop_run(&a->completed, &how, &a->result, error))
+  if (a->fitted.remarks.doubt)
+    return decline(&a->completed, &a->result, error);
+  if (lab_loop_run(&a->completed, &how, &a->result, error) ||
+      lab_second_look(&how, &a->fitted, &a->declared, &a->completed, &a->result, left_out, error))
     return error->status;
   a->story.trace_s = a->result.trace_s;
+  return LAB_OK;
+}
+
+static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
+{
+  const double start = lab_clock();
+  size_t left_out;
+  begin_story(a);
+  if (complete(q, a, &left_out, error))
+    return error->status;
   tell(q, "judging");
-  if (retrace(a, error) || hold_out(a, error) || appraise(a, error))
+  if (retrace(a, error) || hold_out(a, left_out, error) || appraise(a, error))
     return error->status;
   tell(q, "looking for the test to record next");
   if (lab_advise(&a->story, error))
