@@ -1,42 +1,17 @@
-/* When the search tries what has no name, and when that is better than what has. */
+/* When the search wants what has no name, and when that is better than what has. */
 #include <math.h>
 
-#include "../base/quantile.h"
 #include "loop_private.h"
-#include "nameless.h"
 #include "refit.h"
 
 static const double convincing = 0.5; /* of the excess of one effect, or of none: a free term leaves at most so much, */
 static const double compelling = 0.1; /* and with so little there is no need to look on */
-static const double alone = 3;        /* a slot is tried at once if it explains so much more than any effect, */
-static const double mostly = 0.5;     /* and so much of all there is */
 
 /* More than noise, if only a little. */
 static int leaves_something(const lab_attempt *a)
 {
   const double n = (double)a->u.n_values;
   return a->chi2 > n + 2 * sqrt(2 * n);
-}
-
-static int try_slots(const search *s, const lab_attempt *base, const lab_slot *slot, int n, lab_attempt *best,
-                     lab_error *error)
-{
-  loop_tell(s, "looking for what has no name");
-  return lab_refit_slots(base, slot, n, best, error);
-}
-
-int loop_try_slots_first(const search *s, const lab_attempt *base, const lab_scan *scan, double best_effect,
-                         lab_error *error)
-{
-  lab_slot slot[LAB_SLOT_MAX];
-  int n;
-  if (base->n_found > 0 || lab_any_is_noise(base, 1) || !(alone * best_effect < scan->excess))
-    return LAB_OK;
-  if (lab_slots_try(scan, slot, &n, error))
-    return error->status;
-  if (n == 0 || !(slot[0].statistic > mostly * scan->excess) || !(slot[0].statistic > alone * best_effect))
-    return LAB_OK;
-  return try_slots(s, base, slot, n, s->nameless, error);
 }
 
 /* A free term can bend to nearly anything, and says nothing beyond what it has seen: it must leave only noise, or far
@@ -46,27 +21,6 @@ static int is_better(const lab_attempt *nameless, const lab_attempt *named, doub
   const double n = (double)named->u.n_values;
   return nameless->fitted && nameless->bic < named->bic &&
          (lab_any_is_noise(nameless, 1) || nameless->chi2 - n < share * (named->chi2 - n));
-}
-
-static int slot_passes(const search *s, const lab_slot *slot)
-{
-  return slot->degrees > 0 &&
-         lab_slot_tests(&slot->term) * lab_chi2_tail(slot->statistic, slot->degrees) < s->result->level;
-}
-
-int loop_find_slot(const search *s, const lab_attempt *base, lab_attempt *best, lab_error *error)
-{
-  lab_attempt copy = *base;
-  lab_slot slot[LAB_SLOT_MAX];
-  lab_scan scan;
-  int n, status = lab_scan_open(&copy.u, &scan, error);
-  best->fitted = 0;
-  if (status == LAB_OK)
-    status = lab_slots_try(&scan, slot, &n, error);
-  if (status == LAB_OK && n > 0 && slot_passes(s, slot))
-    status = try_slots(s, base, slot, n, best, error);
-  lab_scan_close(&scan);
-  return status;
 }
 
 int loop_last_resort(search *s, lab_error *error)
