@@ -410,6 +410,35 @@ static void test_closeloop__values_that_stand_alone__are_left_out_and_said(void 
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p stand alone");
 }
 
+/* Beside a change of the command, where a table of the sensor's error, a flow or a gain would explain it. */
+static void test_closeloop__one_bad_value__brings_no_name(void **state)
+{
+  static const size_t row[] = {43, 44, 45};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++) {
+    bad_log b = sound;
+    b.p[row[i]] += 7;
+    assert_limited(bad_rig("rig.cfg", ""), &b, "none", "1 value of channel p stands alone");
+  }
+}
+
+/* What comes back with every command is no accident. */
+static void test_closeloop__bad_values_after_each_command__stay(void **state)
+{
+  static const size_t row[] = {44, 254, 404, 554, 724};
+  bad_log b = sound;
+  char *report;
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++)
+    b.p[row[i]] += 7;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "More than noise is left");
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_null(strstr(report, "stand alone"));
+  free(report);
+}
+
 /* Where more than single values is beyond the model, what lasts a row may be real, too. */
 static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(void **state)
 {
@@ -714,6 +743,8 @@ int main(void)
       cmocka_unit_test(test_closeloop__saturated_position__is_left_out_and_said),
       cmocka_unit_test(test_closeloop__spikes__are_left_out_and_said),
       cmocka_unit_test(test_closeloop__values_that_stand_alone__are_left_out_and_said),
+      cmocka_unit_test(test_closeloop__one_bad_value__brings_no_name),
+      cmocka_unit_test(test_closeloop__bad_values_after_each_command__stay),
       cmocka_unit_test(test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay),
       cmocka_unit_test(test_closeloop__coarse_steps__are_a_limitation),
       cmocka_unit_test(test_closeloop__too_few_rows__is_refused),

@@ -136,6 +136,16 @@ static void test_lab_outliers_take__two_side_by_side__are_both_taken(void **stat
   assert_true(isnan(p[100]) && isnan(p[101]) && isnan(x[299]) && isnan(x[301]));
 }
 
+static void test_lab_outliers_take__soon_after_a_command__are_counted(void **state)
+{
+  (void)state;
+  x[OPENED + 4] += 30 * sigma_x;
+  x[OPENED + 5] += 20 * sigma_x;
+  p[CLOSED + 20] += 30 * sigma_p;
+  take(3);
+  assert_int_equal(out.n_soon, 1);
+}
+
 /* ---- What is not ---- */
 
 static void test_lab_outliers_take__three_rows__may_be_an_effect(void **state)
@@ -254,6 +264,7 @@ int main(void)
       TEST(test_lab_outliers_take__beyond_seven_deviations__is_taken),
       TEST(test_lab_outliers_take__in_other_noise__has_its_size_for_measure),
       TEST(test_lab_outliers_take__two_side_by_side__are_both_taken),
+      TEST(test_lab_outliers_take__soon_after_a_command__are_counted),
       TEST(test_lab_outliers_take__three_rows__may_be_an_effect),
       TEST(test_lab_outliers_take__a_step__stays),
       TEST(test_lab_outliers_take__misfit_at_the_corners__stays),

@@ -10,14 +10,16 @@
 static const double alone = 7;    /* in noise, from its neighbours: once in 1e8 normal values */
 static const double agree = 4;    /* in noise, range of three neighbours */
 static const double steps = 3;    /* of the converter; less is a value that flickers */
-static const double peak = 0.25;  /* of the distance, in what is predicted */
 static const double share = 0.02; /* of a channel */
+
+enum { SOON = 5 }; /* rows after a change of command */
 
 /* One channel of one run. */
 struct record {
   size_t n;
-  double *y;     /* measured */
-  double *error; /* measured less predicted; NaN in a gap */
+  const double *u; /* commands, NULL without */
+  double *y;       /* measured */
+  double *error;   /* measured less predicted; NaN in a gap */
   double noise;
 };
 
@@ -41,30 +43,31 @@ static double beside(const double *value, double *range)
   return near[i + 1];
 }
 
-/* How far what is predicted is from a line through what is predicted beside it; gaps do not count. */
-static double peak_of(const double *y, const double *e)
+/* How far a value is from a line through those beside it that are no gaps. */
+static double peak(const double *value, const double *error)
 {
-  double n = 0, k1 = 0, k2 = 0, p1 = 0, pk = 0;
+  double n = 0, k1 = 0, k2 = 0, sum = 0, moment = 0;
   int k;
   for (k = -2; k <= 2; k++)
-    if (k != 0 && !isnan(e[k])) {
+    if (k != 0 && !isnan(error[k])) {
       n += 1;
       k1 += k;
       k2 += k * k;
-      p1 += y[k] - e[k];
-      pk += k * (y[k] - e[k]);
+      sum += value[k];
+      moment += k * value[k];
     }
-  return fabs(y[0] - e[0] - (k2 * p1 - k1 * pk) / (n * k2 - k1 * k1));
+  return value[0] - (k2 * sum - k1 * moment) / (n * k2 - k1 * k1);
 }
 
-/* In:      i     two rows from either end at least
+/* Its error is far from those beside it, and it is the log that has the larger peak there, not the model.
+ * In:      i     two rows from either end at least
  *          size  least distance */
 static int stands_alone(const struct record *c, size_t i, double size)
 {
-  const double *e = c->error + i;
+  const double *e = c->error + i, *y = c->y + i;
   double range;
-  const double off = fabs(e[0] - beside(e, &range));
-  return off > size && range < agree * c->noise && peak_of(c->y + i, e) < peak * off;
+  const double off = fabs(e[0] - beside(e, &range)), measured = peak(y, e);
+  return off > size && range < agree * c->noise && fabs(measured) > fabs(measured - peak(e, e));
 }
 
 /* Make gaps in the errors of what stands alone.  Returns: how many */
@@ -80,6 +83,15 @@ static size_t mark(struct record *c)
   return n;
 }
 
+/* Whether the command has changed in the last rows before row i, or at it. */
+static int is_soon(const struct record *c, size_t i)
+{
+  size_t k, soon = 0;
+  for (k = i > SOON ? i - SOON : 0; c->u && k < i; k++)
+    soon |= c->u[k] != c->u[k + 1];
+  return soon != 0;
+}
+
 /* Make gaps where the errors have new ones, found of them.  Out: first  row of the first */
 static int take(struct record *c, size_t found, lab_outliers *out, size_t *first, lab_error *error)
 {
@@ -91,6 +103,7 @@ static int take(struct record *c, size_t found, lab_outliers *out, size_t *first
   while (i-- > 0)
     if (isnan(c->error[i]) && !isnan(c->y[i])) {
       out->taken[out->n++] = (lab_outlier){&c->y[i], c->y[i]};
+      out->n_soon += (size_t)is_soon(c, i);
       c->y[i] = (double)NAN;
       *first = i;
     }
@@ -110,7 +123,8 @@ static void remark(const lab_experiment *x, int channel, size_t first, size_t n,
  *          log  the one of the experiment */
 static int take_channel(const lab_experiment *x, int k, double *e, lab_log *log, lab_outliers *out, lab_error *error)
 {
-  struct record c = {x->n, log->value[x->channel[k]] + x->first, e, 0};
+  const double *u = log->value[LAB_CHANNEL_U];
+  struct record c = {x->n, u ? u + x->first : NULL, log->value[x->channel[k]] + x->first, e, 0};
   size_t i, found, first = 0;
   for (i = 0; i < x->n; i++)
     e[i] = isnan(c.y[i]) ? (double)NAN : e[i] * x->sigma[k];

@@ -10,6 +10,24 @@ typedef struct outcome {
   lab_loop_result result;
 } outcome;
 
+/* How much hangs on the log: nothing that was found is missed. */
+static int doubt(const lab_loop_result *result)
+{
+  static const int of_verdict[] = {0, 0, LAB_LOOP_EFFECTS, 2 * LAB_LOOP_EFFECTS + 1}; /* enum lab_verdict */
+  return of_verdict[result->verdict] + result->n_found;
+}
+
+/* Whether the values can be accidents. What an effect does comes back with every change of the command, or with every
+ * other one, and may last a row where rows are far between. */
+static int can_be_accidents(const lab_outliers *out, const lab_bench *bench)
+{
+  size_t changes = 0;
+  int i;
+  for (i = 0; i < bench->n; i++)
+    changes += bench->experiment[i].n_switches;
+  return out->n > 0 && (out->n_soon == 0 || 2 * out->n_soon < changes);
+}
+
 static int run_again(const lab_loop_options *options, outcome *o, lab_error *error)
 {
   lab_unknowns_view(&o->declared, 0); /* counts the values that are left */
@@ -33,16 +51,16 @@ int lab_second_look(const lab_loop_options *options, lab_bench *bench, lab_unkno
   outcome *o = NULL;
   int status = LAB_OK;
   *left_out = 0;
-  if (result->verdict != LAB_VERDICT_UNDECIDED)
+  if (doubt(result) == 0)
     return LAB_OK;
-  status = lab_outliers_take(completed, bench->log, &out, error);
-  if (status == LAB_OK && out.n > 0 && !(o = malloc(sizeof *o)))
+  status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
+  if (status == LAB_OK && can_be_accidents(&out, bench) && !(o = malloc(sizeof *o)))
     status = lab_fail_memory(error, "a second look");
   if (o) {
     o->declared = *declared;
     status = run_again(options, o, error);
   }
-  if (o && status == LAB_OK && o->result.verdict != LAB_VERDICT_UNDECIDED) {
+  if (o && status == LAB_OK && doubt(&o->result) < doubt(result)) {
     accept(o, declared, completed, result);
     lab_remarks_join(&bench->remarks, &out.remarks);
     *left_out = out.n;

@@ -1,4 +1,4 @@
-/* A log that stays undecided because of a few values that are no measurement.
+/* A log whose verdict hangs on a few values that are no measurement.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_SECOND_LOOK_H
 #define LAB_SECOND_LOOK_H
@@ -6,8 +6,9 @@
 #include "../check/bench.h"
 #include "loop.h"
 
-/* Where the loop ended undecided, run it once more without the values that stand alone (outliers.h). If that decides,
- * the new answer takes the place of the old one, and the bench's remarks say what was left out; else nothing changes.
+/* Where the loop found something, or ended undecided, run it once more without the values that stand alone
+ * (outliers.h). If that leaves less to explain or to doubt, the new answer takes the place of the old one, and
+ * the bench's remarks say what was left out; else nothing changes.
  * In/out:  bench      its logs
  *          declared   fitted
  *          completed  model, and
