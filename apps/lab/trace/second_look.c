@@ -51,7 +51,7 @@ int lab_second_look(const lab_loop_options *options, lab_bench *bench, lab_unkno
   outcome *o = NULL;
   int status = LAB_OK;
   *left_out = 0;
-  if (doubt(result) == 0)
+  if (doubt(result) == 0 || result->window > 0)
     return LAB_OK;
   status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
   if (status == LAB_OK && can_be_accidents(&out, bench) && !(o = malloc(sizeof *o)))

@@ -8,7 +8,7 @@
 
 /* Where the loop found something, or ended undecided, run it once more without the values that stand alone
  * (outliers.h). If that leaves less to explain or to doubt, the new answer takes the place of the old one, and
- * the bench's remarks say what was left out; else nothing changes.
+ * the bench's remarks say what was left out; else nothing changes. Nor does it where the log was seen coarsely.
  * In/out:  bench      its logs
  *          declared   fitted
  *          completed  model, and
