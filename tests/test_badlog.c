@@ -423,37 +423,39 @@ static void test_closeloop__one_bad_value__brings_no_name(void **state)
   }
 }
 
+/* Nothing is left out, and nothing decided. */
+static void assert_undecided_with_all(const bad_log *b)
+{
+  char *report;
+  assert_limited(bad_rig("rig.cfg", ""), b, "undecided", "More than noise is left");
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_null(strstr(report, "stand alone"));
+  free(report);
+}
+
 /* What comes back with every command is no accident. */
 static void test_closeloop__bad_values_after_each_command__stay(void **state)
 {
   static const size_t row[] = {44, 254, 404, 554, 724};
   bad_log b = sound;
-  char *report;
   size_t i;
   (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++)
     b.p[row[i]] += 7;
-  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "More than noise is left");
-  report = scratch_read(scratch_path("out/report.json"));
-  assert_null(strstr(report, "stand alone"));
-  free(report);
+  assert_undecided_with_all(&b);
 }
 
 /* Where more than single values is beyond the model, what lasts a row may be real, too. */
 static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(void **state)
 {
   bad_log b = sound;
-  char *report;
   size_t i;
   (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] += (i / 50) % 4 == 0 ? (i * 7919 % 13 < 6 ? 1.5 : -1.5) : 0;
   for (i = 57; i < b.n; i += 131)
     b.p[i] += 5;
-  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "More than noise is left");
-  report = scratch_read(scratch_path("out/report.json"));
-  assert_null(strstr(report, "stand alone"));
-  free(report);
+  assert_undecided_with_all(&b);
 }
 
 static void test_closeloop__coarse_steps__are_a_limitation(void **state)

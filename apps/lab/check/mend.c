@@ -157,22 +157,13 @@ static int clear_saturated(struct stretch *s, int upper, lab_remarks *remarks, l
   return LAB_OK;
 }
 
-static int command_changes(const struct stretch *s, size_t a, size_t b)
-{
-  size_t i;
-  for (i = a; s->u && i < b; i++)
-    if (s->u[i + 1] != s->u[i])
-      return 1;
-  return 0;
-}
-
 /* In:      size  least distance from the neighbours */
 static int is_spike(const struct stretch *s, size_t i, double noise, double size)
 {
   const double a = s->y[i - 1], b = s->y[i + 1], off = fabs(s->y[i] - (a + b) / 2);
   const double even = fmax(spike_agree * noise, spike_even * off);
   return off > size && fabs(a - b) < even && fabs(s->y[i - 2] - a) < even && fabs(s->y[i + 2] - b) < even &&
-         !command_changes(s, i - 2, i + 2);
+         !lab_log_command_changes(s->log, s->first + i - 2, s->first + i + 2);
 }
 
 /* A last row that was cut in the middle of its last number reads as a smaller one: far from the two before it, which go

@@ -7,7 +7,7 @@
 #include "../base/noise.h"
 #include "../base/text.h"
 
-static const double alone = 7;    /* in noise, from its neighbours: once in 1e8 normal values */
+static const double alone = 7;    /* in noise, from its neighbours */
 static const double agree = 4;    /* in noise, range of three neighbours */
 static const double steps = 3;    /* of the converter; less is a value that flickers */
 static const double share = 0.02; /* of a channel */
@@ -16,8 +16,7 @@ enum { SOON = 5 }; /* rows after a change of command */
 
 /* One channel of one run. */
 struct record {
-  size_t n;
-  const double *u; /* commands, NULL without */
+  size_t first, n; /* rows of the log */
   double *y;       /* measured */
   double *error;   /* measured less predicted; NaN in a gap */
   double noise;
@@ -83,17 +82,8 @@ static size_t mark(struct record *c)
   return n;
 }
 
-/* Whether the command has changed in the last rows before row i, or at it. */
-static int is_soon(const struct record *c, size_t i)
-{
-  size_t k, soon = 0;
-  for (k = i > SOON ? i - SOON : 0; c->u && k < i; k++)
-    soon |= c->u[k] != c->u[k + 1];
-  return soon != 0;
-}
-
 /* Make gaps where the errors have new ones, found of them.  Out: first  row of the first */
-static int take(struct record *c, size_t found, lab_outliers *out, size_t *first, lab_error *error)
+static int take(struct record *c, const lab_log *log, size_t found, lab_outliers *out, size_t *first, lab_error *error)
 {
   lab_outlier *taken = realloc(out->taken, (out->n + found) * sizeof *taken);
   size_t i = c->n;
@@ -103,7 +93,7 @@ static int take(struct record *c, size_t found, lab_outliers *out, size_t *first
   while (i-- > 0)
     if (isnan(c->error[i]) && !isnan(c->y[i])) {
       out->taken[out->n++] = (lab_outlier){&c->y[i], c->y[i]};
-      out->n_soon += (size_t)is_soon(c, i);
+      out->n_soon += lab_log_command_changes(log, c->first + (i > SOON ? i - SOON : 0), c->first + i) != 0;
       c->y[i] = (double)NAN;
       *first = i;
     }
@@ -123,8 +113,7 @@ static void remark(const lab_experiment *x, int channel, size_t first, size_t n,
  *          log  the one of the experiment */
 static int take_channel(const lab_experiment *x, int k, double *e, lab_log *log, lab_outliers *out, lab_error *error)
 {
-  const double *u = log->value[LAB_CHANNEL_U];
-  struct record c = {x->n, u ? u + x->first : NULL, log->value[x->channel[k]] + x->first, e, 0};
+  struct record c = {x->first, x->n, log->value[x->channel[k]] + x->first, e, 0};
   size_t i, found, first = 0;
   for (i = 0; i < x->n; i++)
     e[i] = isnan(c.y[i]) ? (double)NAN : e[i] * x->sigma[k];
@@ -134,7 +123,7 @@ static int take_channel(const lab_experiment *x, int k, double *e, lab_log *log,
   found = mark(&c);
   if (found == 0 || !((double)found < share * (double)x->n))
     return LAB_OK;
-  if (take(&c, found, out, &first, error))
+  if (take(&c, log, found, out, &first, error))
     return error->status;
   remark(x, x->channel[k], first, found, &out->remarks);
   return LAB_OK;

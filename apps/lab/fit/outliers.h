@@ -17,12 +17,15 @@ typedef struct lab_outliers {
   lab_remarks remarks; /* how many, and where the first is, for each channel of each run */
 } lab_outliers;
 
-/* Make gaps of values whose error is more than seven times the noise away from that of their neighbours, two on either
- * side, of which three agree. The error is that of the present model, so that strokes and corners which it knows do not
- * count; nor does a peak that is the model's rather than the log's. More than a fiftieth of a channel is no accident,
- * and stays. In a log with few rows a stroke, what lasts a row may be real: see that the model explains all the rest.
- * In:      u    fitted; lab_unknowns_view counts its values anew In/out:  log  those that the experiments of u belong
- * to out  goes on from what it has; to be freed, also after an error Returns: as lab_unknowns_errors. */
+/* Make gaps of values whose error is more than seven times the noise away from that of their neighbours, two on
+ * either side, of which three agree. The error is that of the present model, so that strokes and corners which it
+ * knows do not count; nor does a peak that is the model's rather than the log's. More than a fiftieth of a channel
+ * is no accident, and stays. In a log with few rows a stroke, what lasts a row may be real: see that the model
+ * explains all the rest.
+ * In:      u    fitted; lab_unknowns_view counts its values anew
+ * In/out:  log  those that the experiments of u belong to
+ *          out  goes on from what it has; to be freed, also after an error
+ * Returns: as lab_unknowns_errors. */
 int lab_outliers_take(const lab_unknowns *u, lab_log *log, lab_outliers *out, lab_error *error);
 
 /* Put all back where it was. The log must still be there. */

@@ -306,3 +306,13 @@ void lab_log_free(lab_log *log)
   free(log->run);
   memset(log, 0, sizeof *log);
 }
+
+int lab_log_command_changes(const lab_log *log, size_t first, size_t last)
+{
+  const double *u = log->value[LAB_CHANNEL_U];
+  size_t i;
+  for (i = first; u && i < last; i++)
+    if (u[i + 1] != u[i])
+      return 1;
+  return 0;
+}

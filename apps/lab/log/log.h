@@ -27,4 +27,9 @@ int lab_log_read(const char *path, const lab_log_format *format, double ambient,
 
 void lab_log_free(lab_log *log);
 
+/* Whether the command changes between two rows.
+ * In:      first, last  rows of one run, first <= last
+ * Returns: 0 also for a log without commands. */
+int lab_log_command_changes(const lab_log *log, size_t first, size_t last);
+
 #endif

@@ -10,7 +10,8 @@ typedef struct outcome {
   lab_loop_result result;
 } outcome;
 
-/* How much hangs on the log: nothing that was found is missed. */
+/* How much there is to explain or to doubt: each effect counts, what has no name more than all of these, and not to
+ * know most. */
 static int doubt(const lab_loop_result *result)
 {
   static const int of_verdict[] = {0, 0, LAB_LOOP_EFFECTS, 2 * LAB_LOOP_EFFECTS + 1}; /* enum lab_verdict */
