@@ -89,6 +89,20 @@ static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted
   lab_log_free(&log);
 }
 
+static void test_lab_log_command_changes__between_two_rows__counts(void **state)
+{
+  lab_log log = read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n"), none = log;
+  (void)state;
+  none.value[LAB_CHANNEL_U] = NULL;
+  assert_true(lab_log_command_changes(&log, 1, 2));
+  assert_true(lab_log_command_changes(&log, 0, 3));
+  assert_false(lab_log_command_changes(&log, 0, 1));
+  assert_false(lab_log_command_changes(&log, 2, 3));
+  assert_false(lab_log_command_changes(&log, 2, 2));
+  assert_false(lab_log_command_changes(&none, 0, 3));
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__last_line_without_end__counts(void **state)
 {
   lab_log log = read_log("\xEF\xBB\xBFt [s],u [1]\n0,0\n1,0.5");
@@ -847,6 +861,7 @@ int main(void)
       CASE(test_lab_log_read__documented_format__gives_si),
       CASE(test_lab_log_read__absolute_pressures__become_gauge),
       CASE(test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted),
+      CASE(test_lab_log_command_changes__between_two_rows__counts),
       CASE(test_lab_log_read__last_line_without_end__counts),
       CASE(test_lab_log_read__empty_field_or_nan__is_a_gap),
       CASE(test_lab_log_read__column_named_minus__is_ignored),

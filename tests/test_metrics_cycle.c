@@ -4,9 +4,9 @@
 static double record_flow[RECORD_ROWS];                     /* [kg/s] from the supply */
 static const double F = 480, A = 0.04, k = 4e5, x_0 = 0.01; /* R1-400 [B, Table A1] */
 
-/* Pressure over time that balances spring and friction in a full stroke up and down, 10 s each way; at the upper stop
- * it goes on to the supply and comes back. Flow from the supply as long as the pressure rises. In:      low_spring  [m]
- * preload */
+/* Pressure over time that balances spring and friction in a full stroke up and down, 10 s each way; at the upper
+ * stop it goes on to the supply and comes back. Flow from the supply as long as the pressure rises.
+ * In:      preload  [m], of the spring */
 static void add_cycle(double preload, double friction)
 {
   int i;

@@ -16,7 +16,9 @@ typedef struct audit {
 } audit;
 
 /* Fill for 15 s and vent for 15 s from rest, and add up both balances by Gauss quadrature of order 8 over the dense
- * output. In:      tol  local error in units of full scale Returns: LAB_OK, LAB_NUMERIC. */
+ * output.
+ * In:      tol  local error in units of full scale
+ * Returns: LAB_OK, LAB_NUMERIC. */
 int audit_run(const pneu_model *model, double tol, audit *balance, lab_error *error);
 
 #endif

@@ -10,11 +10,13 @@ typedef struct lab_point {
   size_t row;       /* of the series */
 } lab_point;
 
-/* The envelope of a series: of the values in each of `columns` equal parts of from..to the lowest and the highest, in
- * the order in which they came. The line breaks where a new run begins and over gaps wider than a fiftieth of the axis
- * and four times what is usual between two values. In:      at, value  n of each, `at` growing, within from..to; a
- * value that is NaN is left out first      n_runs first rows of runs, growing Out:     point      room for 3 * columns
- * + n_runs entries Returns: their number. */
+/* The envelope of a series: of the values in each of `columns` equal parts of from..to the lowest and the highest,
+ * in the order in which they came. The line breaks where a new run begins and over gaps wider than a fiftieth of
+ * the axis and four times what is usual between two values.
+ * In:      at, value  n of each, `at` growing, within from..to; a value that is NaN is left out
+ *          first      n_runs first rows of runs, growing
+ * Out:     point      room for 3 * columns + n_runs entries
+ * Returns: their number. */
 size_t lab_envelope(const double *at, const double *value, size_t n, const size_t *first, int n_runs, double from,
                     double to, int columns, lab_point *point);
 

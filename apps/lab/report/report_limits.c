@@ -8,7 +8,10 @@
 static const double wider = 1.1; /* times, from which on it is worth a word */
 
 /* The next clause of the remark of a fit that is of use to a reader: not one on instants of the command, which have no
- * name. In/out:  remark  moves on Returns: its length, 0 at the end;  Out: clause  where it begins */
+ * name.
+ * In/out:  remark  moves on
+ * Out:     clause  where it begins
+ * Returns: its length, 0 at the end */
 static int next_clause(const char **remark, const char **clause)
 {
   while (**remark) {
