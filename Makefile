@@ -11,17 +11,16 @@ N       ?= 500
 
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef -Wwrite-strings -Wold-style-definition \
            -Wstrict-prototypes -Wmissing-prototypes -Wdouble-promotion -Wpointer-arith
-FLAGS   := -std=c99 $(OPT) -g $(WARN) $(if $(WERROR),-Werror) $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-omit-frame-pointer)
+FLAGS   := -std=c99 $(OPT) -g $(WARN) $(if $(WERROR),-Werror) $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 DEPS    := -MMD -MP
 SINGLE_FLAG := $(if $(SINGLE),-DPNEU_SINGLE)
 
 # Floating-point contraction differs between machines; off, so that results/ is the same on all.
 FLAGS   += -ffp-contract=off
 
-CMINPACK ?= $(firstword $(wildcard /usr/include/cminpack-1 /usr/local/include/cminpack-1 /opt/homebrew/include/cminpack-1))
 OPENMP ?= -fopenmp
-LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(if $(CMINPACK),-I$(CMINPACK)) $(OPENMP)
-LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lcminpack -lm
+LAB_FLAGS := -D_POSIX_C_SOURCE=200809L $(OPENMP)
+LAB_LIBS  := -lsundials_cvode -lsundials_nvecserial -lnlopt -lconfig -ludunits2 -lcjson -lm
 ifdef MPI
 MPI_FLAGS := $(shell pkg-config --cflags ompi-c 2>/dev/null)
 LAB_LIBS  += $(shell pkg-config --libs ompi-c 2>/dev/null)
@@ -29,14 +28,15 @@ endif
 
 LIB_C   := $(wildcard lib/*.c lib/effects/*.c)
 # closeloop --batch over the ranks of MPI: make MPI=1 closeloop
-CREW    := $(if $(MPI),apps/lab/batch/mpi/crew.c,apps/lab/batch/crew.c)
-LAB_C   := $(filter-out apps/lab/batch/crew.c,$(wildcard apps/lab/*/*.c apps/study/*.c)) $(CREW)
+JOBS_C  := $(if $(MPI),apps/lab/batch/mpi/jobs.c,apps/lab/batch/jobs.c)
+LAB_C   := $(filter-out apps/lab/batch/jobs.c,$(wildcard apps/lab/*/*.c apps/study/*.c)) $(JOBS_C)
 PROGS   := sweep simulate closeloop
 # export-fmu has a rule of its own (apps/fmu/fmu.mk)
 TOOLS   := $(PROGS) export-fmu
-TEST_C  := $(wildcard tests/test_*.c)
-BLIND_C := $(wildcard tests/blind/*.c)
-HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c,$(wildcard tests/second/*.c) $(BLIND_C))
+# The test of a file of lib/ or apps/ lies under tests/ as the file does under the root; those of helpers lie beside them.
+TEST_C  := $(wildcard tests/test_*.c tests/*/test_*.c tests/lab/*/test_*.c)
+BLIND_C := $(filter-out $(TEST_C),$(wildcard tests/blind/*.c))
+HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c $(TEST_C),$(wildcard tests/second/*.c) $(BLIND_C))
 BENCH_C := $(filter-out %/main.c %/fleet.c,$(wildcard tests/bench/*.c)) tests/second/rig.c $(filter-out tests/blind/main.c,$(BLIND_C))
 
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
@@ -46,18 +46,19 @@ HELP    := $(BUILD)/libhelp.a
 BLIND_O := $(BLIND_C:%.c=$(BUILD)/%.o) $(BUILD)/tests/second/rig.o
 BENCH_O := $(BENCH_C:%.c=$(BUILD)/%.o)
 TESTS   := $(TEST_C:%.c=$(BUILD)/%)
+CORE_TESTS := $(filter $(BUILD)/tests/lib/%,$(TESTS))
 STATIC  := $(BUILD)/libpneu.a
 LAB     := $(BUILD)/liblab$(if $(MPI),-mpi).a
 
 # What was made by another program is made again: the sources' checksum goes into the record of what is done.
-SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*/*.[ch] apps/lab/report/page/* apps/study/*.[ch] apps/study/*.def))
+SOURCES := $(sort $(wildcard lib/*.[ch] lib/*.def lib/effects/*.c apps/lab/*/*.[ch] apps/lab/*/*.def apps/lab/report/page/*.* apps/lab/report/page/uplot/* apps/study/*.[ch] study/paper/* study/measured/report.md))
 
 # What is being made, or with V=1 how.
 say = $(if $(V),,@echo '  $@' &&)
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all help study check check-core check-single check-san check-readme verify bench figures install-packages clean
+.PHONY: all help study check bench install-packages clean
 
 # Where there are no rights or no network, but all is there, or all but a part of the tests.
 GO_ON := echo "going on with what is there" >&2
@@ -79,11 +80,20 @@ study:
 install-packages:
 	@sh study/install-packages.sh
 
-## Run every test: library in double and single precision, with sanitizers, headers, README, short study
+TESTED_WITH = MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)'
+
+## Run the tests: library in double and single precision, programs, README, short study, a few blind trials; three minutes
 check:
 	@sh study/install-packages.sh tests || $(GO_ON)
 	@$(MAKE) --no-print-directory all
-	@MEASURED='$(MEASURED)' MAKE='$(MAKE)' CC='$(CC)' CXX='$(CXX)' BUILD='$(BUILD)' sh tests/run.sh
+	@$(TESTED_WITH) sh tests/run.sh
+
+## Run these and everything else: sanitizers, firmware, FMUs, browser, Windows, packages, kill, mutants, fuzz; installs what they need
+check-all:
+	@sh study/install-packages.sh everything || $(GO_ON)
+	@$(MAKE) --no-print-directory all
+	@$(TESTED_WITH) sh tests/run.sh all
+.PHONY: check-all
 
 ## Close the loop on every measured set (MEASURED names the data's folder); writes results/measured/
 measured: $(STATIC) closeloop $(BUILD)/measured
@@ -104,17 +114,24 @@ bench: all
 	@$(MAKE) --no-print-directory BUILD='$(BUILD)/pic' OPT='$(OPT) -fPIC' $(BUILD)/pic/bench
 	MEASURED='$(MEASURED)' BUILD='$(BUILD)' sh tests/bench/run.sh $(if $(QUICK),'$(BUILD)/bench/results' quick,results)
 
+## The page that closeloop makes of the guide's log; writes results/sample/
+sample: closeloop
+	./closeloop study/guides/leak/rig.cfg study/guides/leak/fit.csv --holdout study/guides/leak/holdout.csv --figures --out $(BUILD)/sample
+	mkdir -p results/sample && cp $(BUILD)/sample/report.html $(BUILD)/sample/response.svg results/sample/
+.PHONY: sample
+
 ## All figures of results/ on one page
 gallery:
 	@sh study/gallery.sh >results/GALLERY.md.part && mv results/GALLERY.md.part results/GALLERY.md
 .PHONY: gallery
 
-## Try closeloop on N rigs (500) without its answer, and on more of which nothing is missing, or the noise not told; goes on after a stop
+## Try closeloop on N rigs (500) without its answer, and on more of which nothing is missing, or the noise not told, or the log as recorded; goes on after a stop
 blind: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trials $(N) --work $(BUILD)/blind
 	$(BUILD)/tests/blind/blind --trials $$((5 * $(N) + 100)) --series blind_nothing --work $(BUILD)/blind
 	$(BUILD)/tests/blind/blind --trials $$(($(N) / 5)) --series blind_noise --work $(BUILD)/blind
-## Repeat trial K of them (SERIES=blind_noise: of that series) and keep its files in build/blind/kept
+	$(BUILD)/tests/blind/blind --trials $(N) --series blind_recorded --work $(BUILD)/blind
+## Repeat trial K of them (SERIES=blind_recorded: of that series) and keep its files in build/blind/kept
 blind-trial: closeloop $(BUILD)/tests/blind/blind
 	$(BUILD)/tests/blind/blind --trial $(K) $(if $(SERIES),--series $(SERIES)) --keep $(BUILD)/blind/kept
 .PHONY: blind blind-trial
@@ -166,12 +183,12 @@ $(BUILD)/apps/%.o: apps/%.c | $(BUILD)/found/programs
 	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/apps/lab/batch/mpi/%.o: LAB_FLAGS += $(MPI_FLAGS)
-$(BUILD)/apps/lab/batch/mpi/crew.o: | $(BUILD)/found/mpi
+$(BUILD)/apps/lab/batch/mpi/jobs.o: | $(BUILD)/found/mpi
 
 # Programs are linked again when MPI=1 comes or goes.
-$(BUILD)/crew: FORCE
+$(BUILD)/jobs: FORCE
 	@mkdir -p $(@D)
-	@echo '$(CREW)' | cmp -s - $@ || echo '$(CREW)' > $@
+	@echo '$(JOBS_C)' | cmp -s - $@ || echo '$(JOBS_C)' > $@
 .PHONY: FORCE
 
 $(BUILD)/sources.cksum: $(SOURCES)
@@ -182,25 +199,36 @@ $(BUILD)/apps/lab/base/checksum.o: apps/lab/base/checksum.c $(BUILD)/sources.cks
 	@mkdir -p $(@D)
 	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -DLAB_BUILD='"'"$$(cat $(BUILD)/sources.cksum)"'"' -c $< -o $@
 
-# Scripts and templates that a program carries inside, a line a string.
-CARRIED := $(wildcard apps/lab/report/page/*) study/figures/style.gp
-$(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: %
+# Scripts and templates that a program carries inside, in strings of a thousand characters at most.
+CARRIED := $(wildcard apps/lab/report/page/*.* apps/lab/report/page/uplot/* study/paper/*) study/measured/report.md study/figures/style.gp
+$(CARRIED:%=$(BUILD)/%.inc): $(BUILD)/%.inc: % apps/lab/report/carry.awk
 	@mkdir -p $(@D)
-	$(say) sed -e 's/[\\"]/\\&/g' -e 's/??/?\\?/g' -e 's/.*/"&\\n",/' $< > $@
+	$(say) LC_ALL=C awk -f apps/lab/report/carry.awk $< > $@
 
 # Which of them an object carries is known once it has been compiled; before that, all must be there.
-$(filter $(BUILD)/apps/lab/report/%,$(LAB_O)): | $(CARRIED:%=$(BUILD)/%.inc)
-$(BUILD)/apps/lab/report/%.o: LAB_FLAGS += -I$(BUILD)
+$(filter $(BUILD)/apps/lab/report/% $(BUILD)/apps/study/%,$(LAB_O)): | $(CARRIED:%=$(BUILD)/%.inc)
+$(BUILD)/apps/lab/report/%.o $(BUILD)/apps/study/%.o: LAB_FLAGS += -I$(BUILD)
 
-$(PROGS): %: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/crew
+# Programs stay in the folder of their build as well, for its tests: those of a sanitized build start sanitized ones.
+$(PROGS:%=$(BUILD)/bin/%): $(BUILD)/bin/%: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(BUILD)/jobs
+	@mkdir -p $(@D)
 	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(LAB_LIBS) -o $@
+
+$(PROGS): %: $(BUILD)/bin/%
+	$(say) cp -f $< $@
 
 $(TESTS:%=%.o) $(BUILD)/tests/fixture.o: | $(BUILD)/found/tests
 $(BUILD)/tests/%.o: tests/%.c | $(BUILD)/found/programs
 	@mkdir -p $(@D)
-	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(SINGLE_FLAG) $(CFLAGS) -c $< -o $@
+	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(SINGLE_FLAG) -DPROGRAMS='"$(BUILD)/bin"' $(CFLAGS) -c $< -o $@
+
+$(BUILD)/tests/apps/test_closeloop: | $(BUILD)/bin/closeloop
+$(BUILD)/tests/apps/test_simulate: | $(BUILD)/bin/simulate
 
 $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
+	$(say) $(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
+
+$(BUILD)/tests/decisions: $(BUILD)/tests/decisions.o $(BUILD)/apps/lab/trace/decide.o
 	$(say) $(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@
 
 # What is timed is a shared library, so that rivals in another language can share its process.
@@ -217,7 +245,11 @@ $(BUILD)/tests/bench/fleet: $(BUILD)/tests/bench/fleet.o $(filter-out %/main.o,$
 $(BUILD)/tests/blind/blind: $(BLIND_O) $(LAB)
 	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcjson -lm -o $@
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(HELP) $(LAB) $(STATIC)
+# Tests of the core link nothing of the lab.
+$(CORE_TESTS): %: %.o $(HELP) $(STATIC)
+	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) -lcmocka -lm -o $@
+
+$(filter-out $(CORE_TESTS),$(TESTS)): %: %.o $(HELP) $(LAB) $(STATIC)
 	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
 include apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk packaging/install.mk

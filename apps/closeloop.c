@@ -4,34 +4,50 @@
 #include <string.h>
 
 #include "lab/report/answer.h"
+#include "lab/trace/decide.h"
 #include "lab/batch/batch.h"
 #include "lab/base/cli.h"
+#include "lab/base/escape.h"
 #include "lab/base/interrupt.h"
 #include "lab/base/outfile.h"
 #include "lab/base/progress.h"
-#include "lab/batch/split.h"
+#include "lab/base/text.h"
 
-static const char *holdout, *out, *list;
-static double alpha = 0.01, min_gain = 0.02;
-static int no_figures, reports;
+static const char *holdout, *baseline, *out, *list;
+static double alpha, min_gain;
+static int budget, figures, no_figures, reports, allow_include;
+
+static const int usual_budget = 60, usual_batch_budget = 600; /* [s] of CPU, for a log and for a line of a batch */
+static const int patience = 10; /* budgets after which even what follows the search is given up */
 
 static const lab_option options[] = {
     {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv[,LOG2.csv]",
      "judge the completed model on these logs, which it has not seen", 0, 0},
+    {"baseline", LAB_OPTION_TEXT, &baseline, "THEN.csv[,THEN2.csv...]",
+     "logs of the same rig as it was: say what has changed since", 0, 0},
     {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>, or results/<list name>", 0, 0},
     {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
     {"min-gain", LAB_OPTION_REAL, &min_gain, "SHARE", "error that an effect must save to be added (0.02)", 0, 1},
-    {"no-figures", LAB_OPTION_FLAG, &no_figures, NULL, "report without figures, without gnuplot", 0, 0},
+    {"figures", LAB_OPTION_FLAG, &figures, NULL, "fail where there is no gnuplot to draw the figures as SVG", 0, 0},
+    {"no-figures", LAB_OPTION_FLAG, &no_figures, NULL, "write no SVG; the page has its curves all the same", 0, 0},
     {"batch", LAB_OPTION_TEXT, &list, "LIST.csv",
      "many rigs, a line each: header name,rig,log,holdout; several logs: a.csv;b.csv;\n"
      "paths from the list's folder; name and holdout may be left out; # is a comment.\n"
      "Writes DIR/batch.csv, a line each in the list's order, DIR/index.html, the worst\n"
-     "first, DIR/batch.cost.csv, and DIR/<name>/report.json. As many logs at once as --threads says. Stopped, it goes on\n"
+     "first, DIR/batch.cost.csv, and DIR/<name>/report.json. As many logs at once as --threads says. Stopped, it goes "
+     "on\n"
      "where it was; a line is done again if its files, options or closeloop changed.\n"
      "A log that fails is a line with verdict \"error\"; the exit status is then that of\n"
      "the worst line",
      0, 0},
     {"reports", LAB_OPTION_FLAG, &reports, NULL, "with --batch: every file of every log, as for a single one", 0, 0},
+    {"budget", LAB_OPTION_COUNT, &budget, "SECONDS",
+     "CPU time after which the best answer so far is given, marked as such (60); with\n--batch, after which a line "
+     "ends "
+     "in an error (600)",
+     1, 1e7},
+    {"allow-include", LAB_OPTION_FLAG, &allow_include, NULL,
+     "with --batch: read rig files that take in others by @include", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
@@ -41,47 +57,68 @@ static const lab_program program = {
     "it, and report the error before and after.",
     options,
     0,
-    1 + LAB_BENCH_LOGS};
+    1 + LAB_LOGS_MAX};
 
-static void say(void *progress, const char *what)
+static void on_progress(void *progress, const char *what)
 {
   lab_progress_say(progress, what);
 }
 
-static int write_answer(const lab_answer *answer, lab_error *error)
+static int extent(void)
 {
-  char folder[LAB_PATH_TEXT];
-  snprintf(folder, sizeof folder, "results/%s", answer->rig.name);
-  return lab_answer_write(answer, out ? out : folder, no_figures ? LAB_WRITE_PLAIN : LAB_WRITE_FIGURES, error);
+  return figures ? LAB_WRITE_FIGURES : no_figures ? LAB_WRITE_PLAIN : LAB_WRITE_DRAWN;
+}
+
+/* Write the answer, and say what is not there. */
+static int write_answer(const lab_answer *answer, lab_progress *progress, int quiet, lab_error *error)
+{
+  char name[LAB_NAME_TEXT], folder[LAB_PATH_TEXT];
+  const char *to = out ? out : folder;
+  int status;
+  strcpy(name, answer->rig.name);
+  lab_make_file_name(name);
+  snprintf(folder, sizeof folder, "results/%s", name);
+  lab_progress_say(progress, "writing the report");
+  status = lab_answer_write(answer, to, extent(), error);
+  lab_progress_end(progress);
+  if (status == LAB_OK && extent() == LAB_WRITE_DRAWN && !quiet && !lab_answer_is_there(to, LAB_WRITE_FIGURES))
+    fputs("closeloop: no figures as SVG, since gnuplot is not installed (Debian: gnuplot-nox)\n", stderr);
+  return status;
 }
 
 static int run_one(const lab_cli *cli, lab_error *error)
 {
-  char held_text[LAB_BENCH_LOGS * LAB_PATH_TEXT], sentence[LAB_SENTENCE_TEXT];
-  const char *held[LAB_BENCH_LOGS];
+  char held_text[LAB_LOGS_MAX * LAB_PATH_TEXT], then_text[LAB_LOGS_MAX * LAB_PATH_TEXT], sentence[LAB_SENTENCE_TEXT];
+  const char *held[LAB_LOGS_MAX], *then[LAB_LOGS_MAX];
   lab_progress progress;
   lab_answer *answer;
-  lab_question q = {0};
+  lab_request q = {0};
   int status;
   snprintf(held_text, sizeof held_text, "%s", holdout ? holdout : "");
+  snprintf(then_text, sizeof then_text, "%s", baseline ? baseline : "");
   q.rig = cli->operand[0];
   q.log = (const char *const *)cli->operand + 1;
   q.n_logs = cli->n_operands - 1;
   q.holdout = held;
-  q.n_holdout = lab_split(held_text, ',', held, LAB_BENCH_LOGS);
+  q.n_holdout = lab_split(held_text, ',', held, LAB_LOGS_MAX);
+  q.baseline = then;
+  q.n_baseline = lab_split(then_text, ',', then, LAB_LOGS_MAX);
   q.alpha = alpha;
   q.min_gain = min_gain;
-  q.tell = say;
+  q.on_progress = on_progress;
   q.context = &progress;
   if (q.n_holdout < 0)
-    return lab_fail(error, LAB_USAGE, "--holdout: more than %d logs", (int)LAB_BENCH_LOGS);
+    return lab_fail(error, LAB_USAGE, "--holdout: more than %d logs", (int)LAB_LOGS_MAX);
+  if (q.n_baseline < 0)
+    return lab_fail(error, LAB_USAGE, "--baseline: more than %d logs", (int)LAB_LOGS_MAX);
+  q.budget = budget ? budget : usual_budget;
+  if (!lab_interrupt_after(program.name, patience * (int)q.budget))
+    return lab_fail(error, LAB_WORLD, "--budget: this system does not bound CPU time");
   lab_progress_begin(&progress, program.name, cli->quiet);
   status = lab_answer_find(&q, &answer, error);
   if (status == LAB_OK) {
-    lab_progress_say(&progress, "writing the report");
-    status = write_answer(answer, error);
-    lab_progress_end(&progress);
-    lab_story_sentence(&answer->story, sentence, sizeof sentence);
+    status = write_answer(answer, &progress, cli->quiet, error);
+    lab_report_sentence(&answer->report, sentence, sizeof sentence);
     if (status == LAB_OK)
       status = lab_out_say(sentence, error);
     lab_answer_free(answer);
@@ -97,9 +134,11 @@ static int run_batch(const lab_cli *cli, lab_error *error)
   how.out = out;
   how.alpha = alpha;
   how.min_gain = min_gain;
-  how.extent = !reports ? LAB_WRITE_JSON : no_figures ? LAB_WRITE_PLAIN : LAB_WRITE_FIGURES;
+  how.extent = reports ? extent() : LAB_WRITE_JSON;
   how.at_once = cli->threads;
   how.quiet = cli->quiet;
+  how.budget = budget ? budget : usual_batch_budget;
+  how.allow_include = allow_include;
   return lab_batch_run(&how, error);
 }
 
@@ -108,6 +147,12 @@ static int check_usage(const lab_cli *cli, lab_error *error)
 {
   if (!list && reports)
     return lab_fail(error, LAB_USAGE, "--reports: goes with --batch; a single run writes everything");
+  if (!list && allow_include)
+    return lab_fail(error, LAB_USAGE, "--allow-include: goes with --batch; a single run reads what its rig file says");
+  if (figures && no_figures)
+    return lab_fail(error, LAB_USAGE, "--figures and --no-figures exclude each other");
+  if (list && baseline)
+    return lab_fail(error, LAB_USAGE, "--baseline: does not go with --batch");
   if (list && holdout)
     return lab_fail(error, LAB_USAGE, "--holdout: with --batch, the column holdout of the list says it");
   if (list ? cli->n_operands != 0 : cli->n_operands < 2)
@@ -115,16 +160,16 @@ static int check_usage(const lab_cli *cli, lab_error *error)
   return LAB_OK;
 }
 
+static int closeloop(const lab_cli *cli, lab_error *error)
+{
+  if (check_usage(cli, error))
+    return error->status;
+  return list ? run_batch(cli, error) : run_one(cli, error);
+}
+
 int main(int argc, char **argv)
 {
-  lab_error error;
-  lab_cli cli;
-  int status;
-  lab_interrupt_catch();
-  status = lab_cli_read(&program, argc, argv, &cli, &error);
-  if (status == LAB_OK && !cli.done)
-    status = check_usage(&cli, &error);
-  if (status == LAB_OK && !cli.done)
-    status = list ? run_batch(&cli, &error) : run_one(&cli, &error);
-  return status == LAB_OK ? 0 : lab_cli_report(&program, &error);
+  alpha = lab_constant(LAB_ALPHA);
+  min_gain = lab_constant(LAB_MIN_GAIN);
+  return lab_cli_main(&program, argc, argv, closeloop);
 }

@@ -8,7 +8,6 @@
 
 #include "fmu/export.h"
 #include "lab/base/cli.h"
-#include "lab/base/interrupt.h"
 
 static const char *out_path;
 static int fmi = 3;
@@ -36,12 +35,5 @@ static int run(const lab_cli *cli, lab_error *error)
 
 int main(int argc, char **argv)
 {
-  lab_cli cli;
-  lab_error error;
-  lab_interrupt_catch();
-  if (lab_cli_read(&program, argc, argv, &cli, &error))
-    return lab_cli_report(&program, &error);
-  if (!cli.done && run(&cli, &error))
-    return lab_cli_report(&program, &error);
-  return LAB_OK;
+  return lab_cli_main(&program, argc, argv, run);
 }

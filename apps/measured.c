@@ -4,7 +4,6 @@
 
 #include "lab/base/cli.h"
 #include "lab/base/config.h"
-#include "study/measured.h"
 #include "study/sets.h"
 
 static const lab_option options[] = {{NULL, 0, NULL, NULL, NULL, 0, 0}};
@@ -12,14 +11,15 @@ static const lab_option options[] = {{NULL, 0, NULL, NULL, NULL, 0, 0}};
 static const lab_program program = {
     "measured", "SETS.cfg", "Run closeloop on measured sets and write results/measured/REPORT.md.", options, 1, 1};
 
-static int run(const char *path, lab_error *error)
+static int run(const lab_cli *cli, lab_error *error)
 {
   static sets_result result[SETS_MAX];
   config_t config;
+  const char *path = cli->operand[0];
   int i, n = 0, there = 0, status = lab_config_read(&config, path, error);
   if (status == LAB_OK) {
     const config_setting_t *list = config_lookup(&config, "sets");
-    status = list ? sets_run(list, measured_folder(), "results/measured", result, &n, error)
+    status = list ? sets_run(list, sets_data_folder(), "results/measured", result, &n, error)
                   : lab_fail(error, LAB_DATA, "%s: expected the list sets", path);
   }
   for (i = 0; i < n; i++)
@@ -32,10 +32,5 @@ static int run(const char *path, lab_error *error)
 
 int main(int argc, char **argv)
 {
-  lab_error error;
-  lab_cli cli;
-  int status = lab_cli_read(&program, argc, argv, &cli, &error);
-  if (status == LAB_OK && !cli.done)
-    status = run(cli.operand[0], &error);
-  return status == LAB_OK ? 0 : lab_cli_report(&program, &error);
+  return lab_cli_main(&program, argc, argv, run);
 }

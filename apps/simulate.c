@@ -1,29 +1,30 @@
 /* simulate: what a model predicts for the commands of a log, or for the standard experiment.
  * SPDX-License-Identifier: MIT */
 #include "lab/base/cli.h"
-#include "lab/run/follow.h"
-#include "lab/base/interrupt.h"
+#include "lab/run/predict.h"
 #include "lab/log/log.h"
 #include "lab/base/outfile.h"
 #include "lab/run/response.h"
+#include "lab/check/standstill.h"
 #include "lab/rig/rig.h"
 #include "lab/base/series.h"
 #include "lab/run/standard.h"
-#include "lab/metrics/tape.h"
+#include "lab/metrics/recording.h"
 #include "lab/metrics/metricstext.h"
 
 static const char *out_path;
 static int standard, figures, json;
+static const lab_response_options usual = {0};
 
 static const lab_option options[] = {
     {"out", LAB_OPTION_TEXT, &out_path, "FILE", "write there instead of standard output", 0, 0},
     {"step", LAB_OPTION_FLAG, &standard, NULL, "fill for 15 s and vent for 15 s instead of following a log", 0, 0},
     {"metrics", LAB_OPTION_FLAG, &figures, NULL,
-     "figures of merit of the response instead of its rows: dead time, T63, T86,\n"
+     "print figures of merit of the response instead of its rows: dead time, T63, T86,\n"
      "dead band, hysteresis, stroke times, air and energy; study/schedules/ has\n"
      "logs of commands for it",
      0, 0},
-    {"json", LAB_OPTION_FLAG, &json, NULL, "with --metrics: as JSON", 0, 0},
+    {"json", LAB_OPTION_FLAG, &json, NULL, "with --metrics: print JSON", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {"simulate",
@@ -34,37 +35,45 @@ static const lab_program program = {"simulate",
                                     1,
                                     2};
 
-static const lab_response_options accuracy = {LAB_STEPPER, 1e-7, 0, 0, 0, 0};
+enum { COLUMNS = 6 };
 
-/* Time, command, and those channels that are asked for; `u` may be NULL.  Returns: the number of columns. */
-static int columns(const pneu_model *model, const lab_trace *trace, const double *u, int p, int x, int T,
-                   lab_series_column *column)
+/* Time, commands, and those channels that are asked for; `u` and `sp` may be NULL.  Returns: the number of columns. */
+static int columns(const pneu_model *model, const lab_response *response, const double *u, const double *sp, int p,
+                   int x, int T, lab_series_column *column)
 {
   int n = 0, opening = model->p.proportional_band == 0;
-  column[n++] = (lab_series_column){"t [s]", 1, trace->t};
+  column[n++] = (lab_series_column){"t [s]", 1, response->t};
   if (u)
     column[n++] = opening ? (lab_series_column){"u [1]", 1, u} : (lab_series_column){"u [kPa]", 1e-3, u};
+  if (sp)
+    column[n++] = (lab_series_column){"sp [%]", 100, sp};
   if (p)
-    column[n++] = (lab_series_column){"p [kPa]", 1e-3, trace->p};
+    column[n++] = (lab_series_column){"p [kPa]", 1e-3, response->p};
   if (x)
-    column[n++] = (lab_series_column){"x [mm]", 1e3, trace->x};
+    column[n++] = (lab_series_column){"x [mm]", 1e3, response->x};
   if (T)
-    column[n++] = (lab_series_column){"T [K]", 1, trace->T};
+    column[n++] = (lab_series_column){"T [K]", 1, response->T};
   return n;
 }
 
 static int simulate_standard(const pneu_model *model, FILE *file, lab_error *error)
 {
-  lab_series_column column[5];
-  lab_trace trace;
+  lab_series_column column[COLUMNS];
+  lab_response response;
   int n;
-  if (lab_standard_experiment(model, &accuracy, &trace, error))
+  if (lab_standard_experiment(model, &usual, &response, error))
     return error->status;
-  n = columns(model, &trace, trace.u, 1, 1, 0, column);
+  n = columns(model, &response, response.u, NULL, 1, 1, 0, column);
   lab_series_header(file, column, n);
-  lab_series_rows(file, column, n, trace.n);
-  lab_trace_free(&trace);
+  lab_series_rows(file, column, n, response.n);
+  lab_response_free(&response);
   return LAB_OK;
+}
+
+/* A channel of one run; NULL where the log has none. */
+static const double *rows_of(const lab_log *log, int channel, size_t run)
+{
+  return log->value[channel] ? log->value[channel] + log->run[run] : NULL;
 }
 
 /* Predict what the log measures; a log that measures nothing gets pressure and position. */
@@ -74,28 +83,27 @@ static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_l
   int nothing = !value[LAB_CHANNEL_P] && !value[LAB_CHANNEL_X] && !value[LAB_CHANNEL_T];
   size_t run;
   for (run = 0; run < log->n_runs; run++) {
-    lab_series_column column[5];
-    lab_trace trace;
+    lab_series_column column[COLUMNS];
+    lab_response response;
     int n;
-    if (lab_follow(model, rig, log, run, log->value[LAB_CHANNEL_TIME] + log->run[run],
-                   log->run[run + 1] - log->run[run], &accuracy, &trace, error))
+    if (lab_predict_log(model, &(lab_prediction){.rig = rig, .log = log, .run = run}, &response, error))
       return error->status;
-    n = columns(model, &trace, value[LAB_CHANNEL_U] ? value[LAB_CHANNEL_U] + log->run[run] : NULL,
+    n = columns(model, &response, rows_of(log, LAB_CHANNEL_U, run), rows_of(log, LAB_CHANNEL_SP, run),
                 nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
     if (run == 0)
       lab_series_header(file, column, n);
-    lab_series_rows(file, column, n, trace.n);
-    lab_trace_free(&trace);
+    lab_series_rows(file, column, n, response.n);
+    lab_response_free(&response);
   }
   return LAB_OK;
 }
 
 /* ---- Figures of merit ---- */
 
-static int write_figures(const lab_tape *tape, FILE *file, lab_error *error)
+static int write_figures(const lab_recording *recording, FILE *file, lab_error *error)
 {
   static lab_metrics metrics;
-  if (lab_metrics_measure(&tape->record, &metrics, error))
+  if (lab_metrics_measure(&recording->record, &metrics, error))
     return error->status;
   if (json)
     return lab_metrics_json(file, &metrics, error);
@@ -105,28 +113,28 @@ static int write_figures(const lab_tape *tape, FILE *file, lab_error *error)
 
 static int figures_of_standard(const pneu_model *model, const lab_rig *rig, FILE *file, lab_error *error)
 {
-  lab_tape tape;
-  lab_trace trace;
+  lab_recording recording;
+  lab_response response;
   int status;
-  if (lab_standard_experiment(model, &accuracy, &trace, error))
+  if (lab_standard_experiment(model, &usual, &response, error))
     return error->status;
-  status = lab_tape_open(rig, trace.n, 1, &tape, error);
+  status = lab_recording_open(rig, response.n, 1, &recording, error);
   if (status == LAB_OK) {
-    lab_tape_add_trace(&tape, &trace);
-    status = write_figures(&tape, file, error);
+    lab_recording_add_response(&recording, &response);
+    status = write_figures(&recording, file, error);
   }
-  lab_tape_close(&tape);
-  lab_trace_free(&trace);
+  lab_recording_close(&recording);
+  lab_response_free(&response);
   return status;
 }
 
 static int figures_of_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
 {
-  lab_tape tape;
-  int status = lab_tape_simulate(model, rig, log, &accuracy, &tape, error);
+  lab_recording recording;
+  int status = lab_recording_simulate(model, rig, log, &recording, error);
   if (status == LAB_OK)
-    status = write_figures(&tape, file, error);
-  lab_tape_close(&tape);
+    status = write_figures(&recording, file, error);
+  lab_recording_close(&recording);
   return status;
 }
 
@@ -153,12 +161,19 @@ static int answer(const lab_cli *cli, const pneu_model *model, const lab_rig *ri
   return figures ? figures_of_standard(model, rig, file, error) : simulate_standard(model, file, error);
 }
 
+/* A stem that stands still may be meant: a word on standard error, and the answer. */
+static void note_standstill(const lab_rig *rig)
+{
+  char text[LAB_LIMITATION_TEXT];
+  if (lab_is_at_rest(rig, 1, text))
+    fprintf(stderr, "%s: note: %s: %s\n", program.name, rig->file, text);
+}
+
 static int run(const lab_cli *cli, lab_error *error)
 {
   lab_rig rig;
   pneu_model model;
   lab_outfile out;
-  int status;
   if (cli->n_operands + standard != 2)
     return lab_fail(error, LAB_USAGE, "expected either LOG.csv or --step; see --help");
   if (json && !figures)
@@ -166,21 +181,11 @@ static int run(const lab_cli *cli, lab_error *error)
   if (lab_rig_read(cli->operand[0], &rig, error) || lab_rig_model(&rig, &model, error) ||
       lab_out_open(&out, out_path, error))
     return error->status;
-  status = answer(cli, &model, &rig, out.file, error);
-  if (status == LAB_OK)
-    return lab_out_close(&out, error);
-  lab_out_abandon(&out);
-  return status;
+  note_standstill(&rig);
+  return lab_out_end(&out, answer(cli, &model, &rig, out.file, error), error);
 }
 
 int main(int argc, char **argv)
 {
-  lab_cli cli;
-  lab_error error;
-  lab_interrupt_catch();
-  if (lab_cli_read(&program, argc, argv, &cli, &error))
-    return lab_cli_report(&program, &error);
-  if (!cli.done && run(&cli, &error))
-    return lab_cli_report(&program, &error);
-  return LAB_OK;
+  return lab_cli_main(&program, argc, argv, run);
 }

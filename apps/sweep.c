@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "lab/base/cli.h"
-#include "lab/base/interrupt.h"
 #include "study/products.h"
 
 /* Where make install puts the study. */
@@ -27,7 +26,7 @@ static const lab_program program = {
     "sweep",
     "STUDY.cfg",
     "Run a study: the hypotheses on the asymmetry of a single-acting actuator, in every chamber and flow law, with "
-    "tables (CSV), figures (SVG) and a report. A bare name that is no file is looked up in study/, and then in the "
+    "tables (CSV), figures (SVG) and a report. A bare name that is not a file is looked up in study/, and then in the "
     "installed study.",
     options,
     1,
@@ -62,12 +61,5 @@ static int sweep(const lab_cli *cli, lab_error *error)
 
 int main(int argc, char **argv)
 {
-  lab_error error;
-  lab_cli cli;
-  int status;
-  lab_interrupt_catch();
-  status = lab_cli_read(&program, argc, argv, &cli, &error);
-  if (status == LAB_OK && !cli.done)
-    status = sweep(&cli, &error);
-  return status == LAB_OK ? 0 : lab_cli_report(&program, &error);
+  return lab_cli_main(&program, argc, argv, sweep);
 }

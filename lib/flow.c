@@ -152,52 +152,37 @@ static void iso6358(const pneu_model *model, pneu_real w, shape *s)
   s->dpsi = cm * (s0 * m / (c * (1 - b) * (1 - b)) - slope);
 }
 
-/* Flow in proportion to the pressure difference: psi = 1 - r. */
-static void linear(const pneu_model *model, pneu_real w, shape *s)
-{
-  s->gain = model->paper_gain;
-  s->psi = w;
-  s->dpsi = -1;
-  s->choked = 0;
-}
-
-static void linear_choked(const pneu_model *model, pneu_real w, shape *s)
-{
-  linear(model, w, s);
-  s->choked = 1 - w <= model->critical_ratio;
-  if (s->choked) {
-    s->psi = 1 - model->critical_ratio;
-    s->dpsi = 0;
-  }
-}
-
 typedef void shape_function(const pneu_model *, pneu_real, shape *);
-static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358, linear, linear_choked};
+static shape_function *const shapes[PNEU_FLOW_COUNT] = {paper, nozzle, iso6358};
+
+/* An orifice and what lies on both sides. */
+typedef struct passage {
+  pneu_real area, p_up, T_up, p_down;
+} passage;
 
 /* As pneu_orifice; without `slopes` these stay as they are. */
-static void orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                    int slopes, pneu_flow *flow)
+static void orifice(const pneu_model *model, int law, const passage *at, int slopes, pneu_flow *flow)
 {
-  const pneu_real T = law < PNEU_FLOW_LINEAR ? T_up : model->p.ambient_temperature;
-  const pneu_real r = p_down / p_up;
+  const pneu_real r = at->p_down / at->p_up;
   pneu_real k;
   shape s;
   s.slopes = slopes;
   shapes[law](model, 1 - r, &s);
-  k = area * s.gain / PNEU_M(sqrt)(T);
-  flow->q = k * p_up * s.psi;
+  k = at->area * s.gain / PNEU_M(sqrt)(at->T_up);
+  flow->q = k * at->p_up * s.psi;
   flow->choked = s.choked;
   if (!slopes)
     return;
   flow->dq_dup = k * (s.psi - r * s.dpsi);
   flow->dq_ddown = k * s.dpsi;
-  flow->dq_dT = law < PNEU_FLOW_LINEAR ? -flow->q / (2 * T_up) : 0;
+  flow->dq_dT = -flow->q / (2 * at->T_up);
 }
 
 void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                   pneu_flow *flow)
 {
-  orifice(model, law, area, p_up, T_up, p_down, 1, flow);
+  const passage at = {area, p_up, T_up, p_down};
+  orifice(model, law, &at, 1, flow);
 }
 
 pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
@@ -209,15 +194,17 @@ pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
 /* The declared law, mixed with the nozzle's as far as choked_flow says; so are the slopes that Newton needs below. The
  * one in T serves the analytic Jacobian alone, which is not used with an effect. Here and below: only effects ask for
  * that and for a resistance, and a build without effects need not link it. */
-static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                       int slopes, pneu_flow *flow)
+static void mixed_flow(const pneu_terms *t, const passage *at, int slopes, pneu_flow *flow)
 {
   const pneu_real c = t->choked_share;
   pneu_flow nozzle_flow;
-  orifice(t->model, t->model->law.flow, area, p_up, T_up, p_down, slopes, flow);
+  if (t->model->own_flow)
+    t->model->own_flow(t->model, at->area, at->p_up, at->T_up, at->p_down, flow);
+  else
+    orifice(t->model, t->model->law.flow, at, slopes, flow);
   if (PNEU_EFFECT_COUNT == 0 || c == 0)
     return;
-  orifice(t->model, PNEU_FLOW_CHOKED, area, p_up, T_up, p_down, slopes, &nozzle_flow);
+  orifice(t->model, PNEU_FLOW_CHOKED, at, slopes, &nozzle_flow);
   flow->q += c * (nozzle_flow.q - flow->q);
   flow->choked = nozzle_flow.choked;
   if (!slopes)
@@ -229,7 +216,8 @@ static void mixed_flow(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu
 /* An orifice in series with a linear resistance, between p_up and p_down: which pressure lies between them. */
 typedef struct series {
   const pneu_terms *t;
-  pneu_real area, T_up, p_up, p_down, resistance;
+  passage whole;
+  pneu_real resistance;
   int before; /* the resistance lies before the orifice, else behind it */
 } series;
 
@@ -239,20 +227,17 @@ enum { SERIES_ITERATIONS = 16 };
 static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_real *slope)
 {
   const pneu_real conductance = 1 / s->resistance;
-  if (s->before) {
-    mixed_flow(s->t, s->area, p, s->T_up, s->p_down, 1, flow);
-    *slope = flow->dq_dup + conductance;
-    return flow->q - (s->p_up - p) * conductance;
-  }
-  mixed_flow(s->t, s->area, s->p_up, s->T_up, p, 1, flow);
-  *slope = flow->dq_ddown - conductance;
-  return flow->q - (p - s->p_down) * conductance;
+  passage at = s->whole;
+  *(s->before ? &at.p_up : &at.p_down) = p;
+  mixed_flow(s->t, &at, 1, flow);
+  *slope = s->before ? flow->dq_dup + conductance : flow->dq_ddown - conductance;
+  return flow->q - (s->before ? s->whole.p_up - p : p - s->whole.p_down) * conductance;
 }
 
 /* Newton, kept inside the bracket by bisection; so many times at most, so that the work is bounded. */
 static void series_flow(const series *s, pneu_flow *flow)
 {
-  pneu_real low = s->p_down, high = s->p_up, p = s->before ? high : low, slope;
+  pneu_real low = s->whole.p_down, high = s->whole.p_up, p = s->before ? high : low, slope;
   int i;
   for (i = 0; i < SERIES_ITERATIONS; i++) {
     const pneu_real gap = series_gap(s, p, flow, &slope), before = p;
@@ -270,14 +255,13 @@ static void series_flow(const series *s, pneu_flow *flow)
 }
 
 /* Flow from up to down, through a resistance before or behind the orifice if there is one. */
-static void flow_between(const pneu_terms *t, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                         pneu_real resistance, int before, pneu_flow *flow)
+static void flow_between(const pneu_terms *t, const passage *at, pneu_real resistance, int before, pneu_flow *flow)
 {
-  if (PNEU_EFFECT_COUNT > 0 && resistance > 0 && p_up > p_down) {
-    const series s = {t, area, T_up, p_up, p_down, resistance, before};
+  if (PNEU_EFFECT_COUNT > 0 && resistance > 0 && at->p_up > at->p_down) {
+    const series s = {t, *at, resistance, before};
     series_flow(&s, flow);
   } else
-    mixed_flow(t, area, p_up, T_up, p_down, t->extent == PNEU_EXTENT_SLOPES, flow);
+    mixed_flow(t, at, t->extent == PNEU_EXTENT_SLOPES, flow);
 }
 
 int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
@@ -287,10 +271,12 @@ int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_
   if (area <= 0)
     return 0;
   if (out) {
-    flow_between(t, area, t->p, t->T, p_other, resistance, 0, &flow);
+    const passage at = {area, t->p, t->T, p_other};
+    flow_between(t, &at, resistance, 0, &flow);
     t->mass_out += flow.q;
   } else {
-    flow_between(t, area, p_other, T_other, t->p, resistance, 1, &flow);
+    const passage at = {area, p_other, T_other, t->p};
+    flow_between(t, &at, resistance, 1, &flow);
     t->mass_in += flow.q;
     t->mass_in_T += flow.q * T_other;
   }

@@ -5,8 +5,14 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "pneu.h"
+
+/* What is no number is told by comparisons and by 0 * x, which these options let a compiler leave out. */
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "libpneu refuses input that is not finite: compile lib/ without -ffast-math and -ffinite-math-only"
+#endif
 
 #ifdef PNEU_SINGLE
 #define PNEU_C(literal)     literal##f
@@ -15,6 +21,7 @@
 #define PNEU_EVENT_TIME     PNEU_C(1e-6)
 #define PNEU_FORCE_NOISE    PNEU_C(7.6e-6)
 #define PNEU_FORCE_RESOLVED PNEU_C(1e-4)
+#define PNEU_ON_STOP        PNEU_C(0.02)
 #else
 #define PNEU_C(literal)     literal
 #define PNEU_M(function)    function
@@ -22,14 +29,19 @@
 #define PNEU_EVENT_TIME     1e-9
 #define PNEU_FORCE_NOISE    1.5e-14
 #define PNEU_FORCE_RESOLVED 1e-7
+#define PNEU_ON_STOP        1
 #endif
 
 /* PNEU_EVENT_TIME [s]: exactness of an event. Shares of the largest force: PNEU_FORCE_NOISE, rounding, which break-away
  * asks for beyond friction; PNEU_FORCE_RESOLVED, below which a stem that has just come to rest stays there, lest it
- * chatter where it stops in equilibrium. */
+ * chatter where it stops in equilibrium. PNEU_ON_STOP, share of stroke over the compliance of a stop that yields which
+ * counts as such a force: enough for the rounding of the position; all of it would, in single, hold a stem by 2 kN. */
 
-/* The record of each effect of the catalogue, in lib/effects/. */
-#define PNEU_EFFECT(name, n_param, n_state) extern const pneu_effect pneu_effect_record_##name;
+/* The record of each effect of the catalogue, in lib/effects/, and its sentence, a symbol of its own that a linker leaves
+ * out where nothing asks for it (-fdata-sections and --gc-sections, or -flto). */
+#define PNEU_EFFECT(name, n_param, n_state)                                                                            \
+  extern const pneu_effect pneu_effect_record_##name;                                                                  \
+  extern const char pneu_effect_sentence_##name[];
 #include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
 
@@ -38,18 +50,21 @@
 
 /* Order in which an evaluation adds its terms. */
 enum pneu_stage {
-  PNEU_STAGE_GEOMETRY, /* area, volume */
-  PNEU_STAGE_COMMAND,  /* opening */
-  PNEU_STAGE_BOUNDARY, /* what the orifices see */
-  PNEU_STAGE_LINE,     /* between transducer and chamber: takes the transducer's flow, gives the chamber's */
-  PNEU_STAGE_LEAK,     /* flows beside the transducer */
-  PNEU_STAGE_HEAT,     /* heat into the gas */
-  PNEU_STAGE_WALL,     /* what the heat does to the wall */
-  PNEU_STAGE_FORCE,    /* forces and friction level */
-  PNEU_STAGE_BRISTLE,  /* friction with a state of its own, from the level */
-  PNEU_STAGE_LAG,      /* sensors: what they follow */
-  PNEU_STAGE_GAIN,     /* sensors: in what proportion they show it */
-  PNEU_STAGE_SENSOR    /* sensors: what they add to it */
+  PNEU_STAGE_GEOMETRY,   /* area, volume */
+  PNEU_STAGE_FEEDBACK,   /* what a positioner sees of the stem */
+  PNEU_STAGE_POSITIONER, /* opening asked for, from a set position */
+  PNEU_STAGE_COMMAND,    /* opening */
+  PNEU_STAGE_SPOOL,      /* opening: from the spool to its ports */
+  PNEU_STAGE_BOUNDARY,   /* what the orifices see */
+  PNEU_STAGE_LINE,       /* between transducer and chamber: takes the transducer's flow, gives the chamber's */
+  PNEU_STAGE_LEAK,       /* flows beside the transducer */
+  PNEU_STAGE_HEAT,       /* heat into the gas */
+  PNEU_STAGE_WALL,       /* what the heat does to the wall */
+  PNEU_STAGE_FORCE,      /* forces and friction level */
+  PNEU_STAGE_BRISTLE,    /* friction with a state of its own, from the level */
+  PNEU_STAGE_LAG,        /* sensors: what they follow */
+  PNEU_STAGE_GAIN,       /* sensors: in what proportion they show it */
+  PNEU_STAGE_SENSOR      /* sensors: what they add to it */
 };
 
 /* The running sums of one evaluation: first what begins as the base model says, then what begins at 0. */
@@ -59,13 +74,15 @@ struct pneu_terms {
   pneu_real p, T, x, v;                /* p [Pa] abs */
   pneu_real time;                      /* [s] by the model's clock, 0 without one */
   pneu_real volume, area, swept_area;  /* [m3], [m2] that pressure acts on, [m2] dV/dx */
-  pneu_real opening;                   /* [1] */
+  pneu_real asked, opening;            /* [1] by the command, before any dynamics of the transducer; [1] */
   pneu_real supply, exhaust;           /* [Pa] abs, behind the orifices */
   pneu_real fill_area, vent_area;      /* [m2] */
   pneu_real force;                     /* [N] sum without friction and viscous terms */
   pneu_real friction;                  /* [N] level of dry friction at the present velocity */
   pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
 
+  pneu_real zero, span, dead_band;    /* [m], [1], [1] by which a positioner's feedback and dead band are off */
+  pneu_real crossing;                 /* [1] opening of the other port of an underlapped spool, signed as `opening` */
   pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
   pneu_real exhaust_resistance;       /* [Pa s/kg] pressure built up on the way out */
   pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
@@ -96,6 +113,22 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
 
+/* Whether commands can be on their way: a constant to a compiler that optimises, which leaves out what is for them. */
+static inline int pneu_has_dead_time(void)
+{
+  return 0
+#define PNEU_EFFECT(name, n_param, n_state) || strcmp(#name, "dead_time") == 0
+#include PNEU_EFFECTS_FILE
+#undef PNEU_EFFECT
+      ;
+}
+
+/* Commands on their way; NULL if there are none. */
+static inline pneu_delay *pneu_commands(const pneu_input *input)
+{
+  return pneu_has_dead_time() ? input->delay : NULL;
+}
+
 /* Whether pressure, temperature and volume of a state are above zero. */
 int pneu_is_physical(const pneu_model *model, const pneu_state *state);
 
@@ -104,6 +137,9 @@ void pneu_transducer_flow(pneu_terms *terms);
 
 /* Flow between the chamber and a reservoir, either way, added to the sums.  Returns: whether it is choked. */
 int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
+
+/* States of the active effects at rest.  In/out: state */
+void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state);
 
 /* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
  * the model's constants by `prepare`.  Out: rate, of their states (may be NULL) */
@@ -121,7 +157,7 @@ int pneu_invert(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX]);
 /* Right-hand side and Jacobian at work->y0, for all tries from there. */
 int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work);
 
-/* One Rosenbrock step from work->y0 to work->y1.  Out: error, in units of full scale (may be NULL).
+/* One Rosenbrock step from work->y0 to work->y1.  Out: error, in units of full scale.
  * Returns: PNEU_OK, PNEU_RETRY_STATE, PNEU_E_SINGULAR. */
 int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real h,
                   pneu_workspace *work, pneu_real *error);
@@ -136,9 +172,11 @@ void pneu_dense_step(const pneu_model *model, int mode, pneu_real h, pneu_worksp
 void pneu_dense_packed(const pneu_workspace *work, int n, pneu_real theta, pneu_real *y);
 
 /* If an event lies inside the step just tried (length h), shorten the step so that it ends there.
- * In/out: h   Out: which, -1 if none
+ * In/out: h
+ * Out:     which  -1 if none
+ *          error  of the repeated step, 1e30 where there is no event after all; as it was without an event
  * Returns: PNEU_OK or the status of a repeated step. */
 int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work,
-                pneu_real *h, int *which);
+                pneu_real *h, int *which, pneu_real *error);
 
 #endif

@@ -109,7 +109,7 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
 /* Repeat the step to end on the event: each repeat is exact to the order of the method, so that the
  * root moves by ever less. */
 int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work,
-                pneu_real *h, int *which)
+                pneu_real *h, int *which, pneu_real *error)
 {
   pneu_real theta, length, slope;
   int i;
@@ -119,7 +119,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
   if (*which < 0)
     return PNEU_OK;
   for (i = 0; i < PNEU_LOCATE_MAX; i++) {
-    int status = pneu_step_try(model, state, input, length, work, NULL);
+    int status = pneu_step_try(model, state, input, length, work, error);
     pneu_real g0, g1, correction;
     if (status != PNEU_OK)
       return status;
@@ -127,7 +127,11 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
     g1 = event_at(model, state, input, work, *which, 1);
     g0 = event_at(model, state, input, work, *which, PNEU_C(0.99));
     slope = (g1 - g0) / (PNEU_C(0.01) * length);
-    correction = slope > 0 ? g1 / slope : 0;
+    correction = 0;
+    if (slope > 0)
+      correction = g1 / slope;
+    else if (g1 < 0) /* only the long step had the event */
+      *error = PNEU_C(1e30);
     if (PNEU_M(fabs)(correction) < PNEU_EVENT_TIME)
       break;
     length -= correction;

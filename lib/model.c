@@ -8,6 +8,26 @@ static int out_of_bounds(pneu_real value, const pneu_param_info *info)
   return !(value >= info->lower && value <= info->upper);
 }
 
+/* Whether a parameter of effect e, apart from those that only give it form, is not neutral.  In: param  its first */
+static int is_switched_on(int e, const pneu_real *param)
+{
+  const pneu_param_info *info = pneu_effect_at(e)->param;
+  int i, count;
+  pneu_effect_params(e, &count);
+  for (i = 0; i < count; i++)
+    if (!info[i].shape && param[i] != info[i].neutral)
+      return 1;
+  return 0;
+}
+
+/* Whether parameter i gives form to an effect that is neutral, and is 0: not named in an initialiser. */
+static int is_left_out(const pneu_params *p, int i)
+{
+  const int e = pneu_effect_of(i);
+  return e >= 0 && p->effect[i - PNEU_PARAM_BASE_COUNT] == 0 &&
+         !is_switched_on(e, &p->effect[pneu_effect_params(e, NULL) - PNEU_PARAM_BASE_COUNT]);
+}
+
 /* Index of the first parameter outside its bounds, -1 if none. */
 static int bad_param(pneu_params *p)
 {
@@ -15,7 +35,7 @@ static int bad_param(pneu_params *p)
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
-    if (out_of_bounds(*pneu_param_at(p, i), &info))
+    if (out_of_bounds(*pneu_param_at(p, i), &info) && !(PNEU_EFFECT_COUNT > 0 && info.shape && is_left_out(p, i)))
       return i;
   }
   return -1;
@@ -25,14 +45,7 @@ static int is_active(const pneu_model *model, int e)
 {
   const pneu_effect *effect = pneu_effect_at(e);
   const pneu_real *param = &model->p.effect[model->param_of[e]];
-  int i, count;
-  if (effect->acts)
-    return effect->acts(model, param);
-  pneu_effect_params(e, &count);
-  for (i = 0; i < count; i++)
-    if (!effect->param[i].shape && param[i] != effect->param[i].neutral)
-      return 1;
-  return 0;
+  return effect->acts ? effect->acts(model, param) : is_switched_on(e, param);
 }
 
 static int state_count(int e)
@@ -91,7 +104,7 @@ static void derive_gas(pneu_model *model)
 static void derive_scales(pneu_model *model)
 {
   const pneu_params *p = &model->p;
-  const pneu_real on_stop = model->stop_compliance > 0 ? p->stroke / model->stop_compliance : 0;
+  const pneu_real on_stop = model->stop_compliance > 0 ? PNEU_ON_STOP * p->stroke / model->stop_compliance : 0;
   const pneu_real largest = (p->supply_pressure + p->ambient_pressure) * p->area + on_stop +
                             p->spring_rate * (PNEU_M(fabs)(p->spring_preload) + p->stroke) +
                             PNEU_M(fabs)(p->external_force); /* [N] */

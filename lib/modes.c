@@ -66,8 +66,12 @@ void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *s
     return;
   }
   if (state->v != 0) {
-    state->mode = model->bristle ? PNEU_MODE_FREE : state->v > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
-    return;
+    const int up = state->v > 0;
+    if (up ? state->x < model->upper_stop : state->x > model->lower_stop) {
+      state->mode = model->bristle ? PNEU_MODE_FREE : up ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+      return;
+    }
+    state->v = 0; /* it has hit the stop */
   }
   state->mode = PNEU_MODE_STUCK;
   pneu_pack(model, state, y);

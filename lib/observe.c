@@ -3,7 +3,6 @@
 
 #include "internal.h"
 #include "stem.h"
-#include "transducer.h"
 
 int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_output *out)
 {
@@ -75,7 +74,7 @@ int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input
   return PNEU_OK;
 }
 
-static void start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state)
+void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state)
 {
   pneu_terms t;
   pneu_real y[PNEU_STATE_MAX];
@@ -83,7 +82,7 @@ static void start_effects(const pneu_model *model, const pneu_input *input, pneu
   pneu_pack(model, state, y);
   (void)pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t,
                       NULL); /* pneu_state_rest has looked at what may fail */
-  t.opening = pneu_command_opening(&t);
+  t.opening = t.asked;
   for (i = 0; i < model->n_active; i++) {
     const int e = model->active[i];
     const pneu_effect *effect = pneu_effect_at(e);
@@ -125,7 +124,7 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
   state->mode = PNEU_MODE_STUCK;
   if (model->stop_compliance > 0 && !model->law.position_input)
     sink_in(model, input, state);
-  start_effects(model, input, state);
+  pneu_start_effects(model, input, state);
   pneu_settle(model, input, state);
   return PNEU_OK;
 }

@@ -45,18 +45,22 @@ int pneu_effect_params(int i, int *count)
   return first;
 }
 
-int pneu_param_describe(int i, pneu_param_info *info)
+int pneu_effect_of(int i)
 {
   int e, k = i - PNEU_PARAM_BASE_COUNT;
-  if (i < 0 || i >= PNEU_PARAM_COUNT)
-    return PNEU_E_PARAM;
-  if (k < 0) {
-    *info = base[i];
-    return PNEU_OK;
-  }
+  if (k < 0 || i >= PNEU_PARAM_COUNT)
+    return -1;
   for (e = 0; k >= param_counts[e]; e++)
     k -= param_counts[e];
-  *info = records[e]->param[k];
+  return e;
+}
+
+int pneu_param_describe(int i, pneu_param_info *info)
+{
+  const int e = pneu_effect_of(i);
+  if (i < 0 || i >= PNEU_PARAM_COUNT)
+    return PNEU_E_PARAM;
+  *info = e < 0 ? base[i] : records[e]->param[i - pneu_effect_params(e, NULL)];
   return PNEU_OK;
 }
 

@@ -60,7 +60,8 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->exhaust = p->ambient_pressure;
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
-  t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
+  t->zero = t->span = t->dead_band = t->crossing = 0;
+  t->asked = t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
   t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
   t->heat = t->film = t->bristle_force = 0;
   t->din_dp = t->dout_dp = t->dout_dT = 0;
@@ -91,7 +92,7 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   if (!pneu_chamber_ok(t))
     return PNEU_RETRY_STATE;
   if (!model->law.pressure_input) {
-    t->opening = pneu_command_opening(t);
+    t->asked = t->opening = pneu_command_opening(t);
     add_effects(t, y, PNEU_STAGE_BOUNDARY, &next, rate);
     add_terms(t, PNEU_TERM_SUPPLY, PNEU_TERM_SUPPLY);
     if (extent > PNEU_EXTENT_FORCES)

@@ -97,8 +97,7 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
     solve(n, i, b, work);
   }
   find_point(n, PNEU_STAGE_COUNT, row_a, work);
-  if (error)
-    *error = error_norm(model, n, work);
+  *error = error_norm(model, n, work);
   return PNEU_OK;
 }
 

@@ -3,9 +3,14 @@
 
 enum { EVENTS_AT_ONE_TIME = 16 };
 
-#define PNEU_SHORTEST PNEU_C(1e-14)              /* [s] step */
-#define PNEU_STEP_TOL PNEU_C(1e-4)               /* local error at which a fixed step is split */
-#define PNEU_POWER    (PNEU_C(1.0) / PNEU_ORDER) /* of the tolerance, that a step's length goes with */
+#define PNEU_SHORTEST PNEU_C(1e-14) /* [s] step */
+/* Local error at which a fixed step is split; what it is raised to when the parts run short, so that a stem that rings
+ * is damped rather than held; and for the gas, the stem held. */
+#define PNEU_STEP_TOL   PNEU_C(1e-4)
+#define PNEU_COARSE_TOL PNEU_C(1e-3)
+#define PNEU_HELD_TOL   PNEU_C(1e-2)
+#define PNEU_AIM        PNEU_C(0.6) /* share of it that the next part aims at, lest every other be refused */
+#define PNEU_POWER      (PNEU_C(1.0) / PNEU_ORDER) /* of the tolerance, that a step's length goes with */
 
 /* One run in progress. */
 typedef struct run {
@@ -107,8 +112,9 @@ static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
 
 /* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so steep that the
  * error estimate can miss it: flow through the open orifice brings pressure up to that point and not beyond. Judged at
- * quarters of the step's curve, with the width of the blend as margin. */
-static int leaps(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *w)
+ * quarters of the step's curve, with a share of that pressure as margin, the width of the blend at least. */
+static int leaps(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real share,
+                 pneu_workspace *w)
 {
   const pneu_real ambient = model->p.ambient_pressure;
   pneu_terms t;
@@ -125,22 +131,28 @@ static int leaps(const pneu_model *model, const pneu_state *state, const pneu_in
     pneu_real p;
     pneu_dense_packed(w, 1, (pneu_real)quarter * PNEU_C(0.25), &p);
     p += ambient - equal;
-    if (p * before < 0 && PNEU_M(fabs)(p) > PNEU_BLEND * equal && PNEU_M(fabs)(before) > PNEU_BLEND * equal)
+    if (p * before < 0 && PNEU_M(fabs)(p) > share * equal && PNEU_M(fabs)(before) > PNEU_BLEND * equal)
       return 1;
   }
   return 0;
+}
+
+/* Growth of the step that its error allows: a tenth at least and sixfold at most, about. */
+static pneu_real growth(pneu_real tol, pneu_real error)
+{
+  const pneu_real most = PNEU_C(1e5) * tol, bounded = error < most ? error : most; /* no number: most */
+  return PNEU_C(0.9) * PNEU_M(pow)(tol / clip(bounded, PNEU_C(1e-4) * tol, most), PNEU_POWER);
 }
 
 /* Growth of the step by the error of this one, and by the trend since the last where that asks for
  * less (Gustafsson 1994, ACM TOMS 20: the error of an accepted step predicts the next). */
 static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
 {
-  const pneu_real tol = r->options->tol;
-  pneu_real factor, trend;
-  error = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
-  factor = PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_POWER);
+  const pneu_real tol = r->options->tol, factor = growth(tol, error);
+  pneu_real trend;
   if (!(r->h_before > 0))
     return factor;
+  error = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
   trend = factor * h / r->h_before * PNEU_M(pow)(r->error_before / error, PNEU_POWER);
   return PNEU_M(fmin)(factor, trend);
 }
@@ -172,7 +184,7 @@ static int usable(const pneu_model *model, const pneu_state *state, const pneu_i
     return 0;
   if (input->supply_pressure <= -p->ambient_pressure)
     return 0;
-  if (p->proportional_band <= 0 && PNEU_M(fabs)(input->u) > PNEU_C(1.00001))
+  if (p->proportional_band <= 0 && !input->set_position && PNEU_M(fabs)(input->u) > PNEU_C(1.00001))
     return 0;
   return model->law.position_input ||
          (state->x >= model->lower_stop - margin && state->x <= model->upper_stop + margin);
@@ -210,7 +222,7 @@ static int advance(run *r)
     status = pneu_step_try(r->model, r->state, r->input, h, w, &error);
     if (status < 0)
       return status;
-    if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, r->input, w)) {
+    if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, r->input, PNEU_BLEND, w)) {
       factor = status == PNEU_OK && error > tol && error < PNEU_C(1e30)
                    ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_POWER), PNEU_C(0.1), PNEU_C(0.8))
                    : PNEU_C(0.2);
@@ -224,20 +236,54 @@ static int advance(run *r)
     r->error_before = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
     if (h < left || factor < 1) /* a step cut short by the end says little about the next */
       r->h = h * factor;
-    status = pneu_locate(r->model, r->state, r->input, w, &h, &which);
+    status = pneu_locate(r->model, r->state, r->input, w, &h, &which, &error);
     if (status != PNEU_OK)
       return status < 0 ? status : PNEU_E_NONFINITE;
     return accept(r, h, which);
   }
 }
 
+/* The command joins those on their way. */
+static int give_command(const pneu_model *model, const pneu_input *input)
+{
+  pneu_delay *late = pneu_commands(input);
+  if (late)
+    return pneu_delay_give(late, model->command_delay, input->u);
+  return pneu_has_dead_time() && model->command_delay > 0 ? PNEU_E_DELAY : PNEU_OK;
+}
+
+/* Time passes, and the next command acts. */
+static void pass_commands(pneu_delay *late, pneu_real dt)
+{
+  pneu_delay_pass(late, dt);
+  pneu_delay_release(late);
+}
+
+/* On to r->end, under one command. */
+static int run_stretch(run *r)
+{
+  int status = PNEU_OK;
+  pneu_settle(r->model, r->input, r->state);
+  while (left_of(r) > 8 * PNEU_EPS * r->end && status == PNEU_OK) {
+    if (r->steps++ >= r->options->max_steps)
+      return PNEU_E_STEP_COUNT;
+    status = advance(r);
+  }
+  r->h = r->h_before = 0;
+  return status;
+}
+
 int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real duration,
              const pneu_options *options, const pneu_observer *observer, pneu_workspace *work)
 {
+  pneu_delay *late = pneu_commands(input);
   run r;
-  int status = PNEU_OK;
+  int status;
   if (!usable(model, state, input) || !in_range(duration, options->tol))
     return PNEU_E_NONFINITE;
+  status = give_command(model, input);
+  if (status != PNEU_OK)
+    return status;
   r.model = model;
   r.input = input;
   r.options = options;
@@ -245,7 +291,6 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   r.state = state;
   r.work = work;
   r.t = 0;
-  r.end = duration;
   r.h = work->h;
   r.h_before = 0;
   r.error_before = 0;
@@ -253,95 +298,144 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   r.events_here = 0;
   r.event_t = -1;
   r.carry = 0;
-  pneu_settle(model, input, state);
-  while (left_of(&r) > 8 * PNEU_EPS * r.end && status == PNEU_OK) {
-    if (r.steps++ >= options->max_steps)
-      return PNEU_E_STEP_COUNT;
-    status = advance(&r);
-  }
+  do {
+    const pneu_real begin = r.t, left = duration - begin, stretch = late ? pneu_delay_until(late, left) : left;
+    r.end = stretch < left ? begin + stretch : duration;
+    status = run_stretch(&r);
+    if (late)
+      pass_commands(late, status == PNEU_OK ? stretch : r.t - begin);
+  } while (status == PNEU_OK && r.end < duration);
   work->h = 0;
   return status;
 }
 
-/* One step of length *h from `now`, shortened to end on an event.
- * In:      tol  local error beyond which it is refused
- * Returns: PNEU_OK; PNEU_RETRY_STATE where a shorter step may do; < 0 */
-static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_input *input, pneu_workspace *work,
-                        pneu_real tol, pneu_real *h, int *which)
+/* The longest part that follows a stem whose velocity grows by itself, as where Stribeck friction lets go: the method
+ * would damp what grows more than e-fold. */
+static pneu_real longest_part(int n, int i_v, const pneu_workspace *work, pneu_real h)
 {
-  pneu_real error = 0;
-  pneu_state next;
-  int status;
-  pneu_pack(model, now, work->y0);
-  status = pneu_step_prepare(model, now, input, work);
-  if (status == PNEU_OK)
-    status = pneu_step_try(model, now, input, *h, work, &error);
-  if (status == PNEU_OK && (!(error <= tol) || (tol < 1 && leaps(model, now, input, work))))
-    status = PNEU_RETRY_STATE;
-  if (status == PNEU_OK)
-    status = pneu_locate(model, now, input, work, h, which);
-  if (status != PNEU_OK)
-    return status;
-  next = *now;
-  pneu_unpack(model, work->y1, &next);
-  if (!model->law.position_input)
-    next.x = clip(next.x, model->lower_stop, model->upper_stop);
-  if (!is_sound(model, &next))
-    return PNEU_RETRY_STATE;
-  *now = next;
-  work->stats.steps++;
-  return PNEU_OK;
+  const pneu_real rate = n > i_v ? work->jac[i_v][i_v] : 0;
+  return rate * h > 1 ? 1 / rate : h;
 }
 
-/* The parts are used up, as by a stem that bounces between its stops: it is held for what is left of the step, and the
- * gas goes on. Where even that leads nowhere, the state stays as it is. */
-static void hold(const pneu_model *model, pneu_state *now, const pneu_input *input, pneu_workspace *work,
-                 pneu_real left)
+/* One part of a step. */
+typedef struct step_part {
+  pneu_real h;     /* [s] */
+  pneu_real error; /* or one that asks for a shorter part */
+  int which;       /* event that ends it, -1 if none */
+} step_part;
+
+/* One part of a step from `now`, shortened to end on an event. Its error is looked at again there: the event may have
+ * been seen only because the estimate of the whole part was fooled.
+ * Returns: PNEU_OK; PNEU_RETRY_STATE where a shorter part may do; < 0 */
+static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_input *input, pneu_workspace *work,
+                        pneu_real tol, step_part *p)
 {
-  pneu_state held = *now;
-  int which;
-  if (held.mode == PNEU_MODE_UP || held.mode == PNEU_MODE_DOWN || held.mode == PNEU_MODE_FREE) {
-    held.mode = PNEU_MODE_STUCK;
-    held.v = 0;
+  pneu_state next = *now;
+  int status = pneu_step_try(model, now, input, p->h, work, &p->error);
+  if (status == PNEU_OK && !(p->error <= tol))
+    return PNEU_RETRY_STATE;
+  if (status == PNEU_OK && leaps(model, now, input, PNEU_BLEND + tol, work))
+    status = PNEU_RETRY_STATE;
+  if (status == PNEU_OK)
+    status = pneu_locate(model, now, input, work, &p->h, &p->which, &p->error);
+  if (status == PNEU_OK) {
+    pneu_unpack(model, work->y1, &next);
+    if (!model->law.position_input)
+      next.x = clip(next.x, model->lower_stop, model->upper_stop);
+    if (p->error <= tol && is_sound(model, &next)) {
+      *now = next;
+      return PNEU_OK;
+    }
+    status = PNEU_RETRY_STATE;
   }
-  if (part_of_step(model, &held, input, work, PNEU_C(1e30), &left, &which) == PNEU_OK)
-    *now = held;
+  p->error = 1000 * tol;
+  return status;
+}
+
+/* The parts are used up, as by a stem that bounces between its stops: it stands for what is left of the step, as if
+ * there were none, and the gas goes on. */
+static void hold(const pneu_model *model, pneu_state *now)
+{
+  if (model->law.position_input)
+    return;
+  now->mode = PNEU_MODE_FIXED;
+  now->v = 0;
+}
+
+/* A step under one command, from a state and with an input in range. */
+static int step_on(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
+                   pneu_workspace *work)
+{
+  enum { FREE = PNEU_PARTS_MAX - PNEU_PARTS_HELD, FINE = FREE - PNEU_PARTS_COARSE }; /* the stem moves in FREE parts */
+  pneu_state now = *state;
+  pneu_real left = dt, h = dt;
+  int i, status = PNEU_OK;
+  pneu_settle(model, input, &now);
+  for (i = 0; i < PNEU_PARTS_MAX && left > 0; i++) {
+    const pneu_real tol = i < FINE ? PNEU_STEP_TOL : i < FREE ? PNEU_COARSE_TOL : PNEU_HELD_TOL;
+    step_part p = {0, 0, -1};
+    if (i == FREE) {
+      hold(model, &now);
+      h = left;
+      status = PNEU_OK;
+    }
+    if (status == PNEU_OK) { /* from a new state */
+      const int n = pneu_pack(model, &now, work->y0);
+      if (pneu_step_prepare(model, &now, input, work) != PNEU_OK)
+        return PNEU_E_NONFINITE;
+      h = longest_part(n, model->n_gas + 1, work, h);
+    }
+    p.h = h;
+    status = part_of_step(model, &now, input, work, tol, &p);
+    if (status < 0)
+      return status;
+    if (status == PNEU_OK) {
+      left -= p.h;
+      work->stats.steps++;
+    } else
+      work->stats.rejected++;
+    if (status == PNEU_OK && p.which >= 0) {
+      pneu_switch(model, input, p.which, &now);
+      work->stats.events++;
+      if (left <= PNEU_EVENT_TIME)
+        left = 0;
+    }
+    if (left > 0)
+      h = PNEU_M(fmin)(left, h * growth(PNEU_AIM * tol, p.error));
+  }
+  if (left > 0)
+    return PNEU_E_STEP_COUNT;
+  if (i > FREE)
+    pneu_settle(model, input, &now);
+  *state = now;
+  return i > FREE ? PNEU_HELD : PNEU_OK;
 }
 
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work)
 {
+  pneu_delay *late = pneu_commands(input), before;
   pneu_state now = *state;
-  pneu_real left = dt, h = dt;
-  int i;
+  int status;
   if (!usable(model, state, input) || !(dt > 0 && dt * 0 == 0))
     return PNEU_E_NONFINITE;
-  pneu_settle(model, input, &now);
-  for (i = 0; i < PNEU_PARTS_MAX - 1; i++) {
-    /* the last parts take what they get: the work is bounded, not the error */
-    const pneu_real tol = i < PNEU_PARTS_MAX - PNEU_PARTS_FREE ? PNEU_STEP_TOL : PNEU_C(1e30);
-    int which = -1;
-    const int status = part_of_step(model, &now, input, work, tol, &h, &which);
-    if (status < 0)
-      return status;
-    if (status != PNEU_OK) {
-      h *= PNEU_C(0.25);
-      work->stats.rejected++;
-      continue;
-    }
-    left -= h;
-    h = i < PNEU_PARTS_MAX - PNEU_PARTS_FREE && 4 * h < left ? 4 * h : left;
-    if (which >= 0) {
-      pneu_switch(model, input, which, &now);
-      work->stats.events++;
-    }
-    if (left <= 0 || (which >= 0 && left <= PNEU_EVENT_TIME)) {
-      *state = now;
-      return PNEU_OK;
-    }
+  if (!late) {
+    status = give_command(model, input);
+    return status == PNEU_OK ? step_on(model, state, input, dt, work) : status;
   }
-  hold(model, &now, input, work, left);
-  *state = now;
-  return PNEU_OK;
+  before = *late;
+  status = give_command(model, input);
+  while (status >= 0 && dt > 0) {
+    const pneu_real h = pneu_delay_until(late, dt);
+    const int part = step_on(model, &now, input, h, work);
+    status = part < 0 || part > status ? part : status;
+    pass_commands(late, h);
+    dt -= h;
+  }
+  if (status >= 0)
+    *state = now;
+  else
+    *late = before;
+  return status;
 }
 
 void pneu_dense(const pneu_step_view *view, pneu_real theta, pneu_state *state)

@@ -11,17 +11,26 @@ pneu_real pneu_regulator_opening(pneu_real set, pneu_real p, pneu_real band)
 pneu_real pneu_command_opening(const pneu_terms *t)
 {
   const pneu_params *p = &t->model->p;
+  const pneu_delay *late = pneu_commands(t->input);
+  const pneu_real u = late && t->model->command_delay > 0 ? late->acting : t->input->u;
   if (p->proportional_band > 0)
-    return pneu_regulator_opening(t->input->u, t->p - p->ambient_pressure, p->proportional_band);
-  return t->input->u;
+    return pneu_regulator_opening(u, t->p - p->ambient_pressure, p->proportional_band);
+  return u;
+}
+
+static void flow_through(pneu_terms *t, pneu_real opening)
+{
+  const pneu_params *p = &t->model->p;
+  if (opening > 0) {
+    t->choked = pneu_exchange(t, opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
+    t->drawn = t->mass_in; /* the first flow into the chamber */
+  } else if (opening < 0)
+    t->choked = pneu_exchange(t, -opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
 }
 
 void pneu_transducer_flow(pneu_terms *t)
 {
-  const pneu_params *p = &t->model->p;
-  if (t->opening > 0) {
-    t->choked = pneu_exchange(t, t->opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
-    t->drawn = t->mass_in; /* the first flow of all */
-  } else if (t->opening < 0)
-    t->choked = pneu_exchange(t, -t->opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
+  flow_through(t, t->opening);
+  if (PNEU_EFFECT_COUNT > 0 && t->crossing != 0)
+    flow_through(t, t->crossing);
 }

@@ -153,7 +153,7 @@ stage: $(STATIC) $(SHARED) $(INSTALLED_PROGS) man $(READY)/pneu.pc $(READY)/pneu
 	@for folder in $(STUDY_DIRS); do \
 	  $(INSTALL) -m 644 study/$$folder/* $(STAGE)$(DATADIR)/pneu/study/$$folder || exit 1; done
 	@chmod 755 $(STAGE)$(DATADIR)/pneu/study/measured/fetch.sh
-	@$(INSTALL) -m 644 README.md DESIGN.md CHANGELOG.md LICENSE $(STAGE)$(DOCDIR)
+	@$(INSTALL) -m 644 README.md DESIGN.md TRIED.md CHANGELOG.md LICENSE $(STAGE)$(DOCDIR)
 	@cp -R tests/consumers/* $(STAGE)$(DOCDIR)/examples
 	@chmod -R u=rwX,go=rX $(STAGE)
 .PHONY: stage

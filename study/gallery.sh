@@ -12,8 +12,8 @@ for script in study/figures/*.gp; do
   printf '\n%s\n' "$words"
 done
 printf '\n## closeloop on measured sets\n'
-for figure in results/measured/*/response.svg; do
+for figure in results/measured/*/residual.svg; do
   set=$(basename "$(dirname "$figure")")
   sentence=$(sed -n 's/^[[:space:]]*"sentence":[[:space:]]*"\(.*\)",$/\1/p' "results/measured/$set/report.json")
-  printf '\n### %s\n\n![%s: measured and predicted](measured/%s/response.svg)\n\n%s\n' "$set" "$set" "$set" "$sentence"
+  printf '\n### %s\n\n![%s: what the declared and the completed model leave](measured/%s/residual.svg)\n\n%s\n' "$set" "$set" "$set" "$sentence"
 done

@@ -3,6 +3,7 @@
 # Exits 0 where everything is there, or there is no apt-get.
 #   install-packages.sh            what `make study` needs
 #   install-packages.sh tests      also what only make check uses
+#   install-packages.sh everything also what parts of make check-all use
 #   install-packages.sh PACKAGE... these
 set -eu
 
@@ -15,7 +16,8 @@ packages() {
 
 case "${1:-}" in
 "") wanted=$(packages compiler programs figures) ;;
-tests) wanted=$(packages compiler programs figures tests mpi parts) ;;
+tests) wanted=$(packages compiler programs figures tests) ;;
+everything) wanted=$(packages compiler programs figures tests mpi parts) ;;
 *) wanted=$* ;;
 esac
 

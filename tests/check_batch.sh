@@ -59,6 +59,7 @@ for k in 1 2 3 4 5; do
   [ "$k" -eq 4 ] && printf 'effects = { chamber_leak = { leak_area = "0.05 mm^2"; }; };\n' >>"$folder/rig.cfg"
   ./simulate "$folder/rig.cfg" --step | awk 'NR == 1 || NR % 10 == 0' >"$folder/list/r$k.csv"
 done
+cp "$folder/list/r5.csv" "$folder/list/held.csv"
 cat >"$folder/list/list.csv" <<'LIST'
 # the fleet
 name;rig;log;holdout
@@ -68,7 +69,7 @@ torn;rigs/r3.cfg;torn.csv;
 ;rigs/r3.cfg;r3.csv;
 leaks;rigs/r4.cfg;r4.csv;
 none;rigs/none.cfg;r1.csv;
-five;rigs/r5.cfg;r5.csv;r5.csv;
+five;rigs/r5.cfg;r5.csv;held.csv;
 LIST
 printf 't [s],u [1],p [kPa],x [mm]\n0,0,0,0\n1,1,zero,0\n' >"$folder/list/torn.csv"
 
@@ -83,7 +84,7 @@ grep -q "^none,error,.*none.cfg: there is no such file" "$folder/one/batch.csv" 
 [ -n "$(cell one five pressure_holdout_after)" ] || complain "no error on the log held out"
 [ -z "$(cell one r3 pressure_holdout_after)" ] || complain "an error where nothing was held out"
 names_of() { sed -n 's/^<tr><th scope="row">\(<a href="\([^"]*\)">\)*\([^<]*\)<.*/\3:\2/p' "$1/index.html" | tr '\n' ' '; }
-[ "$(names_of "$folder/one")" = "torn: none: leaks:leaks/report.json one:one/report.json two:two/report.json r3:r3/report.json five:five/report.json " ] ||
+[ "$(names_of "$folder/one")" = "torn: none: leaks:leaks/report.json five:five/report.json one:one/report.json two:two/report.json r3:r3/report.json " ] ||
   complain "index.html is not sorted by severity, or its links are others: $(names_of "$folder/one")"
 [ -s "$folder/one/r3/report.json" ] || complain "no report.json"
 [ -e "$folder/one/r3/report.html" ] && complain "report.html without --reports"
@@ -91,8 +92,8 @@ names_of() { sed -n 's/^<tr><th scope="row">\(<a href="\([^"]*\)">\)*\([^<]*\)<.
 
 # two runs in one folder are one too many
 behind alone --threads 1
-while [ ! -e "$folder/alone/.lock" ] && kill -0 "$victim" 2>/dev/null; do sleep 0.01; done
-sleep 0.05
+while [ ! -e "$folder/alone/one/.done" ] && kill -0 "$victim" 2>/dev/null; do sleep 0.01; done
+kill -STOP "$victim" # so that it is still there, however late the second comes
 expect 4 "second run" batch alone
 grep -q "another run" "$folder/err" || complain "second run: $(cat "$folder/err")"
 kill -9 "$victim"
@@ -143,7 +144,7 @@ find "$folder/stopped" -name '*.part' | grep . && complain "half a file after SI
 expect 1 "after SIGTERM" batch stopped --threads 1
 same stopped
 
-# a changed rig, log, option: these lines again; back again: the same table
+# a changed rig, log, held-out log, option: these lines again; back again: the same table
 changed() {
   touch "$folder/before"
   sleep 0.05
@@ -161,9 +162,26 @@ same two
 printf '30.6,-1,0,0\n' >>"$folder/list/r3.csv"
 changed log 1 ""
 sed -i.old '$d' "$folder/list/r3.csv"
+printf '30.6,-1,0,0\n' >>"$folder/list/held.csv"
+changed "held-out log" 2 "" # and the log above
+sed -i.old '$d' "$folder/list/held.csv"
 changed option 7 "--alpha 0.02"
 changed "option back" 7 ""
 same two
+
+# a log for which the CPU time does not suffice is a line of a batch that failed; a single run gives the best answer so far
+./simulate study/actuators/r1-400.cfg --step >"$folder/list/long.csv"
+sed 's/480 N/470 N/' study/actuators/r1-400.cfg >"$folder/list/rigs/long.cfg"
+printf 'name,rig,log\nlong,rigs/long.cfg,long.csv\none,rigs/r1.cfg,r1.csv\n' >"$folder/list/budget.csv"
+expect 4 "budget" ./closeloop --batch "$folder/list/budget.csv" --out "$folder/budget" --quiet --budget 1
+grep -q "^long,error,.*not done within 1 s of CPU" "$folder/budget/batch.csv" || complain "budget: $(cat "$folder/budget/batch.csv")"
+grep -q "^one,none," "$folder/budget/batch.csv" || complain "budget: the line beside it is not done"
+expect 0 "budget of a single run" ./closeloop "$folder/list/rigs/long.cfg" "$folder/list/long.csv" --out "$folder/spent" --budget 1
+grep -q "ended by --budget" "$folder/out" || complain "budget of a single run: $(cat "$folder/out")"
+grep -q '"complete":.*false' "$folder/spent/report.json" || complain "budget of a single run: the answer counts as complete"
+grep -q "ended by --budget" "$folder/spent/report.html" || complain "budget of a single run: the page does not say it"
+expect 0 "no need of the budget" ./closeloop "$folder/list/rigs/r1.cfg" "$folder/list/r1.csv" --out "$folder/unspent"
+grep -q '"complete":.*true' "$folder/unspent/report.json" || complain "a search that came to its end counts as cut short"
 
 # a bad list is refused before anything is done
 printf 'name,rig,log\na,rigs/r1.cfg,r1.csv\na,rigs/r2.cfg,r2.csv\n' >"$folder/list/double.csv"

@@ -1,7 +1,8 @@
 #!/bin/sh
 # The pages of closeloop in a headless Chromium: nothing asked of the network, no complaint on the console, nothing wider
-# than a telephone, contrast in light and dark, curves that are switched and read by mouse and by keyboard with the values
-# of residual.csv, two printed pages, all of it there without script, valid HTML; index.html quick with 10,000 lines.
+# than a telephone, contrast in light and dark, curves on every panel that are switched, zoomed and read by mouse and by
+# keyboard with the values of residual.csv, two printed pages, numbers without script, valid HTML; index.html quick with
+# 10,000 lines.
 set -u
 : "${BUILD:=build}" "${LINES:=10000}"
 folder="$BUILD/browser"

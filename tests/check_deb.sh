@@ -52,7 +52,7 @@ simulate leaky.cfg --step | awk 'NR == 1 || NR % 10 == 0' >log.csv
 simulate rig.cfg log.csv >predicted.csv
 closeloop rig.cfg log.csv --quiet --out answer | tee said
 grep -q chamber_leak said
-grep -q '<svg' answer/report.html
+grep -q 'new uPlot' answer/report.html
 printf 'name,rig,log,holdout\na,rig.cfg,log.csv,\n' >fleet.csv
 closeloop --batch fleet.csv --out fleet --quiet
 grep -q chamber_leak fleet/batch.csv

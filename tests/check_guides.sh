@@ -50,8 +50,8 @@ for guide in "$@"; do
   folder="$build/guides/$(basename "$guide" .md)"
   rm -rf "$folder"
   mkdir -p "$folder/place" "$folder/steps"
-  cp -R lib study "$folder/place"
-  for name in apps tests results Makefile sweep simulate closeloop; do
+  cp -R lib study apps "$folder/place"
+  for name in tests results packaging Makefile sweep simulate closeloop; do
     ln -s "$top/$name" "$folder/place/$name"
   done
   ln -s "$build" "$folder/place/build"
@@ -70,7 +70,7 @@ for guide in "$@"; do
       cat "$step.got"
     fi
   done
-  [ $n -gt 0 ] || { echo "$guide: no command"; wrong=$((wrong + 1)); }
+  [ $n -gt 0 ] || ! grep -q '^```console' "$guide" || { echo "$guide: no command"; wrong=$((wrong + 1)); }
   echo "$guide: $n commands"
 done
 [ $wrong -eq 0 ]

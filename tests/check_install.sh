@@ -134,7 +134,7 @@ mkdir "$away"
   printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02 mm"; };\n' |
     cat "$study/actuators/r1-400.cfg" - >rig.cfg
   awk 'NR == 1 || NR % 20 == 0' step.csv >log.csv
-  closeloop rig.cfg log.csv --quiet --out answer "$(have gnuplot && echo --quiet || echo --no-figures)" >said.txt
+  closeloop rig.cfg log.csv --quiet --out answer >said.txt
   [ -s answer/report.html ] && [ -s answer/model.h ]
   simulate answer/model.cfg log.csv >again.csv
   MEASURED=nothere sweep "$study/hypotheses.cfg" --quiet --no-figures --results study >sweep.txt 2>&1

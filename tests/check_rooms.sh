@@ -1,12 +1,13 @@
 #!/bin/sh
-# Arrows go one way: a file includes only what is in its own room or in one below.
-# The check is first made to fail on an include that goes up.
+# Arrows go one way: a file includes only what is in its own room or in one below. What the lab's objects in BUILD show of
+# themselves begins with lab_. Each check is first made to fail.
 set -eu
+: "${CC:=cc}" "${BUILD:=build}"
 
 # From the ground up.
 rooms='lib lib/effects apps/fmu/runtime
-  apps/lab/base apps/lab/log apps/lab/rig apps/lab/run apps/lab/check apps/lab/fit apps/lab/trace apps/lab/metrics
-  apps/lab/separate apps/lab/report apps/lab/batch apps/lab/batch/mpi apps/study apps/fmu apps'
+  apps/lab/base apps/lab/log apps/lab/rig apps/lab/run apps/lab/check apps/lab/fit apps/lab/trace apps/lab/change apps/lab/metrics
+  apps/lab/discriminate apps/lab/report apps/lab/batch apps/lab/batch/mpi apps/study apps/fmu apps'
 # Rooms that see nothing but themselves and one other.
 alone='lib:lib lib/effects:lib apps/fmu/runtime:lib'
 
@@ -36,6 +37,18 @@ upward()
     }'
 }
 
+# unprefixed OBJECT...: names that they define for others without the prefix; a compiler's own have a dot
+unprefixed() { nm -g "$@" | awk 'NF == 3 && $3 !~ /^(lab_|\.)/ { print $3 }'; }
+
+# objects: what the sources of the lab have become
+objects()
+{
+  for source in apps/lab/*/*.c; do
+    object=$BUILD/${source%.c}.o
+    [ ! -e "$object" ] || echo "$object"
+  done
+}
+
 fail() { echo "$1"; exit 1; }
 
 [ -n "$(echo 'lib/flow.c:#include "../apps/lab/base/text.h"' | upward)" ] || fail "the check sees nothing"
@@ -44,4 +57,13 @@ fail() { echo "$1"; exit 1; }
 
 found=$(find lib apps -name '*.[ch]' -exec grep -H '^#include "' {} + | upward)
 [ -z "$found" ] || fail "$found"
-echo "rooms: no include goes up"
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+echo 'int astray(void); int astray(void) { return 0; }' | $CC -x c -c - -o "$scratch/astray.o"
+[ "$(unprefixed "$scratch/astray.o")" = astray ] || fail "the check of names sees nothing"
+[ -n "$(objects)" ] || fail "no objects of the lab in $BUILD: make all"
+# shellcheck disable=SC2046
+found=$(unprefixed $(objects))
+[ -z "$found" ] || fail "names of the lab without lab_: $found"
+echo "rooms: no include goes up; names of the lab begin with lab_"

@@ -8,8 +8,6 @@ out=$(cd "$BUILD/windows" && pwd)
 WINEPREFIX=$out/wine
 WINEDEBUG=-all
 export WINEPREFIX WINEDEBUG
-tests="test_params test_terms test_clock test_flow test_chamber test_stem test_stepper test_jacobian test_effects \
-test_effects_gas test_effects_stem test_effects_sensor"
 
 wrong() {
   tail -n 30 "$out/log" >&2
@@ -19,10 +17,7 @@ wrong() {
 
 # core_tests FOLDER DEFINITIONS
 core_tests() {
-  programs=""
-  for test in $tests; do
-    programs="$programs $out/$1/$test.exe"
-  done
+  programs=$(printf '%s\n' tests/lib/test_*.c | sed "s|^|$out/$1/|; s|\.c\$|.exe|")
   # shellcheck disable=SC2086
   $MAKE --no-print-directory -f tests/firmware/target.mk TARGET=windows OUT="$out/$1" DEFS="$2" $programs >"$out/log" 2>&1 ||
     wrong "the tests do not build"

@@ -7,11 +7,10 @@ folder=$1
 shift
 find "$folder" -name '*.gcda' -exec rm -f {} +
 for test in "$@"; do
-  "$folder/tests/$test" >"$folder/$test.log" 2>&1 || { tail "$folder/$test.log"; exit 1; }
+  "$folder/tests/$test" >"$folder/test.log" 2>&1 || { tail "$folder/test.log"; exit 1; }
 done
 
-readers=$(ls apps/lab/log/*.c apps/lab/rig/*.c)
-readers=$(ls apps/lab/log/*.c apps/lab/rig/*.c)
+readers=$(ls apps/lab/base/csv.c apps/lab/log/*.c apps/lab/rig/*.c)
 
 # "lib/flow.c",lines,reached,branches,both ways: of the files named
 measure() {

@@ -30,25 +30,10 @@ pneu_params fixture_vessel(double volume)
 
 void fixture_set(pneu_params *p, const char *name, double value)
 {
-  int i;
-  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    if (strcmp(info.name, name) == 0) {
-      *pneu_param_at(p, i) = (pneu_real)value;
-      return;
-    }
-  }
-  fail_msg("no parameter %s", name);
-}
-
-int fixture_effect(const char *name)
-{
-  int i;
-  for (i = 0; i < PNEU_EFFECT_COUNT; i++)
-    if (strcmp(pneu_effect_at(i)->name, name) == 0)
-      return i;
-  return -1;
+  const int i = pneu_param_find(name);
+  if (i < 0)
+    fail_msg("no parameter %s", name);
+  *pneu_param_at(p, i) = (pneu_real)value;
 }
 
 pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input)
@@ -130,13 +115,18 @@ void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *i
   pneu_observer observer = {NULL, record_event, NULL};
   pneu_options options;
   pneu_workspace work;
+  pneu_delay late;
+  pneu_input own = *input;
   memset(&work, 0, sizeof work);
   pneu_options_default(&options);
   options.tol = (pneu_real)tol;
   observer.context = events;
   if (events)
     events->n = 0;
-  assert_int_equal(pneu_run(model, state, input, (pneu_real)duration, &options, events ? &observer : NULL, &work),
+  pneu_delay_begin(&late, NULL, 0, input->u);
+  if (!input->delay)
+    own.delay = &late;
+  assert_int_equal(pneu_run(model, state, &own, (pneu_real)duration, &options, events ? &observer : NULL, &work),
                    PNEU_OK);
 }
 
@@ -170,6 +160,8 @@ int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stre
   pneu_observer observer = {record_step, NULL, NULL};
   pneu_options options;
   pneu_workspace work;
+  pneu_late slot[64];
+  pneu_delay late;
   int i;
   memset(&work, 0, sizeof work);
   pneu_options_default(&options);
@@ -178,9 +170,12 @@ int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stre
   r.sample = sample;
   r.capacity = capacity;
   r.dt = dt;
+  pneu_delay_begin(&late, slot, COUNT(slot), stretch[0].input.u);
   for (i = 0; i < n; i++) {
-    assert_int_equal(
-        pneu_run(model, state, &stretch[i].input, (pneu_real)stretch[i].duration, &options, &observer, &work), PNEU_OK);
+    pneu_input input = stretch[i].input;
+    input.delay = &late;
+    assert_int_equal(pneu_run(model, state, &input, (pneu_real)stretch[i].duration, &options, &observer, &work),
+                     PNEU_OK);
     r.origin += stretch[i].duration;
   }
   return r.n;

@@ -44,9 +44,6 @@ pneu_params fixture_vessel(double volume);
 /* Set a parameter by its name; fails the test where there is none. */
 void fixture_set(pneu_params *p, const char *name, double value);
 
-/* Index of an effect, or -1 where it was trimmed away. */
-int fixture_effect(const char *name);
-
 /* Initialised model; fails the test on error. */
 pneu_model fixture_model(const pneu_params *p, int gas, int flow);
 pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input);
@@ -58,7 +55,8 @@ pneu_state fixture_rest(const pneu_model *model, double pressure, double positio
 
 fixture_sample fixture_look(const pneu_model *model, const pneu_state *state, const pneu_input *input);
 
-/* Run for `duration`; fails the test unless the run succeeds.  Out: events (may be NULL) */
+/* Run for `duration`, without input->delay under a command that has been acting; fails the test unless the run
+ * succeeds. Out: events (may be NULL) */
 void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *input, double duration, double tol,
                  fixture_events *events);
 

@@ -14,7 +14,7 @@ typedef struct footprint {
 static inline void footprint_run(void **state)
 {
   const footprint *f = *state;
-  if (fixture_effect(f->effect) < 0)
+  if (pneu_effect_find(f->effect) < 0)
     skip();
   check_note("%s", f->effect);
   f->check();

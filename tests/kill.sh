@@ -20,12 +20,12 @@ complain() {
 
 # ---- Inputs: small ones, so that a run takes half a second ----
 
-# A study of one actuator and one law; two of its figures are the true ones, the others an axis.
+# A study of one actuator and one law; three of its figures are the true ones, the others an axis.
 inputs_of_sweep() {
   cp -R study/actuators "$folder/study"
   for script in study/figures/*.gp; do
     case $script in
-    */fig04.gp | */fig11.gp | */style.gp) cp "$script" "$folder/study/figures" ;;
+    */fig04.gp | */fig11.gp | */fig15.gp | */varied.gp | */style.gp) cp "$script" "$folder/study/figures" ;;
     *) echo 'set terminal svg; plot x' >"$folder/study/figures/${script##*/}" ;;
     esac
   done
@@ -104,11 +104,11 @@ as_undisturbed() {
 
 children() { ps -A -o ppid=,pid= | awk -v parent="$1" '$1 == parent { print $2 }'; }
 
-# What the killed one had started, gnuplot, ends by itself.
+# What the killed one had started, gnuplot, ends by itself; one that is there after ten minutes hangs.
 no_orphans() {
   for orphan in $orphans; do
     tries=0
-    while kill -0 "$orphan" 2>/dev/null && [ $tries -lt 50 ]; do
+    while kill -0 "$orphan" 2>/dev/null && [ $tries -lt 6000 ]; do
       sleep 0.1
       tries=$((tries + 1))
     done

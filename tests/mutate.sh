@@ -7,9 +7,9 @@
 set -u
 : "${CC:=cc}" "${MAKE:=make}" "${BUILD:=build}" "${LINK:?}" "${MUTANTS:=}" "${SEED:=1}" "${OUT:=}"
 scratch="$BUILD/mutate"
-laws="flow chamber stem transducer observe term modes rosenbrock model rhs jacobian linear params active"
+laws="flow chamber stem balance transducer observe term modes rosenbrock model rhs jacobian linear params active"
 sources=${FILES:-$(printf 'lib/%s.c ' $laws) lib/rodas5p.h lib/ros4.h $(echo lib/effects/*.c)}
-quick="flow chamber effects_gas effects_stem effects_sensor jacobian params terms clock stem stepper effects audit"
+quick="flow chamber effects_gas effects_stem effects_sensor jacobian params term term_cycles stem stepper effects audit"
 slow=${SLOW-second_effects second effects_second}
 caught=0
 survived=0
@@ -21,8 +21,9 @@ ulimit -c 0
 # first FILE: the tests in the order in which they are likely to notice
 first() {
   case $1 in
+  lib/balance.c) echo "balance $quick $slow" ;;
   lib/stem.c | lib/modes.c | lib/transducer.c) echo "stem $quick $slow" ;;
-  lib/term.c) echo "terms clock $quick $slow" ;;
+  lib/term.c) echo "term term_cycles $quick $slow" ;;
   lib/rosenbrock.c | lib/rodas5p.h) echo "stepper $quick $slow" ;;
   lib/observe.c) echo "stem effects_sensor $quick $slow" ;;
   lib/model.c | lib/rhs.c) echo "params chamber stem $quick $slow" ;;
@@ -43,7 +44,7 @@ at_home() {
   order=-DPNEU_ORDER=4
   [ -n "${built:-}" ] && return 0
   # shellcheck disable=SC2046,SC2086
-  $MAKE --no-print-directory BUILD="$home" LAB= CFLAGS=$order $(printf "$home/tests/test_%s " $quick) \
+  $MAKE --no-print-directory BUILD="$home" LAB= CFLAGS=$order $(printf "$home/tests/lib/test_%s " $quick) \
     >"$scratch/order4.log" 2>&1 || { tail "$scratch/order4.log"; exit 2; }
   built=1
   expect_none
@@ -65,11 +66,14 @@ build() {
     2>"$scratch/cc.log"
 }
 
+# object_of TEST: where its object lies below a folder of a build
+object_of() { find tests -name "test_$1.c" | sed 's/c$/o/'; }
+
 # fails TEST: whether a test program notices the object; one that computes for ten times as long as it should notices too
 fails() {
   case " $slow " in *" $1 "*) seconds=60 ;; *) seconds=8 ;; esac
   # shellcheck disable=SC2086
-  $CC -o "$scratch/test" "$home/tests/test_$1.o" "$scratch/mutant.o" "$home/libhelp.a" "$BUILD/liblab.a" \
+  $CC -o "$scratch/test" "$home/$(object_of "$1")" "$scratch/mutant.o" "$home/libhelp.a" "$BUILD/liblab.a" \
     "$home/libpneu.a" $LINK || exit 2
   { # a program whose words nobody reads any more ends at the next of them
     (ulimit -t $seconds && exec "$scratch/test") 2>&1

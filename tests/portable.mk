@@ -8,9 +8,10 @@ CLANGXX ?= clang++
 #   float-equal     exact comparisons are meant: a neutral parameter, a division by zero
 #   unsafe-buffer-usage           every array of C (clang 16 and later)
 #   declaration-after-statement   none is there; C99 would allow it (clang 14 warns for C90 only)
+#   duplicate-enum, enum-enum-conversion   an effect has a place in the list of effects and one among the parameters
 #   unknown-warning-option        for compilers without one of these
 STRICT := -std=c99 -pedantic-errors -Weverything -Werror -Wno-unknown-warning-option -Wno-padded -Wno-float-equal \
-          -Wno-unsafe-buffer-usage -Wno-declaration-after-statement -fsyntax-only
+          -Wno-unsafe-buffer-usage -Wno-duplicate-enum -Wno-enum-enum-conversion -Wno-declaration-after-statement -fsyntax-only
 
 # One file after the other, so that no more is found in one than in all: each_file FLAGS
 each_file = for file in $(LIB_C); do $(CLANG) $(STRICT) $(1) $$file || exit 1; done

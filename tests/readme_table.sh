@@ -1,14 +1,15 @@
 #!/bin/sh
-# Tables of the README that are made from results: each stands between "<!-- KIND: made by ... -->" and
-# "<!-- end of KIND -->", and an awk program turns its CSV into rows.
-#   readme_table.sh --refresh KIND README.md   put it there; KIND: times, sizes, trials
-#   readme_table.sh --check KIND README.md     fail where the README says something else
+# Tables of pages that are made: each stands between "<!-- KIND: made by ... -->" and "<!-- end of KIND -->". An awk
+# program turns the CSV of results into rows; build/tests/decisions prints what the search decides by.
+#   readme_table.sh --refresh KIND PAGE   put it there; KIND: times, sizes, trials, rules, constants
+#   readme_table.sh --check KIND PAGE     fail where the page says something else
 set -eu
 mode=$1 kind=$2 readme=$3
 case $kind in
-times) rows=tests/bench/times.awk csv=results/bench.csv ;;
-sizes) rows=tests/firmware/sizes.awk csv=results/size.csv ;;
-trials) rows=tests/blind/readme.awk csv="results/blind.md results/blind_noise.md results/blind_nothing.md" ;;
+times) rows="awk -f tests/bench/times.awk results/bench.csv" ;;
+sizes) rows="awk -f tests/firmware/sizes.awk results/size.csv" ;;
+trials) rows="awk -f tests/blind/readme.awk results/blind.md results/blind_noise.md results/blind_nothing.md" ;;
+rules | constants) rows="${BUILD:-build}/tests/decisions $kind" ;;
 *) exit 2 ;;
 esac
 
@@ -25,8 +26,7 @@ fresh()
 
 part="$readme.part"
 trap 'rm -f "$part" "$part.table"' EXIT
-# shellcheck disable=SC2086
-awk -f "$rows" $csv >"$part.table"
+$rows >"$part.table"
 fresh "$part.table" "$readme" >"$part"
 case $mode in
 --refresh) cmp -s "$part" "$readme" || cp "$part" "$readme" ;;

@@ -30,7 +30,7 @@ $(FMU): $(FMU_C:%.c=$(BUILD)/%.o)
 	@rm -f $@
 	$(say) $(AR) rcs $@ $^
 
-export-fmu: $(BUILD)/apps/export-fmu.o $(FMU) $(LAB) $(STATIC) $(BUILD)/crew
+export-fmu: $(BUILD)/apps/export-fmu.o $(FMU) $(LAB) $(STATIC) $(BUILD)/jobs
 	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $(filter %.o %.a,$^) $(LDFLAGS) $(FMU_LIBS) $(LAB_LIBS) -o $@
 
 $(BUILD)/tests/fmu/native: $(BUILD)/tests/fmu/native.o $(LAB) $(STATIC)

@@ -68,7 +68,7 @@ int fmu_data_header(const lab_rig *rig, const fmu_data *data, char **text, size_
     return lab_fail_memory(error, "model_data.h");
   fprintf(file, "/* The model, by export-fmu; for libpneu " PNEU_VERSION " with its whole catalogue. */\n");
   fprintf(file, "#define MODEL_TOKEN \"%s\"\n", data->token);
-  lab_rig_write_c(file, rig);
+  lab_rig_write_c(file, rig, 1);
   if (rig->n_terms == 0)
     fputs("#define MODEL_TERMS {{0, 0, 0, 0, 0, {0}}}\n", file);
   if (fclose(file) == 0)

@@ -18,7 +18,10 @@ static const words input_words[FMU_INPUT_COUNT] = {
     {"pressure_rate", "Pa/s", "slope of pressure from the time at which it was set; 0: it holds"},
     {"position", "m", "position of the stem: it drives the model; beyond 0..stroke counts as on the stop"},
     {"velocity", "m/s", "slope of position: it pumps the gas, and friction has its sign"}};
-static const words set_pressure = {"u", "Pa", "set pressure, gauge"};
+/* What else the command can be, by enum fmu_command_kind. */
+static const words command_words[] = {{NULL, NULL, NULL},
+                                      {"u", "Pa", "set pressure, gauge"},
+                                      {"u", "1", "set position of the positioner, share of the stroke"}};
 
 static const words start_words[FMU_START_COUNT] = {
     {"start_pressure", "Pa", "pressure in the chamber at the start, gauge"},
@@ -58,18 +61,18 @@ static fmu_variable *add(fmu_list *list, unsigned reference, int causality, cons
 
 static void add_inputs(fmu_list *list, const fmu_data *data)
 {
-  const int regulates = data->params.proportional_band > 0;
+  const int kind = fmu_command_kind(&data->params);
   int i;
   for (i = 0; i < FMU_INPUT_COUNT; i++) {
     fmu_variable *v;
     if (!fmu_has_variable(&data->law, FMU_REF_INPUT + (unsigned)i))
       continue;
     v = add(list, FMU_REF_INPUT + (unsigned)i, FMU_INPUT,
-            i == FMU_INPUT_U && regulates ? &set_pressure : &input_words[i]);
+            i == FMU_INPUT_U && kind != FMU_COMMAND_OPENING ? &command_words[kind] : &input_words[i]);
     if (i == FMU_INPUT_PRESSURE_RATE || i == FMU_INPUT_VELOCITY)
       v->rate_of = FMU_REF_INPUT + (unsigned)i - 1;
     v->start = i == FMU_INPUT_SUPPLY ? (double)data->params.supply_pressure : 0;
-    if (i == FMU_INPUT_U && !regulates) {
+    if (i == FMU_INPUT_U && kind == FMU_COMMAND_OPENING) {
       v->lower = -1;
       v->upper = 1;
     }
@@ -134,24 +137,12 @@ static void add_states(fmu_list *list, const pneu_model *model)
   }
 }
 
-/* The effect of parameter i, NULL of the base model's. */
-static const pneu_effect *effect_of(int i)
-{
-  int e, first, count;
-  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
-    first = pneu_effect_params(e, &count);
-    if (i >= first && i < first + count)
-      return pneu_effect_at(e);
-  }
-  return NULL;
-}
-
 static void add_parameters(fmu_list *list, const fmu_data *data)
 {
   pneu_params params = data->params;
   int i;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
-    const pneu_effect *effect = effect_of(i);
+    const pneu_effect *effect = pneu_effect_at(pneu_effect_of(i));
     pneu_param_info info;
     fmu_variable *v;
     words w;

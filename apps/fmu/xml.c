@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../lab/base/escape.h"
+
 /* -1 is how libxml2 says that memory has run out. */
 static void note(fmu_xml *xml, int result)
 {
@@ -39,8 +41,13 @@ void fmu_xml_close(fmu_xml *xml)
 
 void fmu_xml_text(fmu_xml *xml, const char *attribute, const char *value)
 {
-  if (!xml->failed)
-    note(xml, xmlTextWriterWriteAttribute(xml->writer, BAD_CAST attribute, BAD_CAST value));
+  xmlChar *plain = xml->failed ? NULL : xmlStrdup(BAD_CAST value);
+  xml->failed |= !plain;
+  if (!plain)
+    return;
+  lab_make_plain((char *)plain);
+  note(xml, xmlTextWriterWriteAttribute(xml->writer, BAD_CAST attribute, plain));
+  xmlFree(plain);
 }
 
 void fmu_xml_whole(fmu_xml *xml, const char *attribute, long value)

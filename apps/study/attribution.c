@@ -1,8 +1,7 @@
-#include "attribution.h"
-
-#include <math.h>
-#include <stdio.h>
-
+/* Which part of the air process makes the asymmetry: every combination of its causes, and the Shapley share of each. */
+#include "linearflow.h"
+#include "products.h"
+#include "hypotheses.h"
 #include "stroke.h"
 
 /* The causes. With all of them present the model is the nozzle flow with the chamber law of the row. */
@@ -18,40 +17,22 @@ static int flow_law(int present)
   const int choked = present >> CHOKING & 1;
   if (present >> DENSITY & 1)
     return choked ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER;
-  return choked ? PNEU_FLOW_LINEAR_CHOKED : PNEU_FLOW_LINEAR;
+  return choked ? LINEAR_CHOKED_FLOW : LINEAR_FLOW;
 }
 
-/* Asymmetry with the causes of a bit set present and the others taken away. */
-static int cell(const lab_rig *rig, int gas, int present, double *asymmetry, lab_error *error)
+/* The strokes with the causes of a bit set present and the others taken away. */
+static int measure(const study_cell *c, int present, lab_asymmetry *r, lab_error *error)
 {
-  pneu_params p = rig->params;
-  pneu_laws laws = study_laws(rig, present >> TEMPERATURE & 1 ? gas : PNEU_GAS_ISOTHERMAL, flow_law(present));
-  lab_asymmetry r;
+  pneu_params p = c->rig->params;
+  const int gas = present >> TEMPERATURE & 1 ? c->laws.gas : PNEU_GAS_ISOTHERMAL;
+  pneu_laws laws = study_laws(c->rig, gas, flow_law(present));
   if (!(present >> VOLUME & 1)) {
     p.dead_volume += p.area * p.stroke / 2;
     p.swept_ratio = 0;
   }
   if (!(present >> PLACE & 1))
-    p.spring_preload = p.supply_pressure / 2 * p.area / p.spring_rate - p.stroke / 2;
-  if (stroke_measure(&p, &laws, &r, error))
-    return error->status;
-  *asymmetry = r.asymmetry;
-  return LAB_OK;
-}
-
-static int all_cells(const lab_rig *rig, int gas, double *f, lab_error *error)
-{
-  int i, status = LAB_OK;
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < CELLS; i++) {
-    lab_error mine;
-    const int at = cell(rig, gas, i, &f[i], &mine);
-    if (at != LAB_OK) {
-#pragma omp critical(attribution_error)
-      *error = mine, status = at;
-    }
-  }
-  return status;
+    hypotheses[H4_BENCH_OFFSET].without(&p, &laws);
+  return stroke_measure(&p, &p, &laws, r, error);
 }
 
 static int members(int set)
@@ -67,72 +48,55 @@ static double factorial(int n)
   return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-/* Shapley 1953: mean gain by a cause over all orders in which the causes can be added. */
-static double shapley(const double *f, int cause)
+/* Shapley 1953: mean gain of the signed asymmetry by a cause over all orders in which the causes can be added. */
+static double shapley(const lab_asymmetry *f, int cause)
 {
   double sum = 0;
   int set;
   for (set = 0; set < CELLS; set++) {
     const int k = members(set);
     if (!(set >> cause & 1))
-      sum += factorial(k) * factorial(CAUSES - k - 1) / factorial(CAUSES) * (f[set | 1 << cause] - f[set]);
+      sum += factorial(k) * factorial(CAUSES - k - 1) / factorial(CAUSES) *
+             (f[set | 1 << cause].asymmetry_signed - f[set].asymmetry_signed);
   }
   return sum;
 }
 
 /* A share sums up; alone and without show how the causes work against each other inside it. */
-static void share_rows(table *t, int gas, const double *f)
+static void add_share(table *t, const char *gas, const char *cause, double value, double whole,
+                      const lab_asymmetry *alone, const lab_asymmetry *without)
 {
-  const double whole = f[CELLS - 1];
-  int i;
+  table_row(t, "ssgggggg", gas, cause, value / whole, value, alone->asymmetry, without->asymmetry,
+            alone->asymmetry_signed, without->asymmetry_signed);
+}
+
+enum { SHARES, COMBINATIONS };
+
+static int attribution_rows(const study_cell *c, table *t, lab_error *error)
+{
+  lab_asymmetry f[CELLS];
+  double whole;
+  int i, set;
+  for (set = 0; set < CELLS; set++) {
+    if (measure(c, set, &f[set], error))
+      return error->status;
+    table_row(&t[COMBINATIONS], "sggggggg", c->gas, (double)(set & 1), (double)(set >> VOLUME & 1),
+              (double)(set >> CHOKING & 1), (double)(set >> TEMPERATURE & 1), (double)(set >> PLACE & 1),
+              f[set].asymmetry, f[set].asymmetry_signed);
+  }
+  whole = f[CELLS - 1].asymmetry_signed;
   for (i = 0; i < CAUSES; i++)
-    table_row(t, "ssgggg", pneu_gas_key(gas), cause_names[i], shapley(f, i) / whole, shapley(f, i), f[1 << i],
-              f[(CELLS - 1) & ~(1 << i)]);
-  table_row(t, "ssgggg", pneu_gas_key(gas), "remainder", f[0] / whole, f[0], f[0], f[0]);
+    add_share(&t[SHARES], c->gas, cause_names[i], shapley(f, i), whole, &f[1 << i], &f[(CELLS - 1) & ~(1 << i)]);
+  add_share(&t[SHARES], c->gas, "remainder", f[0].asymmetry_signed, whole, &f[0], &f[0]);
+  return LAB_OK;
 }
 
-static void cell_rows(table *t, int gas, const double *f)
-{
-  int set;
-  for (set = 0; set < CELLS; set++)
-    table_row(t, "sgggggg", pneu_gas_key(gas), (double)(set & 1), (double)(set >> VOLUME & 1),
-              (double)(set >> CHOKING & 1), (double)(set >> TEMPERATURE & 1), (double)(set >> PLACE & 1), f[set]);
-}
-
-static int attribution_of(const study *s, int actuator, lab_error *error)
-{
-  const lab_rig *rig = &s->actuator[actuator];
-  const int first = actuator == s->subject;
-  char shares_name[LAB_NAME_TEXT + 32] = "attribution.csv", cells_name[LAB_NAME_TEXT + 32] = "attribution_cells.csv";
-  double f[CELLS];
-  int i, status = LAB_OK;
-  table shares, cells;
-  if (!first) {
-    snprintf(shares_name, sizeof shares_name, "attribution_%s.csv", rig->name);
-    snprintf(cells_name, sizeof cells_name, "attribution_cells_%s.csv", rig->name);
-  }
-  table_open(&shares, "gas,cause,share,shapley,asymmetry_alone,asymmetry_without");
-  table_open(&cells, "gas,density,volume,choking,temperature,place,asymmetry");
-  for (i = 0; i < s->n_gas && status == LAB_OK; i++) {
-    status = all_cells(rig, s->gas[i], f, error);
-    if (status == LAB_OK) {
-      share_rows(&shares, s->gas[i], f);
-      cell_rows(&cells, s->gas[i], f);
-    }
-  }
-  if (status == LAB_OK)
-    status = study_save(s, shares_name, &shares, error);
-  if (status == LAB_OK)
-    status = study_save(s, cells_name, &cells, error);
-  table_close(&shares);
-  table_close(&cells);
-  return status;
-}
-
-int attribution_make(const study *s, lab_error *error)
-{
-  int i, status = LAB_OK;
-  for (i = 0; i < s->n_actuators && status == LAB_OK; i++)
-    status = attribution_of(s, i, error);
-  return status;
-}
+const study_tables attribution = {
+    {STUDY_ALL, STUDY_GAS_LAWS},
+    attribution_rows,
+    {[SHARES] = {"attribution",
+                 "gas,cause,share,shapley,asymmetry_alone,asymmetry_without,asymmetry_signed_alone,"
+                 "asymmetry_signed_without",
+                 STUDY_BY_CELL, STUDY_ACTUATOR_FILE, 0},
+     [COMBINATIONS] = {"attribution_cells", "gas,density,volume,choking,temperature,place,asymmetry,asymmetry_signed",
+                       STUDY_BY_CELL, STUDY_ACTUATOR_FILE, 0}}};

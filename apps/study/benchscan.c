@@ -1,32 +1,35 @@
 #include "benchscan.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "paper.h"
+#include "speeds.h"
 #include "stroke.h"
 
 pneu_params bench_params(const pneu_params *base, double low, double width)
 {
   pneu_params p = *base;
   p.spring_rate = p.area * width / p.stroke;
-  p.spring_preload = p.area * low / p.spring_rate;
+  p.spring_preload = fmin(p.area * low / p.spring_rate, 1.0);
+  p.external_force += p.area * low - p.spring_rate * p.spring_preload;
   return p;
 }
 
-void bench_of_rig(const lab_rig *rig, double *low, double *width)
+double bench_pressure(const pneu_params *p, double x, int direction)
 {
-  const pneu_params *p = &rig->params;
-  int i;
-  *low = p->spring_rate * p->spring_preload / p->area;
-  *width = p->spring_rate * p->stroke / p->area;
-  for (i = 0; i < PAPER_ACTUATOR_COUNT; i++) {
-    const paper_actuator printed = paper_actuator_printed(i);
-    if (!strcmp(printed.key, rig->name)) {
-      *low = printed.bench_low;
-      *width = printed.bench_high - printed.bench_low;
-    }
-  }
+  static const pneu_laws any;
+  pneu_model model;
+  pneu_input input;
+  if (pneu_model_init(&model, p, &any, NULL) != PNEU_OK)
+    return (double)NAN;
+  pneu_input_default(&model, &input);
+  return pneu_balance_pressure(&model, x, &input, direction);
+}
+
+/* Lowest and highest lower end [Pa] at which the stem still moves both ways. */
+static void limits(const pneu_params *p, double width, double *low, double *high)
+{
+  *low = 1.1 * p->dry_friction / p->area;
+  *high = p->supply_pressure - width - *low;
 }
 
 static int measure(const pneu_params *p, const pneu_laws *law, double value[SCAN_QUANTITIES], lab_error *error)
@@ -37,25 +40,22 @@ static int measure(const pneu_params *p, const pneu_laws *law, double value[SCAN
   value[SCAN_FALL_RANGE] = speed_max(&pair.down) / speed_min(&pair.down);
   value[SCAN_FIRST_OVER] = speed_min(&pair.down) / speed_max(&pair.up);
   value[SCAN_LAST_OVER] = speed_min(&pair.up) / speed_max(&pair.down);
-  value[SCAN_DURATIONS] = pair.shape.duration_ratio;
-  value[SCAN_ASYMMETRY] = pair.shape.asymmetry;
+  value[SCAN_FASTEST] = speed_max(&pair.down) / speed_max(&pair.up);
   return LAB_OK;
 }
 
-int bench_scan_run(const lab_rig *rig, const pneu_laws *law, bench_scan *out, lab_error *error)
+int bench_scan_run(const pneu_params *base, const pneu_laws *law, bench_scan *out, lab_error *error)
 {
-  const double friction = 1.1 * rig->params.dry_friction / rig->params.area;
-  double value[SCAN_QUANTITIES], top;
+  double value[SCAN_QUANTITIES] = {0}, bottom, top;
   pneu_params p;
   int i, q;
-  bench_of_rig(rig, &out->low, &out->width);
-  p = bench_params(&rig->params, out->low, out->width);
-  if (measure(&p, law, out->nominal, error))
-    return error->status;
-  top = fmax(p.supply_pressure - out->width - friction, out->low);
+  out->low = bench_pressure(base, 0, 0);
+  out->width = base->spring_rate * base->stroke / base->area;
+  limits(base, out->width, &bottom, &top);
+  top = fmax(top, out->low);
   for (i = 0; i < SCAN_POINTS; i++) {
-    out->from[i] = friction + (top - friction) * i / (SCAN_POINTS - 1);
-    p = bench_params(&rig->params, out->from[i], out->width);
+    out->from[i] = bottom + (top - bottom) * i / (SCAN_POINTS - 1);
+    p = bench_params(base, out->from[i], out->width);
     if (measure(&p, law, value, error))
       return lab_fail_in(error, "bench set from %.4g Pa", out->from[i]);
     for (q = 0; q < SCAN_QUANTITIES; q++)
@@ -107,32 +107,56 @@ double bench_scan_min(const bench_scan *scan, int quantity)
   return value;
 }
 
-/* Regula falsi in the logarithm of the duration ratio, which falls nearly straight as the bench set goes up. */
-double bench_scan_equal(const bench_scan *scan, const pneu_params *base, const pneu_laws *law, double *asymmetry)
+/* ln of the duration ratio on a bench set; NaN where it cannot be had. */
+static double log_durations(const pneu_params *base, const pneu_laws *law, double low, double width, double *asymmetry)
 {
-  const double *ratio = scan->value[SCAN_DURATIONS];
-  int i = 0, tries;
-  double a, b, fa, fb, at = (double)NAN;
-  while (i + 1 < SCAN_POINTS && (ratio[i] > 1) == (ratio[i + 1] > 1))
-    i++;
-  if (i + 1 >= SCAN_POINTS)
+  const pneu_params p = bench_params(base, low, width);
+  lab_asymmetry r;
+  lab_error ignored;
+  if (stroke_measure(&p, &p, law, &r, &ignored))
     return (double)NAN;
-  a = scan->from[i], b = scan->from[i + 1], fa = log(ratio[i]), fb = log(ratio[i + 1]);
-  for (tries = 0; tries < 20; tries++) {
-    pneu_params p = bench_params(base, at = a - fa * (b - a) / (fb - fa), scan->width);
-    lab_asymmetry r;
-    lab_error ignored;
-    double f;
-    if (stroke_measure(&p, law, &r, &ignored))
-      return (double)NAN;
-    *asymmetry = r.asymmetry;
-    f = log(r.duration_ratio);
+  *asymmetry = r.asymmetry;
+  return log(r.duration_ratio);
+}
+
+/* Regula falsi; the value of an end that stays is halved (Illinois), because it falls steeply at both ends. */
+double bench_equal(const pneu_params *base, const pneu_laws *law, double width, double *asymmetry)
+{
+  double a, b, fa, fb, f, at;
+  int tries, kept = 0;
+  *asymmetry = (double)NAN;
+  limits(base, width, &a, &b);
+  fa = log_durations(base, law, a, width, asymmetry);
+  fb = log_durations(base, law, b, width, asymmetry);
+  for (tries = 0; tries < 40 && fa > 0 && fb < 0; tries++) {
+    at = a - fa * (b - a) / (fb - fa);
+    f = log_durations(base, law, at, width, asymmetry);
     if (fabs(f) < 1e-3)
       return at;
-    if ((f > 0) == (fa > 0))
+    if (f > 0) {
       a = at, fa = f;
-    else
+      fb /= kept == 1 ? 2 : 1;
+    } else {
       b = at, fb = f;
+      fa /= kept == -1 ? 2 : 1;
+    }
+    kept = f > 0 ? 1 : -1;
   }
   return (double)NAN;
+}
+
+double bench_alike(const pneu_params *base, const pneu_laws *law, double width, double limit, double *low)
+{
+  double wide = width, narrow = width / 100, asymmetry;
+  *low = bench_equal(base, law, narrow, &asymmetry);
+  if (isnan(*low) || asymmetry > limit)
+    return (double)NAN;
+  while (wide / narrow > 1.02) {
+    const double middle = sqrt(wide * narrow), at = bench_equal(base, law, middle, &asymmetry);
+    if (!isnan(at) && asymmetry <= limit)
+      narrow = middle, *low = at;
+    else
+      wide = middle;
+  }
+  return narrow;
 }

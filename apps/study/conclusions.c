@@ -3,95 +3,210 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Words are numbers once and for all (PAPER.md 1): "approximately", "roughly", "constant" are 10 %, "does not
- * depend" is 1 %, "mainly" an exponent of at most 1/2. */
-const conclusion conclusions[CONCLUSIONS] = {
-    {1, "slope of ln v over ln P, up", -1.1, -0.9, conclusion_inverse},
-    {2, "largest over smallest v, up", 1.1, HUGE_VAL, conclusion_rise_range},
-    {3, "largest over smallest v(5 %)/p_s over the supplies, up", -HUGE_VAL, 1.1, conclusion_supply},
-    {4, "v at the end of the rise over v(5 %)", -HUGE_VAL, 0.1, conclusion_last_rise},
-    {5, "largest over smallest v with P_a/P lowered to 0.01, down", -HUGE_VAL, 1.1, conclusion_vacuum},
-    {6, "difference between changes of v in one range of pressure, down", -HUGE_VAL, 0.01, conclusion_fixed_range},
-    {7, "largest over smallest v, down", -HUGE_VAL, 1.1, conclusion_fall_range},
-    {8, "d ln v_max/d ln p_s, down", -HUGE_VAL, 0.5, conclusion_fall_supply},
-    {9, "v at the end of the fall over the largest", 0.01, HUGE_VAL, conclusion_last_fall},
-    {10, "largest over smallest v, down", -HUGE_VAL, 1.41421356, conclusion_fall_range},
-    {11, "difference of 1 - v(5 %)/v(95 %) between actuators, down", -HUGE_VAL, 0.01, conclusion_fall_change},
-    {12, "smallest v down over largest v up", -HUGE_VAL, 1, conclusion_first_over},
-    {13, "smallest v up over largest v down", -HUGE_VAL, 1, conclusion_last_over},
-    {14, "p/p_s above which the fall is faster", -HUGE_VAL, 0.618, conclusion_crossing},
-    {15, "asymmetry at equal durations over that at the nominal bench set", -HUGE_VAL, 0.1, conclusion_symmetric},
-    {16, "part of the stroke made where v is largest", -HUGE_VAL, 0.1, conclusion_fastest},
-    {17, "efficiency without friction", -HUGE_VAL, 0.5, conclusion_largest_efficiency},
-    {18, "efficiency of a loaded cycle with friction", -HUGE_VAL, 0.5, conclusion_efficiency}};
+const double conclusion_words[CONCLUSION_WORDS] = {0.05, 0.1, 0.2, 0.3, 0.41421356};
 
-enum { VERDICT_TEXT = FINDING_TEXT + 32, EVIDENCE_TEXT = 3 * FINDING_TEXT };
+enum { MARKED_WORDS = 4 }; /* of them that a verdict must outlast */
 
-/* All findings under one pair of laws. */
-static int try_law(const study *s, int gas, int flow, finding found[CONCLUSIONS], lab_error *error)
+enum { VERDICT_TEXT = 2 * FINDING_TEXT + 32, EVIDENCE_TEXT = 4 * FINDING_TEXT };
+
+void conclusion_limits(const conclusion *c, double word, double *low, double *high)
 {
-  conclusion_trial *t = malloc(sizeof *t);
-  int i, status;
-  if (!t)
-    return lab_fail_memory(error, "the conclusions");
-  status = conclusion_trial_run(s, gas, flow, t, error);
-  for (i = 0; i < CONCLUSIONS && status == LAB_OK; i++)
-    if ((status = conclusions[i].measure(t, &conclusions[i], &found[i], error)) != LAB_OK)
-      lab_fail_in(error, "conclusion %d", conclusions[i].number);
-  free(t);
-  return status == LAB_OK ? LAB_OK : lab_fail_in(error, "%s, %s", pneu_gas_key(gas), pneu_flow_key(flow));
+  *low = c->low + c->low_per * word;
+  *high = c->high + c->high_per * word;
 }
 
-static int try_laws(const study *s, finding *found, lab_error *error)
+/* ---- Trying ---- */
+
+/* All conclusions on one actuator under one pair of laws. */
+static int try_cell(const study_cell *c, void *context, lab_error *error)
 {
-  const int laws = s->n_gas * s->n_flow;
-  int law, worst = laws, status = LAB_OK;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (law = 0; law < laws; law++) {
-    lab_error mine;
-    const int at =
-        try_law(s, s->gas[law / s->n_flow], s->flow[law % s->n_flow], found + (size_t)law * CONCLUSIONS, &mine);
-    if (at != LAB_OK) {
-#pragma omp critical(conclusions_error)
-      if (law < worst) /* the first in order, whichever thread was first */
-        *error = mine, status = at, worst = law;
-    }
+  finding *found = (finding *)context + (size_t)c->index * CONCLUSIONS;
+  conclusion_trial t;
+  int i;
+  if (conclusion_trial_run(c->rig, &c->laws, &t, error))
+    return error->status;
+  for (i = 0; i < CONCLUSIONS; i++) {
+    double low;
+    conclusion_limits(&conclusions[i], conclusions[i].word, &low, &t.limit);
+    conclusions[i].measure(&t, &found[i]);
   }
-  return status;
+  return LAB_OK;
 }
 
-static void add_row(const study *s, const conclusion *c, int law, const finding *f, table *t)
+int conclusions_try(const study *s, finding **found, lab_error *error)
 {
-  char verdict[VERDICT_TEXT], evidence[EVIDENCE_TEXT], number[8];
-  finding_verdict_text(f, finding_judge(f, c->low, c->high), verdict, sizeof verdict);
-  finding_evidence(f, c->what, c->low, c->high, evidence, sizeof evidence);
-  snprintf(number, sizeof number, "%d", c->number);
-  table_row(t, "sssss", number, pneu_gas_key(s->gas[law / s->n_flow]), pneu_flow_key(s->flow[law % s->n_flow]), verdict,
-            evidence);
+  static const study_grid grid = {STUDY_ALL, STUDY_EVERY_LAW};
+  *found = calloc((size_t)(s->n_actuators * s->n_gas * s->n_flow) * CONCLUSIONS, sizeof **found);
+  return *found ? study_each(s, &grid, try_cell, *found, error) : lab_fail_memory(error, "the conclusions");
 }
 
-int conclusions_table(const study *s, table *t, lab_error *error)
+/* ---- Tables ---- */
+
+static const finding *found_of(const study *s, const finding *found, int actuator, int law, int i)
 {
-  const int laws = s->n_gas * s->n_flow;
-  finding *found = calloc((size_t)laws * CONCLUSIONS, sizeof *found);
-  int i, law, status;
-  table_open(t, "conclusion,gas,flow,verdict,evidence");
-  if (!found)
-    return lab_fail_memory(error, "the conclusions");
-  status = try_laws(s, found, error);
-  for (i = 0; i < CONCLUSIONS && status == LAB_OK; i++)
-    for (law = 0; law < laws; law++)
-      add_row(s, &conclusions[i], law, &found[law * CONCLUSIONS + i], t);
-  free(found);
-  return status;
+  return &found[(size_t)(actuator * s->n_gas * s->n_flow + law) * CONCLUSIONS + (size_t)i];
+}
+
+static int verdict_at(const conclusion *c, double word, const finding *f)
+{
+  double low, high;
+  conclusion_limits(c, word, &low, &high);
+  return finding_judge(f, low, high);
+}
+
+static int verdict_of(const conclusion *c, const finding *f)
+{
+  return verdict_at(c, c->word, f);
+}
+
+static const char *gas_of(const study *s, int law)
+{
+  return pneu_gas_key(s->gas[law / s->n_flow]);
+}
+
+static const char *flow_of(const study *s, int law)
+{
+  return pneu_flow_key(s->flow[law % s->n_flow]);
+}
+
+static void evidence_of(const conclusion *c, const finding *f, char *text)
+{
+  double low, high;
+  conclusion_limits(c, c->word, &low, &high);
+  finding_evidence(f, c->what, low, high, text, EVIDENCE_TEXT);
+}
+
+/* One row over the printed actuators; where they differ the evidence says who says what. */
+static void add_overall(const study *s, const finding *found, int i, int all_of_them, int law, table *t)
+{
+  const conclusion *c = &conclusions[i];
+  char verdict[VERDICT_TEXT], evidence[EVIDENCE_TEXT], each[FINDING_TEXT] = "";
+  finding all = {0};
+  (void)all_of_them;
+  int a, first = 0, differ = 0;
+  size_t used = 0;
+  for (a = 0; a < s->n_printed; a++) {
+    const finding *one = found_of(s, found, a, law, i);
+    const int mine = verdict_of(c, one);
+    finding_join(&all, one, s->actuator[a].name);
+    first = a ? first : mine;
+    differ |= mine != first;
+    used += (size_t)snprintf(each + used, sizeof each - used, "%s%s %s", a ? ", " : "", s->actuator[a].name,
+                             finding_word(mine));
+  }
+  if (differ)
+    finding_say(all.note, "; %s", each);
+  finding_verdict_text(&all, verdict_of(c, &all), verdict, sizeof verdict);
+  evidence_of(c, &all, evidence);
+  table_row(t, "gssss", (double)c->number, gas_of(s, law), flow_of(s, law), verdict, evidence);
+}
+
+/* "printed", or "bench" where the springs follow from the bench set. */
+static const char *set_of(const study *s, int actuator)
+{
+  return actuator < s->n_printed ? "printed" : "bench";
+}
+
+static double open_is_empty(double limit)
+{
+  return isinf(limit) ? (double)NAN : limit;
+}
+
+static void add_actuator(const study *s, const finding *found, int i, int a, int law, table *t)
+{
+  const conclusion *c = &conclusions[i];
+  const finding *r = found_of(s, found, a, law, i);
+  char verdict[VERDICT_TEXT], evidence[EVIDENCE_TEXT];
+  double low, high;
+  conclusion_limits(c, c->word, &low, &high);
+  finding_verdict_text(r, verdict_of(c, r), verdict, sizeof verdict);
+  evidence_of(c, r, evidence);
+  table_row(t, "gssssgggss", (double)c->number, s->actuator[a].name, set_of(s, a), gas_of(s, law), flow_of(s, law),
+            finding_worst(r, low, high), open_is_empty(low), open_is_empty(high), verdict, evidence);
+}
+
+/* The worst verdict of the actuators of a set with a number given to the word. */
+static int worst_of_set(const study *s, const finding *found, int i, int set, int law, double word)
+{
+  const int last = set ? s->n_actuators : s->n_printed;
+  int a, worst = FINDING_HOLDS;
+  for (a = set ? s->n_printed : 0; a < last; a++) {
+    const int mine = verdict_at(&conclusions[i], word, found_of(s, found, a, law, i));
+    worst = mine > worst ? mine : worst;
+  }
+  return worst;
+}
+
+static void add_thresholds(const study *s, const finding *found, int i, int set, int law, table *t)
+{
+  const double usual = conclusions[i].word;
+  const char *words[CONCLUSION_WORDS];
+  const int verdict = worst_of_set(s, found, i, set, law, usual);
+  const int by_set = s->n_printed < s->n_actuators && verdict != worst_of_set(s, found, i, !set, law, usual);
+  int w, by_word = 0;
+  for (w = 0; w < CONCLUSION_WORDS; w++) {
+    const int other = worst_of_set(s, found, i, set, law, conclusion_words[w]);
+    words[w] = finding_word(other);
+    by_word |= w < MARKED_WORDS && other != worst_of_set(s, found, i, set, law, conclusion_words[0]);
+  }
+  table_row(t, "gssssssssss", (double)conclusions[i].number, set ? "bench" : "printed", gas_of(s, law), flow_of(s, law),
+            finding_word(verdict), words[0], words[1], words[2], words[3], words[4],
+            by_word && by_set ? "threshold, set"
+            : by_word         ? "threshold"
+            : by_set          ? "set"
+                              : "");
+}
+
+static int once(const study *s)
+{
+  (void)s;
+  return 1;
+}
+
+static int actuators(const study *s)
+{
+  return s->n_actuators;
+}
+
+static int sets(const study *s)
+{
+  return s->n_printed < s->n_actuators ? 2 : 1;
+}
+
+/* By conclusion, then by one or each actuator or set, then by law. */
+static const struct {
+  const char *file, *header;
+  int (*count)(const study *s);
+  void (*add)(const study *s, const finding *found, int i, int which, int law, table *t);
+} tables[CONCLUSION_TABLES] = {
+    [CONCLUSION_OVERALL] = {"conclusions.csv", "conclusion,gas,flow,verdict,evidence", once, add_overall},
+    [CONCLUSION_ACTUATORS] = {"conclusions_actuators.csv",
+                              "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence", actuators,
+                              add_actuator},
+    [CONCLUSION_THRESHOLDS] = {"conclusions_thresholds.csv",
+                               "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,depends_on", sets,
+                               add_thresholds}};
+
+void conclusions_table(const study *s, const finding *found, int which, table *t)
+{
+  int i, k, law;
+  table_open(t, tables[which].header);
+  for (i = 0; i < CONCLUSIONS; i++)
+    for (k = 0; k < tables[which].count(s); k++)
+      for (law = 0; law < s->n_gas * s->n_flow; law++)
+        tables[which].add(s, found, i, k, law, t);
 }
 
 int conclusions_make(const study *s, lab_error *error)
 {
-  table t;
-  int status = conclusions_table(s, &t, error);
-  if (status == LAB_OK)
-    status = study_save(s, "conclusions.csv", &t, error);
-  table_close(&t);
+  finding *found;
+  int i, status = conclusions_try(s, &found, error);
+  for (i = 0; i < CONCLUSION_TABLES && status == LAB_OK; i++) {
+    table t;
+    conclusions_table(s, found, i, &t);
+    status = study_save(s, tables[i].file, &t, error);
+    table_close(&t);
+  }
+  free(found);
   return status;
 }

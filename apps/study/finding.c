@@ -5,19 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static void append(char *text, int size, const char *format, va_list args)
-{
-  const int used = (int)strlen(text);
-  vsnprintf(text + used, (size_t)(size - used), format, args);
-}
-
 static void say(char *text, int size, const char *format, ...) LAB_PRINTF(3, 4);
 
 static void say(char *text, int size, const char *format, ...)
 {
+  const int used = (int)strlen(text);
   va_list args;
   va_start(args, format);
-  append(text, size, format, args);
+  vsnprintf(text + used, (size_t)(size - used), format, args);
   va_end(args);
 }
 
@@ -38,20 +33,27 @@ void finding_add_conditioned(finding *f, double value)
     f->conditioned[f->n_conditioned++].value = value;
 }
 
-void finding_condition(finding *f, const char *format, ...)
+void finding_say(char text[FINDING_TEXT], const char *format, ...)
 {
+  const size_t used = strlen(text);
   va_list args;
   va_start(args, format);
-  append(f->condition, FINDING_TEXT, format, args);
+  vsnprintf(text + used, FINDING_TEXT - used, format, args);
   va_end(args);
 }
 
-void finding_note(finding *f, const char *format, ...)
+void finding_join(finding *all, const finding *one, const char *name)
 {
-  va_list args;
-  va_start(args, format);
-  append(f->note, FINDING_TEXT, format, args);
-  va_end(args);
+  int i;
+  if (*one->where)
+    finding_say(all->where, "%s%s (%s)", *all->where ? ", " : "", one->where, name);
+  if (*one->note)
+    finding_say(all->note, "%s%s: %s", *all->note ? "; " : "", name, one->note);
+  strcpy(all->condition, one->condition);
+  for (i = 0; i < one->n; i++)
+    finding_add(all, one->at[i].value, "%s%s%s", name, *one->at[i].label ? ", " : "", one->at[i].label);
+  for (i = 0; i < one->n_conditioned; i++)
+    finding_add_conditioned(all, one->conditioned[i].value);
 }
 
 static int all_within(const finding_case *at, int n, double low, double high)
@@ -70,16 +72,36 @@ int finding_judge(const finding *f, double low, double high)
   return all_within(f->conditioned, f->n_conditioned, low, high) ? FINDING_HOLDS_WHEN : FINDING_CONTRADICTED;
 }
 
-void finding_verdict_text(const finding *f, int verdict, char *text, int size)
-{
-  static const char *const words[] = {"holds", "holds when ", "contradicted"};
-  snprintf(text, (size_t)size, "%s%s", words[verdict], verdict == FINDING_HOLDS_WHEN ? f->condition : "");
-}
-
 /* Four digits after the point at most: what is left of a zero differs between machines. */
 static double tidy(double value)
 {
   return round(value * 1e4) / 1e4 + 0.0;
+}
+
+double finding_worst(const finding *f, double low, double high)
+{
+  double worst = f->at[0].value;
+  int i;
+  for (i = 1; i < f->n; i++) {
+    if (isinf(low))
+      worst = fmax(worst, f->at[i].value);
+    if (isinf(high))
+      worst = fmin(worst, f->at[i].value);
+  }
+  return tidy(worst);
+}
+
+const char *finding_word(int verdict)
+{
+  static const char *const words[] = {"holds", "holds when", "contradicted"};
+  return words[verdict];
+}
+
+void finding_verdict_text(const finding *f, int verdict, char *text, int size)
+{
+  snprintf(text, (size_t)size, "%s", finding_word(verdict));
+  if (verdict == FINDING_HOLDS_WHEN)
+    say(text, size, " %s%s%s", f->condition, *f->where ? " " : "", f->where);
 }
 
 void finding_evidence(const finding *f, const char *what, double low, double high, char *text, int size)

@@ -21,6 +21,7 @@ typedef struct finding {
   int n, n_conditioned;
   finding_case at[FINDING_CASES], conditioned[FINDING_CASES];
   char condition[FINDING_TEXT]; /* completes "holds when" */
+  char where[FINDING_TEXT];     /* what of the condition belongs to this actuator alone: "above 40 kPa" */
   char note[FINDING_TEXT];      /* more figures, to follow the values */
 } finding;
 
@@ -28,15 +29,24 @@ typedef struct finding {
 void finding_add(finding *f, double value, const char *label, ...) LAB_PRINTF(3, 4);
 void finding_add_conditioned(finding *f, double value);
 
-/* Append to the words of the condition, to the further figures. */
-void finding_condition(finding *f, const char *format, ...) LAB_PRINTF(2, 3);
-void finding_note(finding *f, const char *format, ...) LAB_PRINTF(2, 3);
+/* Append to one of its texts. */
+void finding_say(char text[FINDING_TEXT], const char *format, ...) LAB_PRINTF(2, 3);
+
+/* Add the cases of another actuator to those of `all`, its name in front; conditions become one sentence. */
+void finding_join(finding *all, const finding *one, const char *name);
 
 /* Verdict where a value passes if it is within low .. high; NaN never passes.
  * Returns: enum finding_verdict; without any case: contradicted. */
 int finding_judge(const finding *f, double low, double high);
 
-/* Words of the verdict: "holds", "holds when <condition>", "contradicted".  Out: text, `size` bytes */
+/* The value that comes nearest to failing, or fails by most, to four digits after the point: the largest where there
+ * is an upper limit only, the least where there is a lower one only, the first where there are both. */
+double finding_worst(const finding *f, double low, double high);
+
+/* One of "holds", "holds when", "contradicted". */
+const char *finding_word(int verdict);
+
+/* Words of the verdict: "holds", "holds when <condition> <where>", "contradicted".  Out: text, `size` bytes */
 void finding_verdict_text(const finding *f, int verdict, char *text, int size);
 
 /* One sentence: what was measured, the values with their labels, what is claimed of them, further figures.

@@ -2,7 +2,62 @@
 
 #include <math.h>
 
+#include "benchscan.h"
+#include "linearflow.h"
+#include "products.h"
 #include "stroke.h"
+
+/* ---- What is taken away ---- */
+
+/* H1: the rate of the spring. The force that it has at mid-travel stays, in its one direction, whatever the position. A
+ * hundredth of the rate is left, so that a bench set exists. */
+static void without_rate(pneu_params *p, pneu_laws *laws)
+{
+  const double middle = p->spring_rate * (p->spring_preload + p->stroke / 2);
+  (void)laws;
+  p->spring_rate /= 100;
+  p->spring_preload = fmin(middle / p->spring_rate - p->stroke / 2, 1.0);
+  p->external_force = middle - p->spring_rate * (p->spring_preload + p->stroke / 2);
+}
+
+/* H2: no more force at rest than brings the stem home against friction. */
+static void without_preload(pneu_params *p, pneu_laws *laws)
+{
+  (void)laws;
+  p->spring_preload = 1.25 * p->dry_friction / p->spring_rate;
+}
+
+/* H3: no upper limiter: supply and spring end the travel. */
+static void without_limiter(pneu_params *p, pneu_laws *laws)
+{
+  (void)laws;
+  p->stroke = 2 * p->supply_pressure * p->area / p->spring_rate;
+}
+
+/* H4: the bench set in the middle of the supply range, where neither stroke is favoured. */
+static void without_bench_offset(pneu_params *p, pneu_laws *laws)
+{
+  (void)laws;
+  p->spring_preload = p->supply_pressure / 2 * p->area / p->spring_rate - p->stroke / 2;
+}
+
+/* H5: the vent is as wide as the fill. */
+static void without_unequal_orifices(pneu_params *p, pneu_laws *laws)
+{
+  (void)laws;
+  p->vent_area = p->fill_area;
+}
+
+/* H6: filling and venting are made the same process: flow in proportion to the pressure difference whatever the
+ * density, the volume of mid-travel throughout, no change of temperature. The bench set stays where it is: it belongs
+ * to the spring and to H4. */
+static void without_air_process(pneu_params *p, pneu_laws *laws)
+{
+  p->dead_volume += p->area * p->stroke / 2;
+  p->swept_ratio = 0;
+  laws->gas = PNEU_GAS_ISOTHERMAL;
+  laws->flow = LINEAR_FLOW;
+}
 
 /* ---- What is varied: figures 15 to 19 ---- */
 
@@ -29,12 +84,11 @@ static void vary_travel(const study *s, double value, pneu_params *p)
   p->stroke *= value;
 }
 
-/* H4: class of bench set, from 1; the spring follows from it: k = A (p_h - p_l)/travel, x_0 = p_l A/k. */
+/* H4: class of bench set, from 1. */
 static void vary_bench(const study *s, double value, pneu_params *p)
 {
   const study_bench *bench = &s->bench[(int)value - 1];
-  p->spring_rate = p->area * (bench->high - bench->low) / p->stroke;
-  p->spring_preload = p->area * bench->low / p->spring_rate;
+  *p = bench_params(p, bench->low, bench->high - bench->low);
 }
 
 /* H5: C/C0 of both orifices. */
@@ -45,27 +99,21 @@ static void vary_orifices(const study *s, double value, pneu_params *p)
   p->vent_area *= value;
 }
 
-typedef struct variation {
-  const char *file, *unit; /* of the column; the scale brings SI to it */
-  double scale;
-  void (*apply)(const study *s, double value, pneu_params *p);
-} variation;
+const hypothesis hypotheses[HYPOTHESES] = {
+    [H1_RATE] = {"H1", "rate of the spring", "not confirmed", without_rate, vary_rate, 1e-3},
+    [H2_PRELOAD] = {"H2", "preload of the spring", "not confirmed", without_preload, vary_preload, 1},
+    [H3_LIMITER] = {"H3", "travel limiters", "not confirmed", without_limiter, vary_travel, 100},
+    [H4_BENCH_OFFSET] = {"H4", "place of the bench set", "not confirmed", without_bench_offset, vary_bench, 1},
+    [H5_UNEQUAL_ORIFICES] = {"H5", "unequal fill and vent", "not confirmed", without_unequal_orifices, vary_orifices,
+                             1},
+    [H6_AIR_PROCESS] = {"H6", "different air processes", "confirmed", without_air_process, NULL, 0}};
 
-static const variation variations[5] = {{"fig15.csv", "kN/m", 1e-3, vary_rate},
-                                        {"fig16.csv", "N", 1, vary_preload},
-                                        {"fig17.csv", "%", 100, vary_travel},
-                                        {"fig18.csv", "class", 1, vary_bench},
-                                        {"fig19.csv", "C/C0", 1, vary_orifices}};
-enum { BENCHES = 3 };
+enum { VARIED = H5_UNEQUAL_ORIFICES + 1, INFLUENCE = VARIED, MEASURES = 4 };
 
 static study_range range_of(const study *s, int which)
 {
-  study_range range = s->range[which];
-  if (which == BENCHES) {
-    range.from = 1;
-    range.to = range.points = s->n_benches;
-  }
-  return range;
+  const study_range benches = {1, s->n_benches, s->n_benches};
+  return which == H4_BENCH_OFFSET ? benches : s->range[which];
 }
 
 static double value_at(const study_range *range, int i)
@@ -73,62 +121,63 @@ static double value_at(const study_range *range, int i)
   return range->points < 2 ? range->from : range->from + (range->to - range->from) * i / (range->points - 1);
 }
 
-/* One point in one law; a stroke that does not come back has no measures and stays in the table as a gap. */
-static int measure_point(const study *s, const variation *v, double value, int gas, int flow, lab_asymmetry *r,
-                         lab_error *error)
+/* One point; a stroke that does not come back has no measures and stays in the table as a gap. */
+static int measure_point(const study_cell *c, int which, double value, double measure[MEASURES], lab_error *error)
 {
-  const lab_rig *rig = &s->actuator[s->subject];
-  pneu_params p = rig->params;
-  const pneu_laws laws = study_laws(rig, gas, flow);
+  lab_asymmetry r = {.T1 = NAN, .T2 = NAN, .asymmetry = NAN, .asymmetry_signed = NAN};
+  pneu_params p = c->rig->params;
   int status;
-  v->apply(s, value, &p);
-  status = stroke_measure(&p, &laws, r, error);
-  if (status == LAB_DATA) {
-    r->T1 = r->T2 = r->asymmetry = NAN;
-    return LAB_OK;
-  }
-  return status;
+  hypotheses[which].vary(c->s, value, &p);
+  status = stroke_measure(&p, &p, &c->laws, &r, error);
+  measure[0] = r.T1;
+  measure[1] = r.T2;
+  measure[2] = r.asymmetry;
+  measure[3] = r.asymmetry_signed;
+  return status == LAB_DATA ? LAB_OK : status;
 }
 
-static int sweep_one(const study *s, int which, lab_error *error)
+/* One figure in one law, and the smallest and the largest of each measure; gaps do not count. */
+static int vary(const study_cell *c, int which, table *figure, table *influence, lab_error *error)
 {
-  enum { POINT_MAX = 10000 };
-  static lab_asymmetry result[POINT_MAX];
-  const variation *v = &variations[which];
-  const study_range range = range_of(s, which);
-  const int laws = s->n_gas * s->n_flow, n = range.points * laws;
-  int i, status = LAB_OK;
-  table t;
-  if (n > POINT_MAX)
-    return lab_fail(error, LAB_DATA, "%s: more than %d points in a figure", s->file, (int)POINT_MAX);
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++) {
-    const int law = i % laws;
-    lab_error mine;
-    const int at = measure_point(s, v, value_at(&range, i / laws), s->gas[law / s->n_flow], s->flow[law % s->n_flow],
-                                 &result[i], &mine);
-    if (at != LAB_OK) {
-#pragma omp critical(sweep_error)
-      *error = mine, status = at;
+  const study_range range = range_of(c->s, which);
+  double low[MEASURES] = {NAN, NAN, NAN, NAN}, high[MEASURES] = {NAN, NAN, NAN, NAN};
+  int i, k;
+  for (i = 0; i < range.points; i++) {
+    const double value = value_at(&range, i);
+    double m[MEASURES];
+    if (measure_point(c, which, value, m, error))
+      return error->status;
+    for (k = 0; k < MEASURES; k++) {
+      low[k] = fmin(low[k], m[k]);
+      high[k] = fmax(high[k], m[k]);
     }
+    if (c->actuator == c->s->subject)
+      table_row(figure, "gssgggg", value * hypotheses[which].scale, c->gas, c->flow, m[0], m[1], m[2], m[3]);
   }
-  if (status != LAB_OK)
-    return status;
-  table_open(&t, "variable,gas,flow,T1_s,T2_s,asymmetry");
-  for (i = 0; i < n; i++) {
-    const int law = i % laws;
-    table_row(&t, "gssggg", value_at(&range, i / laws) * v->scale, pneu_gas_key(s->gas[law / s->n_flow]),
-              pneu_flow_key(s->flow[law % s->n_flow]), result[i].T1, result[i].T2, result[i].asymmetry);
-  }
-  status = study_save(s, v->file, &t, error);
-  table_close(&t);
-  return status;
+  table_row(influence, "ssssgggggggg", c->rig->name, hypotheses[which].name, c->gas, c->flow, low[0], high[0], low[1],
+            high[1], low[2], high[2], low[3], high[3]);
+  return LAB_OK;
 }
 
-int hypotheses_sweep(const study *s, lab_error *error)
+static int sweep_rows(const study_cell *c, table *t, lab_error *error)
 {
-  int which, status = LAB_OK;
-  for (which = 0; which < 5 && status == LAB_OK; which++)
-    status = sweep_one(s, which, error);
-  return status;
+  int which;
+  for (which = 0; which < VARIED; which++)
+    if (vary(c, which, &t[which], &t[INFLUENCE], error))
+      return error->status;
+  return LAB_OK;
 }
+
+static const char figure_header[] = "variable,gas,flow,T1_s,T2_s,asymmetry,asymmetry_signed";
+
+const study_tables sweeps = {{STUDY_SUBJECT_AND_TWIN, STUDY_EVERY_LAW},
+                             sweep_rows,
+                             {{"fig15.csv", figure_header, STUDY_BY_ROW, STUDY_WHOLE, 0},
+                              {"fig16.csv", figure_header, STUDY_BY_ROW, STUDY_WHOLE, 0},
+                              {"fig17.csv", figure_header, STUDY_BY_ROW, STUDY_WHOLE, 0},
+                              {"fig18.csv", figure_header, STUDY_BY_ROW, STUDY_WHOLE, 0},
+                              {"fig19.csv", figure_header, STUDY_BY_ROW, STUDY_WHOLE, 0},
+                              {"influence.csv",
+                               "actuator,hypothesis,gas,flow,T1_min_s,T1_max_s,T2_min_s,T2_max_s,asymmetry_min,"
+                               "asymmetry_max,asymmetry_signed_min,asymmetry_signed_max",
+                               STUDY_BY_ROW, STUDY_WHOLE, 0}}};

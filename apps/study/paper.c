@@ -9,23 +9,27 @@ enum { HALVINGS = 60, PANELS = 200 };
 #define STROKE_FROM 0.05 /* part of the travel that a stroke is timed over: 5 % to 95 % */
 #define STROKE_TO   0.95
 
-const paper_constant paper_constants[PAPER_CONSTANT_COUNT] = {
-#define X(name, value, unit, where) {#name, value, unit, where},
-    PAPER_CONSTANT_LIST(X)
-#undef X
-};
+const paper_constants paper = {.gas_constant = 8.31446,
+                               .molar_mass = 0.02896,
+                               .ambient = 101325.0,
+                               .heat_ratio = 1.4,
+                               .temperature = 298.15,
+                               .mass = 2.0,
+                               .viscous = 500.0,
+                               .damping = 1000.0,
+                               .example_ambient = 100e3,
+                               .example_supply = 400e3,
+                               .typical_low = 140e3,
+                               .typical_high = 800e3};
 
-static double constant(int id)
-{
-  return paper_constants[id].value;
-}
+/* In the order of the struct. */
+const paper_actuator paper_actuators[PAPER_ACTUATOR_COUNT] = {
+    {"r1-400", 0.04, 2e-6, 0.02, 400e3, 0.01, 400e3, 80e3, 240e3, 0.893e-6, 480.0},
+    {"37-13", 0.0677, 4e-6, 38.1e-3, 120e3, 7.62e-3, 140e3, 20e3, 100e3, 2.177e-6, 480.0}};
 
 /* ---- Flow laws ---- */
 
-const paper_law paper_laws[PAPER_LAW_COUNT] = {
-    {"paper", paper_flow_unchoked},
-    {"choked", paper_flow_choked},
-};
+const paper_law paper_laws[PAPER_LAW_COUNT] = {{"paper", paper_flow_unchoked}, {"choked", paper_flow_choked}};
 
 double paper_flow_unchoked(double P_up, double P_dn)
 {
@@ -35,14 +39,14 @@ double paper_flow_unchoked(double P_up, double P_dn)
 /* (2/(g+1))^(g/(g-1)) */
 double paper_choking_ratio(void)
 {
-  double g = constant(PAPER_HEAT_RATIO);
+  double g = paper.heat_ratio;
   return pow(2.0 / (g + 1.0), g / (g - 1.0));
 }
 
 /* m' sqrt(RT)/(C a P_up) = sqrt(2 g/(g-1) (r^(2/g) - r^((g+1)/g))); the paper's unit takes sqrt(2) out */
 double paper_flow_choked(double P_up, double P_dn)
 {
-  double g = constant(PAPER_HEAT_RATIO);
+  double g = paper.heat_ratio;
   double r = fmax(P_dn / P_up, paper_choking_ratio());
   return P_up * sqrt(g / (g - 1.0) * (pow(r, 2.0 / g) - pow(r, (g + 1.0) / g)));
 }
@@ -93,7 +97,7 @@ double paper_supply_threshold(double c)
 
 double paper_speed_scale(double orifice, double area, double temperature)
 {
-  return orifice / area * sqrt(2.0 * constant(PAPER_GAS_CONSTANT) * temperature / constant(PAPER_MOLAR_MASS));
+  return orifice / area * sqrt(2.0 * paper.gas_constant * temperature / paper.molar_mass);
 }
 
 /* ---- Energy ---- */
@@ -110,26 +114,6 @@ double paper_exergy_efficiency(double p_s, double P_a)
 }
 
 /* ---- Spring-loaded stem ---- */
-
-paper_actuator paper_actuator_printed(int which)
-{
-  static const struct {
-    const char *key;
-    int id[9];
-  } rows[PAPER_ACTUATOR_COUNT] = {
-      {"r1-400",
-       {PAPER_R1_AREA, PAPER_R1_DEAD_VOLUME, PAPER_R1_TRAVEL, PAPER_R1_RATE, PAPER_R1_PRELOAD, PAPER_R1_SUPPLY,
-        PAPER_SPRINGS_6_LOW, PAPER_R1_BENCH_HIGH, PAPER_R1_ORIFICE}},
-      {"37-13",
-       {PAPER_M37_AREA, PAPER_M37_DEAD_VOLUME, PAPER_M37_TRAVEL, PAPER_M37_RATE, PAPER_M37_PRELOAD, PAPER_M37_SUPPLY,
-        PAPER_M37_BENCH_LOW, PAPER_M37_BENCH_HIGH, PAPER_M37_ORIFICE}},
-  };
-  const int *id = rows[which].id;
-  paper_actuator a = {rows[which].key, constant(id[0]), constant(id[1]),         constant(id[2]),
-                      constant(id[3]), constant(id[4]), constant(id[5]),         constant(id[6]),
-                      constant(id[7]), constant(id[8]), constant(PAPER_FRICTION)};
-  return a;
-}
 
 paper_actuator paper_actuator_with_bench(const paper_actuator *base, double p_bl, double p_bh)
 {
@@ -186,7 +170,7 @@ double paper_stroke_time(const paper_case *c, int direction)
   const paper_actuator *a = &c->actuator;
   double time[PANELS + 1];
   stroke_times(c, direction, time);
-  return time[PANELS] / paper_speed_scale(a->orifice, a->area, constant(PAPER_TEMPERATURE));
+  return time[PANELS] / paper_speed_scale(a->orifice, a->area, paper.temperature);
 }
 
 double paper_asymmetry(const paper_case *c)

@@ -8,82 +8,17 @@
 #ifndef STUDY_PAPER_H
 #define STUDY_PAPER_H
 
-#include <stddef.h>
-
 #include "table.h"
 
-/* clang-format off */
-/* Numbers that the paper prints and that the formulae start from, in SI.
- *    name              value        unit         where */
-#define PAPER_CONSTANT_LIST(X) \
-  X(GAS_CONSTANT,       8.31446,     "J/(K mol)", "Table A1, 1") \
-  X(MOLAR_MASS,         0.02896,     "kg/mol",    "Table A1, 2") \
-  X(AMBIENT,            101325.0,    "Pa",        "Table A1, 3") \
-  X(HEAT_RATIO,         1.4,         "1",         "Table A1, 4") \
-  X(TEMPERATURE,        298.15,      "K",         "Table A1, 5") \
-  X(R1_VOLUME,          0.8e-3,      "m3",        "Table A1, 6") \
-  X(R1_DEAD_VOLUME,     2e-6,        "m3",        "Table A1, 7") \
-  X(R1_AREA,            0.04,        "m2",        "Table A1, 8") \
-  X(R1_PRELOAD,         0.01,        "m",         "Table A1, 9") \
-  X(R1_TRAVEL,          0.02,        "m",         "Table A1, 10") \
-  X(R1_SUPPLY,          400e3,       "Pa",        "Table A1, 11") \
-  X(R1_BENCH_HIGH,      240e3,       "Pa",        "Table A1, 12") \
-  X(R1_RATE,            400e3,       "N/m",       "Table A1, 13") \
-  X(M37_VOLUME,         2.581e-3,    "m3",        "Table A1, 14") \
-  X(M37_DEAD_VOLUME,    4e-6,        "m3",        "Table A1, 15") \
-  X(M37_AREA,           0.0677,      "m2",        "Table A1, 16") \
-  X(M37_PRELOAD,        7.62e-3,     "m",         "Table A1, 17") \
-  X(M37_TRAVEL,         38.1e-3,     "m",         "Table A1, 18") \
-  X(M37_SUPPLY,         140e3,       "Pa",        "Table A1, 19") \
-  X(M37_BENCH_LOW,      20e3,        "Pa",        "Table A1, 20") \
-  X(M37_BENCH_HIGH,     100e3,       "Pa",        "Table A1, 20") \
-  X(M37_RATE,           120e3,       "N/m",       "Table A1, 21") \
-  X(MASS,               2.0,         "kg",        "Table A1, 22") \
-  X(FRICTION,           480.0,       "N",         "Table A1, 23") \
-  X(VISCOUS,            500.0,       "N s/m",     "Table A1, 24") \
-  X(R1_ORIFICE,         0.893e-6,    "m2",        "Table A1, 25") \
-  X(M37_ORIFICE,        2.177e-6,    "m2",        "Table A1, 26") \
-  X(DAMPING,            1000.0,      "N s/m",     "Table A1, 27") \
-  X(SPRINGS_3_LOW,      20e3,        "Pa",        "Table 1") \
-  X(SPRINGS_3_HIGH,     100e3,       "Pa",        "Table 1") \
-  X(SPRINGS_6_LOW,      80e3,        "Pa",        "Table 1") \
-  X(SPRINGS_6_HIGH,     240e3,       "Pa",        "Table 1") \
-  X(SPRINGS_12_LOW,     180e3,       "Pa",        "Table 1") \
-  X(SPRINGS_12_HIGH,    380e3,       "Pa",        "Table 1") \
-  X(CHANGE_3,           0.290,       "1",         "Table 1, without its sign") \
-  X(CHANGE_6,           0.200,       "1",         "Table 1, without its sign") \
-  X(CHANGE_12,          0.175,       "1",         "Table 1, without its sign") \
-  X(EXAMPLE_AMBIENT,    100e3,       "Pa",        "Example 1") \
-  X(EXAMPLE_SUPPLY,     400e3,       "Pa",        "Example 2") \
-  X(TYPICAL_LOW,        140e3,       "Pa",        "text before Fig. 8") \
-  X(TYPICAL_HIGH,       800e3,       "Pa",        "text before Fig. 8") \
-  X(FLAT_FROM,          5.0,         "1",         "text before Fig. 6") \
-  X(PRELOAD_FORCE,      4000.0,      "N",         "hypothesis 2") \
-  X(CLASS_1_LOW,        80e3,        "Pa",        "Fig. 18") \
-  X(CLASS_1_HIGH,       240e3,       "Pa",        "Fig. 18") \
-  X(CLASS_2_LOW,        120e3,       "Pa",        "Fig. 18") \
-  X(CLASS_2_HIGH,       280e3,       "Pa",        "Fig. 18") \
-  X(CLASS_3_LOW,        160e3,       "Pa",        "Fig. 18") \
-  X(CLASS_3_HIGH,       320e3,       "Pa",        "Fig. 18") \
-  X(CLASS_4_LOW,        200e3,       "Pa",        "Fig. 18") \
-  X(CLASS_4_HIGH,       360e3,       "Pa",        "Fig. 18")
+/* Numbers that the paper prints and that the formulae start from, SI. */
+typedef struct paper_constants {
+  double gas_constant, molar_mass, ambient, heat_ratio, temperature; /* Table A1, 1 to 5 */
+  double mass, viscous, damping;                                     /* Table A1, 22, 24, 27 */
+  double example_ambient, example_supply;                            /* Examples 1 and 2 */
+  double typical_low, typical_high;                                  /* supplies, text before Fig. 8 */
+} paper_constants;
 
-/* clang-format on */
-
-enum paper_constant_id {
-#define X(name, value, unit, where) PAPER_##name,
-  PAPER_CONSTANT_LIST(X)
-#undef X
-      PAPER_CONSTANT_COUNT
-};
-
-typedef struct paper_constant {
-  const char *name;
-  double value; /* SI */
-  const char *unit, *where;
-} paper_constant;
-
-extern const paper_constant paper_constants[PAPER_CONSTANT_COUNT];
+extern const paper_constants paper;
 
 /* ---- Flow laws ---- */
 
@@ -159,11 +94,11 @@ typedef struct paper_actuator {
 
 enum { PAPER_R1_400, PAPER_37_13, PAPER_ACTUATOR_COUNT };
 
-/* Actuator of Table A1 with its spring as printed; the bench set of the R1-400 is the 80..240 kPa
- * of Table 1, as Table A1 misprints it. */
-paper_actuator paper_actuator_printed(int which);
+/* Table A1 with springs as printed; the bench set of the R1-400 is the 80..240 kPa of Table 1, as Table A1 misprints
+ * it. */
+extern const paper_actuator paper_actuators[PAPER_ACTUATOR_COUNT];
 
-/* The same actuator with the spring rate and preload that a bench set implies (PAPER.md 8.1):
+/* An actuator with the spring rate and preload that a bench set implies (PAPER.md 8.1):
  * k = A (p_bh - p_bl)/x_n, x_0 = p_bl A/k.  In: base; p_bl < p_bh [Pa] */
 paper_actuator paper_actuator_with_bench(const paper_actuator *base, double p_bl, double p_bh);
 
@@ -197,25 +132,7 @@ double paper_asymmetry(const paper_case *c);
  * between 0 and the highest that the supply can move; NaN if there is none. */
 double paper_symmetric_bench(const paper_case *c);
 
-/* ---- Rows of results/paper_numbers.csv ---- */
-
-/* One number or claim of the paper beside ours. */
-typedef struct paper_row {
-  const char *item, *quantity, *unit;
-  double printed;     /* NaN: a claim without a number */
-  double computed;    /* NaN: a matter of form, without a number */
-  const char *agrees; /* "yes", "no", "rounding" */
-  const char *note;
-  const char *kind, *cause; /* of a "no": "arithmetic", "derivation", "data" or "modelling", and what it comes from;
-                               several rows may share a cause. "" of the others */
-} paper_row;
-
-/* Fill at most `room` rows.  Returns: how many there are in all; rows may be NULL if room is 0. */
-size_t paper_numbers(paper_row *rows, size_t room);
-
-/* Append one row, ours or that of a simulation, to a table opened with PAPER_ROW_HEADER. */
-#define PAPER_ROW_HEADER "item,quantity,unit,printed,computed,agrees,note,kind,cause"
-void paper_row_add(table *t, const paper_row *row);
+/* ---- Tables; each is opened here, the caller closes it ---- */
 
 /* Verdict on a printed number.
  * In:      digit  unit of its last digit
@@ -223,12 +140,16 @@ void paper_row_add(table *t, const paper_row *row);
  * Returns: "yes" within half a digit, "rounding" within slack beyond that, else "no" (also for NaN). */
 const char *paper_agreement(double printed, double computed, double digit, double slack);
 
-/* ---- Tables of figures 5 to 8; each opens t, the caller closes it ---- */
+/* Every number or claim of the paper beside ours. A row that tests no statement of the paper is an aside and not
+ * counted; one that disagrees has a kind ("arithmetic", "derivation", "data", "modelling"), a cause, which several rows
+ * may share, and a severity: what it changes, "conclusion", "number" or "form". */
+void paper_numbers_table(table *t);
 
-void paper_numbers_table(table *t); /* every row of paper_numbers */
-void paper_fig05(table *t);         /* velocity of the leading edge over P_1/P_2, R1-400 */
-void paper_fig06(table *t);         /* velocity of the falling edge over p/p_a, and that of the spring-loaded stem */
-void paper_fig07(table *t);         /* p/p_s where both edges are equally fast, over p_a/p_s */
-void paper_fig08(table *t);         /* the same over p_s/p_a, with the asymptote */
+enum { PAPER_FIG05, PAPER_FIG06, PAPER_FIG07, PAPER_FIG08, PAPER_FIGURES };
+
+/* The curves of figures 5 to 8: velocity of the leading edge over P_1/P_2; of the falling one over p/p_a, and that of
+ * the spring-loaded stem; p/p_s where both edges are equally fast, over p_a/p_s, and over p_s/p_a with the asymptote.
+ */
+void paper_figure(int which, table *t);
 
 #endif

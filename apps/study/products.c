@@ -3,65 +3,156 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <unistd.h>
+
 #include "../lab/base/checksum.h"
 #include "../lab/base/gnuplot.h"
 #include "../lab/base/outfile.h"
 #include "../lab/base/progress.h"
-#include "agreement.h"
-#include "attribution.h"
-#include "conclusions.h"
-#include "done.h"
-#include "hypotheses.h"
-#include "measured_products.h"
-#include "numbers.h"
-#include "report.h"
-#include "responses.h"
-#include "springair.h"
-#include "verdicts.h"
+#include "paper.h"
+
+/* fig05.csv to fig08.csv and paper_numbers.csv: what follows from closed forms. */
+static int numbers_make(const study *s, lab_error *error)
+{
+  static const char *const files[] = {"fig05.csv", "fig06.csv", "fig07.csv", "fig08.csv", "paper_numbers.csv"};
+  int i, status = LAB_OK;
+  for (i = 0; i <= PAPER_FIGURES && status == LAB_OK; i++) {
+    table t;
+    if (i < PAPER_FIGURES)
+      paper_figure(i, &t);
+    else
+      paper_numbers_table(&t);
+    status = study_save(s, files[i], &t, error);
+    table_close(&t);
+  }
+  return status;
+}
 
 /* Tables, in order of need: the report reads the others. */
-static const struct {
+static const struct product {
   const char *name;
+  const study_tables *tables; /* or */
   int (*make)(const study *s, lab_error *error);
-} tables[] = {
-    {"standard", responses_standard},   {"steps", responses_steps},          {"static", responses_static},
-    {"numbers", numbers_make},          {"sweeps", hypotheses_sweep},        {"hypotheses", verdicts_make},
-    {"spring_and_air", springair_make}, {"attribution", attribution_make},   {"conclusions", conclusions_make},
-    {"agreement", agreement_make},      {"vessel", measured_vessel_product}, {"servomotor", measured_damadics_product}};
+} products[] = {{"steps", &step_responses, NULL},
+                {"static", &static_characteristic, NULL},
+                {"numbers", NULL, numbers_make},
+                {"sweeps", &sweeps, NULL},
+                {"hypotheses", &verdicts, NULL},
+                {"spring_and_air", &spring_and_air, NULL},
+                {"directions", &directions, NULL},
+                {"edges", &edges, NULL},
+                {"measured_edges", NULL, edges_measured},
+                {"attribution", &attribution, NULL},
+                {"conclusions", NULL, conclusions_make},
+                {"agreement", &agreement, NULL},
+                {"report", NULL, report_make}};
 
-/* Figures: study/figures/<name>.gp draws <name>.svg from the table <needs>. */
-static const struct {
-  const char *name, *needs;
-} figures[] = {{"fig04", "fig04.csv"},
-               {"fig05", "fig05.csv"},
-               {"fig06", "fig06.csv"},
-               {"fig07", "fig07.csv"},
-               {"fig08", "fig08.csv"},
-               {"fig11", "fig11.csv"},
-               {"fig13", "fig13.csv"},
-               {"fig14", "fig14.csv"},
-               {"fig15", "fig15.csv"},
-               {"fig16", "fig16.csv"},
-               {"fig17", "fig17.csv"},
-               {"fig18", "fig18.csv"},
-               {"fig19", "fig19.csv"},
-               {"hypotheses", "hypotheses.csv"},
-               {"attribution", "attribution.csv"},
-               {"work_precision", "work_precision.csv"},
-               {"measured_vessel", "measured_vessel_curves.csv"},
-               {"measured_damadics", "measured_damadics_static.csv"}};
+/* Figures: study/figures/<name>.gp draws <name>.svg where there is <name>.csv. */
+static const char *const figures[] = {"fig04", "fig05",      "fig06",       "fig07",         "fig08", "fig11",
+                                      "fig13", "fig14",      "fig15",       "fig16",         "fig17", "fig18",
+                                      "fig19", "hypotheses", "attribution", "work_precision"};
 
-enum { TABLES = sizeof tables / sizeof *tables, FIGURES = sizeof figures / sizeof *figures };
+enum { PRODUCTS = sizeof products / sizeof *products, FIGURES = sizeof figures / sizeof *figures };
+enum { DONE_MAX = 128, PATH_TEXT = STUDY_PATH_TEXT + 2048 };
+
+/* A line of the record: what has been made, from what. */
+typedef struct done {
+  char product[64];
+  unsigned long long key;
+  study_saved files; /* in the folder */
+} done;
 
 typedef struct maker {
   study *s;
   const study_run *run;
-  done record;
+  int n_done, count;
+  done done[DONE_MAX];
   study_saved saved;
-  uint64_t inputs; /* of every table: program and configuration */
+  uint64_t inputs; /* of every product: program and configuration */
   lab_progress progress;
-  int count;
 } maker;
+
+static const char *path_in(const maker *m, const char *name, char path[PATH_TEXT])
+{
+  snprintf(path, PATH_TEXT, "%s/%s", m->s->results, name);
+  return path;
+}
+
+/* ---- The record ---- */
+
+static void read_record(maker *m)
+{
+  char text[PATH_TEXT];
+  FILE *file;
+  remove(path_in(m, ".done.part", text)); /* of a run that was killed while it wrote the record */
+  file = fopen(path_in(m, ".done", text), "r");
+  while (file && m->n_done < DONE_MAX && fgets(text, sizeof text, file)) {
+    done *line = &m->done[m->n_done];
+    m->n_done += sscanf(text, "%63s %llx %2047[^\n]", line->product, &line->key, line->files.names) == 3;
+  }
+  if (file)
+    fclose(file);
+}
+
+static int write_record(const maker *m, lab_error *error)
+{
+  char path[PATH_TEXT];
+  lab_outfile out;
+  int i;
+  if (lab_out_open(&out, path_in(m, ".done", path), error))
+    return error->status;
+  for (i = 0; i < m->n_done; i++)
+    fprintf(out.file, "%s %llx %s\n", m->done[i].product, m->done[i].key, m->done[i].files.names);
+  return lab_out_close(&out, error);
+}
+
+/* Its line; the end of the record where there is none. */
+static int find(const maker *m, const char *product)
+{
+  int i;
+  for (i = 0; i < m->n_done && strcmp(m->done[i].product, product) != 0; i++)
+    ;
+  return i;
+}
+
+/* Whether a product was made with this key and all its files are still there. */
+static int is_fresh(const maker *m, const char *product, uint64_t key)
+{
+  const done *line = &m->done[find(m, product)];
+  char names[sizeof line->files.names], path[PATH_TEXT], *name;
+  if (m->run->force || line == m->done + m->n_done || line->key != key)
+    return 0;
+  strcpy(names, line->files.names);
+  for (name = strtok(names, " "); name; name = strtok(NULL, " "))
+    if (access(path_in(m, name, path), R_OK))
+      return 0;
+  return 1;
+}
+
+/* Forget a product that is about to be made again, lest an end in the midst of it leave a record that is not true. */
+static int forget(maker *m, const char *product, lab_error *error)
+{
+  const int i = find(m, product);
+  if (i == m->n_done)
+    return LAB_OK;
+  m->done[i] = m->done[--m->n_done];
+  return write_record(m, error);
+}
+
+/* Note that a product has been made; one that has saved nothing is made again next time. */
+static int note(maker *m, const char *product, uint64_t key, lab_error *error)
+{
+  done *line = &m->done[m->n_done];
+  if (!m->saved.names[0] || m->n_done == DONE_MAX)
+    return LAB_OK;
+  snprintf(line->product, sizeof line->product, "%s", product);
+  line->key = key;
+  line->files = m->saved;
+  m->n_done++;
+  return write_record(m, error);
+}
+
+/* ---- Making ---- */
 
 static uint64_t hash_inputs(const study *s)
 {
@@ -73,83 +164,52 @@ static uint64_t hash_inputs(const study *s)
   return lab_checksum_text(key, s->measured);
 }
 
-static int is_fresh(const maker *m, const char *name, uint64_t key)
+static int make_table(maker *m, const struct product *p, lab_error *error)
 {
-  return !m->run->force && done_is_fresh(&m->record, name, key);
-}
-
-static int step(maker *m)
-{
-  lab_progress_show(&m->progress, ++m->count, TABLES + FIGURES + 1);
-  return LAB_OK;
-}
-
-static int make_table(maker *m, const char *name, int (*make)(const study *, lab_error *), uint64_t key,
-                      lab_error *error)
-{
-  if (is_fresh(m, name, key))
-    return step(m);
+  lab_progress_show(&m->progress, ++m->count, PRODUCTS + FIGURES);
+  if (is_fresh(m, p->name, m->inputs))
+    return LAB_OK;
   m->saved.names[0] = 0;
-  if (done_forget(&m->record, name, error))
+  if (forget(m, p->name, error))
     return error->status;
-  if (make(m->s, error))
-    return lab_fail_in(error, "%s", name);
-  if (m->saved.names[0] && done_note(&m->record, name, key, m->saved.names, error))
-    return error->status;
-  return step(m);
+  if (p->tables ? study_make(m->s, p->tables, error) : p->make(m->s, error))
+    return lab_fail_in(error, "%s", p->name);
+  return note(m, p->name, m->inputs, error);
 }
 
-static int exists(const char *path)
+/* A figure comes from its script, what several of them load, and a table that comes from the inputs, or from elsewhere.
+ */
+static int make_figure(maker *m, const char *name, lab_error *error)
 {
-  FILE *file = fopen(path, "rb");
-  if (file)
-    fclose(file);
-  return file != NULL;
-}
-
-/* What several figures load. */
-static uint64_t hash_shared_scripts(const study *s, int folder)
-{
-  static const char *const shared[] = {"style.gp", "varied.gp"};
-  char path[STUDY_PATH_TEXT];
-  uint64_t key = LAB_CHECKSUM_SEED;
+  const char *const scripts[] = {"style", "varied", name};
+  char folder[STUDY_PATH_TEXT], script[PATH_TEXT], needed[PATH_TEXT], out[PATH_TEXT], product[64], file[64];
+  uint64_t key = m->inputs;
   int i;
-  for (i = 0; i < 2; i++) {
-    snprintf(path, sizeof path, "%.*sfigures/%s", folder, s->file, shared[i]);
-    key = lab_checksum_file(key, path);
+  lab_progress_show(&m->progress, ++m->count, PRODUCTS + FIGURES);
+  study_folder(m->s, folder);
+  for (i = 0; i < 3; i++) {
+    snprintf(script, sizeof script, "%s/figures/%s.gp", folder, scripts[i]);
+    key = lab_checksum_file(key, script);
   }
-  return key;
-}
-
-static int make_figure(maker *m, const char *name, const char *needs, lab_error *error)
-{
-  char script[STUDY_PATH_TEXT], table_path[STUDY_PATH_TEXT + 64], out[STUDY_PATH_TEXT + 64], product[64], file[64];
-  const char *slash = strrchr(m->s->file, '/');
-  const int folder = slash ? (int)(slash - m->s->file) + 1 : 0;
-  uint64_t key;
-  key = hash_shared_scripts(m->s, folder);
-  snprintf(script, sizeof script, "%.*sfigures/%s.gp", folder, m->s->file, name);
-  snprintf(table_path, sizeof table_path, "%s/%s", m->s->results, needs);
-  snprintf(file, sizeof file, "%s.svg", name);
-  snprintf(out, sizeof out, "%s/%s", m->s->results, file);
+  snprintf(file, sizeof file, "%s.csv", name);
+  key = lab_checksum_file(key, path_in(m, file, needed));
   snprintf(product, sizeof product, "figure-%s", name);
-  key = lab_checksum_file(lab_checksum_file(key, script), table_path);
-  if (!exists(table_path) || is_fresh(m, product, key))
-    return step(m);
-  if (done_forget(&m->record, product, error) || lab_gnuplot_draw(script, m->s->results, out, error) ||
-      done_note(&m->record, product, key, file, error))
+  if (access(needed, R_OK) || is_fresh(m, product, key))
+    return LAB_OK;
+  snprintf(m->saved.names, sizeof m->saved.names, "%s.svg", name);
+  if (forget(m, product, error) || lab_gnuplot_draw(script, m->s->results, path_in(m, m->saved.names, out), error))
     return error->status;
-  return step(m);
+  return note(m, product, key, error);
 }
 
 static int make_all(maker *m, lab_error *error)
 {
   int i, status = LAB_OK;
-  for (i = 0; i < TABLES && status == LAB_OK; i++)
-    status = make_table(m, tables[i].name, tables[i].make, m->inputs, error);
+  for (i = 0; i < PRODUCTS - 1 && status == LAB_OK; i++)
+    status = make_table(m, &products[i], error);
   for (i = 0; m->run->figures && i < FIGURES && status == LAB_OK; i++)
-    status = make_figure(m, figures[i].name, figures[i].needs, error);
-  return status == LAB_OK ? make_table(m, "report", report_make, m->inputs, error) : status;
+    status = make_figure(m, figures[i], error);
+  return status == LAB_OK ? make_table(m, &products[PRODUCTS - 1], error) : status;
 }
 
 int products_make(study *s, const study_run *run, lab_error *error)
@@ -163,7 +223,7 @@ int products_make(study *s, const study_run *run, lab_error *error)
   m.run = run;
   m.inputs = hash_inputs(s);
   s->saved = &m.saved;
-  done_read(&m.record, s->results);
+  read_record(&m);
   lab_progress_begin(&m.progress, "study", run->quiet);
   status = make_all(&m, error);
   lab_progress_end(&m.progress);

@@ -1,232 +1,413 @@
-#include "report.h"
-
+/* REPORT.md of the study, from its tables. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../lab/base/outfile.h"
-#include "report_hypotheses.h"
-#include "report_paper.h"
-#include "reporttext.h"
-#include "tableread.h"
+#include "../lab/base/json.h"
+#include "../lab/base/template.h"
+#include "conclusions.h"
+#include "verdicts.h"
 
-static void introduction(const study *s, FILE *file)
+static const char *const template[] = {
+#include "study/paper/report.md.inc"
+    NULL};
+
+/* Smallest and largest value met. */
+typedef struct span {
+  double low, high;
+} span;
+
+static const span no_span = {HUGE_VAL, -HUGE_VAL};
+
+static void widen(span *of, double value)
 {
-  const lab_rig *rig = &s->actuator[s->subject];
-  fprintf(file,
-          "# The asymmetry of a single-acting actuator, re-examined\n\n"
-          "Made by `make study`; every number comes from a table in this folder. The paper is M. Bartys, \"Dynamics of "
-          "single-action\npneumatic actuators\"; what its equations imply where it prints something else is derived in "
-          "[PAPER.md](../study/PAPER.md).\nThe subject is the %s with the parameters of Table A1 as printed.\n\n"
-          "![Large step up and down](fig13.svg)\n\n",
-          rig->name);
+  of->low = fmin(of->low, value);
+  of->high = fmax(of->high, value);
 }
 
-static int attribution_rows(const study *s, FILE *file, int actuator, lab_error *error)
+/* ---- The study ---- */
+
+static void put_study(const study *s, cJSON *page)
 {
-  const char *name = s->actuator[actuator].name;
-  char path[REPORT_NAME_TEXT];
-  table t;
-  size_t row;
-  report_table_name(s, actuator, "attribution", path);
-  if (table_load(s, path, &t, error) == LAB_OK)
-    for (row = 0; row < table_rows(&t); row++)
-      if (strcmp(table_text(&t, row, "cause"), "remainder") != 0) /* a check of the measure, told before */
-        fprintf(file, "| %s | %s | %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, table_text(&t, row, "gas"),
-                table_text(&t, row, "cause"), 100 * table_number(&t, row, "share"), table_number(&t, row, "shapley"),
-                table_number(&t, row, "asymmetry_alone"), table_number(&t, row, "asymmetry_without"));
-  table_close(&t);
-  return error->status;
+  cJSON *laws = cJSON_AddArrayToObject(page, "laws"), *printed = cJSON_AddArrayToObject(page, "printed");
+  cJSON *actuators = cJSON_AddArrayToObject(page, "actuators");
+  int i;
+  lab_json_put(page, "below", "%.0f", 100 * s->confirmed_below);
+  lab_json_put(page, "n_laws", "%d", s->n_gas * s->n_flow);
+  for (i = 0; i < s->n_gas * s->n_flow; i++)
+    lab_json_say(laws, "%s, %s", pneu_gas_key(s->gas[i / s->n_flow]), pneu_flow_key(s->flow[i % s->n_flow]));
+  for (i = 0; i < s->n_actuators; i++)
+    lab_json_say(actuators, "%s", s->actuator[i].name);
+  for (i = 0; i < s->n_printed; i++)
+    lab_json_say(printed, "%s", s->actuator[i].name);
 }
 
-static int attribution(const study *s, FILE *file, lab_error *error)
+/* ---- The paper's statements, from paper_numbers.csv ---- */
+
+/* A counted row that disagrees. */
+static int disagrees(const table *t, size_t row)
 {
-  int a;
-  fputs(
-      "## Which part of the air process\n\nShapley shares of the asymmetry over all combinations of the causes, from "
-      "the nozzle flow with everything present\nto a linear symmetric conductance into a constant isothermal volume. "
-      "A negative share makes the strokes more alike.\nCauses that bend the strokes in opposite ways hide each other: "
-      "\"alone\" has the cause as the only one present, \"without\" as the only one removed.\n\n"
-      "![Shares of the causes](attribution.svg)\n\n| actuator | chamber law | cause | share | Shapley value | alone | "
-      "without |\n|---|---|---|---|---|---|---|\n",
-      file);
-  for (a = 0; a < s->n_actuators; a++)
-    if (attribution_rows(s, file, a, error))
-      return error->status;
-  fputc('\n', file);
-  return LAB_OK;
+  return table_is(t, row, "counted", "yes") && table_is(t, row, "agrees", "no");
 }
 
-/* "holds when ..." is too long for a column; the condition is in the table. */
-static const char *short_verdict(const char *verdict)
+/* A disagreeing row that no row above equals in two columns. */
+static int is_new(const table *t, size_t row, const char *one, const char *other)
 {
-  return !strncmp(verdict, "holds when", 10) ? "holds when ..." : verdict;
-}
-
-static int conclusions(const study *s, FILE *file, lab_error *error)
-{
-  int i, g, f;
-  size_t row;
-  table t;
-  if (table_load(s, "conclusions.csv", &t, error) == LAB_OK) {
-    fputs("## Eighteen conclusions\n\nThe conditions of \"holds when\" and the evidence for each are in "
-          "[conclusions.csv](conclusions.csv).\n\n| conclusion |",
-          file);
-    report_law_heads(s, file);
-    report_rule(file, 1 + s->n_gas * s->n_flow);
-    for (i = 1; i <= 18; i++) {
-      fprintf(file, "| %d |", i);
-      for (g = 0; g < s->n_gas; g++)
-        for (f = 0; f < s->n_flow; f++)
-          for (row = 0; row < table_rows(&t); row++)
-            if (atoi(table_text(&t, row, "conclusion")) == i &&
-                report_is_law(&t, row, pneu_gas_key(s->gas[g]), pneu_flow_key(s->flow[f])))
-              fprintf(file, " %s |", short_verdict(table_text(&t, row, "verdict")));
-      fputc('\n', file);
-    }
-    fputc('\n', file);
-  }
-  table_close(&t);
-  return error->status;
-}
-
-/* One cell: four digits where it is a number. */
-static void cell(FILE *file, const char *text)
-{
-  char *end;
-  const double value = strtod(text, &end);
-  if (end != text && !*end)
-    fprintf(file, " %.4g |", value);
-  else
-    fprintf(file, " %s |", text);
-}
-
-enum { COLUMNS = 11 };
-
-/* A table to show, where it exists: its columns by name, and words around it. */
-typedef struct shown {
-  const char *file, *before;
-  const char *column[COLUMNS];               /* names in the file; NULL ends */
-  void (*after)(const table *t, FILE *file); /* may be NULL */
-} shown;
-
-/* Smallest and largest value of a column over the rows whose source is, or is not, the one named. */
-static void column_span(const table *t, const char *column, const char *source, int same, double *low, double *high)
-{
-  size_t row;
-  *low = HUGE_VAL;
-  *high = -HUGE_VAL;
-  for (row = 0; row < table_rows(t); row++)
-    if ((strcmp(table_text(t, row, "source"), source) == 0) == same) {
-      *low = fmin(*low, table_number(t, row, column));
-      *high = fmax(*high, table_number(t, row, column));
-    }
-}
-
-/* What the two pairs of steps have in common, and what not. */
-static void compare_steps(const table *t, FILE *file)
-{
-  static const struct {
-    const char *column, *words;
-  } compared[] = {{"asymmetry", "Asymmetry, by the measure used above"}, {"duration_ratio", "Fall over rise"}};
   size_t i;
-  for (i = 0; i < sizeof compared / sizeof *compared; i++) {
-    double low, high, model_low, model_high;
-    column_span(t, compared[i].column, "measured", 1, &low, &high);
-    column_span(t, compared[i].column, "measured", 0, &model_low, &model_high);
-    fprintf(file, "- %s: measured %.3f to %.3f, models %.3f to %.3f.\n", compared[i].words, low, high, model_low,
-            model_high);
-  }
-  fputs(
-      "\nThe measured pair is asymmetric in shape as much as the models are; but its fall is the faster stroke, where "
-      "theirs is the slower\none, and both of its strokes are nearer a first-order lag than an integrator "
-      "([edges](measured_damadics_edges.csv)).\n\n",
-      file);
+  if (!disagrees(t, row))
+    return 0;
+  for (i = 0; i < row; i++)
+    if (disagrees(t, i) && table_is(t, i, one, table_text(t, row, one)) &&
+        table_is(t, i, other, table_text(t, row, other)))
+      return 0;
+  return 1;
 }
 
-static void show(const study *s, FILE *file, const shown *what)
+/* First row of a statement none of whose rows disagrees. */
+static int begins_reproduced(const table *t, size_t row)
 {
-  lab_error ignored;
-  table t;
+  size_t i;
+  if (!table_is(t, row, "counted", "yes"))
+    return 0;
+  for (i = 0; i < table_rows(t); i++)
+    if (table_is(t, i, "statement", table_text(t, row, "statement")) && (i < row || disagrees(t, i)))
+      return 0;
+  return 1;
+}
+
+static int begins_number(const table *t, size_t row)
+{
+  return *table_text(t, row, "printed") && is_new(t, row, "statement", "printed");
+}
+
+/* A cause, the statements that it spoils, and the first number in print among them. */
+static void put_cause(const table *t, size_t first, const char *changes, cJSON *cause)
+{
+  const char *words = table_text(t, first, "cause");
+  cJSON *spoilt = cJSON_AddArrayToObject(cause, "spoilt");
+  size_t row;
+  lab_json_put(cause, "changes", "%s", changes);
+  lab_json_put(cause, "cause", "%s", words);
+  lab_json_put(cause, "kind", "%s", table_text(t, first, "kind"));
+  for (row = first; row < table_rows(t); row++) {
+    if (!table_is(t, row, "cause", words))
+      continue;
+    if (is_new(t, row, "cause", "statement"))
+      lab_json_join(spoilt, "; ", "%s", table_text(t, row, "statement"));
+    if (begins_number(t, row) && !cJSON_GetObjectItem(cause, "first"))
+      lab_json_put(cause, "first", "%.4g, %.4g", table_number(t, row, "printed"), table_number(t, row, "computed"));
+  }
+}
+
+/* What a disagreement changes: the graver first; matters of form are a list. */
+static void put_causes(const table *t, cJSON *page)
+{
+  static const char *const severities[][2] = {{"conclusion", "a conclusion"}, {"number", "a number"}};
+  cJSON *causes = cJSON_AddArrayToObject(page, "causes"), *forms = cJSON_AddArrayToObject(page, "forms");
+  size_t row, k;
+  for (k = 0; k < 2; k++)
+    for (row = 0; row < table_rows(t); row++)
+      if (is_new(t, row, "cause", "cause") && table_is(t, row, "severity", severities[k][0]))
+        put_cause(t, row, severities[k][1], lab_json_append(causes));
+  for (row = 0; row < table_rows(t); row++)
+    if (is_new(t, row, "cause", "cause") && table_is(t, row, "severity", "form"))
+      lab_json_join(forms, "; ", "%s", table_text(t, row, "cause"));
+}
+
+static void put_paper(const study *s, const table *t, cJSON *page)
+{
+  cJSON *reproduced = cJSON_AddArrayToObject(page, "reproduced");
+  int wrong = 0, numbers = 0, causes = 0;
+  size_t row;
+  (void)s;
+  for (row = 0; row < table_rows(t); row++) {
+    wrong += is_new(t, row, "statement", "statement");
+    numbers += begins_number(t, row);
+    causes += is_new(t, row, "cause", "cause");
+    if (begins_reproduced(t, row))
+      lab_json_join(reproduced, "; ", "%s", table_text(t, row, "statement"));
+  }
+  lab_json_put(page, "statements", "%d", cJSON_GetArraySize(reproduced) + wrong);
+  lab_json_put(page, "right", "%d", cJSON_GetArraySize(reproduced));
+  lab_json_put(page, "wrong", "%d", wrong);
+  lab_json_put(page, "numbers", "%d", numbers);
+  lab_json_put(page, "n_causes", "%d", causes);
+  put_causes(t, page);
+}
+
+/* ---- Eq. (1), from eq1.csv and eq1_measured.csv ---- */
+
+/* "0.6 / 4.2 lag": what lag and ramp leave, and which of them the stroke is. */
+static void add_edge(cJSON *cells, const table *t, size_t row, const char *between, const char *name)
+{
+  lab_json_join(cells, between, "%s%.2f / %.2f %s", name, 100 * table_number(t, row, "lag_rms"),
+                100 * table_number(t, row, "ramp_rms"), table_text(t, row, "shape"));
+}
+
+static void put_edges(const study *s, const table *t, cJSON *page)
+{
+  static const char *const strokes[] = {"rise", "fall"};
+  cJSON *list = cJSON_AddArrayToObject(page, "strokes");
   size_t row;
   int i;
-  if (table_load(s, what->file, &t, &ignored) == LAB_OK) {
-    fprintf(file, "%s\n\n|", what->before);
-    for (i = 0; i < COLUMNS && what->column[i]; i++)
-      fprintf(file, " %s |", what->column[i]);
-    fputc('\n', file);
-    report_rule(file, i);
-    for (row = 0; row < table_rows(&t); row++) {
-      fputc('|', file);
-      for (i = 0; i < COLUMNS && what->column[i]; i++)
-        cell(file, table_text(&t, row, what->column[i]));
-      fputc('\n', file);
-    }
-    fputc('\n', file);
-    if (what->after)
-      what->after(&t, file);
+  for (i = 0; i < 2 * s->n_printed; i++) {
+    const char *actuator = s->actuator[i / 2].name;
+    cJSON *item = lab_json_append(list), *cells = cJSON_AddArrayToObject(item, "cells");
+    lab_json_put(item, "stroke", "%s, %s", actuator, strokes[i % 2]);
+    for (row = 0; row < table_rows(t); row++)
+      if (table_is(t, row, "actuator", actuator) && table_is(t, row, "stroke", strokes[i % 2]))
+        add_edge(cells, t, row, "", "");
   }
-  table_close(&t);
 }
 
-static const shown tables[] = {
-    {"measured_vessel.csv",
-     "## Measured: a vessel blows down through an orifice\n\n![Vessel](measured_vessel.svg)\n\nEffective area Ca in "
-     "mm2 "
-     "and discharge coefficient Cd of a 2.71 mm hole (the file that comes with the data says 0.84), rms of pressure in "
-     "kPa\n(as fitted; each point left out in turn), rms of the gas temperature in K, which is predicted except where "
-     "`fitted_to` says so;\nn is the exponent of the gas, empty for an energy balance. A fitted n at its bound is no "
-     "finding of its own: the row repeats that of the bound.\nWhat remains is described in "
-     "`apps/study/measured_vessel.h`: thermometer lag or mixing, "
-     "and "
-     "an orifice whose coefficient falls with pressure.",
-     {"law", "what", "fitted_to", "Ca", "Cd_of_2.71_mm", "rmse_p", "rmse_p_left_out", "rmse_T", "n", "remark"},
-     NULL},
-    {"measured_damadics_static.csv",
-     "## Measured: a spring-and-diaphragm servomotor\n\n![Servomotor](measured_damadics.svg)\n\nStatic loop by the "
-     "balance of forces alone; rms in kPa, as fitted and on alternate points held out. Kept: friction that grows with\n"
-     "position and a hardening spring. All three terms fit better with an area that would have to grow by a quarter, "
-     "which is not believed.",
-     {"law", "parameters", "added_terms", "rmse", "rmse_held_out"},
-     NULL},
-    {"measured_damadics_steps.csv",
-     "Its two step responses beside the 37-13 of the paper, which is another actuator of type 37.",
-     {"source", "gas", "flow", "rise_time", "fall_time", "duration_ratio", "asymmetry", "rise_lag_T", "fall_ramp_T",
-      "note"},
-     compare_steps},
-    {"agreement.csv",
-     "## Can these numbers be trusted\n\nThe library's stepper at 1e-8 against CVODE at 1e-12 on the standard "
-     "experiment, and the balances of mass and energy.",
-     {"actuator", "gas", "flow", "position_gap_over_stroke", "pressure_gap_over_supply", "mass_gap", "energy_gap"},
-     NULL}};
+static void put_measured(const study *s, const table *t, cJSON *page)
+{
+  cJSON *cells = table_rows(t) ? cJSON_AddArrayToObject(cJSON_AddObjectToObject(page, "measured"), "cells") : NULL;
+  size_t row;
+  (void)s;
+  for (row = 0; row < table_rows(t); row++) {
+    char name[32];
+    snprintf(name, sizeof name, "%s ", table_text(t, row, "stroke"));
+    add_edge(cells, t, row, ", ", name);
+  }
+}
 
-static int write_report(const study *s, FILE *file, lab_error *error)
+/* ---- Six hypotheses, from hypotheses_thresholds.csv, directions.csv, influence.csv ---- */
+
+/* "65..92 %: not confirmed †" over the laws of an actuator. */
+static void add_verdict(const table *t, const char *actuator, const char *name, double below, cJSON *to)
+{
+  span left = no_span;
+  int agreed = -2, depends = 0; /* -1: laws differ */
+  size_t row;
+  for (row = 0; row < table_rows(t); row++) {
+    const verdict_shares shares = {table_number(t, row, "share_left"), table_number(t, row, "share_left_signed"),
+                                   table_number(t, row, "share_alone"), table_number(t, row, "share_alone_signed")};
+    const int v = (int)verdict_judge(&shares, below);
+    if (!table_is(t, row, "actuator", actuator) || !table_is(t, row, "hypothesis", name))
+      continue;
+    widen(&left, floor(100 * shares.left_signed + 0.5));
+    agreed = agreed == -2 || agreed == v ? v : -1;
+    depends |= table_is(t, row, "depends_on_threshold", "yes");
+  }
+  if (agreed == VERDICT_NOT_TESTED)
+    lab_json_say(to, "%s", verdict_brief(VERDICT_NOT_TESTED));
+  else {
+    char low[32] = "";
+    if (left.low < left.high)
+      snprintf(low, sizeof low, "%.0f..", left.low);
+    lab_json_say(to, "%s%.0f %%: %s%s", low, left.high, agreed < 0 ? "differs by law" : verdict_brief((verdict)agreed),
+                 depends ? " †" : "");
+  }
+}
+
+static void put_verdicts(const study *s, const table *t, cJSON *page)
+{
+  cJSON *list = cJSON_AddArrayToObject(page, "hypotheses");
+  int h, a;
+  for (h = 0; h < HYPOTHESES; h++) {
+    cJSON *item = lab_json_append(list), *cells = cJSON_AddArrayToObject(item, "verdicts");
+    lab_json_put(item, "name", "%s", hypotheses[h].name);
+    lab_json_put(item, "words", "%s", hypotheses[h].words);
+    lab_json_put(item, "paper", "%s", hypotheses[h].paper);
+    for (a = 0; a < s->n_actuators; a++)
+      add_verdict(t, s->actuator[a].name, hypotheses[h].name, s->confirmed_below, cells);
+  }
+}
+
+/* The asymmetry of a row over that of the same actuator and laws with nothing added [%]. */
+static double change_by(const table *t, size_t row)
+{
+  static const char *const same[] = {"actuator", "gas", "flow"};
+  size_t base, k;
+  for (base = 0; base < table_rows(t); base++) {
+    for (k = 0; k < 3 && table_is(t, base, same[k], table_text(t, row, same[k])); k++)
+      ;
+    if (k == 3 && table_number(t, base, "down_over_up") == 1)
+      return 100 * (table_number(t, row, "asymmetry_signed") / table_number(t, base, "asymmetry_signed") - 1);
+  }
+  return (double)NAN;
+}
+
+/* Over all actuators and laws: what is added in one direction, and how much it changes. */
+static void put_directions(const study *s, const table *t, cJSON *page)
+{
+  span rates = no_span, by_rate = no_span, vents = no_span, by_vent = no_span;
+  size_t row;
+  (void)s;
+  for (row = 0; row < table_rows(t); row++) {
+    const int is_rate = table_is(t, row, "what", "spring_rate");
+    if (!is_rate && !table_is(t, row, "what", "orifice for equal times"))
+      continue;
+    widen(is_rate ? &rates : &vents, table_number(t, row, "down_over_up"));
+    widen(is_rate ? &by_rate : &by_vent, change_by(t, row));
+  }
+  lab_json_put(page, "rates", "%.2f to %.2f", rates.low, rates.high);
+  lab_json_put(page, "by_rate", "%.0f to %+.0f", by_rate.low, by_rate.high);
+  lab_json_put(page, "vents", "%.2f to %.2f", vents.low, vents.high);
+  lab_json_put(page, "by_vent", "%.1f to %+.1f", by_vent.low, by_vent.high);
+}
+
+static void put_influence(const study *s, const table *t, cJSON *page)
+{
+  cJSON *list = cJSON_AddArrayToObject(page, "influence");
+  int h;
+  for (h = H1_RATE; h <= H4_BENCH_OFFSET; h++) {
+    span a = no_span;
+    size_t row;
+    for (row = 0; row < table_rows(t); row++)
+      if (table_is(t, row, "actuator", s->actuator[s->subject].name) &&
+          table_is(t, row, "hypothesis", hypotheses[h].name)) {
+        widen(&a, table_number(t, row, "asymmetry_min"));
+        widen(&a, table_number(t, row, "asymmetry_max"));
+      }
+    lab_json_join(list, ", ", "%.3f to %.3f (%s)", a.low, a.high, hypotheses[h].name);
+  }
+}
+
+/* ---- Eighteen conclusions, from conclusions_actuators.csv and conclusions_thresholds.csv ---- */
+
+static int verdict_of(const char *text)
+{
+  int v = FINDING_CONTRADICTED;
+  while (v > FINDING_HOLDS && strncmp(text, finding_word(v), strlen(finding_word(v))) != 0)
+    v--;
+  return v;
+}
+
+static int is_of(const table *t, size_t row, int number)
+{
+  return atoi(table_text(t, row, "conclusion")) == number;
+}
+
+/* One word where all laws agree, else each with the number of laws. */
+static void add_conclusion(const table *t, int number, const char *actuator, cJSON *to)
+{
+  int laws[FINDING_CONTRADICTED + 1] = {0}, all = 0, v;
+  char text[128] = "";
+  size_t row;
+  for (row = 0; row < table_rows(t); row++)
+    if (is_of(t, row, number) && table_is(t, row, "actuator", actuator)) {
+      laws[verdict_of(table_text(t, row, "verdict"))]++;
+      all++;
+    }
+  for (v = FINDING_HOLDS; v <= FINDING_CONTRADICTED; v++) {
+    const size_t used = strlen(text);
+    if (laws[v] == all)
+      snprintf(text + used, sizeof text - used, "%s", finding_word(v));
+    else if (laws[v])
+      snprintf(text + used, sizeof text - used, "%s%s (%d of %d)", used ? ", " : "", finding_word(v), laws[v], all);
+  }
+  lab_json_say(to, "%s", text);
+}
+
+static void put_conclusions(const study *s, const table *t, cJSON *page)
+{
+  cJSON *list = cJSON_AddArrayToObject(page, "conclusions");
+  int i, a;
+  for (i = 0; i < CONCLUSIONS; i++) {
+    cJSON *item = lab_json_append(list), *cells = cJSON_AddArrayToObject(item, "verdicts");
+    lab_json_put(item, "number", "%d", conclusions[i].number);
+    lab_json_put(item, "says", "%s", conclusions[i].says);
+    lab_json_put(item, "remark", "%s", conclusions[i].remark);
+    for (a = 0; a < s->n_printed; a++)
+      add_conclusion(t, conclusions[i].number, s->actuator[a].name, cells);
+  }
+}
+
+/* What each verdict depends on in some law: the words of the column of the thresholds. */
+static void put_marks(const study *s, const table *t, cJSON *page)
+{
+  static const char *const marks[] = {"threshold", "set"};
+  cJSON *item;
+  size_t k, row;
+  int number = 0;
+  (void)s;
+  cJSON_ArrayForEach(item, cJSON_GetObjectItem(page, "conclusions"))
+  {
+    cJSON *list = cJSON_AddArrayToObject(item, "marks");
+    number++;
+    for (k = 0; k < 2; k++) {
+      for (row = 0; row < table_rows(t); row++)
+        if (is_of(t, row, number) && strstr(table_text(t, row, "depends_on"), marks[k]))
+          break;
+      if (row < table_rows(t))
+        lab_json_say(list, "%s%s", cJSON_GetArraySize(list) ? ", " : " ", marks[k]);
+    }
+  }
+}
+
+/* ---- The solver, from agreement.csv ---- */
+
+static void put_trust(const study *s, const table *t, cJSON *page)
+{
+  static const char *const gaps[][2] = {{"position_gap", "position_gap_over_stroke"},
+                                        {"pressure_gap", "pressure_gap_over_supply"},
+                                        {"mass_gap", "mass_gap"}};
+  size_t k, row;
+  (void)s;
+  for (k = 0; k < 3; k++) {
+    double most = 0;
+    for (row = 0; row < table_rows(t); row++)
+      most = fmax(most, table_number(t, row, gaps[k][1]));
+    lab_json_put(page, gaps[k][0], "%.0e", most);
+  }
+}
+
+/* ---- The report ---- */
+
+static const struct {
+  const char *file;
+  void (*put)(const study *s, const table *t, cJSON *page);
+  int optional;
+} sections[] = {{"paper_numbers.csv", put_paper, 0},
+                {"eq1.csv", put_edges, 0},
+                {"eq1_measured.csv", put_measured, 1},
+                {"hypotheses_thresholds.csv", put_verdicts, 0},
+                {"directions.csv", put_directions, 0},
+                {"influence.csv", put_influence, 0},
+                {"conclusions_actuators.csv", put_conclusions, 0},
+                {"conclusions_thresholds.csv", put_marks, 0},
+                {"agreement.csv", put_trust, 0}};
+
+static int put_all(const study *s, cJSON *page, lab_error *error)
 {
   size_t i;
-  error->status = LAB_OK;
-  introduction(s, file);
-  if (report_hypotheses(s, file, error) || attribution(s, file, error) || conclusions(s, file, error) ||
-      report_paper(s, file, error))
-    return error->status;
-  for (i = 0; i < sizeof tables / sizeof *tables; i++)
-    show(s, file, &tables[i]);
+  put_study(s, page);
+  for (i = 0; i < sizeof sections / sizeof *sections; i++) {
+    table t;
+    const int status = table_load(s, sections[i].file, &t, error);
+    if (status == LAB_OK)
+      sections[i].put(s, &t, page);
+    table_close(&t);
+    if (status != LAB_OK && !sections[i].optional)
+      return status;
+  }
   return LAB_OK;
+}
+
+static int write_page(const cJSON *page, FILE *file, lab_error *error)
+{
+  char *text = lab_template_text(template);
+  const int status = text ? lab_template_write(file, text, page, error) : lab_fail_memory(error, "the report");
+  free(text);
+  return status;
 }
 
 int report_make(const study *s, lab_error *error)
 {
+  cJSON *page = cJSON_CreateObject();
   char path[STUDY_PATH_TEXT + 16];
   lab_outfile out;
+  int status = put_all(s, page, error);
   snprintf(path, sizeof path, "%s/REPORT.md", s->results);
-  if (lab_out_open(&out, path, error))
-    return error->status;
-  if (write_report(s, out.file, error)) {
-    lab_out_abandon(&out);
-    return error->status;
-  }
-  if (lab_out_close(&out, error))
-    return error->status;
-  study_note_saved(s, "REPORT.md");
-  return LAB_OK;
+  if (status == LAB_OK)
+    status = lab_out_open(&out, path, error);
+  if (status == LAB_OK)
+    status = lab_out_end(&out, write_page(page, out.file, error), error);
+  cJSON_Delete(page);
+  if (status == LAB_OK)
+    study_note_saved(s, "REPORT.md");
+  return status;
 }

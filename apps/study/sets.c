@@ -1,44 +1,15 @@
-#include "sets.h"
+#include "sets_read.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "../lab/base/config.h"
+#include "../lab/base/text.h"
 
-enum { COMMAND_BYTES = 16384, PATH_BYTES = 1024 };
-
-/* A command line under construction. */
-typedef struct command {
-  char text[COMMAND_BYTES];
-  size_t n;
-} command;
-
-static void add_text(command *c, const char *text)
-{
-  for (; *text && c->n + 1 < sizeof c->text; text++)
-    c->text[c->n++] = *text;
-  c->text[c->n] = '\0';
-}
-
-/* Text that the shell takes as it is: in single quotes, those in it apart. */
-static void add_quoted(command *c, const char *text)
-{
-  add_text(c, "'");
-  for (; *text; text++) {
-    const char one[2] = {*text, '\0'};
-    add_text(c, *text == '\'' ? "'\\''" : one);
-  }
-  add_text(c, "'");
-}
-
-static const char *text_of(const config_setting_t *set, const char *key)
-{
-  const char *text = NULL;
-  config_setting_lookup_string(set, key, &text);
-  return text;
-}
+enum { PATH_BYTES = 1024, LOGS_MAX = 32 };
 
 static int check_set(const config_setting_t *set, lab_error *error)
 {
@@ -46,7 +17,7 @@ static int check_set(const config_setting_t *set, lab_error *error)
                                        "unit", "declared", "independent", "remains"};
   size_t i;
   for (i = 0; i < sizeof needed / sizeof *needed; i++)
-    if (!text_of(set, needed[i]))
+    if (!*sets_text(set, needed[i]))
       return lab_config_fail(set, error, "expected the text %s", needed[i]);
   if (!config_setting_get_member((config_setting_t *)set, "fit") ||
       !config_setting_get_member((config_setting_t *)set, "holdout"))
@@ -54,42 +25,59 @@ static int check_set(const config_setting_t *set, lab_error *error)
   return LAB_OK;
 }
 
-/* Paths of a list of logs, each quoted and after `before`.  Returns: 0 if one is not there. */
-static int add_logs(command *c, const config_setting_t *set, const char *list, const char *data_dir, const char *before,
-                    const char *between)
+/* Paths of a list of logs, one behind the other, `mark` in between.  Returns: 0 if one is not there. */
+static int list_logs(const config_setting_t *set, const char *list, const char *data_dir, char mark, char *text)
 {
   const config_setting_t *logs = config_setting_get_member((config_setting_t *)set, list);
   int i, there = 1;
-  for (i = 0; i < config_setting_length(logs); i++) {
-    char path[PATH_BYTES];
-    snprintf(path, sizeof path, "%s/%s/%s", data_dir, text_of(set, "folder"), config_setting_get_string_elem(logs, i));
+  for (i = 0; i < config_setting_length(logs) && i < LOGS_MAX; i++) {
+    char *path = text + strlen(text);
+    snprintf(path, PATH_BYTES - 1, "%s/%s/%s", data_dir, sets_text(set, "folder"),
+             config_setting_get_string_elem(logs, i));
     there &= access(path, R_OK) == 0;
-    add_text(c, i == 0 ? before : between);
-    add_quoted(c, path);
+    path += strlen(path);
+    path[0] = mark;
+    path[1] = '\0';
   }
   return there;
 }
 
-/* closeloop RIG LOGS --holdout A,B --out DIR */
+/* Run a program and wait for its end.  Returns: whether it did what it should. */
+static int run(const char *const *words)
+{
+  int how = 1;
+  const pid_t child = fork();
+  if (child == 0) {
+    execv(words[0], (char *const *)words);
+    _exit(127);
+  }
+  return child > 0 && waitpid(child, &how, 0) == child && how == 0;
+}
+
+/* closeloop --figures --out DIR --holdout A,B RIG LOGS */
 static int run_set(const config_setting_t *set, const char *data_dir, const char *out_dir)
 {
-  static command c;
-  char path[PATH_BYTES];
-  c.n = 0;
-  snprintf(path, sizeof path, "study/measured/%s", text_of(set, "rig"));
-  add_text(&c, "./closeloop --quiet ");
-  add_quoted(&c, path);
-  if (!add_logs(&c, set, "fit", data_dir, " ", " ") || !add_logs(&c, set, "holdout", data_dir, " --holdout ", ",")) {
-    fprintf(stderr, "%s: data absent below %s; study/measured/fetch.sh loads what can be had\n", text_of(set, "name"),
+  static char fit[LOGS_MAX * PATH_BYTES], held[LOGS_MAX * PATH_BYTES];
+  char rig[PATH_BYTES], out[PATH_BYTES];
+  const char *words[9 + LOGS_MAX] = {"./closeloop", "--quiet", "--figures", "--out", out, "--holdout", held, rig};
+  fit[0] = held[0] = '\0';
+  if (!list_logs(set, "fit", data_dir, '\n', fit) || !list_logs(set, "holdout", data_dir, ',', held)) {
+    fprintf(stderr, "%s: data absent below %s; study/measured/fetch.sh loads what can be had\n", sets_text(set, "name"),
             data_dir);
     return SETS_ABSENT;
   }
-  snprintf(path, sizeof path, "%s/%s", out_dir, text_of(set, "name"));
-  add_text(&c, " --out ");
-  add_quoted(&c, path);
-  printf("%s: ", text_of(set, "name"));
+  snprintf(rig, sizeof rig, "study/measured/%s", sets_text(set, "rig"));
+  snprintf(out, sizeof out, "%s/%s", out_dir, sets_text(set, "name"));
+  lab_split(fit, '\n', words + 8, LOGS_MAX);
+  printf("%s: ", sets_text(set, "name"));
   fflush(stdout);
-  return system(c.text) == 0 ? SETS_DONE : SETS_FAILED;
+  return run(words) ? SETS_DONE : SETS_FAILED;
+}
+
+const char *sets_data_folder(void)
+{
+  const char *named = getenv("MEASURED");
+  return named && *named ? named : "../shared/data";
 }
 
 int sets_run(const config_setting_t *list, const char *data_dir, const char *out_dir, sets_result *result, int *n,

@@ -19,6 +19,9 @@ typedef struct sets_result {
   int state;                   /* enum sets_state */
 } sets_result;
 
+/* Folder of the public data: the environment variable MEASURED, else ../shared/data. */
+const char *sets_data_folder(void);
+
 /* Run closeloop on every set whose data are there; one line on stderr for each that is not.
  * In:      list      the list `sets`
  *          data_dir  folder of the data

@@ -1,12 +1,14 @@
 #include "sets_read.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../lab/base/text.h"
 #include "../lab/base/units.h"
+#include "../lab/base/whiteness.h"
 
 const char *sets_text(const config_setting_t *set, const char *key)
 {
@@ -17,7 +19,7 @@ const char *sets_text(const config_setting_t *set, const char *key)
 
 cJSON *sets_json(const char *out_dir, const config_setting_t *set)
 {
-  char path[SETS_PATH_TEXT];
+  char path[1024];
   lab_error ignored;
   lab_text text;
   cJSON *json;
@@ -29,23 +31,32 @@ cJSON *sets_json(const char *out_dir, const config_setting_t *set)
   return json;
 }
 
-const cJSON *sets_member(const cJSON *at, const char *key)
+const cJSON *sets_at(const cJSON *at, ...)
 {
-  return cJSON_GetObjectItemCaseSensitive(at, key);
+  const char *key;
+  va_list keys;
+  va_start(keys, at);
+  while ((key = va_arg(keys, const char *)) != NULL)
+    at = cJSON_GetObjectItemCaseSensitive(at, key);
+  va_end(keys);
+  return at;
 }
 
 double sets_number(const cJSON *at, const char *key)
 {
-  const cJSON *number = sets_member(at, key);
+  const cJSON *number = sets_at(at, key, NULL);
   return cJSON_IsNumber(number) ? number->valuedouble : (double)NAN;
 }
 
-/* ---- Errors ---- */
+const char *sets_words(const cJSON *at, const char *key)
+{
+  return cJSON_GetStringValue(sets_at(at, key, NULL));
+}
 
 sets_error sets_error_of(const cJSON *errors, const char *channel, const char *unit)
 {
-  const cJSON *found = sets_member(errors, channel);
-  const char *own = cJSON_GetStringValue(sets_member(found, "unit"));
+  const cJSON *found = sets_at(errors, channel, NULL);
+  const char *own = sets_words(found, "unit");
   sets_error e = {(double)NAN, sets_number(found, "in_noise")};
   double scale, offset;
   lab_error ignored;
@@ -54,101 +65,7 @@ sets_error sets_error_of(const cJSON *errors, const char *channel, const char *u
   return e;
 }
 
-sets_errors sets_errors_of(const cJSON *json, const char *channel, const char *unit)
-{
-  const cJSON *error = sets_member(json, "error"), *held = sets_member(error, "holdout");
-  const sets_errors e = {sets_error_of(sets_member(error, "before"), channel, unit),
-                         sets_error_of(sets_member(error, "after"), channel, unit),
-                         sets_error_of(sets_member(held, "before"), channel, unit),
-                         sets_error_of(sets_member(held, "after"), channel, unit)};
-  return e;
-}
-
-double sets_noise(const sets_errors *e)
-{
-  return e->before.value / e->before.in_noise;
-}
-
-/* ---- Words ---- */
-
-const char *sets_digits(char *cell, double value)
-{
-  if (isnan(value))
-    strcpy(cell, "-");
-  else
-    snprintf(cell, SETS_CELL_TEXT, fabs(value) < 999.5 ? "%.3g" : "%.0f", value);
-  return cell;
-}
-
-static void join(char *names, const char *name)
-{
-  const size_t used = strlen(names);
-  snprintf(names + used, SETS_NAMES_TEXT - used, "%s%s", used ? ", " : "", name);
-}
-
-const char *sets_names(char *names, const cJSON *json)
-{
-  const cJSON *found;
-  names[0] = 0;
-  cJSON_ArrayForEach(found, sets_member(json, "found")) join(names, cJSON_GetStringValue(sets_member(found, "effect")));
-  cJSON_ArrayForEach(found, sets_member(json, "unlisted"))
-  {
-    char name[256];
-    snprintf(name, sizeof name, "a term without a name (%s, %s)", cJSON_GetStringValue(sets_member(found, "what")),
-             cJSON_GetStringValue(sets_member(found, "where")));
-    join(names, name);
-  }
-  return names;
-}
-
-static double held_value(const cJSON *model, const char *channel, const char *unit)
-{
-  return sets_error_of(sets_member(model, "holdout"), channel, unit).value;
-}
-
-const cJSON *sets_best_on_the_way(const cJSON *json, const char *channel, const char *unit)
-{
-  const double final = sets_errors_of(json, channel, unit).held_after.value;
-  const cJSON *model, *best = NULL;
-  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
-  cJSON_ArrayForEach(model, sets_member(json, "path"))
-  {
-    if (!best || held_value(model, channel, unit) < held_value(best, channel, unit))
-      best = model;
-  }
-  return best && strcmp(sets_digits(a, held_value(best, channel, unit)), sets_digits(b, final)) != 0 ? best : NULL;
-}
-
-int sets_held_logs(const cJSON *json, const char *channel, int *better, char *worse)
-{
-  const cJSON *log, *logs = sets_member(sets_member(sets_member(json, "error"), "holdout"), "logs");
-  *better = 0;
-  worse[0] = 0;
-  cJSON_ArrayForEach(log, logs)
-  {
-    const double before = sets_number(sets_member(sets_member(log, "before"), channel), "rmse");
-    const double after = sets_number(sets_member(sets_member(log, "after"), channel), "rmse");
-    if (after < before)
-      ++*better;
-    else
-      join(worse, cJSON_GetStringValue(sets_member(log, "log")));
-  }
-  return cJSON_GetArraySize(logs);
-}
-
-const char *sets_doubt(const cJSON *json)
-{
-  static const char start[] = "Undecided: ";
-  const char *sentence = cJSON_GetStringValue(sets_member(json, "sentence"));
-  const cJSON *remark;
-  if (!sentence || strncmp(sentence, start, strlen(start)) != 0)
-    return NULL;
-  cJSON_ArrayForEach(
-      remark,
-      sets_member(json, "limitations")) if (!strcmp(cJSON_GetStringValue(remark),
-                                                    sentence + strlen(start))) return cJSON_GetStringValue(remark);
-  return NULL;
-}
+/* ---- Names of models ---- */
 
 /* Length of the part of "a + b" that begins at `at`. */
 static size_t part_length(const char *at)
@@ -181,7 +98,50 @@ int sets_within(const char *a, const char *b)
   }
 }
 
-int sets_same_model(const char *a, const char *b)
+/* ---- What is left ---- */
+
+int sets_left_runs(const table *residual)
 {
-  return sets_within(a, b) && sets_within(b, a);
+  const size_t n = table_rows(residual);
+  const double last = n ? table_number(residual, n - 1, "run") : 0;
+  return isnan(last) ? 0 : (int)last;
+}
+
+static void add_value(sets_left *left, double t, double value)
+{
+  left->n++;
+  left->mean += value;
+  left->rms += value * value;
+  if (left->n == 1 || fabs(value) > fabs(left->worst)) {
+    left->worst = value;
+    left->worst_t = t;
+  }
+}
+
+int sets_left_of(const table *residual, int run, const char *key, sets_left *left, lab_error *error)
+{
+  const size_t rows = table_rows(residual);
+  double *value = malloc((rows + 1) * sizeof *value);
+  char after[32];
+  lab_stretch all = {value, 0};
+  lab_whiteness white;
+  size_t i;
+  if (!value)
+    return lab_fail_memory(error, "residuals");
+  snprintf(after, sizeof after, "%s_after", key);
+  *left = (sets_left){0, 0, 0, (double)NAN, (double)NAN, (double)NAN};
+  for (i = 0; i < rows; i++) {
+    const double r = table_number(residual, i, key) - table_number(residual, i, after);
+    if ((int)table_number(residual, i, "run") != run || isnan(r))
+      continue;
+    add_value(left, table_number(residual, i, "t"), r);
+    value[all.n++] = r;
+  }
+  left->mean /= (double)left->n;
+  left->rms = sqrt(left->rms / (double)left->n);
+  lab_whiteness_test(&all, 1, &white);
+  if (white.lags > 0)
+    left->lag1 = white.correlation[1];
+  free(value);
+  return LAB_OK;
 }

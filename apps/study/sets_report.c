@@ -1,263 +1,628 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "../lab/base/config.h"
 #include "../lab/base/outfile.h"
+#include "../lab/base/json.h"
+#include "../lab/base/template.h"
+#include "../lab/base/units.h"
+#include "../lab/log/channel.h"
+#include "../lab/rig/rig.h"
 #include "sets_read.h"
-#include "sets_section.h"
 
-/* ---- The table ---- */
+static const char *const template[] = {
+#include "study/measured/report.md.inc"
+    NULL};
 
-/* " 115 Pa (16.5) |" */
-static void write_cell(FILE *file, const sets_error *e, const char *unit)
+enum { PATH_TEXT = 1024, NAMES_TEXT = 512 };
+
+/* A set with what its values are made from. */
+typedef struct story {
+  const config_setting_t *set;
+  const char *out_dir;
+  const cJSON *json; /* its report; NULL if it did not run */
+  const char *channel, *unit;
+  sets_error before, after, held_before, held_after;
+} story;
+
+/* ---- Numbers and errors ---- */
+
+/* "0.123", "4711", "-" for NaN; good until the fourth call after this one. */
+static const char *digits(double value)
 {
-  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
-  if (isnan(e->value))
-    fputs(" - |", file);
-  else if (isnan(e->in_noise))
-    fprintf(file, " %s %s |", sets_digits(a, e->value), unit);
+  static char cell[4][32];
+  static int turn;
+  turn = (turn + 1) % 4;
+  snprintf(cell[turn], sizeof *cell, isnan(value) ? "-" : fabs(value) < 999.5 ? "%.3g" : "%.0f", value);
+  return cell[turn];
+}
+
+/* Numbers under names such as "mean worst". */
+static void put_digits(cJSON *to, const char *names, ...)
+{
+  char name[32];
+  va_list values;
+  int n;
+  va_start(values, names);
+  for (; sscanf(names, "%31s%n", name, &n) == 1; names += n)
+    lab_json_put(to, name, "%s", digits(va_arg(values, double)));
+  va_end(values);
+}
+
+/* An error of a model: value and noise, and "115 Pa (16.5)" for a cell; nothing where there is none. */
+static void put_error(cJSON *to, const char *name, sets_error e, const char *unit)
+{
+  cJSON *item = isnan(e.value) ? NULL : cJSON_AddObjectToObject(to, name);
+  if (!item)
+    return;
+  put_digits(item, "value in_noise", e.value, e.in_noise);
+  if (isnan(e.in_noise))
+    lab_json_put(item, "cell", "%s %s", digits(e.value), unit);
   else
-    fprintf(file, " %s %s (%s) |", sets_digits(a, e->value), unit, sets_digits(b, e->in_noise));
+    lab_json_put(item, "cell", "%s %s (%s)", digits(e.value), unit, digits(e.in_noise));
 }
 
-static void write_alike(FILE *file, const cJSON *found)
+/* A list under a name, in an object with its length; nothing where it is empty. */
+static void put_list(cJSON *to, const char *name, const char *items, cJSON *list)
 {
-  const cJSON *other;
-  int any = 0;
-  cJSON_ArrayForEach(other, sets_member(found, "indistinguishable_from"))
-      fprintf(file, "%s%s", any++ ? ", " : " (or ", cJSON_GetStringValue(other));
-  if (any)
-    fputs(")", file);
+  cJSON *item = cJSON_GetArraySize(list) ? cJSON_AddObjectToObject(to, name) : NULL;
+  lab_json_put(item, "n", "%d", cJSON_GetArraySize(list));
+  if (!cJSON_AddItemToObject(item, items, list))
+    cJSON_Delete(list);
 }
 
-static void write_found(FILE *file, const cJSON *json)
+static sets_error error_of(const story *s, const cJSON *errors)
 {
-  const cJSON *found;
-  int any = 0;
-  cJSON_ArrayForEach(found, sets_member(json, "found"))
-  {
-    fprintf(file, "%s%s", any++ ? ", " : " ", cJSON_GetStringValue(sets_member(found, "effect")));
-    write_alike(file, found);
+  return sets_error_of(errors, s->channel, s->unit);
+}
+
+static sets_error held_error(const story *s, const cJSON *model)
+{
+  return error_of(s, sets_at(model, "holdout", NULL));
+}
+
+static story story_of(const config_setting_t *set, const cJSON *json, const char *out_dir)
+{
+  story s = {.set = set, .out_dir = out_dir, .json = json, .channel = sets_text(set, "judged")};
+  s.unit = sets_text(set, "unit");
+  s.before = error_of(&s, sets_at(json, "error", "before", NULL));
+  s.after = error_of(&s, sets_at(json, "error", "after", NULL));
+  s.held_before = error_of(&s, sets_at(json, "error", "holdout", "before", NULL));
+  s.held_after = error_of(&s, sets_at(json, "error", "holdout", "after", NULL));
+  return s;
+}
+
+static double noise_of(const story *s)
+{
+  return s->before.value / s->before.in_noise;
+}
+
+/* The error of the channel that was predicted and not fitted; it is that of a hold-out. */
+static sets_error check_error(const story *s, const char *when)
+{
+  sets_error e =
+      sets_error_of(sets_at(s->json, "error", when, NULL), sets_text(s->set, "check"), sets_text(s->set, "check_unit"));
+  e.in_noise = (double)NAN;
+  return e;
+}
+
+static void put_errors(const story *s, cJSON *to)
+{
+  put_digits(to, "noise left", noise_of(s), s->after.in_noise);
+  put_error(to, "before", s->before, s->unit);
+  put_error(to, "after", s->after, s->unit);
+  put_error(to, "held_before", s->held_before, s->unit);
+  put_error(to, "held_after", s->held_after, s->unit);
+  put_error(to, "check_before", check_error(s, "before"), sets_text(s->set, "check_unit"));
+  put_error(to, "check_after", check_error(s, "after"), sets_text(s->set, "check_unit"));
+}
+
+/* ---- What was asked ---- */
+
+static const config_setting_t *list_of(const config_setting_t *set, const char *key)
+{
+  return config_setting_get_member((config_setting_t *)set, key);
+}
+
+static int is_fitted(const config_setting_t *set, const char *log)
+{
+  const config_setting_t *logs = list_of(set, "fit");
+  int i;
+  for (i = 0; i < config_setting_length(logs); i++)
+    if (!strcmp(config_setting_get_string_elem(logs, i), log))
+      return 1;
+  return 0;
+}
+
+static void put_logs(const config_setting_t *set, const char *key, const char *also_fitted, cJSON *to)
+{
+  const config_setting_t *logs = list_of(set, key);
+  cJSON *list = cJSON_CreateArray();
+  int i;
+  for (i = 0; i < config_setting_length(logs); i++) {
+    const char *log = config_setting_get_string_elem(logs, i);
+    lab_json_join(list, ", ", "%s%s", log, is_fitted(set, log) ? also_fitted : "");
   }
-  if (cJSON_GetArraySize(sets_member(json, "unlisted")) > 0)
-    fprintf(file, "%sa term without a name", any++ ? ", " : " ");
-  fputs(any ? " |\n" : " none |\n", file);
+  put_list(to, key, "logs", list);
 }
+
+/* The texts of its group as they are, and the logs. */
+static void put_declared(const config_setting_t *set, cJSON *to)
+{
+  int i;
+  for (i = 0; i < config_setting_length(set); i++) {
+    const config_setting_t *member = config_setting_get_elem(set, (unsigned)i);
+    if (config_setting_type(member) == CONFIG_TYPE_STRING)
+      lab_json_put(to, config_setting_name(member), "%s", config_setting_get_string(member));
+  }
+  put_logs(set, "fit", "", to);
+  put_logs(set, "holdout", " (rows that were not fitted)", to);
+}
+
+/* ---- Verdict and what was found ---- */
 
 /* Verdicts of closeloop in words of the table. */
 static const char *const verdicts[][2] = {{"effect", "explained"},
                                           {"unlisted", "explained, without a name"},
                                           {"none", "nothing missing"},
-                                          {"undecided", "undecided"}};
+                                          {"undecided", "undecided"},
+                                          {"", "-"}};
 
 enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
 
-/* Returns: VERDICTS if it is none of them */
+/* Returns: the last if it is none of them */
 static int verdict_of(const cJSON *json)
 {
-  const char *verdict = cJSON_GetStringValue(sets_member(json, "verdict"));
+  const char *verdict = sets_words(json, "verdict");
   int i = 0;
-  while (i < VERDICTS && (!verdict || strcmp(verdict, verdicts[i][0]) != 0))
+  while (i < VERDICTS - 1 && (!verdict || strcmp(verdict, verdicts[i][0]) != 0))
     i++;
   return i;
 }
 
-static const char *verdict_words(const cJSON *json)
+static void join(char names[NAMES_TEXT], const char *name)
 {
-  const int i = verdict_of(json);
-  return i < VERDICTS ? verdicts[i][1] : "-";
+  const size_t used = strlen(names);
+  snprintf(names + used, NAMES_TEXT - used, "%s%s", used ? ", " : "", name);
 }
 
-/* A channel that is predicted and not fitted: its errors are those of a hold-out. */
-static void write_check(FILE *file, const config_setting_t *set, const cJSON *json)
+/* What was found: for the table with what is alike, for the sentence with what a term without a name acts on. */
+static void put_found(const cJSON *json, cJSON *to, char names[NAMES_TEXT])
 {
-  const char *check = sets_text(set, "check"), *unit = sets_text(set, "check_unit");
-  sets_errors e = sets_errors_of(json, check, unit);
-  if (!*check)
-    return;
-  e.before.in_noise = e.after.in_noise = (double)NAN;
-  fprintf(file, "| - the same, not fitted | %s | - | - | - |", check);
-  write_cell(file, &e.before, unit);
-  write_cell(file, &e.after, unit);
-  fputs(" | |\n", file);
-}
-
-static void write_row(FILE *file, const sets_result *r, const cJSON *json)
-{
-  const char *unit = sets_text(r->set, "unit");
-  const sets_errors e = sets_errors_of(json, sets_text(r->set, "judged"), unit);
-  char a[SETS_CELL_TEXT];
-  fprintf(file, "| [%s](%s/report.json) | %s |", sets_text(r->set, "title"), sets_text(r->set, "name"),
-          sets_text(r->set, "judged"));
-  if (!json) {
-    fprintf(file, " - | - | - | - | - | %s | |\n", r->state == SETS_ABSENT ? "data absent" : "closeloop failed");
-    return;
+  const cJSON *unlisted = sets_at(json, "unlisted", NULL), *found, *other;
+  cJSON *cell = cJSON_AddArrayToObject(to, "found"), *alike = cJSON_AddArrayToObject(to, "alike");
+  char name[NAMES_TEXT];
+  names[0] = '\0';
+  cJSON_ArrayForEach(found, sets_at(json, "found", NULL))
+  {
+    const char *effect = sets_words(found, "effect");
+    name[0] = '\0';
+    cJSON_ArrayForEach(other, sets_at(found, "indistinguishable_from", NULL)) join(name, cJSON_GetStringValue(other));
+    join(names, effect);
+    lab_json_join(cell, ", ", "%s%s%s%s", effect, *name ? " (or " : "", name, *name ? ")" : "");
+    if (*name) {
+      cJSON *item = lab_json_append(alike);
+      lab_json_put(item, "others", "%s", name);
+      lab_json_put(item, "effect", "%s", effect);
+    }
   }
-  fprintf(file, " %s %s |", sets_digits(a, sets_noise(&e)), unit);
-  write_cell(file, &e.before, unit);
-  write_cell(file, &e.after, unit);
-  write_cell(file, &e.held_before, unit);
-  write_cell(file, &e.held_after, unit);
-  fprintf(file, " %s |", verdict_words(json));
-  write_found(file, json);
-  write_check(file, r->set, json);
+  if (cJSON_GetArraySize(unlisted) > 0)
+    lab_json_join(cell, ", ", "a term without a name");
+  cJSON_ArrayForEach(found, unlisted)
+  {
+    snprintf(name, sizeof name, "a term without a name (%s, %s)", sets_words(found, "what"),
+             sets_words(found, "where"));
+    join(names, name);
+  }
 }
 
-/* ---- What the table says ---- */
-
-/* Names in a row. */
-typedef struct names {
-  char text[4 * SETS_NAMES_TEXT];
-  int n;
-} names;
-
-static void add_name(names *to, const char *format, ...)
+static void put_verdict(const story *s, cJSON *to)
 {
-  const size_t used = strlen(to->text);
-  const size_t comma = (size_t)snprintf(to->text + used, sizeof to->text - used, "%s", to->n++ ? "; " : "");
-  va_list rest;
-  if (used + comma >= sizeof to->text)
-    return;
-  va_start(rest, format);
-  vsnprintf(to->text + used + comma, sizeof to->text - used - comma, format, rest);
-  va_end(rest);
+  const char *doubt = sets_words(s->json, "doubt");
+  const int verdict = verdict_of(s->json), is_open = !strcmp(verdicts[verdict][0], "undecided");
+  char names[NAMES_TEXT];
+  put_found(s->json, to, names);
+  lab_json_put(to, "verdict", "%s", verdicts[verdict][1]);
+  if (doubt)
+    lab_json_put(to, "doubt", "%s", doubt);
+  else if (is_open)
+    lab_json_put(to, *names ? "nearest" : "unexplained", "%s", *names ? names : "yes");
+  else
+    lab_json_put(to, *names ? "lacking" : "complete", "%s", *names ? names : "yes");
 }
 
-/* What is counted over the sets, and what breaks it. */
+/* An error of position as the pressure that makes up for it: spring rate over area, as declared. */
+static void put_in_pressure(const story *s, const lab_rig *rig, cJSON *to)
+{
+  const char *unit = sets_text(s->set, "as_pressure");
+  const double rate = (double)rig->params.spring_rate / (double)rig->params.area;
+  double length, pressure, factor, offset;
+  cJSON *item;
+  lab_error ignored;
+  if (!*unit || lab_unit_factor(s->unit, "m", &length, &offset, &ignored) ||
+      lab_unit_factor("Pa", unit, &pressure, &offset, &ignored))
+    return;
+  factor = length * rate * pressure;
+  item = cJSON_AddObjectToObject(to, "in_pressure");
+  lab_json_put(item, "factor", "%.4g", factor);
+  put_digits(item, "before after held_before held_after", factor * s->before.value, factor * s->after.value,
+             factor * s->held_before.value, factor * s->held_after.value);
+}
+
+/* ---- Why: the way there, and the next best ---- */
+
+static const char *name_of(const cJSON *model)
+{
+  return sets_words(model, "model");
+}
+
+static const cJSON *last_of(const cJSON *list)
+{
+  return cJSON_GetArrayItem(list, cJSON_GetArraySize(list) - 1);
+}
+
+/* Share of the declared model's root chi-square that a model leaves [%]. */
+static double root_chi2(const story *s, const cJSON *model)
+{
+  const cJSON *declared = cJSON_GetArrayItem(sets_at(s->json, "path", NULL), 0);
+  return 100 * sqrt(sets_number(model, "chi2") / sets_number(declared, "chi2"));
+}
+
+static void put_way(const story *s, cJSON *to)
+{
+  const cJSON *model, *path = sets_at(s->json, "path", NULL);
+  cJSON *list;
+  if (cJSON_GetArraySize(path) < 2)
+    return;
+  list = cJSON_AddArrayToObject(cJSON_AddObjectToObject(to, "way"), "models");
+  cJSON_ArrayForEach(model, path)
+  {
+    const sets_error fitted = error_of(s, sets_at(model, "error", NULL)), held = held_error(s, model);
+    cJSON *item;
+    if (model->next && sets_within(name_of(model), name_of(model->next)) &&
+        sets_within(name_of(model->next), name_of(model)))
+      continue; /* the same effects refitted in another order */
+    item = lab_json_append(list);
+    lab_json_put(item, "model", "%s", name_of(model));
+    put_digits(item, "fitted fitted_noise held held_noise", fitted.value, fitted.in_noise, held.value, held.in_noise);
+  }
+}
+
+/* The model on the way whose error held out is lowest, where that of the final one is higher, to the digits shown.
+ * Returns: NULL where the final one is lowest, or nothing was held out */
+static const cJSON *best_on_the_way(const story *s)
+{
+  const cJSON *model, *best = NULL;
+  cJSON_ArrayForEach(model, sets_at(s->json, "path", NULL))
+  {
+    if (!best || held_error(s, model).value < held_error(s, best).value)
+      best = model;
+  }
+  return best && strcmp(digits(held_error(s, best).value), digits(s->held_after.value)) != 0 ? best : NULL;
+}
+
+/* An effect that lowers the error of what was fitted and raises that of what was held out has learnt these logs only.
+ */
+static void put_best(const story *s, cJSON *to)
+{
+  const cJSON *best = best_on_the_way(s);
+  cJSON *item = best ? cJSON_AddObjectToObject(to, "best") : NULL;
+  if (!item)
+    return;
+  lab_json_put(item, "model", "%s", name_of(best));
+  put_digits(item, "held end", held_error(s, best).value, s->held_after.value);
+}
+
+/* Of the models tried the one of lowest criterion that does without a part of the final one. */
+static void put_rival(const story *s, cJSON *to)
+{
+  const cJSON *path = sets_at(s->json, "path", NULL), *steps = sets_at(s->json, "steps", NULL);
+  const cJSON *last = last_of(path), *model, *next = NULL;
+  cJSON *item;
+  if (cJSON_GetArraySize(path) > 1)
+    cJSON_ArrayForEach(model, steps)
+    {
+      if (!sets_within(name_of(last), name_of(model)) &&
+          (!next || sets_number(model, "bic") < sets_number(next, "bic")))
+        next = model;
+    }
+  if (!next)
+    return;
+  item = cJSON_AddObjectToObject(to, "rival");
+  lab_json_put(item, "tried", "%d", cJSON_GetArraySize(steps));
+  lab_json_put(item, "model", "%s", name_of(next));
+  put_digits(item, "left own bic own_bic", root_chi2(s, next), root_chi2(s, last), sets_number(next, "bic"),
+             sets_number(last, "bic"));
+}
+
+/* Whether a model of the same name, tried under another law of the effect, leaves less; or as much and came first. */
+static int is_beaten(const cJSON *json, const cJSON *model)
+{
+  const double chi2 = sets_number(model, "chi2");
+  const cJSON *other;
+  int before = 1;
+  cJSON_ArrayForEach(other, sets_at(json, "steps", NULL))
+  {
+    if (other == model)
+      before = 0;
+    else if (!strcmp(name_of(other), name_of(model)) &&
+             (sets_number(other, "chi2") < chi2 || (before && sets_number(other, "chi2") <= chi2)))
+      return 1;
+  }
+  return 0;
+}
+
+/* What each effect does alone, if it does anything. */
+static void put_singles(const story *s, cJSON *to)
+{
+  const cJSON *model, *steps = sets_at(s->json, "steps", NULL);
+  cJSON *list = cJSON_CreateArray();
+  cJSON_ArrayForEach(model, steps)
+  {
+    if (!strstr(name_of(model), " + ") && model != steps->child && !is_beaten(s->json, model) &&
+        root_chi2(s, model) < 99)
+      lab_json_join(list, ", ", "%s %s %%", name_of(model), digits(root_chi2(s, model)));
+  }
+  put_list(to, "singles", "models", list);
+}
+
+/* ---- Parameters ---- */
+
+/* Whether the 95 % interval of a parameter is known.  Out: low, high */
+static int interval_of(const cJSON *p, double *low, double *high)
+{
+  const cJSON *ci = sets_at(p, "ci95", NULL), *from = cJSON_GetArrayItem(ci, 0), *to = cJSON_GetArrayItem(ci, 1);
+  if (!cJSON_IsNumber(from) || !cJSON_IsNumber(to))
+    return 0;
+  *low = from->valuedouble;
+  *high = to->valuedouble;
+  return 1;
+}
+
+/* "name = value (low to high) unit"; no interval where the value is at a bound. */
+static void put_parameters(const cJSON *json, cJSON *to)
+{
+  const char *remark = sets_words(json, "undetermined");
+  cJSON *list = cJSON_AddArrayToObject(to, "parameters");
+  const cJSON *p;
+  cJSON_ArrayForEach(p, sets_at(json, "parameters", NULL))
+  {
+    const char *unit = sets_words(p, "unit");
+    const double value = sets_number(p, "value");
+    char interval[64] = "";
+    double low, high;
+    if (isnan(value))
+      continue;
+    if (interval_of(p, &low, &high) && low < high)
+      snprintf(interval, sizeof interval, " (%.4g to %.4g)", low, high);
+    lab_json_say(list, "%s = %.4g%s %s", p->string, value, interval, unit && strcmp(unit, "1") ? unit : "(a ratio)");
+  }
+  if (remark)
+    lab_json_put(to, "undetermined", "%s", remark);
+}
+
+/* A parameter that the source gives too: declared in the rig file as the source has it, fitted nonetheless. */
+static int put_given(const story *s, lab_rig *rig, cJSON *to, lab_error *error)
+{
+  const char *name = sets_text(s->set, "given");
+  const cJSON *p = sets_at(s->json, "parameters", name, NULL);
+  const int i = pneu_param_find(name);
+  pneu_param_info info;
+  double given, low, high;
+  if (!*name)
+    return LAB_OK;
+  if (i < 0 || !interval_of(p, &low, &high))
+    return lab_config_fail(s->set, error, "given: %s is not among the parameters that were fitted", name);
+  pneu_param_describe(i, &info);
+  given = (double)*pneu_param_at(&rig->params, i);
+  lab_json_put(to, "known", "%s = %.4g %s; found %+.2g %% from it, which is %s", name, given, info.unit,
+               100 * (sets_number(p, "value") / given - 1), given >= low && given <= high ? "within" : "outside");
+  return LAB_OK;
+}
+
+/* ---- What is left, run by run, and the logs held out ---- */
+
+static const lab_channel_info *channel_info(const char *quantity)
+{
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (!strcmp(lab_channels[c].quantity, quantity))
+      return &lab_channels[c];
+  return NULL;
+}
+
+static void put_left(const sets_left *left, double scale, double noise, cJSON *item)
+{
+  put_digits(item, "rms in_noise mean worst worst_t", scale * left->rms, scale * left->rms / noise, scale * left->mean,
+             scale * left->worst, left->worst_t);
+  lab_json_put(item, "lag1", "%.2f", left->lag1);
+}
+
+/* A row a run of one channel.  In: noise  in `unit`; NaN: the channel was not fitted */
+static int put_channel(const config_setting_t *set, const table *residual, const char *quantity, const char *unit,
+                       double noise, cJSON *list, lab_error *error)
+{
+  const config_setting_t *logs = list_of(set, "fit");
+  const lab_channel_info *info = channel_info(quantity);
+  const int runs = sets_left_runs(residual), is_log = config_setting_length(logs) == runs;
+  double scale, offset;
+  int run;
+  if (!info)
+    return lab_config_fail(set, error, "%s is no channel", quantity);
+  if (lab_unit_factor(info->unit, unit, &scale, &offset, error))
+    return error->status;
+  for (run = 1; run <= runs; run++) {
+    sets_left left;
+    cJSON *item;
+    if (sets_left_of(residual, run, info->key, &left, error))
+      return error->status;
+    if (left.n == 0)
+      continue;
+    item = lab_json_append(list);
+    if (is_log)
+      lab_json_put(item, "run", "%s", config_setting_get_string_elem(logs, run - 1));
+    else
+      lab_json_put(item, "run", "run %d", run);
+    lab_json_put(item, "channel", "%s [%s]", quantity, unit);
+    put_left(&left, scale, noise, item);
+  }
+  return LAB_OK;
+}
+
+static int put_residual(const story *s, cJSON *to, lab_error *error)
+{
+  const char *check = sets_text(s->set, "check");
+  cJSON *list = cJSON_AddArrayToObject(to, "left_by_run");
+  char path[PATH_TEXT];
+  table residual;
+  int status;
+  snprintf(path, sizeof path, "%s/%s/residual.csv", s->out_dir, sets_text(s->set, "name"));
+  status = table_load_file(path, &residual, error);
+  if (status == LAB_OK)
+    status = put_channel(s->set, &residual, s->channel, s->unit, noise_of(s), list, error);
+  if (status == LAB_OK && *check)
+    status = put_channel(s->set, &residual, check, sets_text(s->set, "check_unit"), (double)NAN, list, error);
+  table_close(&residual);
+  return status;
+}
+
+/* Log by log, where several were held out.
+ * Out:     better  how many the completed model predicts better than the declared one
+ * Returns: how many there are */
+static int put_held(const story *s, cJSON *to, int *better)
+{
+  const cJSON *log, *logs = sets_at(s->json, "error", "holdout", "logs", NULL);
+  const int n = cJSON_GetArraySize(logs);
+  cJSON *all = n > 1 ? cJSON_AddObjectToObject(to, "by_log") : NULL, *list = cJSON_AddArrayToObject(all, "logs");
+  char farther[NAMES_TEXT] = "";
+  *better = 0;
+  cJSON_ArrayForEach(log, logs)
+  {
+    const sets_error before = error_of(s, sets_at(log, "before", NULL)),
+                     after = error_of(s, sets_at(log, "after", NULL));
+    cJSON *item = lab_json_append(list);
+    lab_json_put(item, "log", "%s", sets_words(log, "log"));
+    put_digits(item, "before before_noise after after_noise", before.value, before.in_noise, after.value,
+               after.in_noise);
+    if (after.value < before.value)
+      ++*better;
+    else
+      join(farther, sets_words(log, "log"));
+  }
+  lab_json_put(all, "n", "%d", n);
+  lab_json_put(all, "better", "%d", *better);
+  lab_json_put(all, "farther", "%s", farther);
+  return n;
+}
+
+/* ---- What is counted over the sets ---- */
+
 typedef struct tally {
   int ran, held, lower;
-  int verdict[VERDICTS + 1];
+  int verdict[VERDICTS];
   int logs, logs_lower; /* the same over the logs held out */
-  names not_lower;      /* sets whose error held out does not fall */
-  names by_channel;     /* those that are judged by a channel that was not fitted */
-  names raised;         /* those whose error held out was lower on the way */
+  cJSON *not_lower;     /* sets whose error held out does not fall */
+  cJSON *by_channel;    /* those that are judged by a channel that was not fitted */
+  cJSON *raised;        /* those whose error held out was lower on the way */
 } tally;
 
-/* The error on what took no part: of the runs held out, or of the channel that was not fitted. */
-static void independent_error(const config_setting_t *set, const cJSON *json, double *before, double *after)
+/* The error on what took no part is that of the runs held out, or of the channel that was not fitted. */
+static void count(const story *s, tally *t)
 {
-  const char *check = sets_text(set, "check");
-  const sets_errors held = sets_errors_of(json, sets_text(set, "judged"), sets_text(set, "unit"));
-  const sets_errors other = sets_errors_of(json, check, sets_text(set, "check_unit"));
-  *before = *check ? other.before.value : held.held_before.value;
-  *after = *check ? other.after.value : held.held_after.value;
-}
-
-static void count_raised(tally *t, const config_setting_t *set, const cJSON *json)
-{
-  const char *channel = sets_text(set, "judged"), *unit = sets_text(set, "unit");
-  const cJSON *best = sets_best_on_the_way(json, channel, unit);
-  char a[SETS_CELL_TEXT], b[SETS_CELL_TEXT];
-  if (best)
-    add_name(&t->raised, "%s (%s to %s %s)", sets_text(set, "title"),
-             sets_digits(a, sets_error_of(sets_member(best, "holdout"), channel, unit).value),
-             sets_digits(b, sets_errors_of(json, channel, unit).held_after.value), unit);
-}
-
-static void count(tally *t, const sets_result *r, const cJSON *json)
-{
-  const char *title = sets_text(r->set, "title"), *check = sets_text(r->set, "check");
-  char worse[SETS_NAMES_TEXT];
-  double before, after;
-  int better;
-  if (!json)
-    return;
+  const char *title = sets_text(s->set, "title"), *check = sets_text(s->set, "check");
+  const double before = *check ? check_error(s, "before").value : s->held_before.value;
+  const double after = *check ? check_error(s, "after").value : s->held_after.value;
+  const cJSON *best = best_on_the_way(s);
   t->ran++;
-  t->verdict[verdict_of(json)]++;
-  t->logs += sets_held_logs(json, sets_text(r->set, "judged"), &better, worse);
-  t->logs_lower += better;
-  count_raised(t, r->set, json);
-  independent_error(r->set, json, &before, &after);
+  t->verdict[verdict_of(s->json)]++;
+  if (best)
+    lab_json_join(t->raised, "; ", "%s (%s to %s %s)", title, digits(held_error(s, best).value),
+                  digits(s->held_after.value), s->unit);
   if (isnan(before) || isnan(after))
     return;
   t->held++;
   t->lower += after < before;
   if (after >= before)
-    add_name(&t->not_lower, "%s", title);
+    lab_json_join(t->not_lower, "; ", "%s", title);
   if (*check)
-    add_name(&t->by_channel, "%s (%s)", title, check);
+    lab_json_join(t->by_channel, "; ", "%s (%s)", title, check);
 }
 
-static void write_tally(FILE *file, const tally *t, int n)
+static void put_tally(const tally *t, int n, cJSON *page)
 {
-  int i, any = 0;
-  fprintf(file, "\nOf %d sets %d ran", n, t->ran);
-  for (i = 0; i < VERDICTS; i++)
+  cJSON *list = cJSON_AddArrayToObject(page, "verdicts");
+  int i;
+  lab_json_put(page, "n_sets", "%d", n);
+  lab_json_put(page, "n_ran", "%d", t->ran);
+  for (i = 0; i < VERDICTS - 1; i++)
     if (t->verdict[i] > 0)
-      fprintf(file, "%s %d %s", any++ ? "," : ":", t->verdict[i], verdicts[i][1]);
-  fprintf(file, ". On what took no part in the fit the completed model is nearer than the declared one in %d of %d",
-          t->lower, t->held);
-  if (t->not_lower.n > 0)
-    fprintf(file, "; not in: %s", t->not_lower.text);
-  fprintf(file, ". Of %d logs held out, each taken by itself, it is nearer in %d; the sections name the others.\n",
-          t->logs, t->logs_lower);
-  if (t->by_channel.n > 0)
-    fprintf(file, "\nWhat took no part is a channel that was not fitted, not a run held out, in: %s.\n",
-            t->by_channel.text);
-  if (t->raised.n > 0)
-    fprintf(file,
-            "\nNearer than the declared model is not nearest: the error held out was lower on the way, and what was "
-            "added after that raised it, in %d: %s.\n",
-            t->raised.n, t->raised.text);
+      lab_json_say(list, "%s %d %s", cJSON_GetArraySize(list) ? "," : ":", t->verdict[i], verdicts[i][1]);
+  lab_json_put(page, "held", "%d", t->held);
+  lab_json_put(page, "lower", "%d", t->lower);
+  lab_json_put(page, "logs", "%d", t->logs);
+  lab_json_put(page, "logs_lower", "%d", t->logs_lower);
+  put_list(page, "not_lower", "sets", t->not_lower);
+  put_list(page, "by_channel", "sets", t->by_channel);
+  put_list(page, "raised", "sets", t->raised);
 }
 
 /* ---- The report ---- */
 
-static const char head[] =
-    "# Measured sets\n\n"
-    "Made by `make measured`; every number below is read from the files that closeloop wrote, but for what a rig file "
-    "declares. Each set is one rig file and some raw logs of other people ([where they are "
-    "from](../../study/measured/fetch.sh)), read as they are: what is left out or put in before a fit is in the group "
-    "`log` of the rig file.\n\n"
-    "- Before: the declared model, its unknowns fitted. After: what it lacks traced, added and fitted.\n"
-    "- Held out: other runs, or where there is one record other rows of it, which took no part in the fit or in the "
-    "choice of what to add.\n"
-    "- Errors are root mean squares over all values of the channel. In brackets: the same over the sensor's noise, "
-    "which the rig file declares with where it is from. At 1 nothing but noise is left.\n"
-    "- Explained: what is left passes for noise. Undecided: it does not, so that the effects found come nearest but "
-    "may stand in for others.\n"
-    "- Root chi-square: what the fit makes small, the root of the sum of squares over the noise, as a share of that of "
-    "the declared model. It takes into account that noise is correlated in time, which root mean squares do not.\n"
-    "- BIC: Schwarz's criterion, chi-square and a penalty for each parameter.\n"
-    "- Lag-1 autocorrelation of what is left: at 0 it is noise, near 1 a slow wave.\n\n"
-    "| set | channel | noise | before | after | held out, before | held out, after | verdict | effects found |\n"
-    "|---|---|---|---|---|---|---|---|---|\n";
-
-static int write_all(FILE *file, const sets_result *result, int n, cJSON *const *json, const char *out_dir,
-                     lab_error *error)
+static int put_ran(const story *s, tally *t, cJSON *to, lab_error *error)
 {
-  static tally t;
+  static lab_rig rig;
+  char path[PATH_TEXT];
+  int better;
+  snprintf(path, sizeof path, "study/measured/%s", sets_text(s->set, "rig"));
+  if (lab_rig_read(path, &rig, error))
+    return error->status;
+  count(s, t);
+  put_errors(s, to);
+  put_verdict(s, to);
+  put_in_pressure(s, &rig, to);
+  put_way(s, to);
+  put_singles(s, to);
+  put_rival(s, to);
+  put_best(s, to);
+  put_parameters(s->json, to);
+  t->logs += put_held(s, to, &better);
+  t->logs_lower += better;
+  return put_given(s, &rig, to, error) ? error->status : put_residual(s, to, error);
+}
+
+static int put_all(const sets_result *result, int n, const char *out_dir, cJSON *page, lab_error *error)
+{
+  cJSON *list = cJSON_AddArrayToObject(page, "sets");
+  tally t = {.not_lower = cJSON_CreateArray(), .by_channel = cJSON_CreateArray(), .raised = cJSON_CreateArray()};
   int i, status = LAB_OK;
-  memset(&t, 0, sizeof t);
-  fputs(head, file);
-  for (i = 0; i < n; i++) {
-    write_row(file, &result[i], json[i]);
-    count(&t, &result[i], json[i]);
+  for (i = 0; i < n && status == LAB_OK; i++) {
+    cJSON *json = result[i].state == SETS_DONE ? sets_json(out_dir, result[i].set) : NULL, *to = lab_json_append(list);
+    const story s = story_of(result[i].set, json, out_dir);
+    put_declared(result[i].set, to);
+    lab_json_put(to, "state", "%s", result[i].state == SETS_ABSENT ? "data absent" : "closeloop failed");
+    if (json)
+      status = put_ran(&s, &t, cJSON_AddObjectToObject(to, "ran"), error);
+    cJSON_Delete(json);
   }
-  write_tally(file, &t, n);
-  for (i = 0; i < n && status == LAB_OK; i++)
-    status = sets_section(file, &result[i], json[i], out_dir, error);
+  put_tally(&t, n, page);
   return status;
 }
 
 int sets_report(const sets_result *result, int n, const char *out_dir, lab_error *error)
 {
-  cJSON *json[SETS_MAX];
-  char path[SETS_PATH_TEXT];
+  cJSON *page = cJSON_CreateObject();
+  char path[PATH_TEXT], *text = lab_template_text(template);
   lab_outfile out;
-  int i, status;
+  int status = text ? put_all(result, n, out_dir, page, error) : lab_fail_memory(error, "the report");
   snprintf(path, sizeof path, "%s/REPORT.md", out_dir);
-  if (lab_out_open(&out, path, error))
-    return error->status;
-  for (i = 0; i < n; i++)
-    json[i] = result[i].state == SETS_DONE ? sets_json(out_dir, result[i].set) : NULL;
-  status = write_all(out.file, result, n, json, out_dir, error);
-  for (i = 0; i < n; i++)
-    cJSON_Delete(json[i]);
-  if (status != LAB_OK) {
-    lab_out_abandon(&out);
-    return status;
-  }
-  return lab_out_close(&out, error);
+  if (status == LAB_OK)
+    status = lab_out_open(&out, path, error);
+  if (status == LAB_OK)
+    status = lab_out_end(&out, lab_template_write(out.file, text, page, error), error);
+  cJSON_Delete(page);
+  free(text);
+  return status;
 }

@@ -57,9 +57,9 @@ static double work_on_air(const stroke_curve *c, double area)
 int speeds_measure(const pneu_params *params, const pneu_laws *law, speed_pair *out, lab_error *error)
 {
   stroke_pair pair;
-  int status = stroke_sample(params, law, &pair, error);
+  int status = stroke_sample(params, params, law, &pair, error);
   if (status == LAB_OK) {
-    const lab_edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
+    const lab_edge rising = stroke_edge(&pair.up), falling = stroke_edge(&pair.down);
     status = lab_asymmetry_measure(&rising, &falling, &out->shape, error);
   }
   if (status == LAB_OK) {

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "linearflow.h"
+
 static const double longest = 400.0; /* [s] for one stroke */
 static const double spacing = 0.02;  /* [s] longest step */
 
@@ -80,30 +82,31 @@ static int one_stroke(const pneu_model *model, pneu_state *state, double u, stro
   return LAB_OK;
 }
 
-static int both_strokes(const pneu_model *model, stroke_pair *pair, lab_error *error)
+static int make_model(const pneu_params *params, const pneu_laws *law, pneu_model *model, lab_error *error)
 {
-  pneu_input shut;
-  pneu_state state;
-  int status;
-  pneu_input_default(model, &shut);
-  pneu_state_rest(model, 0, model->p.ambient_temperature, 0, &shut, &state);
-  status = one_stroke(model, &state, 1, &pair->up, error);
-  return status ? status : one_stroke(model, &state, -1, &pair->down, error);
-}
-
-int stroke_sample(const pneu_params *params, const pneu_laws *law, stroke_pair *pair, lab_error *error)
-{
-  pneu_model model;
   pneu_param_info info;
-  int bad, status = pneu_model_init(&model, params, law, &bad);
-  memset(pair, 0, sizeof *pair);
+  int bad, status = linear_model_init(model, params, law, &bad);
   if (status == PNEU_E_PARAM) {
     pneu_param_describe(bad, &info);
     return lab_fail(error, LAB_DATA, "%s is outside %g .. %g %s", info.name, info.lower, info.upper, info.unit);
   }
-  if (status != PNEU_OK)
-    return lab_fail(error, LAB_DATA, "%s", pneu_status_text(status));
-  return both_strokes(&model, pair, error);
+  return status == PNEU_OK ? LAB_OK : lab_fail(error, LAB_DATA, "%s", pneu_status_text(status));
+}
+
+int stroke_sample(const pneu_params *up, const pneu_params *down, const pneu_laws *law, stroke_pair *pair,
+                  lab_error *error)
+{
+  pneu_model rising, falling;
+  pneu_input shut;
+  pneu_state state;
+  memset(pair, 0, sizeof *pair);
+  if (make_model(up, law, &rising, error) || make_model(down, law, &falling, error))
+    return error->status;
+  pneu_input_default(&rising, &shut);
+  pneu_state_rest(&rising, 0, rising.p.ambient_temperature, 0, &shut, &state);
+  if (one_stroke(&rising, &state, 1, &pair->up, error))
+    return error->status;
+  return one_stroke(&falling, &state, -1, &pair->down, error);
 }
 
 static void free_curve(stroke_curve *s)
@@ -121,12 +124,19 @@ void stroke_pair_free(stroke_pair *pair)
   memset(pair, 0, sizeof *pair);
 }
 
-int stroke_measure(const pneu_params *params, const pneu_laws *law, lab_asymmetry *out, lab_error *error)
+lab_edge stroke_edge(const stroke_curve *s)
+{
+  const lab_edge edge = {s->n, s->t, s->x};
+  return edge;
+}
+
+int stroke_measure(const pneu_params *up, const pneu_params *down, const pneu_laws *law, lab_asymmetry *out,
+                   lab_error *error)
 {
   stroke_pair pair;
-  int status = stroke_sample(params, law, &pair, error);
+  int status = stroke_sample(up, down, law, &pair, error);
   if (status == LAB_OK) {
-    const lab_edge rising = {pair.up.n, pair.up.t, pair.up.x}, falling = {pair.down.n, pair.down.t, pair.down.x};
+    const lab_edge rising = stroke_edge(&pair.up), falling = stroke_edge(&pair.down);
     status = lab_asymmetry_measure(&rising, &falling, out, error);
   }
   stroke_pair_free(&pair);

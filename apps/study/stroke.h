@@ -21,16 +21,20 @@ typedef struct stroke_pair {
   stroke_curve up, down;
 } stroke_pair;
 
-/* Fill from rest on the lower stop until nothing moves, then vent until nothing moves.
- * Method: the library's stepper at tol 1e-8.
- * Out:     pair  free with stroke_pair_free, also after a failure
+/* Fill from rest on the lower stop until nothing moves, then vent until nothing moves, by the library's stepper at
+ * tol 1e-8.
+ * In:      up, down  parameters on either way; the same of an actuator that has no others on its way down
+ * Out:     pair      free with stroke_pair_free, also after a failure
  * Returns: LAB_OK, LAB_DATA (parameters out of bounds), LAB_NUMERIC, LAB_WORLD. */
-int stroke_sample(const pneu_params *params, const pneu_laws *law, stroke_pair *pair, lab_error *error);
+int stroke_sample(const pneu_params *up, const pneu_params *down, const pneu_laws *law, stroke_pair *pair,
+                  lab_error *error);
 void stroke_pair_free(stroke_pair *pair);
 
-/* Fill from rest on the lower stop until nothing moves, then vent until nothing moves, and measure.
- * Method: the library's stepper at tol 1e-8.
- * Returns: LAB_OK, LAB_DATA (parameters out of bounds, or no travel), LAB_NUMERIC, LAB_WORLD. */
-int stroke_measure(const pneu_params *params, const pneu_laws *law, lab_asymmetry *out, lab_error *error);
+/* A stroke as the measures take it. */
+lab_edge stroke_edge(const stroke_curve *s);
+
+/* Sample and measure.  Returns: as stroke_sample; LAB_DATA also without travel. */
+int stroke_measure(const pneu_params *up, const pneu_params *down, const pneu_laws *law, lab_asymmetry *out,
+                   lab_error *error);
 
 #endif

@@ -1,6 +1,8 @@
 #include "study.h"
 
+#include <ctype.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,8 +12,17 @@
 /* A row of the table of keys; the name comes first, as lab_config_known wants it. */
 typedef struct key {
   const char *name;
-  int (*read)(const config_setting_t *setting, study *s, lab_error *error);
+  int (*read)(const struct key *key, const config_setting_t *setting, study *s, lab_error *error);
+  size_t at;        /* of its field */
+  const char *unit; /* of a range */
+  int optional;
 } key;
+
+/* The field of a key. */
+static void *field(const key *k, study *s)
+{
+  return (char *)s + k->at;
+}
 
 /* Path beside the study file. */
 static int beside(const study *s, const char *name, char *path, lab_error *error)
@@ -23,25 +34,42 @@ static int beside(const study *s, const char *name, char *path, lab_error *error
   return lab_fail(error, LAB_DATA, "path is too long: %s", name);
 }
 
-static int read_actuators(const config_setting_t *list, study *s, lab_error *error)
+/* The name of an actuator goes into names of files and the first cells of tables. */
+static int check_name(const config_setting_t *item, const char *name, lab_error *error)
+{
+  if (!ispunct((unsigned char)*name) && !strpbrk(name, "/\\"))
+    return LAB_OK;
+  return lab_config_fail(item, error,
+                         "expected an actuator whose name begins with a letter or digit and has no / or \\, "
+                         "found \"%s\"",
+                         name);
+}
+
+/* Rig files, added to the actuators; those of the first list are printed. */
+static int read_actuators(const key *k, const config_setting_t *list, study *s, lab_error *error)
 {
   int i;
-  if (lab_config_list(list, 1, STUDY_ACTUATOR_MAX, error))
+  (void)k;
+  if (lab_config_list(list, 1, STUDY_ACTUATOR_MAX - s->n_actuators, error))
     return error->status;
   for (i = 0; i < config_setting_length(list); i++) {
     const config_setting_t *item = config_setting_get_elem(list, (unsigned)i);
     char name[STUDY_PATH_TEXT], path[STUDY_PATH_TEXT];
     if (lab_config_text(item, name, sizeof name, error) || beside(s, name, path, error) ||
-        lab_rig_read(path, &s->actuator[i], error))
+        lab_rig_read(path, &s->actuator[s->n_actuators], error) ||
+        check_name(item, s->actuator[s->n_actuators].name, error))
       return error->status;
+    s->n_actuators++;
   }
-  s->n_actuators = i;
+  if (s->n_printed == 0)
+    s->n_printed = s->n_actuators;
   return LAB_OK;
 }
 
-static int read_subject(const config_setting_t *setting, study *s, lab_error *error)
+static int read_subject(const key *k, const config_setting_t *setting, study *s, lab_error *error)
 {
   char name[LAB_NAME_TEXT];
+  (void)k;
   if (lab_config_text(setting, name, sizeof name, error))
     return error->status;
   for (s->subject = 0; s->subject < s->n_actuators; s->subject++)
@@ -50,51 +78,38 @@ static int read_subject(const config_setting_t *setting, study *s, lab_error *er
   return lab_config_fail(setting, error, "no actuator of the list is named \"%s\"", name);
 }
 
-static int read_laws(const config_setting_t *list, const char *(*name_of)(int), int count, int *law, int *n,
-                     lab_error *error)
+static int read_laws(const key *k, const config_setting_t *list, study *s, lab_error *error)
 {
-  const char *names[STUDY_LAW_MAX];
-  int i;
-  for (i = 0; i < count && i < STUDY_LAW_MAX; i++)
-    names[i] = name_of(i);
+  const int is_gas = k->at == offsetof(study, gas), count = is_gas ? PNEU_GAS_COUNT : PNEU_FLOW_COUNT;
+  const char *names[PNEU_GAS_COUNT + PNEU_FLOW_COUNT];
+  int i, *law = field(k, s);
+  for (i = 0; i < count; i++)
+    names[i] = is_gas ? pneu_gas_key(i) : pneu_flow_key(i);
   if (lab_config_list(list, 1, STUDY_LAW_MAX, error))
     return error->status;
-  for (*n = 0; *n < config_setting_length(list); ++*n)
-    if (lab_config_choice(config_setting_get_elem(list, (unsigned)*n), names, (size_t)i, sizeof *names, &law[*n],
+  for (i = 0; i < config_setting_length(list); i++)
+    if (lab_config_choice(config_setting_get_elem(list, (unsigned)i), names, (size_t)count, sizeof *names, &law[i],
                           error))
       return error->status;
+  *(is_gas ? &s->n_gas : &s->n_flow) = i;
   return LAB_OK;
 }
 
-static int read_gas(const config_setting_t *list, study *s, lab_error *error)
+static int read_folder(const key *k, const config_setting_t *setting, study *s, lab_error *error)
 {
-  return read_laws(list, pneu_gas_key, PNEU_GAS_COUNT, s->gas, &s->n_gas, error);
+  return lab_config_text(setting, field(k, s), STUDY_PATH_TEXT, error);
 }
 
-static int read_flow(const config_setting_t *list, study *s, lab_error *error)
+static int read_share(const key *k, const config_setting_t *setting, study *s, lab_error *error)
 {
-  return read_laws(list, pneu_flow_key, PNEU_FLOW_COUNT, s->flow, &s->n_flow, error);
-}
-
-static int read_results(const config_setting_t *setting, study *s, lab_error *error)
-{
-  return lab_config_text(setting, s->results, sizeof s->results, error);
-}
-
-static int read_measured(const config_setting_t *setting, study *s, lab_error *error)
-{
-  return lab_config_text(setting, s->measured, sizeof s->measured, error);
-}
-
-static int read_confirmed(const config_setting_t *setting, study *s, lab_error *error)
-{
-  return lab_config_quantity(setting, "1", 0, 1, &s->confirmed_below, error);
+  return lab_config_quantity(setting, "1", 0, 1, field(k, s), error);
 }
 
 /* The group of a hypothesis: figure is for the reader, the range is for the program. */
-static int read_range(const config_setting_t *group, const char *unit, study_range *range, lab_error *error)
+static int read_range(const key *k, const config_setting_t *group, study *s, lab_error *error)
 {
   static const char *const keys[] = {"figure", "from", "to", "points"};
+  study_range *range = field(k, s);
   const config_setting_t *from = config_setting_get_member(group, "from");
   const config_setting_t *to = config_setting_get_member(group, "to");
   const config_setting_t *points = config_setting_get_member(group, "points");
@@ -102,30 +117,10 @@ static int read_range(const config_setting_t *group, const char *unit, study_ran
     return error->status;
   if (!from || !to || !points)
     return lab_config_fail(group, error, "expected the keys from, to and points");
-  if (lab_config_quantity(from, unit, 0, HUGE_VAL, &range->from, error) ||
-      lab_config_quantity(to, unit, range->from, HUGE_VAL, &range->to, error))
+  if (lab_config_quantity(from, k->unit, 0, HUGE_VAL, &range->from, error) ||
+      lab_config_quantity(to, k->unit, range->from, HUGE_VAL, &range->to, error))
     return error->status;
   return lab_config_count(points, 2, 10000, &range->points, error);
-}
-
-static int read_h1(const config_setting_t *group, study *s, lab_error *error)
-{
-  return read_range(group, "N/m", &s->range[0], error);
-}
-
-static int read_h2(const config_setting_t *group, study *s, lab_error *error)
-{
-  return read_range(group, "N", &s->range[1], error);
-}
-
-static int read_h3(const config_setting_t *group, study *s, lab_error *error)
-{
-  return read_range(group, "1", &s->range[2], error);
-}
-
-static int read_h5(const config_setting_t *group, study *s, lab_error *error)
-{
-  return read_range(group, "1", &s->range[4], error);
 }
 
 static int read_bench(const config_setting_t *pair, study_bench *bench, lab_error *error)
@@ -137,10 +132,11 @@ static int read_bench(const config_setting_t *pair, study_bench *bench, lab_erro
   return lab_config_quantity(config_setting_get_elem(pair, 1), "Pa", bench->low + 1, HUGE_VAL, &bench->high, error);
 }
 
-static int read_h4(const config_setting_t *group, study *s, lab_error *error)
+static int read_benches(const key *k, const config_setting_t *group, study *s, lab_error *error)
 {
   static const char *const keys[] = {"figure", "bench_sets"};
   const config_setting_t *list = config_setting_get_member(group, "bench_sets");
+  (void)k;
   if (lab_config_is_group(group, error) || lab_config_known(group, keys, 2, sizeof *keys, error))
     return error->status;
   if (!list)
@@ -153,18 +149,19 @@ static int read_h4(const config_setting_t *group, study *s, lab_error *error)
   return LAB_OK;
 }
 
-static const key keys[] = {{"actuators", read_actuators},
-                           {"subject", read_subject},
-                           {"gas", read_gas},
-                           {"flow", read_flow},
-                           {"results", read_results},
-                           {"measured", read_measured},
-                           {"confirmed_below", read_confirmed},
-                           {"H1", read_h1},
-                           {"H2", read_h2},
-                           {"H3", read_h3},
-                           {"H4", read_h4},
-                           {"H5", read_h5}};
+static const key keys[] = {{"actuators", read_actuators, 0, NULL, 0},
+                           {"consistent", read_actuators, 0, NULL, 1},
+                           {"subject", read_subject, 0, NULL, 0},
+                           {"gas", read_laws, offsetof(study, gas), NULL, 0},
+                           {"flow", read_laws, offsetof(study, flow), NULL, 0},
+                           {"results", read_folder, offsetof(study, results), NULL, 0},
+                           {"measured", read_folder, offsetof(study, measured), NULL, 0},
+                           {"confirmed_below", read_share, offsetof(study, confirmed_below), NULL, 0},
+                           {"H1", read_range, offsetof(study, range[0]), "N/m", 0},
+                           {"H2", read_range, offsetof(study, range[1]), "N", 0},
+                           {"H3", read_range, offsetof(study, range[2]), "1", 0},
+                           {"H4", read_benches, 0, NULL, 0},
+                           {"H5", read_range, offsetof(study, range[4]), "1", 0}};
 enum { KEYS = sizeof keys / sizeof *keys };
 
 static int read_all(config_t *config, study *s, lab_error *error)
@@ -175,9 +172,11 @@ static int read_all(config_t *config, study *s, lab_error *error)
     return error->status;
   for (i = 0; i < KEYS; i++) {
     const config_setting_t *setting = config_setting_get_member(root, keys[i].name);
+    if (!setting && keys[i].optional)
+      continue;
     if (!setting)
       return lab_fail(error, LAB_DATA, "%s: key %s is missing", s->file, keys[i].name);
-    if (keys[i].read(setting, s, error))
+    if (keys[i].read(&keys[i], setting, s, error))
       return error->status;
   }
   return LAB_OK;
@@ -216,14 +215,17 @@ int study_save(const study *s, const char *name, const table *t, lab_error *erro
   snprintf(path, sizeof path, "%s/%s", s->results, name);
   if (lab_out_open(&out, path, error))
     return error->status;
-  if (table_write(t, out.file, error)) {
-    lab_out_abandon(&out);
-    return error->status;
-  }
-  if (lab_out_close(&out, error))
+  if (lab_out_end(&out, table_write(t, out.file, error), error))
     return error->status;
   study_note_saved(s, name);
   return LAB_OK;
+}
+
+int table_load(const study *s, const char *name, table *t, lab_error *error)
+{
+  char path[STUDY_PATH_TEXT + 64];
+  snprintf(path, sizeof path, "%s/%s", s->results, name);
+  return table_load_file(path, t, error);
 }
 
 void study_note_saved(const study *s, const char *name)

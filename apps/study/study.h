@@ -7,7 +7,13 @@
 #include "../lab/rig/rig.h"
 #include "table.h"
 
-enum { STUDY_ACTUATOR_MAX = 8, STUDY_LAW_MAX = 8, STUDY_BENCH_MAX = 16, STUDY_PATH_TEXT = 1024 };
+enum {
+  STUDY_ACTUATOR_MAX = 8,
+  STUDY_LAW_MAX = 8,
+  STUDY_BENCH_MAX = 16,
+  STUDY_PATH_TEXT = 1024,
+  STUDY_FILE_TEXT = 3 * LAB_NAME_TEXT
+};
 
 /* Values of the varied quantity, in equal steps. */
 typedef struct study_range {
@@ -25,12 +31,12 @@ typedef struct study_saved {
 } study_saved;
 
 typedef struct study {
-  char file[STUDY_PATH_TEXT];     /* the configuration */
-  char results[STUDY_PATH_TEXT];  /* folder */
-  char measured[STUDY_PATH_TEXT]; /* folder */
-  int n_actuators;
-  lab_rig actuator[STUDY_ACTUATOR_MAX];
-  int subject; /* index of the actuator that the hypotheses are tried on */
+  char file[STUDY_PATH_TEXT];           /* the configuration */
+  char results[STUDY_PATH_TEXT];        /* folder */
+  char measured[STUDY_PATH_TEXT];       /* folder */
+  int n_actuators, n_printed;           /* all; those with the parameters of Table A1 as printed, which come first */
+  lab_rig actuator[STUDY_ACTUATOR_MAX]; /* then those whose spring follows from the bench set */
+  int subject;                          /* index of the actuator that the hypotheses are tried on */
   int n_gas, gas[STUDY_LAW_MAX];
   int n_flow, flow[STUDY_LAW_MAX];
   double confirmed_below; /* [1] */
@@ -49,6 +55,9 @@ void study_folder(const study *s, char folder[STUDY_PATH_TEXT]);
 
 /* Write a table to a file of the results folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
 int study_save(const study *s, const char *name, const table *t, lab_error *error);
+
+/* Read a table of the results folder.  Out, Returns: as table_load_file */
+int table_load(const study *s, const char *name, table *t, lab_error *error);
 
 /* Tell whoever asks that a file of the results folder has been written. */
 void study_note_saved(const study *s, const char *name);

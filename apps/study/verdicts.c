@@ -1,113 +1,112 @@
 #include "verdicts.h"
 
 #include <math.h>
-#include <stdio.h>
 
+#include "products.h"
 #include "stroke.h"
 
-/* A model with the causes of a bit set taken away; the spring last, for the others reckon with its rate. */
-static int measure(const lab_rig *rig, int gas, int flow, int taken, lab_asymmetry *r, lab_error *error)
+/* A model without one cause, or with HYPOTHESES, whole. */
+static int measure(const lab_rig *rig, const pneu_laws *laws, int cause, lab_asymmetry *r, lab_error *error)
 {
   pneu_params p = rig->params;
-  pneu_laws laws = study_laws(rig, gas, flow);
+  pneu_laws own = *laws;
+  if (cause < HYPOTHESES)
+    hypotheses[cause].without(&p, &own);
+  return stroke_measure(&p, &p, &own, r, error);
+}
+
+int verdict_measure(const lab_rig *rig, const pneu_laws *laws, verdict_strokes *out, lab_error *error)
+{
+  static const lab_asymmetry untried = {.asymmetry = NAN, .asymmetry_signed = NAN};
   int c;
-  for (c = REMOVALS - 1; c >= 0; c--)
-    if (taken >> c & 1)
-      removals[c].apply(&p, &laws);
-  return stroke_measure(&p, &laws, r, error);
-}
-
-static int is_necessary(const verdicts_law *law, int cause, double below)
-{
-  return law->without[cause] < below * law->base;
-}
-
-static int necessary_causes(const verdicts_law *law, double below)
-{
-  int c, set = 0;
-  for (c = 0; c < REMOVALS; c++)
-    set |= is_necessary(law, c, below) << c;
-  return set;
-}
-
-int verdicts_measure(const lab_rig *rig, int gas, int flow, double below, verdicts_law *out, lab_error *error)
-{
-  lab_asymmetry r;
-  int c, needed;
-  if (measure(rig, gas, flow, 0, &r, error))
+  if (measure(rig, laws, HYPOTHESES, &out->base, error))
     return error->status;
-  out->base = r.asymmetry;
-  out->base_ratio = r.duration_ratio;
-  for (c = 0; c < REMOVALS; c++) {
-    if (measure(rig, gas, flow, 1 << c, &r, error))
-      return lab_fail_in(error, "%s without its cause", removals[c].hypothesis);
-    out->without[c] = r.asymmetry;
-    out->without_ratio[c] = r.duration_ratio;
+  for (c = 0; c < HYPOTHESES; c++) {
+    out->alone[c] = untried;
+    if (measure(rig, laws, c, &out->without[c], error))
+      return lab_fail_in(error, "%s without its cause", hypotheses[c].name);
   }
-  needed = necessary_causes(out, below);
-  for (c = 0; c < REMOVALS; c++) {
-    out->alone[c] = (double)NAN;
-    if (!(needed >> c & 1))
-      continue;
-    if (measure(rig, gas, flow, needed & ~(1 << c), &r, error))
-      return lab_fail_in(error, "%s alone", removals[c].hypothesis);
-    out->alone[c] = r.asymmetry;
+  out->alone[H1_RATE] = out->without[H6_AIR_PROCESS];
+  out->alone[H6_AIR_PROCESS] = out->without[H1_RATE];
+  return LAB_OK;
+}
+
+verdict_shares verdict_shares_of(const verdict_strokes *strokes, int cause)
+{
+  const lab_asymmetry *base = &strokes->base, *without = &strokes->without[cause], *alone = &strokes->alone[cause];
+  const verdict_shares shares = {without->asymmetry / base->asymmetry,
+                                 without->asymmetry_signed / base->asymmetry_signed, alone->asymmetry / base->asymmetry,
+                                 alone->asymmetry_signed / base->asymmetry_signed};
+  return shares;
+}
+
+verdict verdict_judge(const verdict_shares *shares, double below)
+{
+  if (fabs(shares->left - 1) < 1e-6)
+    return VERDICT_NOT_TESTED;
+  if (!(shares->left < below))
+    return shares->left_signed < -below ? VERDICT_REVERSED : VERDICT_NOT_CONFIRMED;
+  if (shares->alone < below)
+    return VERDICT_NECESSARY;
+  return shares->alone_signed < -below ? VERDICT_OPPOSITE : VERDICT_CONFIRMED;
+}
+
+static const struct {
+  const char *text, *brief;
+} verdict_words[] = {
+    [VERDICT_NOT_TESTED] = {"not tested: nothing to take away", "not tested"},
+    [VERDICT_NOT_CONFIRMED] = {"not confirmed", "not confirmed"},
+    [VERDICT_REVERSED] = {"not confirmed; without it the strokes bend the other way", "not confirmed, reversed"},
+    [VERDICT_NECESSARY] = {"confirmed as necessary; alone it makes no asymmetry", "necessary, alone nothing"},
+    [VERDICT_OPPOSITE] = {"confirmed as necessary; alone it bends the strokes the other way",
+                          "necessary, alone reversed"},
+    [VERDICT_CONFIRMED] = {"confirmed", "confirmed"}};
+
+const char *verdict_brief(verdict v)
+{
+  return verdict_words[v].brief;
+}
+
+/* ---- Tables ---- */
+
+static const char *judged(const verdict_shares *shares, double below)
+{
+  return verdict_words[verdict_judge(shares, below)].text;
+}
+
+enum { VERDICTS, THRESHOLDS };
+
+static int verdict_rows(const study_cell *cell, table *t, lab_error *error)
+{
+  static const double below[] = {0.05, 0.10, 0.20, 0.30};
+  verdict_strokes strokes;
+  int c;
+  if (verdict_measure(cell->rig, &cell->laws, &strokes, error))
+    return error->status;
+  for (c = 0; c < HYPOTHESES; c++) {
+    const lab_asymmetry *base = &strokes.base, *without = &strokes.without[c], *alone = &strokes.alone[c];
+    const verdict_shares share = verdict_shares_of(&strokes, c);
+    const int depends = verdict_judge(&share, below[0]) != verdict_judge(&share, below[3]);
+    table_row(&t[VERDICTS], "sssggggsgggg", hypotheses[c].name, cell->gas, cell->flow, base->asymmetry,
+              without->asymmetry, base->duration_ratio, without->duration_ratio,
+              judged(&share, cell->s->confirmed_below), base->asymmetry_signed, without->asymmetry_signed,
+              alone->asymmetry, alone->asymmetry_signed);
+    table_row(&t[THRESHOLDS], "ssssggggsssss", cell->rig->name, hypotheses[c].name, cell->gas, cell->flow, share.left,
+              share.left_signed, share.alone, share.alone_signed, judged(&share, below[0]), judged(&share, below[1]),
+              judged(&share, below[2]), judged(&share, below[3]), depends ? "yes" : "no");
   }
   return LAB_OK;
 }
 
-const char *verdicts_text(const verdicts_law *law, int cause, double below)
-{
-  if (fabs(law->without[cause] - law->base) < 1e-6 * law->base)
-    return "not confirmed: nothing to take away";
-  if (!is_necessary(law, cause, below))
-    return "not confirmed";
-  if (law->alone[cause] < below * law->base)
-    return "confirmed as necessary; alone it makes no asymmetry";
-  return "confirmed";
-}
-
-static void add_row(table *t, int cause, int gas, int flow, const verdicts_law *law, double below)
-{
-  table_row(t, "sssggggs", removals[cause].hypothesis, pneu_gas_key(gas), pneu_flow_key(flow), law->base,
-            law->without[cause], law->base_ratio, law->without_ratio[cause], verdicts_text(law, cause, below));
-}
-
-static int add_rows(table *t, const study *s, const lab_rig *rig, lab_error *error)
-{
-  verdicts_law law[STUDY_LAW_MAX * STUDY_LAW_MAX];
-  const int laws = s->n_gas * s->n_flow;
-  int c, i;
-  for (i = 0; i < laws; i++)
-    if (verdicts_measure(rig, s->gas[i / s->n_flow], s->flow[i % s->n_flow], s->confirmed_below, &law[i], error))
-      return error->status;
-  for (c = 0; c < REMOVALS; c++)
-    for (i = 0; i < laws; i++)
-      add_row(t, c, s->gas[i / s->n_flow], s->flow[i % s->n_flow], &law[i], s->confirmed_below);
-  return LAB_OK;
-}
-
-static int verdict_table(const study *s, int actuator, lab_error *error)
-{
-  const lab_rig *rig = &s->actuator[actuator];
-  char name[LAB_NAME_TEXT + 32] = "hypotheses.csv";
-  int status;
-  table t;
-  table_open(&t, "hypothesis,gas,flow,asymmetry_base,asymmetry_without_cause,duration_ratio_base,"
-                 "duration_ratio_without_cause,verdict");
-  status = add_rows(&t, s, rig, error);
-  if (actuator != s->subject)
-    snprintf(name, sizeof name, "hypotheses_%s.csv", rig->name);
-  if (status == LAB_OK)
-    status = study_save(s, name, &t, error);
-  table_close(&t);
-  return status;
-}
-
-int verdicts_make(const study *s, lab_error *error)
-{
-  int i, status = LAB_OK;
-  for (i = 0; i < s->n_actuators && status == LAB_OK; i++)
-    status = verdict_table(s, i, error);
-  return status;
-}
+const study_tables verdicts = {
+    {STUDY_ALL, STUDY_EVERY_LAW},
+    verdict_rows,
+    {[VERDICTS] = {"hypotheses",
+                   "hypothesis,gas,flow,asymmetry_base,asymmetry_without_cause,duration_ratio_base,"
+                   "duration_ratio_without_cause,verdict,asymmetry_signed_base,asymmetry_signed_without_cause,"
+                   "asymmetry_alone,asymmetry_signed_alone",
+                   STUDY_BY_ACTUATOR, STUDY_ACTUATOR_FILE, 0},
+     [THRESHOLDS] = {"hypotheses_thresholds.csv",
+                     "actuator,hypothesis,gas,flow,share_left,share_left_signed,share_alone,share_alone_signed,"
+                     "below_5_percent,below_10_percent,below_20_percent,below_30_percent,depends_on_threshold",
+                     STUDY_BY_ACTUATOR, STUDY_WHOLE, 0}}};

@@ -1,31 +1,45 @@
 /* Verdicts on the six hypotheses.
  *
- * A hypothesis is confirmed if the asymmetry falls below a share of its value when its cause is taken away. Where that
- * is so of several causes, each is then tried alone, with the others taken away: a cause may be needed and yet make
- * nothing by itself. No cause is exempt.
+ * A cause is necessary if less than a share of the asymmetry is left when it is taken away. The rate of the spring and
+ * the air process are each tried alone too, with the other taken away: a cause may be necessary and yet make nothing by
+ * itself. Where a cause takes nothing away from an actuator, nothing was tested. No cause is exempt.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_VERDICTS_H
 #define STUDY_VERDICTS_H
 
-#include "removals.h"
-#include "study.h"
+#include "../lab/metrics/asymmetry.h"
+#include "hypotheses.h"
 
-/* One law: asymmetry and duration ratio with everything there, without each cause, and with each alone. */
-typedef struct verdicts_law {
-  double base, base_ratio;
-  double without[REMOVALS], without_ratio[REMOVALS];
-  double alone[REMOVALS]; /* with every other cause taken away without which the asymmetry falls below the share;
-                             NaN where the cause itself is not such a one, or the stroke cannot be made */
-} verdicts_law;
+/* What is left of the asymmetry, over the base [1]. */
+typedef struct verdict_shares {
+  double left, left_signed;   /* without the cause; signed: below 0 where the strokes then bend the other way */
+  double alone, alone_signed; /* by the cause alone; NaN where that was not tried */
+} verdict_shares;
 
-/* In:      below  share of the asymmetry, as study.confirmed_below
- * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
-int verdicts_measure(const lab_rig *rig, int gas, int flow, double below, verdicts_law *out, lab_error *error);
+typedef enum verdict {
+  VERDICT_NOT_TESTED,    /* taking the cause away changes less than a millionth */
+  VERDICT_NOT_CONFIRMED, /* the share or more is left */
+  VERDICT_REVERSED,      /* the share or more is left, the other way round */
+  VERDICT_NECESSARY,     /* less is left; alone the cause makes less than the share */
+  VERDICT_OPPOSITE,      /* less is left; alone the cause bends the strokes the other way */
+  VERDICT_CONFIRMED      /* less is left */
+} verdict;
 
-/* "confirmed", "not confirmed", or one of these with a reason after it. */
-const char *verdicts_text(const verdicts_law *law, int cause, double below);
+/* In: below  share of the asymmetry, as study.confirmed_below [1] */
+verdict verdict_judge(const verdict_shares *shares, double below);
 
-/* results/hypotheses.csv for the subject, and hypotheses_<actuator>.csv for the others. */
-int verdicts_make(const study *s, lab_error *error);
+/* A verdict in a word or two, for the report. */
+const char *verdict_brief(verdict v);
+
+/* The strokes of an actuator in one law: with everything there, without each cause, and by each cause alone, which is
+ * tried of the two that can make asymmetry, the rate of the spring and the air process; all NaN of the others. */
+typedef struct verdict_strokes {
+  lab_asymmetry base, without[HYPOTHESES], alone[HYPOTHESES];
+} verdict_strokes;
+
+/* Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
+int verdict_measure(const lab_rig *rig, const pneu_laws *laws, verdict_strokes *out, lab_error *error);
+
+verdict_shares verdict_shares_of(const verdict_strokes *strokes, int cause);
 
 #endif

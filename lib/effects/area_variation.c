@@ -30,3 +30,6 @@ const pneu_effect pneu_effect_record_area_variation = {
     NULL,
     acts,
     prepare};
+
+const char pneu_effect_sentence_area_variation[] =
+    "The diaphragm's effective area {+falls|grows} by {percent} over the stroke.";

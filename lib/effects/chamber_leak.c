@@ -28,3 +28,5 @@ const pneu_effect pneu_effect_record_chamber_leak = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_chamber_leak[] = "The chamber leaks: {size}, {of_fill} of the fill orifice, {leak}.";

@@ -25,3 +25,6 @@ const pneu_effect pneu_effect_record_channel_skew = {
     NULL,
     NULL,
     prepare};
+
+const char pneu_effect_sentence_channel_skew[] =
+    "The recorded position is {size} {+older|younger} than the pressure beside it.";

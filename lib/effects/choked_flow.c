@@ -25,3 +25,6 @@ const pneu_effect pneu_effect_record_choked_flow = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_choked_flow[] =
+    "Flow stops growing once the orifice is sonic: {percent} of it follows the choking nozzle.";

@@ -67,3 +67,6 @@ const pneu_effect pneu_effect_record_connecting_tube = {
     start,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_connecting_tube[] = "A tube between transducer and chamber holds up the air: it takes "
+                                                    "{fill_drop} at the full flow of the fill orifice.";

@@ -1,4 +1,4 @@
-/* The command acts late: u(t - d). The delay is a constant of the model, for whoever owns the clock; see pneu_model.
+/* The command acts late: u(t - d). The delay is a constant of the model; what is on its way is in pneu_input.delay.
  * Size: 3 ms per metre of tube (speed of sound), 5 to 30 ms for the transducer's electronics and bus. */
 #include "../internal.h"
 
@@ -25,3 +25,5 @@ const pneu_effect pneu_effect_record_dead_time = {
     NULL,
     NULL,
     prepare};
+
+const char pneu_effect_sentence_dead_time[] = "Every command acts {size} late.";

@@ -25,3 +25,6 @@ const pneu_effect pneu_effect_record_exhaust_back_pressure = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_exhaust_back_pressure[] =
+    "Air leaves against a pressure: {vent_drop} at the full flow of the vent orifice.";

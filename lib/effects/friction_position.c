@@ -31,3 +31,5 @@ const pneu_effect pneu_effect_record_friction_position = {
     NULL,
     acts,
     NULL};
+
+const char pneu_effect_sentence_friction_position[] = "Dry friction {+grows|falls} by {percent} over the stroke.";

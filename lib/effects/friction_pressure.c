@@ -26,3 +26,6 @@ const pneu_effect pneu_effect_record_friction_pressure = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_friction_pressure[] = "Seals rub harder under pressure: {friction_rise} more at the "
+                                                      "supply pressure, {of_friction_rise} of the dry friction.";

@@ -46,3 +46,5 @@ const pneu_effect pneu_effect_record_heat_transfer = {
     NULL,
     acts,
     NULL};
+
+const char pneu_effect_sentence_heat_transfer[] = "Heat passes between gas and wall, but not at once: {size}.";

@@ -36,3 +36,6 @@ const pneu_effect pneu_effect_record_laminar_leak = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_laminar_leak[] =
+    "The chamber leaks through a narrow gap: {leak}, {leak_share} of what the fill orifice passes.";

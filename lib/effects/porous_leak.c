@@ -46,3 +46,6 @@ const pneu_effect pneu_effect_record_porous_leak = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_porous_leak[] =
+    "The chamber leaks through a porous wall: {leak}, {leak_share} of what the fill orifice passes.";

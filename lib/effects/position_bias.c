@@ -24,3 +24,6 @@ const pneu_effect pneu_effect_record_position_bias = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_position_bias[] =
+    "The position sensor shows {size} too {+much|little}, {of_stroke} of the stroke.";

@@ -24,3 +24,6 @@ const pneu_effect pneu_effect_record_position_gain = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_position_gain[] =
+    "The position sensor shows {percent} of the reading too {+much|little}.";

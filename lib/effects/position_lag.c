@@ -32,3 +32,5 @@ const pneu_effect pneu_effect_record_position_lag = {
     start,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_position_lag[] = "The position sensor follows with a lag of {size}.";

@@ -31,3 +31,5 @@ const pneu_effect pneu_effect_record_presliding = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_presliding[] = "Friction builds up over {size} of travel instead of at once.";

@@ -24,3 +24,6 @@ const pneu_effect pneu_effect_record_pressure_bias = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_pressure_bias[] =
+    "The pressure sensor shows {size} too {+much|little}, {of_supply} of the supply.";

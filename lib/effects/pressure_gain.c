@@ -24,3 +24,6 @@ const pneu_effect pneu_effect_record_pressure_gain = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_pressure_gain[] =
+    "The pressure sensor shows {percent} of the reading too {+much|little}.";

@@ -32,3 +32,5 @@ const pneu_effect pneu_effect_record_pressure_lag = {
     start,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_pressure_lag[] = "The pressure sensor follows with a lag of {size}.";

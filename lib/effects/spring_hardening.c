@@ -25,3 +25,6 @@ const pneu_effect pneu_effect_record_spring_hardening = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_spring_hardening[] =
+    "The spring {+stiffens|softens} with travel: at full stroke its force is {of_spring} off the straight line.";

@@ -27,3 +27,6 @@ const pneu_effect pneu_effect_record_spring_hysteresis = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_spring_hysteresis[] =
+    "Spring and diaphragm give back less force than they took: {size} either way, {of_friction} of the dry friction.";

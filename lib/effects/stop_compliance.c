@@ -53,3 +53,5 @@ const pneu_effect pneu_effect_record_stop_compliance = {
     NULL,
     acts,
     prepare};
+
+const char pneu_effect_sentence_stop_compliance[] = "The stops yield: {size}.";

@@ -28,3 +28,6 @@ const pneu_effect pneu_effect_record_stribeck_friction = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_stribeck_friction[] =
+    "The stem sticks: friction at rest is {percent} above that while sliding.";

@@ -24,3 +24,6 @@ const pneu_effect pneu_effect_record_supply_droop = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_supply_droop[] =
+    "The supply gives way: it loses {fill_drop} at the full flow of the fill orifice.";

@@ -32,3 +32,5 @@ const pneu_effect pneu_effect_record_temperature_lag = {
     start,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_temperature_lag[] = "The temperature sensor follows with a lag of {size}.";

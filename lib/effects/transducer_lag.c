@@ -30,3 +30,5 @@ const pneu_effect pneu_effect_record_transducer_lag = {
     start,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_transducer_lag[] = "The transducer follows its command with a lag of {size}.";

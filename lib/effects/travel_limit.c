@@ -26,3 +26,5 @@ const pneu_effect pneu_effect_record_travel_limit = {
     NULL,
     NULL,
     prepare};
+
+const char pneu_effect_sentence_travel_limit[] = "The stem stops {size} short of its stroke, {of_stroke} of it.";

@@ -25,3 +25,5 @@ const pneu_effect pneu_effect_record_vent_restriction = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_vent_restriction[] = "The vent passes {percent} {+less|more} than declared.";

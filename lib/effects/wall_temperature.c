@@ -35,3 +35,6 @@ const pneu_effect pneu_effect_record_wall_temperature = {
     NULL,
     acts,
     NULL};
+
+const char pneu_effect_sentence_wall_temperature[] =
+    "The wall warms and cools with the gas: its heat capacity is {reciprocal}.";

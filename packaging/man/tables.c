@@ -70,6 +70,22 @@ static int group(const char *name)
   return n;
 }
 
+/* The keys of the positioner's group. */
+static int positioner(void)
+{
+  int i, first = pneu_param_find("positioner.gain"), count;
+  pneu_effect_params(pneu_effect_of(first), &count);
+  puts(".Bl -tag -width Ds -compact");
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    printf(".It Ic %s\n", info.name);
+    put_parameter(&info, "Default ", (double)info.value);
+  }
+  puts(".El");
+  return count;
+}
+
 static void effect(int i)
 {
   const pneu_effect *e = pneu_effect_at(i);
@@ -181,7 +197,8 @@ static int list(const char *name)
 int main(int argc, char **argv)
 {
   const char *name = argc == 2 ? argv[1] : "";
-  if ((strcmp(name, "effects") == 0 ? effects() : 0) || list(name) || group(name))
+  if ((strcmp(name, "effects") == 0 ? effects() : 0) || (strcmp(name, "positioner") == 0 ? positioner() : 0) ||
+      list(name) || group(name))
     return 0;
   fprintf(stderr, "tables: no table \"%s\"\n", name);
   return 1;

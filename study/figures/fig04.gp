@@ -1,5 +1,5 @@
 # Fig. 4: a large step of the R1-400, filled and vented again.
-TITLE = "The stem goes out ever more slowly and comes back at an almost steady speed"
+TITLE = "The stem goes out ever more slowly; it comes back almost steadily, gaining speed"
 SUBTITLE = "Large step of the R1-400, isothermal chamber, flow as in the paper"
 NAME = "Large_step_of_the_R1_400"
 HEIGHT = 740

@@ -4,6 +4,7 @@ SUBTITLE = "Chamber pressure at which filling and venting move the stem equally 
 NAME = "Pressure_of_equal_speeds_over_supply"
 load system("dirname '".ARG0."'")."/style.gp"
 file = table("fig08")
+LIGHT_RED = "#FBE0DC"
 stats file using (column("typical [1]") > 0 ? column("ps_over_pa [1]") : NaN) nooutput
 stats file using (strcol("flow") eq "paper" ? column("asymptote [1]") : NaN) name "PAPER" nooutput
 stats file using (strcol("flow") eq "choked" ? column("asymptote [1]") : NaN) name "CHOKED" nooutput
@@ -12,7 +13,7 @@ set lmargin at screen 0.08
 set rmargin at screen 0.885
 set tmargin at screen 0.80
 unset key
-set object 1 rectangle from STATS_min, graph 0 to STATS_max, graph 1 behind fillcolor rgb BAND fillstyle solid noborder
+set object 1 rectangle from STATS_min, graph 0 to STATS_max, graph 1 behind fillcolor rgb LIGHT_RED fillstyle solid noborder
 set arrow 1 from graph 0, first PAPER_max to graph 1, first PAPER_max nohead dt (2,4) lw 1.5 lc rgb GREY
 set arrow 2 from graph 0, first CHOKED_max to graph 1, first CHOKED_max nohead dt (2,4) lw 1.5 lc rgb GREY
 set label 1 "Chamber over supply pressure p/p_s, both gauge [1]" @ABOVE

@@ -3,7 +3,6 @@ FILE = "fig19"
 TITLE = "The size of the orifices stretches time and leaves the shapes alone"
 SUBTITLE = "R1-400, flow coefficient of both orifices varied; dotted: Table A1"
 NAME = "Flow_coefficient_varied"
-XLABEL = "Flow coefficient over nominal [1]"
+XLABEL = "C/C_0, relative flow coefficient [1]"
 NOMINAL = 1
-LOG = 1
 load system("dirname '".ARG0."'")."/varied.gp"

@@ -2,7 +2,7 @@
 TITLE = "At the same error the stepper needs a fraction of the others' time"
 SUBTITLE = "Largest error of x over stroke against time of one fill-and-vent; CasADi was given the times of events"
 NAME = "Work_and_precision_of_the_integrators"
-HEIGHT = 780
+HEIGHT = 860
 load system("dirname '".ARG0."'")."/style.gp"
 file = table("work_precision")
 
@@ -25,16 +25,18 @@ set yrange [0.5*ALL_min_y:1]
 set logscale xy
 set format x "10^{%T}"
 set format y "10^{%T}"
+set ytics 100
 set arrow 1 from graph 0, first WANTED to graph 1, first WANTED nohead back lw 1 dt (2,4) lc rgb GREY
 do for [law = 1:4] {
   left = law % 2 == 1
   top = law <= 2
   set lmargin at screen (left ? 0.09 : 0.57)
   set rmargin at screen (left ? 0.49 : 0.97)
-  set tmargin at screen (top ? 0.80 : 0.42)
-  set bmargin at screen (top ? 0.50 : 0.10)
-  set label 1 law_name(law) @ABOVE
-  set xlabel (top ? "" : "Time [µs]")
+  set tmargin at screen (top ? 0.81 : 0.38)
+  set bmargin at screen (top ? 0.55 : 0.12)
+  set label 1 "Error of x over stroke [1]" @ABOVE
+  set label 2 law_name(law) at graph 0, graph 1 left offset 0,2.1 font ",15" textcolor rgb INK
+  set xlabel "Time of one fill-and-vent [µs]"
   plot for [k = 1:words(NAMES)] file using (curve(law, word(NAMES, k), "time_us")):(column("error")) with linespoints lc rgb COLOUR[k] lw 2 pt POINT[k] ps 0.7 notitle
 }
 unset multiplot

@@ -137,8 +137,9 @@ static double by_cvode(const bench_case *task, double tol, double *p, double *x)
   started = bench_seconds();
   for (i = 0; i < task->n && status == LAB_OK; i++) {
     enter(&r, task->command[i]);
-    status = lab_cvode_run(solver, task->model, &r.state, &r.input, task->duration[i], tol,
-                           r.sampler.n ? &r.sampler : NULL, NULL, &error);
+    const lab_cvode_stretch stretch = {&r.input, task->duration[i], tol, r.sampler.n ? &r.sampler : NULL, NULL};
+    enter(&r, task->command[i]);
+    status = lab_cvode_run(solver, task->model, &stretch, &r.state, &error);
     r.sampler.origin += task->duration[i];
   }
   return status == LAB_OK ? leave(&r, started) : (double)NAN;
@@ -228,14 +229,10 @@ int bench_modes(const bench_case *task, int room, double *time, int *mode)
 double bench_value(const pneu_model *model, const char *name)
 {
   pneu_params params = model->p;
-  pneu_param_info info;
-  int i;
+  const int i = pneu_param_find(name);
   if (!strcmp(name, "gas") || !strcmp(name, "flow"))
     return *name == 'g' ? model->law.gas : model->law.flow;
-  for (i = 0; i < PNEU_PARAM_BASE_COUNT; i++)
-    if (pneu_param_describe(i, &info) == PNEU_OK && !strcmp(name, info.name))
-      return (double)*pneu_param_at(&params, i);
-  return (double)NAN;
+  return i >= 0 ? (double)*pneu_param_at(&params, i) : (double)NAN;
 }
 
 int bench_stride(void)

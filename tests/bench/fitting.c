@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../../apps/lab/fit/descent.h"
+#include "../../apps/lab/fit/fit.h"
 #include "../second/rig.h"
 #include "timing.h"
 
@@ -111,13 +111,18 @@ static int slope(void *context, const double *theta, const double *r, int j, dou
 static double descend(bench_fit *fit, const bench_contender *by, double tol, double *theta)
 {
   static const double lower[BENCH_FITTED] = {0.1, 0.1, 0.1, 0.1}, upper[BENCH_FITTED] = {10, 10, 10, 10};
-  static const unsigned char lasting[BENCH_FITTED];
   job j = {fit, by, tol};
-  const lab_descent problem = {BENCH_FITTED, 2 * ROWS, 40, lower, upper, lasting, &j, residuals, slope};
+  const lab_fit_problem problem = {.n = BENCH_FITTED,
+                                   .m = 2 * ROWS,
+                                   .lower = lower,
+                                   .upper = upper,
+                                   .context = &j,
+                                   .residuals = residuals,
+                                   .slope = slope};
   lab_error error;
   const double started = bench_seconds();
   double chi2;
-  return lab_descend(&problem, theta, &chi2, &error) == LAB_OK ? bench_seconds() - started : (double)NAN;
+  return lab_fit(&problem, theta, &chi2, &error) == LAB_OK ? bench_seconds() - started : (double)NAN;
 }
 
 double bench_fit_stepper(bench_fit *fit, double tol, double *theta)

@@ -56,15 +56,6 @@ static void over_effects(bench *b, bench_scan *s)
   s->effects = 0;
 }
 
-static int index_of(const char *name)
-{
-  char text[LAB_FIT_TEXT];
-  int i = 0;
-  while (i < LAB_FIT_COUNT - 1 && strcmp(lab_fit_name(i, text), name))
-    i++;
-  return i;
-}
-
 static void over_parameters(bench *b, bench_rig *r)
 {
   static const char *const name[] = {"fill_area",   "vent_area", "dry_friction", "spring_preload", "spring_rate",
@@ -74,7 +65,7 @@ static void over_parameters(bench *b, bench_rig *r)
   int n;
   for (n = 2; n <= NAMES; n += 2) {
     for (r->rig.n_fit = 0; r->rig.n_fit < n; r->rig.n_fit++) {
-      r->rig.fit[r->rig.n_fit] = index_of(name[r->rig.n_fit]);
+      r->rig.fit[r->rig.n_fit] = pneu_param_find(name[r->rig.n_fit]);
       r->rig.fit_per_log[r->rig.n_fit] = 0;
     }
     add(b, "fit", "parameters", n, bench_task_fit, r, 11);

@@ -50,18 +50,18 @@ int bench_rig_open(bench_rig *r, lab_error *error)
 {
   char path[BENCH_PATH + 16];
   memset(&r->log, 0, sizeof r->log);
-  memset(&r->experiment, 0, sizeof r->experiment);
+  memset(&r->run, 0, sizeof r->run);
   snprintf(path, sizeof path, "%s/rig.cfg", r->folder);
   if (lab_rig_read(path, &r->rig, error))
     return error->status;
   snprintf(path, sizeof path, "%s/fit.csv", r->folder);
   if (lab_log_read(path, &r->rig.log, (double)r->rig.params.ambient_pressure, &r->log, error))
     return error->status;
-  return lab_experiment_open(&r->rig, &r->log, 0, &r->experiment, error);
+  return lab_run_open(&r->rig, &r->log, 0, &r->run, error);
 }
 
 void bench_rig_close(bench_rig *r)
 {
-  lab_experiment_close(&r->experiment);
+  lab_run_close(&r->run);
   lab_log_free(&r->log);
 }

@@ -11,7 +11,7 @@ typedef struct bench_rig {
   char folder[BENCH_PATH]; /* with rig.cfg, fit.csv and holdout.csv */
   lab_rig rig;
   lab_log log;
-  lab_experiment experiment;
+  lab_run run;
 } bench_rig;
 
 /* Fifty seconds of strokes of an R1-400 whose parameters are off by 3 to 8 %, pressure and position.

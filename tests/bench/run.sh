@@ -13,4 +13,4 @@ fi
 for figure in work_precision scaling; do
   LC_ALL=C.UTF-8 gnuplot -e "IN='$results'; OUT='$results/$figure.svg'" "study/figures/$figure.gp"
 done
-[ "$results" != results ] || sh tests/readme_table.sh --refresh times README.md
+[ "$results" != results ] || sh tests/readme_table.sh --refresh times study/guides/speed.md

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../apps/lab/trace/trace.h"
+#include "../../apps/lab/trace/score.h"
 #include "../../apps/lab/base/array.h"
 
 double bench_task_fit(void *context)
@@ -13,7 +13,7 @@ double bench_task_fit(void *context)
   bench_rig *r = context;
   lab_error error;
   const double started = bench_seconds();
-  if (lab_unknowns_open(&r->rig, &r->experiment, 1, &u, &error) || lab_unknowns_fit(&u, LAB_FIT_WHOLE, NULL, &error))
+  if (lab_unknowns_open(&r->rig, &r->run, 1, &u, &error) || lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error))
     return (double)NAN;
   return bench_seconds() - started;
 }
@@ -21,13 +21,13 @@ double bench_task_fit(void *context)
 int bench_scan_fit(bench_rig *r, bench_scan *scan, lab_error *error)
 {
   scan->effects = 0;
-  if (lab_unknowns_open(&r->rig, &r->experiment, 1, &scan->u, error))
+  if (lab_unknowns_open(&r->rig, &r->run, 1, &scan->u, error))
     return error->status;
-  return lab_unknowns_fit(&scan->u, LAB_FIT_WHOLE, NULL, error);
+  return lab_unknowns_fit(&scan->u, LAB_ROUNDS_ALL, NULL, error);
 }
 
 /* The score test of the first effects of the catalogue, each at its usual size alone. */
-static double score_some(const lab_scan *s, int effects)
+static double score_some(const lab_projection *s, int effects)
 {
   double *slope = malloc(s->m * sizeof *slope), sum = 0;
   lab_error ignored;
@@ -38,7 +38,7 @@ static double score_some(const lab_scan *s, int effects)
     pneu_param_info info;
     pneu_param_describe(param, &info);
     *pneu_param_at(&model.params, param) = info.value;
-    if (lab_scan_difference(s, &model, slope, &ignored) == 0 && lab_scan_visible(s, slope) > 0)
+    if (lab_projection_slope(s, &model, slope, &ignored) == 0 && lab_projection_visible(s, slope) > 0)
       sum += lab_dot(slope, s->r, s->m);
   }
   free(slope);
@@ -48,16 +48,16 @@ static double score_some(const lab_scan *s, int effects)
 double bench_task_scan(void *context)
 {
   bench_scan *b = context;
-  lab_trace_result result;
-  lab_scan s;
+  lab_scores result;
+  lab_projection s;
   lab_error error;
   const double started = bench_seconds();
-  int status = lab_scan_open(&b->u, &s, &error);
+  int status = lab_projection_open(&b->u, &s, &error);
   if (status == LAB_OK && b->effects > 0)
     score_some(&s, b->effects);
   else if (status == LAB_OK)
-    status = lab_trace_effects(&s, &result, &error);
-  lab_scan_close(&s);
+    status = lab_score_effects(&s, &result, &error);
+  lab_projection_close(&s);
   return status == LAB_OK ? bench_seconds() - started : (double)NAN;
 }
 

@@ -3,7 +3,7 @@
 #ifndef BENCH_TASKS_H
 #define BENCH_TASKS_H
 
-#include "../../apps/lab/trace/scan.h"
+#include "../../apps/lab/trace/score.h"
 #include "rigs.h"
 
 /* A fit of the declared model from its declared values.  In: context  bench_rig *  Returns: seconds, NaN on failure */

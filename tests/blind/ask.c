@@ -1,21 +1,19 @@
+#define _DEFAULT_SOURCE /* for wait4, which tells of one child alone what it took */
 #include "ask.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <cjson/cJSON.h>
 
 #include "../../apps/lab/base/text.h"
-
-extern char **environ;
 
 /* ---- The report ---- */
 
@@ -58,6 +56,40 @@ static double in_noise(const cJSON *errors)
   return n ? sqrt(sum / n) : (double)NAN;
 }
 
+static void read_interval(const cJSON *object, double over, double *low, double *high)
+{
+  const cJSON *ci = cJSON_GetObjectItem(object, "ci95");
+  const cJSON *a = cJSON_GetArrayItem(ci, 0), *b = cJSON_GetArrayItem(ci, 1);
+  *low = cJSON_IsNumber(a) ? a->valuedouble / over : (double)NAN;
+  *high = cJSON_IsNumber(b) ? b->valuedouble / over : (double)NAN;
+}
+
+static blind_since read_since(const cJSON *object)
+{
+  const cJSON *onset = cJSON_GetObjectItem(object, "onset");
+  blind_since since = {number(onset, "t"), NAN, NAN};
+  read_interval(onset, 1, &since.low, &since.high);
+  return since;
+}
+
+static void read_deviations(const cJSON *list, blind_answer *a)
+{
+  const cJSON *item;
+  cJSON_ArrayForEach(item, list)
+  {
+    blind_deviation *d = &a->deviation[a->n_deviations];
+    const double declared = number(item, "declared");
+    if (a->n_deviations == BLIND_CANDIDATES)
+      return;
+    copy_word(cJSON_GetObjectItem(item, "parameter"), d->parameter);
+    d->ratio = number(item, "found") / declared;
+    read_interval(item, declared, &d->low, &d->high);
+    d->beyond = cJSON_IsTrue(cJSON_GetObjectItem(item, "beyond"));
+    d->since = read_since(item);
+    a->n_deviations++;
+  }
+}
+
 static void read_found(const cJSON *list, blind_answer *a)
 {
   const cJSON *item;
@@ -68,6 +100,7 @@ static void read_found(const cJSON *list, blind_answer *a)
       return;
     copy_word(cJSON_GetObjectItem(item, "effect"), f->effect);
     copy_word(cJSON_GetObjectItem(item, "equation"), f->equation);
+    f->since = read_since(item);
     f->n_alike = copy_words(cJSON_GetObjectItem(item, "indistinguishable_from"), NULL, f->alike, BLIND_CANDIDATES);
     a->n_found++;
   }
@@ -92,6 +125,8 @@ static void read_report(const cJSON *root, blind_answer *a)
   copy_word(cJSON_GetObjectItem(root, "verdict"), a->verdict);
   read_found(cJSON_GetObjectItem(root, "found"), a);
   read_candidates(cJSON_GetObjectItem(root, "candidates"), a);
+  copy_word(cJSON_GetObjectItem(root, "condition"), a->condition);
+  read_deviations(cJSON_GetObjectItem(root, "deviations"), a);
   a->n_unlisted = copy_words(cJSON_GetObjectItem(root, "unlisted"), "equation", a->unlisted, BLIND_FINDS);
   a->n_small = copy_words(cJSON_GetObjectItem(root, "significant_but_small"), NULL, a->small, BLIND_CANDIDATES);
   a->before = in_noise(cJSON_GetObjectItem(error, "before"));
@@ -120,58 +155,51 @@ int blind_answer_read(const char *path, blind_answer *answer, lab_error *error)
 /* ---- The program ---- */
 
 enum { PATHS = 1024 };
+static const int not_started = 127; /* exit status */
 
-static int start(const char *program, const char *folder, pid_t *pid, lab_error *error)
+/* In the child: its own seconds of CPU, its words into a file. */
+static void become(const char *program, char *const *argv, const char *said, int seconds)
 {
-  static char quiet[] = "--quiet", threads[] = "--threads", one[] = "1", held[] = "--holdout", out[] = "--out";
-  char rig[PATHS], fit[PATHS], holdout[PATHS], said[PATHS];
-  char *const argv[] = {(char *)program, rig, fit, held, holdout, out, (char *)folder, quiet, threads, one, NULL};
-  posix_spawn_file_actions_t files;
-  int failed;
+  const struct rlimit limit = {(rlim_t)seconds, (rlim_t)seconds + 1};
+  const int file = open(said, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file >= 0 && dup2(file, STDOUT_FILENO) >= 0 && dup2(file, STDERR_FILENO) >= 0 &&
+      setrlimit(RLIMIT_CPU, &limit) == 0)
+    execv(program, argv);
+  _exit(not_started);
+}
+
+/* Run on the logs in a folder; the program is told of nine tenths of its seconds.  Out: status, as from wait; cpu [s]
+ */
+static int run(const char *program, const char *folder, int seconds, int *status, double *cpu, lab_error *error)
+{
+  static char quiet[] = "--quiet", threads[] = "--threads", one[] = "1", held[] = "--holdout", out[] = "--out",
+              budget[] = "--budget";
+  char rig[PATHS], fit[PATHS], holdout[PATHS], said[PATHS], most[24];
+  char *argv[] = {(char *)program, rig, fit, out, (char *)folder, quiet, threads, one, budget, most, held,
+                  holdout,         NULL};
+  struct rusage used = {0};
+  pid_t pid;
+  snprintf(most, sizeof most, "%g", 0.9 * seconds);
   snprintf(rig, sizeof rig, "%s/rig.cfg", folder);
   snprintf(fit, sizeof fit, "%s/fit.csv", folder);
   snprintf(holdout, sizeof holdout, "%s/holdout.csv", folder);
   snprintf(said, sizeof said, "%s/said.txt", folder);
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, said, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  failed = posix_spawn(pid, program, &files, NULL, argv, environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (failed)
-    return lab_fail(error, LAB_WORLD, "%s: cannot be started: %s", program, strerror(failed));
+  if (access(holdout, R_OK))
+    argv[10] = NULL;
+  pid = fork();
+  if (pid == 0)
+    become(program, argv, said, seconds);
+  while (pid > 0 && wait4(pid, status, 0, &used) < 0 && errno == EINTR)
+    ;
+  if (pid < 0 || (WIFEXITED(*status) && WEXITSTATUS(*status) == not_started))
+    return lab_fail(error, LAB_WORLD, "%s: cannot be started", program);
+  *cpu = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
   return LAB_OK;
 }
 
-static double seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Exit status of a child, as from wait; -1 if it had to be stopped. */
-static int wait_for(pid_t pid, double timeout)
-{
-  const struct timespec nap = {0, 10000000};
-  const double end = seconds() + timeout;
-  int status, late = 0;
-  for (;;) {
-    const pid_t got = waitpid(pid, &status, late ? 0 : WNOHANG);
-    if (got == pid)
-      return late ? -1 : status;
-    if (got < 0 && errno != EINTR)
-      return -1;
-    if (seconds() > end) {
-      late = 1;
-      kill(pid, SIGKILL);
-    } else {
-      nanosleep(&nap, NULL);
-    }
-  }
-}
-
 /* What a failed run said, on one line without commas. */
-static void failed(const char *folder, int status, blind_answer *a)
+static void failed(const char *folder, int in_time, blind_answer *a)
 {
   char path[PATHS];
   lab_text text;
@@ -179,7 +207,7 @@ static void failed(const char *folder, int status, blind_answer *a)
   char *c;
   memset(a, 0, sizeof *a);
   a->before = a->after = a->holdout_before = a->holdout_after = NAN;
-  strcpy(a->verdict, status == -1 ? "timeout" : "failed");
+  strcpy(a->verdict, in_time ? "failed" : "timeout");
   snprintf(path, sizeof path, "%s/said.txt", folder);
   if (lab_text_read(path, &text, &ignored) == LAB_OK) {
     snprintf(a->words, sizeof a->words, "%s", text.data);
@@ -189,17 +217,19 @@ static void failed(const char *folder, int status, blind_answer *a)
     *c = *c == ',' || *c == '\n' ? ';' : *c;
 }
 
-int blind_ask(const char *program, const char *folder, double timeout, blind_answer *answer, lab_error *error)
+int blind_ask(const char *program, const char *folder, int seconds, blind_answer *answer, lab_error *error)
 {
   char path[PATHS];
-  pid_t pid;
+  const double ticks = 0.2; /* [s] by which times of a process are short of what its limit counts */
+  double cpu = 0;
   int status;
-  if (start(program, folder, &pid, error))
+  if (run(program, folder, seconds, &status, &cpu, error))
     return error->status;
-  status = wait_for(pid, timeout);
   snprintf(path, sizeof path, "%s/report.json", folder);
-  if (status == 0)
-    return blind_answer_read(path, answer, error);
-  failed(folder, status, answer);
+  if (status != 0)
+    failed(folder, !(WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) && cpu < seconds - ticks, answer);
+  else if (blind_answer_read(path, answer, error))
+    return error->status;
+  answer->cpu = cpu;
   return LAB_OK;
 }

@@ -18,7 +18,7 @@ static void take_up(blind_journal *j, const char *path, const char *key)
   line = text.data;
   if (strncmp(line, key, length) == 0 && line[length] == '\n')
     for (line += length + 1; *line && j->n < j->room; line += strcspn(line, "\n") + 1) {
-      j->n += blind_record_read(line, &j->record[j->n]) && j->record[j->n].trial < j->room;
+      j->n += blind_record_read(line, j->recorded, &j->record[j->n]) && j->record[j->n].trial < j->room;
       if (!strchr(line, '\n'))
         break;
     }
@@ -33,14 +33,15 @@ static int rewrite(const blind_journal *j, const char *path, const char *key, la
     return error->status;
   fprintf(out.file, "%s\n", key);
   for (i = 0; i < j->n; i++)
-    blind_record_write(out.file, &j->record[i]);
+    blind_record_write(out.file, &j->record[i], j->recorded);
   return lab_out_close(&out, error);
 }
 
-int blind_journal_open(blind_journal *j, const char *path, const char *key, int room, lab_error *error)
+int blind_journal_open(blind_journal *j, const char *path, const char *key, int room, int recorded, lab_error *error)
 {
   memset(j, 0, sizeof *j);
   j->room = room;
+  j->recorded = recorded;
   j->record = malloc((size_t)room * sizeof *j->record);
   if (!j->record)
     return lab_fail_memory(error, "the journal");
@@ -68,9 +69,9 @@ int blind_journal_add(blind_journal *j, const blind_record *record, lab_error *e
   int whole = 0;
   if (!memory)
     return lab_fail_memory(error, "a line of the journal");
-  blind_record_write(memory, record);
+  blind_record_write(memory, record, j->recorded);
   fclose(memory);
-  if (j->n < j->room && blind_record_read(line, &j->record[j->n]))
+  if (j->n < j->room && blind_record_read(line, j->recorded, &j->record[j->n]))
     whole = fputs(line, j->file) != EOF && fflush(j->file) == 0;
   j->n += whole;
   free(line);

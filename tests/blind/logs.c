@@ -88,8 +88,7 @@ static int write_log(const blind_trial *t, const second_rig *rig, const blind_sc
 
 static const char *const gas_words[] = {"isothermal", "energy"}, *const flow_words[] = {"paper", "choked", "iso6358"};
 
-/* Nothing of it tells what the trial is about. */
-static void write_rig(FILE *file, const second_rig *g, int channels, int tells_noise)
+void blind_write_declared(FILE *file, const second_rig *g, int channels, int tells_noise)
 {
   int i;
   fprintf(file,
@@ -130,7 +129,8 @@ int blind_write_rig(const blind_trial *t, const char *folder, lab_error *error)
   lab_outfile out;
   if (lab_make_folder(folder, error) || open_in(folder, "rig.cfg", &out, error))
     return error->status;
-  write_rig(out.file, &t->declared, t->channels, t->tells_noise);
+  blind_write_declared(out.file, &t->declared, t->channels, t->tells_noise);
+  fputs("tolerance = { others = 0; }; // what is not fitted is exactly so\n", out.file);
   return lab_out_close(&out, error);
 }
 

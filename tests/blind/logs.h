@@ -3,6 +3,8 @@
 #ifndef BLIND_LOGS_H
 #define BLIND_LOGS_H
 
+#include <stdio.h>
+
 #include "../../apps/lab/base/message.h"
 #include "draw.h"
 
@@ -17,6 +19,9 @@ typedef struct blind_rows {
 int blind_simulate(const second_rig *rig, const blind_schedule *schedule, double spacing, blind_rows *rows,
                    lab_error *error);
 void blind_rows_free(blind_rows *rows);
+
+/* Write what a rig file declares; nothing of it tells what a trial is about. */
+void blind_write_declared(FILE *file, const second_rig *rig, int channels, int tells_noise);
 
 /* Write rig.cfg into a folder, which is made. */
 int blind_write_rig(const blind_trial *trial, const char *folder, lab_error *error);

@@ -1,14 +1,14 @@
 # From the totals of the blind trials to the README: results/blind.md, blind_nothing.md, blind_noise.md.
 BEGIN {
   FS = " *\\| *"
-  print "| closeloop on rigs drawn at random | of how many | 95 % interval |"
+  print "| closeloop on rigs drawn at random | how often | 95 % interval |"
   print "|---|---|---|"
-  say["added under the right names", "blind.md"] = "effects of the catalogue missing: each added under its name"
+  say["added under the right names", "blind.md"] = "effects of the catalogue are missing: all are added by name"
   say["right names, stated class, or listed below --min-gain", "blind.md"] = \
-    "or at least stated: not to be told from what was added, or significant but below 2 % of the error"
-  say["added under the right names", "blind_noise.md"] = "the first where the rig file does not tell the noise"
-  say["called unlisted, in the right equation", "blind.md"] = "something missing that is in no catalogue: called so, in the right equation"
-  say["something named (false alarm)", "blind_nothing.md"] = "nothing missing: something named"
+    "... or stated, as indistinguishable from what was added or as below 2 % of the error"
+  say["added under the right names", "blind_noise.md"] = "as the first row, without a declared noise"
+  say["called unlisted, in the right equation", "blind.md"] = "something is missing that no catalogue has: reported as unknown, in the right equation"
+  say["something named (false alarm)", "blind_nothing.md"] = "nothing is missing: something is named"
 }
 FNR == 1 { file = FILENAME; sub(".*/", "", file) }
 $2 ~ /: / {

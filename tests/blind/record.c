@@ -50,13 +50,46 @@ static const struct column {
     COLUMN("right_or_stated", COUNT, stated),
     COLUMN("right_family", COUNT, family),
     COLUMN("why", TEXT, why),
+    COLUMN("class", TEXT, class),
+    COLUMN("log", TEXT, log),
+    COLUMN("rate [1/s]", REAL, rate),
+    COLUMN("rows", REAL, rows),
+    COLUMN("imperfections", TEXT, imperfections),
+    COLUMN("beyond", TEXT, beyond),
+    COLUMN("begins", TEXT, begins),
+    COLUMN("onset [s]", REAL, onset),
+    COLUMN("second_size_over_limit [1]", REAL, second_ratio),
+    COLUMN("condition", TEXT, condition),
+    COLUMN("due", TEXT, due),
+    COLUMN("deviations", TEXT, deviations),
+    COLUMN("since", TEXT, since),
+    COLUMN("n_due", COUNT, n_due),
+    COLUMN("n_found", COUNT, n_found),
+    COLUMN("n_said", COUNT, n_said),
+    COLUMN("n_wrong", COUNT, n_wrong),
+    COLUMN("far_due", COUNT, far_due),
+    COLUMN("far_found", COUNT, far_found),
+    COLUMN("onset_due", COUNT, onset_due),
+    COLUMN("onset_said", COUNT, onset_said),
+    COLUMN("onset_within", COUNT, onset_within),
+    COLUMN("instrument", COUNT, instrument),
+    COLUMN("cpu [s]", REAL, cpu),
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0] };
+enum {
+  COLUMNS = sizeof columns / sizeof columns[0],
+  RECORDED_COLUMNS = 24,
+  CLEAN_COLUMNS = COLUMNS - RECORDED_COLUMNS
+};
 
-void blind_record_header(FILE *file)
+static int columns_of(int recorded)
+{
+  return recorded ? COLUMNS : CLEAN_COLUMNS;
+}
+
+void blind_record_header(FILE *file, int recorded)
 {
   int i;
-  for (i = 0; i < COLUMNS; i++)
+  for (i = 0; i < columns_of(recorded); i++)
     fprintf(file, "%s%s", i ? "," : "", columns[i].name);
   fputc('\n', file);
 }
@@ -71,10 +104,10 @@ static void write_field(FILE *file, const struct column *c, const void *at)
     fprintf(file, "%.6g", *(const double *)at);
 }
 
-void blind_record_write(FILE *file, const blind_record *record)
+void blind_record_write(FILE *file, const blind_record *record, int recorded)
 {
   int i;
-  for (i = 0; i < COLUMNS; i++) {
+  for (i = 0; i < columns_of(recorded); i++) {
     fputs(i ? "," : "", file);
     write_field(file, &columns[i], (const char *)record + columns[i].offset);
   }
@@ -98,13 +131,14 @@ static int read_field(const struct column *c, const char *begin, size_t length, 
   return c->kind == TEXT || *end == '\0';
 }
 
-int blind_record_read(const char *line, blind_record *record)
+int blind_record_read(const char *line, int recorded, blind_record *record)
 {
+  const int n = columns_of(recorded);
   int i;
   memset(record, 0, sizeof *record);
-  for (i = 0; i < COLUMNS; i++) {
+  for (i = 0; i < n; i++) {
     const size_t length = strcspn(line, ",\n");
-    const char last = i + 1 < COLUMNS ? ',' : '\n';
+    const char last = i + 1 < n ? ',' : '\n';
     if (line[length] != last || !read_field(&columns[i], line, length, (char *)record + columns[i].offset))
       return 0;
     line += length + 1;

@@ -26,12 +26,26 @@ typedef struct blind_record {
                            or in that of what is significant but below --min-gain */
   int family;           /* the same, but a name may be another one of the family */
   char why[BLIND_TEXT]; /* where the name is not right */
+
+  /* of trials "as recorded" only: recorded_score.h */
+  char class[16], log[16], imperfections[BLIND_TEXT], beyond[24], begins[48];
+  double rate, rows;                   /* rows a second, rows */
+  double second_ratio, onset;          /* size over limit of the second effect; s, NaN: from the start */
+  char due[BLIND_TEXT];                /* values that are off by twice what the log can tell, with their ratios */
+  char deviations[BLIND_TEXT];         /* said */
+  char condition[24], since[48];       /* said; of what begins within the log */
+  int n_due, n_found, n_said, n_wrong; /* of deviations */
+  int far_due, far_found;              /* the one that is far beyond its tolerance: due, found */
+  int onset_due, onset_said, onset_within;
+  int instrument; /* named what its sensors' filters are */
+  double cpu;     /* s */
 } blind_record;
 
-void blind_record_header(FILE *file);
-void blind_record_write(FILE *file, const blind_record *record);
+/* A table has the columns of the clean series, or with `recorded` all. */
+void blind_record_header(FILE *file, int recorded);
+void blind_record_write(FILE *file, const blind_record *record, int recorded);
 
 /* Read a line.  Returns: 0 unless it is a whole record. */
-int blind_record_read(const char *line, blind_record *record);
+int blind_record_read(const char *line, int recorded, blind_record *record);
 
 #endif

@@ -34,6 +34,11 @@ static int stands_for(const blind_found *f, const blind_effect *e, enum level le
   return level == FAMILY && other && same(other->family, e->family);
 }
 
+int blind_stands_for(const blind_found *found, const blind_effect *effect)
+{
+  return stands_for(found, effect, STATED);
+}
+
 /* Whether an effect is listed as significant but too small to be added. */
 static int is_listed(const blind_answer *a, const char *name)
 {
@@ -78,12 +83,17 @@ static int equation_right(const blind_trial *t, const blind_answer *a)
   return same(a->verdict, "unlisted") && a->n_unlisted > 0 && same(a->unlisted[0], t->missing[0].effect->equation);
 }
 
+int blind_is_small(const blind_answer *a, const blind_effect *e)
+{
+  blind_word word;
+  snprintf(word, sizeof word, "unlisted:%s", e->equation);
+  return is_listed(a, blind_is_listed(e) ? e->name : word);
+}
+
 /* Whether something without a name, in the right equation, is listed as significant but too small to be added. */
 static int equation_listed(const blind_trial *t, const blind_answer *a)
 {
-  blind_word word;
-  snprintf(word, sizeof word, "unlisted:%s", t->missing[0].effect->equation);
-  return same(a->verdict, "none") && is_listed(a, word);
+  return same(a->verdict, "none") && blind_is_small(a, t->missing[0].effect);
 }
 
 static int right(const blind_trial *t, const blind_answer *a, enum level level)
@@ -216,12 +226,12 @@ static void why_not_named(const blind_trial *t, const blind_answer *a, const bli
     append(why, "was no candidate");
   else if (t->kind != BLIND_UNLISTED && r->own_statistic < passing)
     append(why, "statistic %.3g at the first scan", r->own_statistic);
-  else if (a->n_found > 0 && a->holdout_after < as_good)
-    append(why, "what was found explains the held-out log as well");
+  else if (a->n_found > 0 && a->after < as_good)
+    append(why, "what was found explains the log as well");
   else if (t->kind != BLIND_UNLISTED && r->own_rank > 1)
     append(why, "no. %d of the first scan; best was %s", r->own_rank, a->candidate[0]);
   else if (a->n_found > 0)
-    append(why, "another refit was better though %.3g times the noise is left on held-out data", a->holdout_after);
+    append(why, "another refit was better though %.3g times the noise is left", a->after);
   else
     append(why, "not explained");
 }

@@ -44,33 +44,39 @@ static void add(blind_count *c, int hit)
 
 /* ---- Totals ---- */
 
+void blind_bar_header(FILE *file)
+{
+  fputs("## Totals\n\nIntervals are Wilson's, 95 %; a bar is met where the whole interval meets it, \"in this sample\" "
+        "where only the share does.\n\n| what | count | share | 95 % | bar | met |\n|---|---|---|---|---|---|\n",
+        file);
+}
+
+void blind_bar_row(FILE *file, const blind_bar *bar, blind_count c)
+{
+  static const char *const words[] = {"**no**", "**no**, but it may be chance", "in this sample", "yes"};
+  double low, high;
+  blind_wilson(c, &low, &high);
+  fprintf(file, "| %s | %d/%d | ", bar->what, c.k, c.n);
+  if (c.n)
+    fprintf(file, "%.1f %% | %.1f .. %.1f | ", 100.0 * c.k / c.n, 100 * low, 100 * high);
+  else
+    fputs("- | - | ", file);
+  if (bar->at_least >= 0)
+    fprintf(file, "%s %g %% | %s |\n", bar->at_least ? "at least" : "at most", 100 * bar->share,
+            words[blind_bar_word(bar, c)]);
+  else
+    fputs("| |\n", file);
+}
+
 static void write_totals(FILE *file, const blind_record *record, int n)
 {
   int i;
-  static const char *const words[] = {"**no**", "**no**, but it may be chance", "in this sample", "yes"};
-  fputs(
-      "## Totals\n\n\"Above\": of a size of at least twice the information limit. Intervals are Wilson's, 95 %; a bar "
-      "is "
-      "met where the whole interval meets it, \"in this sample\" where only the share does. \"Listed\": closeloop says "
-      "that the effect is significant, but adds nothing, because the error would fall by less than --min-gain, 2 %.\n\n"
-      "| what | count | share | 95 % | bar | met |\n|---|---|---|---|---|---|\n",
-      file);
-  for (i = 0; i < blind_bar_count; i++) {
-    const blind_bar *bar = &blind_bars[i];
-    const blind_count c = blind_bar_counts(bar, record, n);
-    double low, high;
-    blind_wilson(c, &low, &high);
-    fprintf(file, "| %s | %d/%d | ", bar->what, c.k, c.n);
-    if (c.n)
-      fprintf(file, "%.1f %% | %.1f .. %.1f | ", 100.0 * c.k / c.n, 100 * low, 100 * high);
-    else
-      fputs("- | - | ", file);
-    if (bar->at_least >= 0)
-      fprintf(file, "%s %g %% | %s |\n", bar->at_least ? "at least" : "at most", 100 * bar->share,
-              words[blind_bar_word(bar, c)]);
-    else
-      fputs("| |\n", file);
-  }
+  blind_bar_header(file);
+  for (i = 0; i < blind_bar_count; i++)
+    blind_bar_row(file, &blind_bars[i], blind_bar_counts(&blind_bars[i], record, n));
+  fputs("\n\"Above\": of a size of at least twice the information limit. \"Listed\": closeloop says that the effect is "
+        "significant, but adds nothing, because the error would fall by less than --min-gain, 2 %.\n",
+        file);
 }
 
 /* ---- Effect by effect ---- */

@@ -31,6 +31,10 @@ enum blind_bar_word {
 /* How a count stands to a bar; one over nothing reaches it.  Returns: enum blind_bar_word */
 int blind_bar_word(const blind_bar *bar, blind_count count);
 
+/* The table of totals: its head, and a row. */
+void blind_bar_header(FILE *file);
+void blind_bar_row(FILE *file, const blind_bar *bar, blind_count count);
+
 /* Records in the order of trials.
  * In:      what  sets these trials apart from others, in a sentence; "" for nothing
  * Returns: 0, not 0 without memory. */

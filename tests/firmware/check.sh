@@ -2,7 +2,7 @@
 # The core on the targets of firmware, from `make firmware-check`:
 #   Cortex-M4F and Cortex-M0+, emulated: the demonstration gives what it gives on this computer, and its alarm is right
 #   32-bit x86, there with either order of the stepper, and big-endian s390x, emulated: the core's tests
-#   check.sh short|full     short: from `make check`; full: all tests on s390x too, and results/size.csv made again
+#   check.sh short|full     short: from `make check-all`; full: all tests on s390x too, and results/size.csv made again
 # A target whose tools are not there is skipped, with a line that says so; FIRMWARE=required makes that a failure.
 set -u
 : "${MAKE:=make}" "${CC:=cc}" "${BUILD:=build}" "${FIRMWARE:=}"
@@ -13,8 +13,8 @@ mkdir -p "$out"
 failed=0
 skipped=0
 
-quick="test_params test_terms test_clock test_flow test_chamber test_jacobian test_effects_gas test_effects_stem"
-core="$quick test_stem test_stepper test_audit test_effects test_effects_sensor"
+core=$(ls tests/lib/test_*.c)
+quick=$(echo "$core" | grep -Ev 'test_(stem|stepper|audit|effects|effects_sensor)\.c')
 
 # How far the targets may be from the host, both in single precision: their exp and pow round differently, and 12500
 # steps add that up. A hundred-thousandth of full scale.
@@ -72,10 +72,7 @@ core_tests()
   name=$2
   what=$3
   definitions=$4
-  programs=""
-  for test in $5; do
-    programs="$programs $folder/$test"
-  done
+  programs=$(echo "$5" | sed "s|^|$folder/|; s|\.c\$||")
   shift 5
   # shellcheck disable=SC2086
   if ! target "$name" OUT="$folder" DEFS="$definitions" $programs >"$log" 2>&1; then
@@ -114,7 +111,7 @@ sizes()
     say_failed "sizes beyond their bars"
   else
     cp "$out/size.csv" results/size.csv
-    sh tests/readme_table.sh --refresh sizes README.md
+    sh tests/readme_table.sh --refresh sizes study/guides/firmware.md
     echo "ok      firmware: results/size.csv, within its bars"
   fi
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # What the core costs on a Cortex-M: code, memory, stack and instructions, for each processor, build and catalogue.
-#   size.sh > size.csv      DESIGN.md says what is in the columns and how each is measured
+#   size.sh > size.csv      study/guides/firmware.md says what is in the columns and how each is measured
 set -eu
 : "${MAKE:=make}" "${BUILD:=build}"
 base=$BUILD/firmware/size

@@ -8,23 +8,23 @@
 
 #include "../../apps/lab/log/log.h"
 #include "../../apps/lab/rig/rig.h"
-#include "../../apps/lab/run/follow.h"
+#include "../../apps/lab/run/predict.h"
 #include "../../apps/lab/run/schedule.h"
 #include "../../apps/lab/run/standard.h"
 
-static void print(const lab_trace *trace, const lab_schedule *schedule)
+static void print(const lab_response *response, const lab_schedule *schedule)
 {
   static const pneu_input none;
   size_t i, row = 0;
-  for (i = 0; i < trace->n; i++) {
+  for (i = 0; i < response->n; i++) {
     const pneu_input *input = &none;
     if (schedule) {
-      while (row + 1 < schedule->n && schedule->t[row + 1] <= trace->t[i])
+      while (row + 1 < schedule->n && schedule->t[row + 1] <= response->t[i])
         row++;
       input = &schedule->input[row];
     }
-    printf("%.17g,%.17g,%.17g,%.17g,%d,%.17g,", trace->t[i], trace->p[i], trace->x[i], trace->T[i], trace->mode[i],
-           trace->force[i]);
+    printf("%.17g,%.17g,%.17g,%.17g,%d,%.17g,", response->t[i], response->p[i], response->x[i], response->T[i],
+           response->mode[i], response->force[i]);
     printf("%.17g,%.17g,%.17g,%.17g\n", input->u, input->supply_pressure, input->pressure_rate, input->position_rate);
   }
 }
@@ -34,26 +34,26 @@ static int follow(const pneu_model *model, const lab_rig *rig, const char *path,
                   lab_error *error)
 {
   lab_log log;
-  lab_trace trace;
-  lab_drive drive;
+  lab_response response;
+  lab_inputs inputs;
+  const lab_prediction following = {.rig = rig, .log = &log, .options = *options};
   if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, &log, error) ||
-      lab_drive_from_log(model, rig, &log, 0, &drive, error) ||
-      lab_follow(model, rig, &log, 0, log.value[LAB_CHANNEL_TIME], log.run[1], options, &trace, error))
+      lab_inputs_from_log(model, rig, &log, 0, &inputs, error) || lab_predict_log(model, &following, &response, error))
     return error->status;
-  print(&trace, &drive.schedule);
-  lab_trace_free(&trace);
-  lab_drive_free(&drive);
+  print(&response, &inputs.schedule);
+  lab_response_free(&response);
+  lab_inputs_free(&inputs);
   lab_log_free(&log);
   return LAB_OK;
 }
 
 static int respond(const pneu_model *model, const lab_response_options *options, lab_error *error)
 {
-  lab_trace trace;
-  if (lab_standard_experiment(model, options, &trace, error))
+  lab_response response;
+  if (lab_standard_experiment(model, options, &response, error))
     return error->status;
-  print(&trace, NULL);
-  lab_trace_free(&trace);
+  print(&response, NULL);
+  lab_response_free(&response);
   return LAB_OK;
 }
 
@@ -61,7 +61,7 @@ int main(int argc, char **argv)
 {
   const char *how = argc == 4 ? argv[3] : "";
   const int by_cvode = strcmp(how, "cvode") == 0;
-  lab_response_options options = {by_cvode ? LAB_CVODE : LAB_STEPPER, 0, 0, 0, 0, 0};
+  lab_response_options options = {.integrator = by_cvode ? LAB_CVODE : LAB_STEPPER};
   lab_error error;
   lab_rig rig;
   pneu_model model;

@@ -6,8 +6,8 @@ FUZZ_RUNS    ?= -1
 
 # The readers and what they need, without the rest of the programs.
 FUZZ_READERS := $(wildcard apps/lab/log/*.c apps/lab/rig/*.c) \
-                $(addprefix apps/lab/base/,config.c interrupt.c message.c names.c number.c outfile.c text.c units.c) \
-                $(addprefix apps/study/,study.c table.c tableread.c)
+                $(addprefix apps/lab/base/,config.c csv.c escape.c interrupt.c message.c names.c number.c outfile.c text.c units.c) \
+                $(addprefix apps/study/,study.c table.c)
 FUZZ_C       := $(LIB_C) $(FUZZ_READERS) tests/fuzz/targets.c tests/fuzz/libfuzzer.c
 FUZZING      := $(BUILD)/fuzzing
 
@@ -22,7 +22,7 @@ fuzz:
 .PHONY: fuzz
 
 $(BUILD)/fuzz: $(FUZZ_C:%.c=$(BUILD)/%.o)
-	$(say) $(CC) $(FLAGS) -fsanitize=fuzzer $^ -lconfig -ludunits2 -lm -o $@
+	$(say) $(CC) $(FLAGS) -fsanitize=fuzzer $^ -lconfig -ludunits2 -lcjson -lm -o $@
 
 # Where the fuzzer is not to look for new ways: nearest names take most of the time otherwise, the library holds no reader.
 ifneq ($(findstring fuzzer,$(SANITIZE)),)

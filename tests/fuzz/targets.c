@@ -6,10 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "../../apps/lab/base/escape.h"
 #include "../../apps/lab/log/log.h"
 #include "../../apps/lab/rig/rig.h"
 #include "../../apps/study/study.h"
-#include "../../apps/study/tableread.h"
+#include "../../apps/study/table.h"
 
 /* ---- Files ---- */
 
@@ -78,11 +79,9 @@ static void open_files(void)
 /* Bad bytes are the file's fault, and the message is one line that ends. */
 static void check_error(int status, const lab_error *error)
 {
-  const char *at;
   promise(status == LAB_DATA && error->status == LAB_DATA, "status of a bad file", error->text);
   promise(*error->text && memchr(error->text, 0, sizeof error->text), "message", "none");
-  for (at = error->text; *at; at++)
-    promise((unsigned char)*at >= ' ' && *at != 127, "no control characters in a message", error->text);
+  promise(lab_is_plain(error->text), "no control characters in a message", error->text);
 }
 
 /* ---- Logs ---- */

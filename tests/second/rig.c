@@ -16,6 +16,7 @@ enum {
   X,
   V,
   OPENING,
+  INTEGRAL,
   WALL,
   TUBE,
   BRISTLE,
@@ -37,11 +38,19 @@ enum {
 
 enum mode { REST, UP, DOWN, FREE /* bristle friction has no rest in mid-travel */ };
 
+/* What a positioner has sent, the latest last, and what it remembers. */
+enum { SENT = 512 };
+typedef struct {
+  double u[SENT], integral, error;
+  long cycles;
+} controller;
+
 typedef struct {
   const second_rig *rig;
-  const double *t_cmd, *u_cmd;
-  size_t commands;
-  double t, u; /* u is the command in force during this step */
+  const second_course *course;
+  size_t latest;         /* command: those before it are over */
+  controller positioner; /* where the course has one */
+  double t, u;           /* u is the command in force during this step */
   double y[STATES];
   enum mode mode;
   double impact;
@@ -167,14 +176,60 @@ static void exchange(const second_rig *g, double *d, double q, double T_from, do
   d[q > 0.0 ? H_IN : H_OUT] += cp * fabs(q) * (q > 0.0 ? T_from : T);
 }
 
+/* What a positioner sees of the stem, in shares of the stroke. */
+static double seen(const second_rig *g, double x)
+{
+  return ((1.0 + g->span) * x + g->zero) / g->stroke;
+}
+
+/* What a positioner sends.  Out: frozen, whether its integral stands still */
+static double law(const second_positioner *k, double set, double e, double integral, double rate, int *frozen)
+{
+  double u = k->gain * (e + integral + k->derivative_time * rate);
+  int off = set < k->cutoff_low || set > k->cutoff_high;
+  *frozen = 1;
+  if (off)
+    return set < k->cutoff_low ? -1.0 : 1.0;
+  if (k->dead_band > 0.0 && fabs(e) <= k->dead_band)
+    return 0.0;
+  *frozen = fabs(u) >= 1.0;
+  return fmin(fmax(u, -1.0), 1.0);
+}
+
+static int is_continuous(const world *w)
+{
+  return w->course->positioner && w->course->positioner->cycle == 0.0;
+}
+
+/* What is asked of the spool.  Out: d, where a positioner works all the time */
+static double asked(const world *w, const double *y, double *d)
+{
+  const second_rig *g = w->rig;
+  const second_positioner *k = w->course->positioner;
+  if (!is_continuous(w))
+    return w->u;
+  double e = w->u - seen(g, y[X]), u;
+  int frozen;
+  u = law(k, w->u, e, y[INTEGRAL], -(1.0 + g->span) * y[V] / g->stroke, &frozen);
+  d[INTEGRAL] = frozen || k->integral_time <= 0.0 ? 0.0 : e / k->integral_time;
+  return u;
+}
+
+/* How far a port of the spool is open, the fill port for u and the vent port for -u. */
+static double port(const second_rig *g, double u)
+{
+  double s = u - g->bend * u * (1.0 - fabs(u));
+  return fmax(0.0, (s - g->overlap) / (1.0 - g->overlap));
+}
+
 /* Transducer, directly or through a tube whose air is at ambient temperature. */
 static void transducer(const world *w, const double *y, double t, const chamber *c, double *d)
 {
   const second_rig *g = w->rig;
-  double u = g->transducer_lag > 0.0 ? y[OPENING] : w->u;
-  double fill = u > 0.0 ? u * g->fill_area : 0.0, vent = u < 0.0 ? -u * g->vent_area : 0.0;
+  double ask = asked(w, y, d), u = g->transducer_lag > 0.0 ? y[OPENING] : ask;
+  double fill = port(g, u) * g->fill_area, vent = port(g, -u) * g->vent_area;
   if (g->transducer_lag > 0.0)
-    d[OPENING] = (w->u - y[OPENING]) / g->transducer_lag;
+    d[OPENING] = (ask - y[OPENING]) / g->transducer_lag;
   if (g->tube_volume <= 0.0) {
     exchange(g, d, from_supply(g, fill, t, c->P, c->T), g->supply_temperature, c->T);
     exchange(g, d, -to_exhaust(g, vent, c->P, c->T), g->ambient_temperature, c->T);
@@ -518,7 +573,7 @@ static void start(world *w)
 {
   const second_rig *g = w->rig;
   double P = g->start_pressure > 0.0 ? g->start_pressure : g->ambient;
-  double T = g->start_temperature > 0.0 ? g->start_temperature : g->ambient_temperature, *y = w->y;
+  double T = g->start_temperature > 0.0 ? g->start_temperature : g->ambient_temperature, *y = w->y, rate[STATES];
   y[X] = g->start_position;
   y[V] = g->start_velocity;
   if (g->lower_rate > 0.0 && y[X] == 0.0) /* the preload sits in the stop */
@@ -529,6 +584,8 @@ static void start(world *w)
   y[WALL] = g->ambient_temperature;
   y[P_LAG] = P - g->ambient;
   y[X_LAG] = y[X];
+  if (g->transducer_lag > 0.0)
+    y[OPENING] = asked(w, y, rate);
   y[T_LAG] = T;
   w->mode = y[V] > 0.0 ? UP : DOWN;
   if (g->bristle_rate > 0.0)
@@ -537,30 +594,83 @@ static void start(world *w)
     settle(w);
 }
 
-/* Command in force at t, that is after a change at t; a margin of rounding lets sums of times meet their changes. */
-static double command(const world *w, double t)
+/* A margin of rounding lets sums of times meet their changes. */
+static const double margin = 1e-12;
+
+/* Command sent at t, that is after a change at t. */
+static double sent(const world *w, double t)
 {
-  double u = 0.0;
-  for (size_t i = 0; i < w->commands && w->t_cmd[i] + w->rig->dead_time <= t + 1e-12; i++)
-    u = w->u_cmd[i];
-  return u;
+  const second_course *c = w->course;
+  size_t i = w->latest;
+  while (i < c->n && c->t_cmd[i] <= t + margin)
+    i++;
+  return i ? c->u_cmd[i - 1] : 0.0;
 }
 
+/* One cycle of the positioner, at w->t. */
+static void control(world *w, const second_positioner *k)
+{
+  controller *c = &w->positioner;
+  double set = sent(w, w->t), e = set - seen(w->rig, w->y[X]), rate = (e - c->error) / k->cycle;
+  double share = k->integral_time > 0.0 ? k->cycle / k->integral_time : 0.0;
+  int frozen;
+  double u = law(k, set, e, c->integral + share * e, c->cycles ? rate : 0.0, &frozen);
+  if (!frozen)
+    c->integral += share * e;
+  c->error = e;
+  c->u[c->cycles++ % SENT] = u;
+}
+
+/* Command at the valve at t: as sent, or with a positioner as it was a dead time ago. */
+static double command(const world *w, double t)
+{
+  const second_positioner *k = w->course->positioner;
+  double delay = w->rig->dead_time;
+  long cycle;
+  if (!k || is_continuous(w))
+    return sent(w, t - delay);
+  cycle = (long)floor((t - delay + margin) / k->cycle);
+  return cycle < 0 ? 0.0 : w->positioner.u[cycle % SENT];
+}
+
+/* Where the command or the rig changes next. */
 static double next_change(const world *w, double t, double limit)
 {
-  for (size_t i = 0; i < w->commands; i++) {
-    double s = w->t_cmd[i] + w->rig->dead_time;
-    if (s > t + 1e-12)
-      return fmin(s, limit);
+  const second_course *c = w->course;
+  double delay = w->rig->dead_time, cycle = c->positioner ? c->positioner->cycle : 0.0; /* 0: none */
+  size_t i = w->latest;
+  if (c->later && w->rig != c->later)
+    limit = fmin(limit, c->change);
+  if (cycle > 0.0) {
+    double begins = cycle * (double)w->positioner.cycles;
+    double arrives = cycle * (floor((t - delay + margin) / cycle) + 1.0) + delay;
+    return fmin(limit, fmin(begins, arrives > t + margin ? arrives : begins));
   }
-  return limit;
+  while (i < c->n && c->t_cmd[i] + delay <= t + margin)
+    i++;
+  return i < c->n ? fmin(c->t_cmd[i] + delay, limit) : limit;
+}
+
+/* What happens at w->t. */
+static void take_turns(world *w)
+{
+  const second_course *c = w->course;
+  double longest = w->rig->dead_time + fmax(0.0, w->rig->position_skew);
+  if (c->later && w->t + margin >= c->change)
+    w->rig = c->later;
+  while (w->latest + 1 < c->n && c->t_cmd[w->latest + 1] + longest <= w->t)
+    w->latest++;
+  if (c->positioner && !is_continuous(w) && c->positioner->cycle * (double)w->positioner.cycles <= w->t + margin)
+    control(w, c->positioner);
 }
 
 /* From the present time to `end`, stopping at every change of the command. */
 static int travel(world *w, double end)
 {
   while (w->t < end) {
-    double from = w->t, to = next_change(w, from, end);
+    double from = w->t, to;
+    take_turns(w);
+    to = next_change(w, from, end);
     w->u = command(w, from);
     double steps = ceil((to - from) / w->rig->step - 1e-9);
     steps = steps < 1.0 ? 1.0 : steps;
@@ -611,10 +721,19 @@ size_t second_samples(double t_end, double dt_sample)
   return (size_t)floor(t_end / dt_sample + 1e-6) + 1;
 }
 
-int second_run(const second_rig *rig, const double *t_cmd, const double *u_cmd, size_t n, double t_end,
-               double dt_sample, const second_log *log, second_audit *audit)
+/* The log shows the command as sent. */
+static double shown(const world *w, double t)
 {
-  world w = {.rig = rig, .t_cmd = t_cmd, .u_cmd = u_cmd, .commands = n};
+  long last = w->positioner.cycles - 1;
+  if (!w->course->positioner || is_continuous(w))
+    return sent(w, t);
+  return last < 0 ? 0.0 : w->positioner.u[last % SENT];
+}
+
+int second_follow(const second_rig *rig, const second_course *course, double t_end, double dt_sample,
+                  const second_log *log, second_audit *audit)
+{
+  world w = {.rig = rig, .course = course};
   size_t samples = second_samples(t_end, dt_sample), ip = 0, ix = 0;
   uint64_t noise[3] = {rig->seed * 3 + 1, rig->seed * 3 + 2, rig->seed * 3 + 3};
   static const second_log nowhere;
@@ -633,11 +752,18 @@ int second_run(const second_rig *rig, const double *t_cmd, const double *u_cmd, 
     if (tx <= w.t)
       sample_position(&w, out, ix++, noise);
     if (tp <= w.t) /* the log shows the command as sent */
-      sample(&w, out, ip++, tp, command(&w, tp + rig->dead_time), noise);
+      sample(&w, out, ip++, tp, shown(&w, tp), noise);
   }
   if (audit)
     close_audit(&w, y0, audit);
   return 0;
+}
+
+int second_run(const second_rig *rig, const double *t_cmd, const double *u_cmd, size_t n, double t_end,
+               double dt_sample, const second_log *log, second_audit *audit)
+{
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = n};
+  return second_follow(rig, &course, t_end, dt_sample, log, audit);
 }
 
 second_rig second_rig_default_r1_400(void)

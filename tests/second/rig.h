@@ -48,6 +48,8 @@ typedef struct {
 
   /* command */
   double transducer_lag, dead_time; /* s */
+  double zero, span;                /* m, 1: a positioner sees (1 + span) x + zero */
+  double overlap, bend;             /* 1, of the spool; 1, of its flow */
 
   /* force */
   double stribeck, stribeck_velocity;          /* 1, m/s: F (1 + s exp(-(v/vs)^2)) */
@@ -76,6 +78,25 @@ typedef struct {
   double *t, *u, *p, *x, *T, *m, *v;
 } second_log;
 
+/* A positioner: at every cycle, or all the time, with e = set position - x in shares of the stroke, it sends
+ *   u = clip(gain (e + integral of e over integral_time + derivative_time de/dt), -1, 1),
+ * 0 where |e| is within the dead band; set below cutoff_low it vents, above cutoff_high it fills. The integral stands
+ * still within the dead band, beyond the cut-offs and while u is clipped. */
+typedef struct {
+  double gain, integral_time, derivative_time; /* 1, s (0: no integral), s */
+  double dead_band, cutoff_low, cutoff_high;   /* shares of the stroke */
+  double cycle;                                /* s; 0: none, and dead time is that of the set position */
+} second_positioner;
+
+/* What is done to a rig during a run. */
+typedef struct {
+  const double *t_cmd, *u_cmd; /* u_cmd[i] holds from t_cmd[i], 0 before; with a positioner it is the set position */
+  size_t n;
+  const second_positioner *positioner; /* NULL: none */
+  const second_rig *later; /* the rig from `change` on; it has no states that the first has not. NULL: none */
+  double change;           /* s */
+} second_course;
+
 /* Integrals over the run and both ends of it. Over a run
  *   mass_end - mass_start = mass_in - mass_out
  *   energy_end - energy_start = enthalpy_in - enthalpy_out + heat - gas_work
@@ -96,9 +117,12 @@ second_rig second_rig_default_37_13(void);
 /* Samples second_run will write. */
 size_t second_samples(double t_end, double dt_sample);
 
-/* u_cmd[i] holds from t_cmd[i], u is 0 before; samples are at i dt_sample up to t_end, the last one
- * ends the audit. log and audit may be NULL. Equal arguments give equal bits.
- * 0: done, 1: the state left the physical range. */
+/* Samples are at i dt_sample up to t_end, the last one ends the audit; u is what was sent, not what dead time makes of
+ * it. log and audit may be NULL. Equal arguments give equal bits. 0: done, 1: the state left the physical range. */
+int second_follow(const second_rig *rig, const second_course *course, double t_end, double dt_sample,
+                  const second_log *log, second_audit *audit);
+
+/* The same of commands alone. */
 int second_run(const second_rig *rig, const double *t_cmd, const double *u_cmd, size_t n, double t_end,
                double dt_sample, const second_log *log, second_audit *audit);
 

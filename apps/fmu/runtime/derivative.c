@@ -19,11 +19,15 @@ static known known_input(fmu_instance *i, int which)
 {
   const double p = i->model.scale[0], x = i->model.scale[2], v = i->model.scale[3];
   const double stroke = i->m.params.stroke, force = p * i->m.params.area;
-  const int regulates = i->m.params.proportional_band > 0;
-  const double u_end = regulates ? HUGE_VAL : 1;
+  const int kind = fmu_command_kind(&i->m.params);
+  const double u_end = kind == FMU_COMMAND_OPENING ? 1 : HUGE_VAL;
   const known inputs[FMU_INPUT_COUNT] = {
-      {NULL, regulates ? p : 1, -u_end, u_end}, {NULL, p, -HUGE_VAL, HUGE_VAL}, {NULL, force, -HUGE_VAL, HUGE_VAL},
-      {NULL, p, -HUGE_VAL, HUGE_VAL},           {NULL, p, -HUGE_VAL, HUGE_VAL}, {NULL, x, 0, stroke},
+      {NULL, kind == FMU_COMMAND_PRESSURE ? p : 1, -u_end, u_end},
+      {NULL, p, -HUGE_VAL, HUGE_VAL},
+      {NULL, force, -HUGE_VAL, HUGE_VAL},
+      {NULL, p, -HUGE_VAL, HUGE_VAL},
+      {NULL, p, -HUGE_VAL, HUGE_VAL},
+      {NULL, x, 0, stroke},
       {NULL, v, -HUGE_VAL, HUGE_VAL},
   };
   known k = inputs[which];

@@ -30,12 +30,17 @@ static double driven_velocity(const fmu_instance *i)
   return fabs(beyond) <= TRAVEL_MARGIN * i->model.scale[2] ? i->m.input[FMU_INPUT_VELOCITY] : 0;
 }
 
+double fmu_command(const fmu_instance *i, double u)
+{
+  return fmu_command_kind(&i->m.params) == FMU_COMMAND_OPENING ? fmax(-1, fmin(1, u)) : u;
+}
+
 void fmu_drive(const fmu_instance *i, pneu_input *input)
 {
   const fmu_memory *m = &i->m;
-  const double u = m->delay.length > 0 ? fmu_delay_value(&m->delay, m->time) : m->input[FMU_INPUT_U];
   pneu_input_default(&i->model, input);
-  input->u = m->params.proportional_band > 0 ? u : fmax(-1, fmin(1, u));
+  input->u = fmu_command(i, m->delay.length > 0 ? fmu_delay_value(&m->delay, m->time) : m->input[FMU_INPUT_U]);
+  input->set_position = fmu_command_kind(&m->params) == FMU_COMMAND_POSITION;
   input->supply_pressure = m->input[FMU_INPUT_SUPPLY];
   input->force = m->input[FMU_INPUT_FORCE];
   input->pressure_rate = m->input[FMU_INPUT_PRESSURE_RATE];

@@ -175,7 +175,6 @@ int fmu_exit_initialization(fmu_instance *instance)
 
 static int make_model(fmu_instance *i)
 {
-  const int regulates = i->m.params.proportional_band > 0;
   int bad = -1, status = fmu_model(&fmu_model_data, &i->m.params, &i->model, &bad);
   pneu_param_info info;
   if (bad >= 0) {
@@ -185,8 +184,9 @@ static int make_model(fmu_instance *i)
   }
   if (status != PNEU_OK)
     return fmu_say(i, FMU_ERROR, "%s", pneu_status_text(status));
-  if (regulates != (fmu_model_data.params.proportional_band > 0))
-    return fmu_say(i, FMU_ERROR, "proportional_band must stay above 0: without it the command means something else");
+  if (fmu_command_kind(&i->m.params) != fmu_command_kind(&fmu_model_data.params))
+    return fmu_say(i, FMU_ERROR,
+                   "proportional_band and gain must stay above 0: without them the command means something else");
   if (!fmu_fits(&i->shape, &i->model))
     return fmu_say(i, FMU_ERROR,
                    "these parameters switch on an effect with a state that this FMU does not have: switch "

@@ -24,7 +24,8 @@ enum fmu_phase {
   FMU_TERMINATED = 32
 };
 
-/* All that is remembered from call to call, and all that get and set FMU state keep: numbers only. */
+/* All that is remembered from call to call, and all that get and set FMU state keep: numbers, and where the
+ * delay's slots lie, which is not kept. */
 typedef struct fmu_memory {
   char token[FMU_TOKEN_TEXT];
   int kind, phase;

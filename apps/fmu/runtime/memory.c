@@ -15,6 +15,7 @@ int fmu_get_memory(fmu_instance *instance, void **memory)
   if (!*memory)
     return fmu_say(instance, FMU_ERROR, "out of memory");
   memcpy(*memory, &instance->m, sizeof instance->m);
+  ((fmu_memory *)*memory)->delay.line.slot = NULL;
   return FMU_OK;
 }
 
@@ -42,6 +43,7 @@ int fmu_set_memory(fmu_instance *instance, const void *memory)
   if (was_made)
     instance->model = model;
   instance->m = *m;
+  instance->m.delay.line.slot = instance->m.delay.slot;
   return FMU_OK;
 }
 

@@ -35,7 +35,8 @@ int fmu_say(const fmu_instance *instance, int status, const char *format, ...);
 /* Before initialisation has ended: make the model and its state at rest anew if anything was set. */
 int fmu_refresh(fmu_instance *instance);
 
-/* Inputs as the library takes them: a command beyond -1..1 counts as -1 or 1. */
+/* A command as the library takes it: an opening beyond -1..1 counts as -1 or 1. Inputs likewise. */
+double fmu_command(const fmu_instance *instance, double u);
 void fmu_drive(const fmu_instance *instance, pneu_input *input);
 
 /* Pressure and position that drive the model, now: on the lines that begin where and when they were set. A position

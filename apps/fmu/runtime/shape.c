@@ -69,6 +69,13 @@ int fmu_has_variable(const pneu_laws *law, unsigned reference)
   return 1;
 }
 
+int fmu_command_kind(const pneu_params *params)
+{
+  return params->proportional_band > 0            ? FMU_COMMAND_PRESSURE
+         : params->effect[PNEU_AT_positioner] > 0 ? FMU_COMMAND_POSITION
+                                                  : FMU_COMMAND_OPENING;
+}
+
 int fmu_model(const fmu_data *data, const pneu_params *params, pneu_model *model, int *bad)
 {
   const int status = pneu_model_init(model, params, &data->law, bad);

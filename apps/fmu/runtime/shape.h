@@ -63,6 +63,10 @@ typedef struct fmu_shape {
   int kind[PNEU_STATE_MAX];
 } fmu_shape;
 
+/* What the command is: an opening; by proportional_band a set pressure, by a positioner's gain a set position. */
+enum fmu_command_kind { FMU_COMMAND_OPENING, FMU_COMMAND_PRESSURE, FMU_COMMAND_POSITION };
+int fmu_command_kind(const pneu_params *params);
+
 /* The library's model of parameters and what is baked in: laws, free terms. It uses the data's terms where they lie.
  * Returns: as pneu_model_init. Out: model, bad */
 int fmu_model(const fmu_data *data, const pneu_params *params, pneu_model *model, int *bad);

@@ -3,6 +3,8 @@
 
 #include "private.h"
 
+static const char too_many[] = "the command has changed too often within the dead time";
+
 /* ---- Model exchange ---- */
 
 static int move(fmu_instance *i, int call, int phase)
@@ -23,31 +25,19 @@ int fmu_enter_continuous(fmu_instance *instance)
   return move(instance, FMU_CALL_ENTER_CONTINUOUS, FMU_CONTINUOUS);
 }
 
-/* A command that has jumped, and those that are due. */
-static void follow_jumps(fmu_instance *i)
-{
-  fmu_memory *m = &i->m;
-  if (m->delay.length > 0) {
-    fmu_delay_jump(&m->delay, m->time, m->input[FMU_INPUT_U]);
-    fmu_delay_release(&m->delay, m->time);
-  }
-}
-
-static double next_time(const fmu_instance *i)
-{
-  return i->m.delay.length > 0 ? fmu_delay_next(&i->m.delay) : HUGE_VAL;
-}
-
 int fmu_update(fmu_instance *instance, fmu_event *event)
 {
   pneu_input input;
   pneu_state before;
+  fmu_memory *m;
   int which;
   if (fmu_may(instance, FMU_CALL_UPDATE))
     return FMU_ERROR;
-  before = instance->m.state;
+  m = &instance->m;
+  before = m->state;
   which = fmu_fired(instance);
-  follow_jumps(instance);
+  if (m->delay.length > 0 && fmu_delay_jump(&m->delay, m->time, m->input[FMU_INPUT_U]) != PNEU_OK)
+    return fmu_say(instance, FMU_ERROR, "%s", too_many);
   fmu_drive(instance, &input);
   if (which >= 0)
     pneu_switch(&instance->model, &input, which, &instance->m.state);
@@ -78,8 +68,9 @@ int fmu_completed_step(fmu_instance *instance, int *enter_event)
   if (fmu_may(instance, FMU_CALL_COMPLETED_STEP))
     return FMU_ERROR;
   see_position(instance);
-  if (instance->m.delay.length > 0)
-    fmu_delay_follow(&instance->m.delay, instance->m.time, instance->m.input[FMU_INPUT_U]);
+  if (instance->m.delay.length > 0 &&
+      fmu_delay_follow(&instance->m.delay, instance->m.time, instance->m.input[FMU_INPUT_U]) != PNEU_OK)
+    return fmu_say(instance, FMU_ERROR, "%s", too_many);
   *enter_event = fmu_fired(instance) >= 0 || fmu_delay_asks(&instance->m.delay, instance->m.time);
   return FMU_OK;
 }
@@ -168,29 +159,26 @@ int fmu_count(fmu_instance *instance, size_t *states, size_t *indicators)
 
 /* ---- Co-simulation ---- */
 
-/* To `end`, from one jump of the delayed command to the next. What is no time but rounding is passed over: the stepper
- * has a shortest step. */
+/* To `end`. What is no time but rounding is passed over: the stepper has a shortest step. */
 static int run_to(fmu_instance *i, double end)
 {
-  const double rounding = 1e-12 * (1 + fabs(end));
   fmu_memory *m = &i->m;
+  const double length = end - m->time;
   pneu_options options;
-  int status = PNEU_OK, last = 0;
+  pneu_input input;
+  int status = PNEU_OK;
   pneu_options_default(&options);
   options.tol = m->tol;
-  while (status == PNEU_OK && !last) {
-    pneu_input input;
-    double to;
-    follow_jumps(i);
-    last = !(next_time(i) < end - rounding);
-    to = last ? end : next_time(i);
-    fmu_drive(i, &input);
-    i->work.h = 0;
-    if (to - m->time > rounding)
-      status = pneu_run(&i->model, &m->state, &input, to - m->time, &options, NULL, &i->work);
-    fmu_pass_to(i, to);
+  fmu_drive(i, &input);
+  if (m->delay.length > 0) {
+    input.u = fmu_command(i, m->input[FMU_INPUT_U]);
+    input.delay = &m->delay.line;
   }
-  follow_jumps(i);
+  i->work.h = 0;
+  if (length > 1e-12 * (1 + fabs(end)))
+    status = pneu_run(&i->model, &m->state, &input, length, &options, NULL, &i->work);
+  fmu_pass_to(i, end);
+  m->delay.now = end;
   return status;
 }
 
@@ -213,7 +201,7 @@ int fmu_step(fmu_instance *instance, double from, double length)
   status = run_to(instance, from + length);
   if (status != PNEU_OK) {
     *m = before;
-    return fmu_say(instance, FMU_DISCARD, "%s", pneu_status_text(status));
+    return fmu_say(instance, FMU_DISCARD, "%s", status == PNEU_E_DELAY ? too_many : pneu_status_text(status));
   }
   fmu_arm(instance);
   return FMU_OK;

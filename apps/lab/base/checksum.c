@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../../../lib/pneu.h"
+#include "text.h"
 
 #ifndef LAB_BUILD
 #define LAB_BUILD PNEU_VERSION
@@ -25,8 +26,9 @@ uint64_t lab_checksum_text(uint64_t sum, const char *text)
 uint64_t lab_checksum_file(uint64_t sum, const char *path)
 {
   unsigned char block[4096];
+  lab_error ignored;
   size_t n;
-  FILE *file = fopen(path, "rb");
+  FILE *file = lab_text_open(path, &ignored);
   if (!file)
     return sum;
   while ((n = fread(block, 1, sizeof block, file)) > 0)

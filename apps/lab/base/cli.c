@@ -11,6 +11,7 @@
 #endif
 
 #include "../../../lib/pneu.h"
+#include "interrupt.h"
 #include "names.h"
 
 enum { OPTION_MAX = 32, THREADS_MAX = 1024 };
@@ -178,4 +179,16 @@ int lab_cli_report(const lab_program *program, const lab_error *error)
 {
   fprintf(stderr, "%s: %s\n", program->name, error->text);
   return error->status;
+}
+
+int lab_cli_main(const lab_program *program, int argc, char **argv, int (*run)(const lab_cli *cli, lab_error *error))
+{
+  lab_error error;
+  lab_cli cli;
+  int status;
+  lab_interrupt_catch();
+  status = lab_cli_read(program, argc, argv, &cli, &error);
+  if (status == LAB_OK && !cli.done)
+    status = run(&cli, &error);
+  return status == LAB_OK ? LAB_OK : lab_cli_report(program, &error);
 }

@@ -43,6 +43,10 @@ typedef struct lab_cli {
  * Returns: LAB_OK; LAB_USAGE naming the option at fault and the nearest known one. */
 int lab_cli_read(const lab_program *program, int argc, char **argv, lab_cli *cli, lab_error *error);
 
+/* The whole of a program: signals end it with no file half-written, its command line is read, `run` does the work.
+ * Returns: its exit status, with the error told on stderr. */
+int lab_cli_main(const lab_program *program, int argc, char **argv, int (*run)(const lab_cli *cli, lab_error *error));
+
 /* Write an error to stderr as "program: text".  Returns: its status, the exit status of the program. */
 int lab_cli_report(const lab_program *program, const lab_error *error);
 

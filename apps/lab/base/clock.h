@@ -1,9 +1,15 @@
-/* A clock that only goes forward.
+/* A clock that only goes forward, and CPU time.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_CLOCK_H
 #define LAB_CLOCK_H
 
 /* Returns: seconds since some moment in the past, the same one throughout a run of the machine. */
 double lab_clock(void);
+
+/* Returns: seconds of CPU that all threads of this process have used. */
+double lab_cpu_time(void);
+
+/* Whether this process has used as much.  In: until  [s] of CPU time; 0: never */
+int lab_cpu_is_spent(double until);
 
 #endif

@@ -18,7 +18,8 @@ static int parse_failed(const config_t *config, const char *path, lab_error *err
   const char *advice = strstr(text, "mismatched element type")
                            ? ": between [ and ] write all numbers alike, 0.0 beside 0.1, or use ( and )"
                            : "";
-  return lab_fail(error, LAB_DATA, "%s:%d: %s%s", path, config_error_line(config), text, advice);
+  const char *included = config_error_file(config);
+  return lab_fail(error, LAB_DATA, "%s:%d: %s%s", included ? included : path, config_error_line(config), text, advice);
 }
 
 int lab_config_read(config_t *config, const char *path, lab_error *error)
@@ -134,7 +135,7 @@ static int number_or_text(const config_setting_t *setting, const char *unit,
     *value = (double)config_setting_get_int64(setting);
     return LAB_OK;
   case CONFIG_TYPE_FLOAT:
-    *value = config_setting_get_float(setting);
+    *value = config_setting_get_float(setting) + 0.0; /* a zero without sign, as a text with a unit has it */
     return LAB_OK;
   case CONFIG_TYPE_STRING:
     return read(config_setting_get_string(setting), unit, value, error);

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "escape.h"
 #include "interrupt.h"
 #include "outfile.h"
 
@@ -106,20 +107,23 @@ static char *drawing_of(const char *const arguments[], int in, int *status)
   return text;
 }
 
-int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error)
+/* "IN='./folder'": a path that begins with < or | would be a command.  Returns: 0 if that has no room or is no line */
+static int define_folder(const char *folder, char *text, size_t size)
 {
-  char definitions[2400], *drawing;
-  const char *const arguments[] = {"gnuplot", "-e", definitions, script, NULL};
+  const int fits = !strpbrk(folder, "\r\n") && 2 * strlen(folder) + 16 <= size; /* each a quote, doubled */
+  FILE *file = fits ? fmemopen(text, size, "w") : NULL;
+  if (!file)
+    return 0;
+  fprintf(file, "IN=%s", *folder == '/' ? "" : "'./'.");
+  lab_put_gnuplot(file, folder);
+  return fclose(file) == 0;
+}
+
+/* Put a drawing, which is freed, into the file `out`. */
+static int keep(char *drawing, const char *out, lab_error *error)
+{
   lab_outfile file;
-  int status;
-  if (access(script, R_OK))
-    return lab_fail(error, LAB_DATA, "%s: the script of a figure is missing", script);
-  if (strchr(in, '\'') || snprintf(definitions, sizeof definitions, "IN='%s'", in) >= (int)sizeof definitions)
-    return lab_fail(error, LAB_DATA, "%s: gnuplot cannot take this path", in);
-  drawing = drawing_of(arguments, -1, &status);
-  if (!drawing)
-    return cannot(status, script, out, error);
-  status = lab_out_open(&file, out, error);
+  int status = lab_out_open(&file, out, error);
   if (status == LAB_OK) {
     fputs(drawing, file.file);
     status = lab_out_close(&file, error);
@@ -128,15 +132,28 @@ int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_er
   return status;
 }
 
-int lab_gnuplot_run(FILE *script, char **drawing, lab_error *error)
+int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error)
+{
+  char definitions[2400] = "", *drawing;
+  const char *const arguments[] = {"gnuplot", "-e", definitions, script, NULL};
+  int status;
+  if (access(script, R_OK))
+    return lab_fail(error, LAB_DATA, "%s: the script of a figure is missing", script);
+  if (!define_folder(in, definitions, sizeof definitions))
+    return lab_fail(error, LAB_DATA, "%s: gnuplot cannot take this path", in);
+  drawing = drawing_of(arguments, -1, &status);
+  return drawing ? keep(drawing, out, error) : cannot(status, script, out, error);
+}
+
+int lab_gnuplot_run(FILE *script, const char *out, int *drawn, lab_error *error)
 {
   static const char *const arguments[] = {"gnuplot", NULL};
+  char *drawing = NULL;
   int status = -1;
-  *drawing = NULL;
   if (fflush(script) == 0 && !ferror(script) && lseek(fileno(script), 0, SEEK_SET) == 0)
-    *drawing = drawing_of(arguments, fileno(script), &status);
-  if (status == 0 && !*drawing)
-    return lab_fail(error, LAB_WORLD,
-                    "what gnuplot drew cannot be read back: out of memory, or of room for temporary files");
-  return status == 0 ? LAB_OK : cannot(status, "its script", "the report", error);
+    drawing = drawing_of(arguments, fileno(script), &status);
+  *drawn = drawing != NULL;
+  if (drawing)
+    return keep(drawing, out, error);
+  return status == no_program ? LAB_OK : cannot(status, "its script", out, error);
 }

@@ -12,10 +12,10 @@
  * LAB_WORLD if gnuplot is not there or fails, or the file cannot be written. */
 int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error);
 
-/* Run a script that has its data in it and draws to standard output. Nothing is left on the disk, however it ends.
+/* The same with a script that has its data in it.
  * In:      script  a file without a name (tmpfile), written
- * Out:     drawing  what was drawn, to be freed
- * Returns: LAB_OK; LAB_WORLD if gnuplot is not there or fails. */
-int lab_gnuplot_run(FILE *script, char **drawing, lab_error *error);
+ * Out:     drawn   0 if there is no gnuplot
+ * Returns: LAB_OK; LAB_WORLD if gnuplot fails, or the file cannot be written. */
+int lab_gnuplot_run(FILE *script, const char *out, int *drawn, lab_error *error);
 
 #endif

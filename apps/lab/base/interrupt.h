@@ -9,6 +9,11 @@
  * other two do nothing. */
 void lab_interrupt_catch(void);
 
+/* End this process when it has used so much CPU time, with a message and the status LAB_WORLD.
+ * In:      seconds  at least 1
+ * Returns: 0 if the system does not take it */
+int lab_interrupt_after(const char *program, int seconds);
+
 /* Put off a signal until as many calls of release as of hold; from any thread. */
 void lab_interrupt_hold(void);
 void lab_interrupt_release(void);

@@ -4,15 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#undef lab_fail
+#include "escape.h"
 
-/* What was found in a file may be anything; a message is one line, and no control sequence of a terminal. */
-static void make_line(char *text)
-{
-  for (; *text; text++)
-    if ((unsigned char)*text < ' ' || *text == 127)
-      *text = '?';
-}
+#undef lab_fail
 
 int lab_fail(lab_error *error, int status, const char *format, ...)
 {
@@ -20,7 +14,7 @@ int lab_fail(lab_error *error, int status, const char *format, ...)
   va_start(args, format);
   vsnprintf(error->text, sizeof error->text, format, args);
   va_end(args);
-  make_line(error->text);
+  lab_make_plain(error->text); /* one line, and no control sequence of a terminal, whatever a file holds */
   error->status = status;
   return status;
 }
@@ -36,7 +30,7 @@ int lab_fail_in(lab_error *error, const char *format, ...)
   va_end(args);
   used = strlen(error->text);
   snprintf(error->text + used, sizeof error->text - used, ": %s", old);
-  make_line(error->text);
+  lab_make_plain(error->text);
   return error->status;
 }
 

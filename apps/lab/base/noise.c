@@ -22,6 +22,22 @@ double lab_smallest_step(const double *value, size_t n)
   return isfinite(step) ? step : 0;
 }
 
+double lab_resolution(const double *value, size_t n)
+{
+  static const double off = 0.1, most = 1000, nearly_all = 0.95; /* of a step; steps; of the differences */
+  const double step = lab_smallest_step(value, n);
+  double whole = 0, all = 0;
+  size_t i;
+  for (i = 1; i < n && step > 0; i++) {
+    const double d = fabs(value[i] - value[i - 1]) / step;
+    if (!(d > 0 && d < most))
+      continue;
+    all++;
+    whole += fabs(d - nearbyint(d)) < off;
+  }
+  return all >= FEWEST && whole >= nearly_all * all ? step : 0;
+}
+
 int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *error)
 {
   double *size = malloc((n ? n : 1) * sizeof *size);

@@ -25,4 +25,8 @@ double lab_noise_memory(const double *value, size_t n);
  * written.  Returns: 0 if all are equal. */
 double lab_smallest_step(const double *value, size_t n);
 
+/* The same where neighbouring values differ by whole multiples of it: the resolution of the channel.  Returns: 0 if
+ * they do not. */
+double lab_resolution(const double *value, size_t n);
+
 #endif

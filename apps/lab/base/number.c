@@ -1,6 +1,7 @@
 #include "number.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,29 +17,31 @@ static const double power_of_ten[EXACT_POWER + 1] = {1e0,  1e1,  1e2,  1e3,  1e4
                                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
+/* Go on from `digits` over the digits at `at`.  Returns: what stands behind them */
+static const char *read_digits(const char *at, const char *end, uint64_t *digits)
+{
+  for (; at < end && (unsigned)(*at - '0') <= 9; at++)
+    *digits = 10 * *digits + (unsigned)(*at - '0');
+  return at;
+}
+
 /* Digits with at most one decimal mark and no exponent, short enough that one division rounds once
  * (Clinger 1990).  Returns: 1, or 0 where the slow way must decide. */
 static int read_plain(const char *at, const char *end, char decimal, double *value)
 {
   const uint64_t exact = (uint64_t)1 << 53;
+  const int negative = *at == '-';
+  const char *begin = at + negative, *mark;
   uint64_t digits = 0;
-  int negative = *at == '-', places = -1, any = 0;
-  at += negative;
-  if (end - at > 17)
+  ptrdiff_t places = 0;
+  if (end - begin > 17)
     return 0;
-  for (; at < end; at++) {
-    unsigned digit = (unsigned)(*at - '0');
-    if (digit <= 9) {
-      digits = 10 * digits + digit;
-      places += places >= 0;
-      any = 1;
-    } else if (*at == decimal && places < 0) {
-      places = 0;
-    } else {
-      return 0;
-    }
+  at = mark = read_digits(begin, end, &digits);
+  if (at < end && *at == decimal) {
+    at = read_digits(mark + 1, end, &digits);
+    places = at - mark - 1;
   }
-  if (!any || digits >= exact)
+  if (at < end || mark - begin + places == 0 || digits >= exact)
     return 0;
   *value = places > 0 ? (double)digits / power_of_ten[places] : (double)digits;
   if (negative)

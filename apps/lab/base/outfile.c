@@ -171,3 +171,11 @@ void lab_out_abandon(lab_outfile *out)
     remove(out->part);
   forget(out);
 }
+
+int lab_out_end(lab_outfile *out, int status, lab_error *error)
+{
+  if (status == LAB_OK)
+    return lab_out_close(out, error);
+  lab_out_abandon(out);
+  return status;
+}

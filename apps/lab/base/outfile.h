@@ -29,6 +29,11 @@ int lab_out_say(const char *line, lab_error *error);
 /* Drop what was written. */
 void lab_out_abandon(lab_outfile *out);
 
+/* Close where all went well, else drop what was written.
+ * In:      status  of whoever wrote
+ * Returns: status; where that is LAB_OK, as lab_out_close. */
+int lab_out_end(lab_outfile *out, int status, lab_error *error);
+
 /* Make a folder and those on the way to it.  Returns: LAB_OK, LAB_WORLD. */
 int lab_make_folder(const char *path, lab_error *error);
 

@@ -1,6 +1,9 @@
 #include "template.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+#include "escape.h"
 
 /* Objects from the innermost outwards. */
 typedef struct scope {
@@ -15,23 +18,6 @@ typedef struct tag {
   int length;
   char kind; /* '#', '^', '/', '{' as it stands, ' ' escaped */
 } tag;
-
-void lab_html_escape(FILE *file, const char *text)
-{
-  static const struct {
-    char plain;
-    const char *escaped;
-  } table[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
-  for (; *text; text++) {
-    size_t i = 0;
-    while (i < sizeof table / sizeof *table && table[i].plain != *text)
-      i++;
-    if (i < sizeof table / sizeof *table)
-      fputs(table[i].escaped, file);
-    else
-      fputc(*text, file);
-  }
-}
 
 /* The next tag.  Returns: 1; 0 if there is none; -1 if it is not closed. */
 static int next_tag(const char *from, const char *to, tag *t)
@@ -119,7 +105,7 @@ static void fill_text(FILE *file, const tag *t, const scope *inner)
   if (t->kind == '{')
     fputs(value->valuestring, file);
   else
-    lab_html_escape(file, value->valuestring);
+    lab_put_html(file, value->valuestring);
 }
 
 static int fill(FILE *file, const char *from, const char *to, const scope *inner, lab_error *error)
@@ -149,4 +135,17 @@ int lab_template_write(FILE *file, const char *template, const cJSON *values, la
 {
   const scope all = {values, NULL};
   return fill(file, template, template + strlen(template), &all, error);
+}
+
+char *lab_template_text(const char *const *piece)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *file = open_memstream(&text, &size);
+  for (; file && *piece; piece++)
+    fputs(*piece, file);
+  if (file && fclose(file) == 0)
+    return text;
+  free(text);
+  return NULL;
 }

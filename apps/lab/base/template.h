@@ -22,7 +22,8 @@
  * Returns: LAB_OK; LAB_DATA for a tag that is not closed. */
 int lab_template_write(FILE *file, const char *template, const cJSON *values, lab_error *error);
 
-/* Write text so that HTML shows it as it is, between tags and within quotes. */
-void lab_html_escape(FILE *file, const char *text);
+/* A template or another text that a program carries inside, from its pieces, which end with NULL.
+ * Returns: to be freed; NULL without memory. */
+char *lab_template_text(const char *const *piece);
 
 #endif

@@ -1,9 +1,11 @@
 #include "text.h"
 
 #include <errno.h>
-#include <stdio.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static int cannot_read(const char *path, lab_error *error)
 {
@@ -12,6 +14,39 @@ static int cannot_read(const char *path, lab_error *error)
   if (errno == EISDIR)
     return lab_fail(error, LAB_DATA, "%s: this is a folder, not a file", path);
   return lab_fail(error, LAB_WORLD, "%s: cannot be read: %s", path, strerror(errno));
+}
+
+/* Whether an open file is one that ends, and soon enough. */
+static int check_kind(int file, const char *path, lab_error *error)
+{
+  struct stat info;
+  if (fstat(file, &info))
+    return cannot_read(path, error);
+  if (S_ISDIR(info.st_mode)) {
+    errno = EISDIR;
+    return cannot_read(path, error);
+  }
+  if (!S_ISREG(info.st_mode))
+    return lab_fail(error, LAB_DATA, "%s: this is a pipe or a device; expected a file on a disk", path);
+  if (info.st_size > LAB_TEXT_MAX)
+    return lab_fail(error, LAB_DATA, "%s: expected at most %d MB, found %lld", path, LAB_TEXT_MAX >> 20,
+                    (long long)info.st_size >> 20);
+  return LAB_OK;
+}
+
+FILE *lab_text_open(const char *path, lab_error *error)
+{
+  const int file = open(path, O_RDONLY | O_NONBLOCK); /* does not wait for who writes into a pipe */
+  FILE *stream = NULL;
+  if (file < 0) {
+    cannot_read(path, error);
+    return NULL;
+  }
+  if (check_kind(file, path, error) == LAB_OK && !(stream = fdopen(file, "rb")))
+    lab_fail_memory(error, path);
+  if (!stream)
+    close(file);
+  return stream;
 }
 
 /* Double the room.  Returns: 0 without memory. */
@@ -34,7 +69,7 @@ static int read_stream(FILE *file, const char *path, lab_text *text, lab_error *
     errno = 0;
     got = fread(text->data + text->size, 1, room - text->size, file);
     text->size += got;
-  } while (text->size == room);
+  } while (text->size == room && !memchr(text->data + text->size - got, '\0', got));
   text->data[text->size] = '\0';
   return ferror(file) ? cannot_read(path, error) : LAB_OK;
 }
@@ -63,12 +98,12 @@ static void drop_mark(lab_text *text)
 
 int lab_text_read(const char *path, lab_text *text, lab_error *error)
 {
-  FILE *file = fopen(path, "rb");
+  FILE *file = lab_text_open(path, error);
   int status;
   text->data = NULL;
   text->size = 0;
   if (!file)
-    return cannot_read(path, error);
+    return error->status;
   status = read_stream(file, path, text, error);
   fclose(file);
   if (status == LAB_OK) {
@@ -87,42 +122,37 @@ void lab_text_free(lab_text *text)
   text->size = 0;
 }
 
-void lab_lines_start(lab_lines *lines, const lab_text *text)
-{
-  lines->at = text->data;
-  lines->end = text->data + text->size;
-  lines->number = 0;
-}
-
-int lab_lines_next(lab_lines *lines, const char **begin, const char **end)
-{
-  const char *stop;
-  if (lines->at >= lines->end)
-    return 0;
-  stop = memchr(lines->at, '\n', (size_t)(lines->end - lines->at));
-  *begin = lines->at;
-  *end = stop ? stop : lines->end;
-  lines->at = *end + 1;
-  lines->number++;
-  if (*end > *begin && (*end)[-1] == '\r')
-    --*end;
-  return 1;
-}
-
-size_t lab_lines_count(const lab_text *text)
-{
-  const char *at = text->data, *end = text->data + text->size;
-  size_t n = 0;
-  while (at < end) {
-    const char *stop = memchr(at, '\n', (size_t)(end - at));
-    at = stop ? stop + 1 : end;
-    n++;
-  }
-  return n;
-}
-
 const char *lab_file_name(const char *path)
 {
   const char *slash = strrchr(path, '/');
   return slash ? slash + 1 : path;
+}
+
+static const char blanks[] = " \t\r\n";
+
+char *lab_trim(char *text)
+{
+  char *end;
+  text += strspn(text, blanks);
+  end = text + strlen(text);
+  while (end > text && strchr(blanks, end[-1]))
+    *--end = '\0';
+  return text;
+}
+
+int lab_split(char *text, char mark, const char **part, int room)
+{
+  int n = 0;
+  while (text) {
+    char *next = strchr(text, mark);
+    if (next)
+      *next++ = '\0';
+    text = lab_trim(text);
+    if (*text && n == room)
+      return -1;
+    if (*text)
+      part[n++] = text;
+    text = next;
+  }
+  return n;
 }

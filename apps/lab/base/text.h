@@ -1,39 +1,43 @@
-/* A text file in memory, and its lines.
+/* A text file in memory, and what is cut from a text.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_TEXT_H
 #define LAB_TEXT_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "message.h"
+
+enum { LAB_TEXT_MAX = 512 << 20 }; /* [byte] of a file */
 
 typedef struct lab_text {
   char *data; /* with a 0 byte behind the last one */
   size_t size;
 } lab_text;
 
-/* Read a whole file; a UTF-8 byte order mark is left out.
+/* Open a user's file for reading: one on a disk, of at most LAB_TEXT_MAX bytes, so that nobody waits for a pipe or
+ * reads a device without end. Returns: the stream; NULL with `error`: LAB_DATA if there is none or it is another kind,
+ * LAB_WORLD if it cannot be read. */
+FILE *lab_text_open(const char *path, lab_error *error);
+
+/* Read a whole file that lab_text_open opens; a UTF-8 byte order mark is left out.
  * Out:     text  to be freed with lab_text_free
- * Returns: LAB_OK; LAB_DATA if the file is missing, a folder, empty or not text; LAB_WORLD if it cannot be read. */
+ * Returns: LAB_OK; LAB_DATA if the file is missing, no file on a disk, too large, empty or not text; LAB_WORLD if it
+ *          cannot be read. */
 int lab_text_read(const char *path, lab_text *text, lab_error *error);
 
 void lab_text_free(lab_text *text);
 
-/* A line at a time; `number` counts from 1. */
-typedef struct lab_lines {
-  const char *at, *end;
-  int number;
-} lab_lines;
-
-void lab_lines_start(lab_lines *lines, const lab_text *text);
-
-/* Step to the next line.  Out: begin, end  without the line's end (LF or CR LF).  Returns: 0 after the last one. */
-int lab_lines_next(lab_lines *lines, const char **begin, const char **end);
-
-/* Lines in a text, the last one counted whether or not it ends. */
-size_t lab_lines_count(const lab_text *text);
-
 /* The name of a file without its folders, for what is kept or sent: an error has the path, an answer the name. */
 const char *lab_file_name(const char *path);
+
+/* Drop blanks in front and behind, in place.  Returns: where the rest begins */
+char *lab_trim(char *text);
+
+/* Cut a list such as "a.csv;b.csv" at a mark; blanks around the parts and empty parts are dropped.
+ * In/out:  text  cut in place
+ * Out:     part  point into it
+ * Returns: how many; -1 if there are more than `room`. */
+int lab_split(char *text, char mark, const char **part, int room);
 
 #endif

@@ -121,6 +121,14 @@ static const char *leading_number(const char *text, double *number)
   return end + strspn(end, " \t");
 }
 
+/* A value without the rounding of a change of unit: 40 cm^3 are 4e-05 m3 and not 4.000000000000001e-05. */
+static double tidied(double value)
+{
+  char text[32];
+  snprintf(text, sizeof text, "%.15g", value);
+  return strtod(text, NULL);
+}
+
 static int quantity(const char *text, const char *unit, int difference, double *value, lab_error *error)
 {
   double number, scale, offset;
@@ -129,8 +137,11 @@ static int quantity(const char *text, const char *unit, int difference, double *
   if (!given)
     return lab_fail(error, LAB_DATA, "expected a number and a unit like %s, found \"%s\"", unit, text);
   status = lab_unit_factor(*given ? given : unit, unit, &scale, &offset, error);
-  if (status == LAB_OK)
+  if (status == LAB_OK) {
     *value = scale * number + (difference ? 0 : offset);
+    if (*value != number)
+      *value = tidied(*value);
+  }
   return status;
 }
 

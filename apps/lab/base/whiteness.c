@@ -5,6 +5,8 @@
 
 #include "quantile.h"
 
+static const double level = 0.01; /* p-value */
+
 /* Sum of products of values `lag` rows apart.  Out: pairs */
 static double products(const lab_stretch *stretch, int n_stretches, size_t lag, size_t *pairs)
 {
@@ -54,4 +56,14 @@ void lab_whiteness_test(const lab_stretch *stretch, int n_stretches, lab_whitene
     if (w->deviation[k] > 0)
       w->statistic += pow(w->correlation[k] / w->deviation[k], 2);
   w->p_value = lab_chi2_tail(w->statistic, w->degrees);
+}
+
+int lab_is_white(const lab_whiteness *w)
+{
+  return w->p_value >= level;
+}
+
+int lab_is_coloured(const lab_whiteness *w)
+{
+  return w->p_value < level;
 }

@@ -20,7 +20,7 @@ typedef struct lab_whiteness {
   double deviation[LAB_WHITENESS_LAGS + 1];   /* its standard deviation, were the values white; 0 without any pair */
   double statistic;                           /* Q; NaN where there are too few values */
   int degrees;                                /* lags that have pairs */
-  double p_value;                             /* of Q: small means not white */
+  double p_value;                             /* of Q: small means not white; NaN as Q */
 } lab_whiteness;
 
 /* Test stretches of whitened residual. The mean is taken to be 0, as that of a residual should be: one that is off by a
@@ -31,5 +31,10 @@ typedef struct lab_whiteness {
  *          and Probability Letters 13:391
  * Omits:   the parameters that were fitted to the same values, which matter only where they are many beside n. */
 void lab_whiteness_test(const lab_stretch *stretch, int n_stretches, lab_whiteness *w);
+
+/* Whether a residual counts as white: its p-value is at least 0.01; as coloured: it is below. Too few values are
+ * neither. */
+int lab_is_white(const lab_whiteness *w);
+int lab_is_coloured(const lab_whiteness *w);
 
 #endif

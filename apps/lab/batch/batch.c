@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -12,11 +13,11 @@
 #include "batchindex.h"
 #include "batchlist.h"
 #include "../base/checksum.h"
-#include "crew.h"
+#include "../base/escape.h"
+#include "jobs.h"
 #include "../base/interrupt.h"
 #include "../base/outfile.h"
 #include "../base/progress.h"
-#include "split.h"
 #include "../base/text.h"
 #include "../base/units.h"
 #include "../base/clock.h"
@@ -24,16 +25,15 @@
 /* What is handed out. */
 typedef struct job {
   uint64_t key;
-  lab_entry entry;
+  lab_fleet_entry entry;
 } job;
 
 typedef struct batch {
   const lab_batch_options *how;
-  char shown[LAB_PATH_TEXT];                /* folder of the results, as it was given */
-  char out[LAB_PATH_TEXT - LAB_ENTRY_NAME]; /* the same, absolute */
-  pid_t leader;                             /* of this rank */
-  lab_list list;
-  lab_error fault; /* of the list, while it is read for the second time */
+  char shown[LAB_PATH_TEXT];                      /* folder of the results, as it was given */
+  char out[LAB_PATH_TEXT - LAB_FLEET_ENTRY_NAME]; /* the same, absolute */
+  pid_t leader;                                   /* of this rank */
+  lab_fleet_list list;
   lab_progress progress;
   int n, done, before; /* lines; done; of these, by an earlier run */
 } batch;
@@ -56,22 +56,36 @@ static void folder_of(const batch *b, const char *name, char folder[LAB_PATH_TEX
   snprintf(folder, LAB_PATH_TEXT, "%s/%s", b->out, name);
 }
 
+/* What the process at work on one line may take: CPU time, and room on the disk for a file. */
+static void bound(const batch *b)
+{
+  struct rlimit cpu, file;
+  signal(SIGXCPU, SIG_DFL); /* the parent says it, in the line's row */
+  signal(SIGXFSZ, SIG_IGN); /* who writes says it */
+  if (getrlimit(RLIMIT_CPU, &cpu) == 0 && getrlimit(RLIMIT_FSIZE, &file) == 0) {
+    cpu.rlim_cur = (rlim_t)b->how->budget < cpu.rlim_max ? (rlim_t)b->how->budget : cpu.rlim_max;
+    file.rlim_cur = file.rlim_cur < LAB_TEXT_MAX ? file.rlim_cur : LAB_TEXT_MAX;
+    setrlimit(RLIMIT_CPU, &cpu);
+    setrlimit(RLIMIT_FSIZE, &file);
+  }
+}
+
 /* ---- Whether a line is done ---- */
 
 static uint64_t add_files(uint64_t key, const char *list)
 {
-  char text[LAB_ENTRY_TEXT];
-  const char *path[LAB_BENCH_LOGS];
+  char text[LAB_FLEET_ENTRY_TEXT];
+  const char *path[LAB_LOGS_MAX];
   int i, n;
   key = lab_checksum_text(key, list);
   strcpy(text, list);
-  n = lab_split(text, ';', path, LAB_BENCH_LOGS);
+  n = lab_split(text, ';', path, LAB_LOGS_MAX);
   for (i = 0; i < n; i++)
     key = lab_checksum_file(key, path[i]);
   return key;
 }
 
-/* A rig file may take in others, which nobody looks for here. */
+/* Whether a rig file may take in others: the words alone are enough. */
 static int has_include(const char *rig)
 {
   lab_error ignored;
@@ -85,7 +99,7 @@ static int has_include(const char *rig)
 }
 
 /* Checksum of all that decides about a line's row and report; 0 where that cannot be told. */
-static uint64_t key_of(const batch *b, const lab_entry *e)
+static uint64_t key_of(const batch *b, const lab_fleet_entry *e)
 {
   char numbers[80];
   uint64_t key = lab_checksum_text(LAB_CHECKSUM_SEED, lab_build());
@@ -97,7 +111,7 @@ static uint64_t key_of(const batch *b, const lab_entry *e)
   return has_include(e->rig) ? 0 : key;
 }
 
-static int is_done(const batch *b, const lab_entry *e, uint64_t key)
+static int is_done(const batch *b, const lab_fleet_entry *e, uint64_t key)
 {
   char folder[LAB_PATH_TEXT];
   lab_done done;
@@ -107,15 +121,16 @@ static int is_done(const batch *b, const lab_entry *e, uint64_t key)
           (done.extent >= b->how->extent && lab_answer_is_there(folder, b->how->extent)));
 }
 
-/* ---- The crew's part ---- */
+/* ---- Jobs ---- */
 
 /* The next line that is not done yet. */
 static int next(void *context, void *to)
 {
   batch *b = context;
   job *j = to;
+  lab_error never; /* the list has been checked */
   int more;
-  while (lab_list_next(&b->list, &j->entry, &more, &b->fault) == LAB_OK && more) {
+  while (lab_fleet_list_next(&b->list, &j->entry, &more, &never) == LAB_OK && more) {
     char folder[LAB_PATH_TEXT];
     j->key = key_of(b, &j->entry);
     if (!is_done(b, &j->entry, j->key)) {
@@ -157,24 +172,29 @@ static void look_for_leader(void *context, const char *what)
     _exit(LAB_WORLD);
 }
 
-static int ask(batch *b, const lab_entry *e, lab_answer **answer, lab_error *error)
+static int ask(batch *b, const lab_fleet_entry *e, lab_answer **answer, lab_error *error)
 {
-  char log_text[LAB_ENTRY_TEXT], held_text[LAB_ENTRY_TEXT];
-  const char *log[LAB_BENCH_LOGS], *held[LAB_BENCH_LOGS];
-  lab_question q = {0};
+  char log_text[LAB_FLEET_ENTRY_TEXT], held_text[LAB_FLEET_ENTRY_TEXT];
+  const char *log[LAB_LOGS_MAX], *held[LAB_LOGS_MAX];
+  lab_request q = {0};
   strcpy(log_text, e->log);
   strcpy(held_text, e->holdout);
   q.rig = e->rig;
   q.log = log;
-  q.n_logs = lab_split(log_text, ';', log, LAB_BENCH_LOGS);
+  q.n_logs = lab_split(log_text, ';', log, LAB_LOGS_MAX);
   q.holdout = held;
-  q.n_holdout = lab_split(held_text, ';', held, LAB_BENCH_LOGS);
+  q.n_holdout = lab_split(held_text, ';', held, LAB_LOGS_MAX);
   q.alpha = b->how->alpha;
   q.min_gain = b->how->min_gain;
-  q.tell = look_for_leader;
+  q.on_progress = look_for_leader;
   q.context = b;
   if (q.n_logs < 0 || q.n_holdout < 0)
-    return lab_fail(error, LAB_DATA, "more than %d logs on one line of the list", (int)LAB_BENCH_LOGS);
+    return lab_fail(error, LAB_DATA, "more than %d logs on one line of the list", (int)LAB_LOGS_MAX);
+  if (!b->how->allow_include && has_include(e->rig))
+    return lab_fail(error, LAB_DATA,
+                    "%s: @include would read any file that you may read; if you trust the rig files of this list, give "
+                    "--allow-include",
+                    e->rig);
   return lab_answer_find(&q, answer, error);
 }
 
@@ -187,6 +207,7 @@ static void work(void *context, const void *what, void *result)
   char folder[LAB_PATH_TEXT];
   lab_answer *answer = NULL;
   lab_error error;
+  bound(b);
   folder_of(b, j->entry.name, folder);
   if (ask(b, &j->entry, &answer, &error)) {
     lab_row_error(&error, outcome);
@@ -203,12 +224,16 @@ static void work(void *context, const void *what, void *result)
 
 static void lost(void *context, const void *what, int wait, void *result)
 {
+  const batch *b = context;
   lab_error error;
-  (void)context;
   (void)what;
-  lab_fail(&error, LAB_WORLD,
-           "the process at work on this line was ended by %s %d; if that comes again, please report it",
-           WIFSIGNALED(wait) ? "signal" : "status", WIFSIGNALED(wait) ? WTERMSIG(wait) : WEXITSTATUS(wait));
+  if (WIFSIGNALED(wait) && WTERMSIG(wait) == SIGXCPU)
+    lab_fail(&error, LAB_WORLD, "not done within %d s of CPU; give --budget more, or keep fewer rows (log.every)",
+             b->how->budget);
+  else
+    lab_fail(&error, LAB_WORLD,
+             "the process that worked on this line was ended by %s %d; if this happens again, please report it",
+             WIFSIGNALED(wait) ? "signal" : "status", WIFSIGNALED(wait) ? WTERMSIG(wait) : WEXITSTATUS(wait));
   lab_row_error(&error, result);
 }
 
@@ -233,18 +258,17 @@ static void count(totals *t, const lab_outcome *outcome)
 
 static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals *t, lab_error *error)
 {
-  lab_entry e;
+  lab_fleet_entry e;
   int more, status;
-  while ((status = lab_list_next(&b->list, &e, &more, error)) == LAB_OK && more) {
+  while ((status = lab_fleet_list_next(&b->list, &e, &more, error)) == LAB_OK && more) {
     char folder[LAB_PATH_TEXT];
     lab_done d;
     folder_of(b, e.name, folder);
     if (!lab_done_read(folder, &d))
-      return lab_fail(error, LAB_DATA, "%s:%d: the list has changed during the run; run it again", b->list.path,
-                      e.line);
-    lab_row_cell(rows, e.name);
+      return lab_fail(error, LAB_DATA, "%s: the record of what was done has gone during the run; run it again", folder);
+    lab_put_users_cell(rows, e.name);
     fprintf(rows, ",%s\n", d.outcome.row);
-    lab_row_cell(costs, e.name);
+    lab_put_users_cell(costs, e.name);
     fprintf(costs, ",%.3f,%.3f,%.1f\n", d.outcome.cost.seconds, d.outcome.cost.cpu, d.outcome.cost.memory);
     count(t, &d.outcome);
     if (lab_index_add(index, e.name, &d.outcome, error))
@@ -259,7 +283,8 @@ static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
   lab_outfile rows, costs;
   int status;
   folder_of(b, "batch.csv", path);
-  if (lab_list_restart(&b->list, error) || lab_out_open(&rows, path, error))
+  lab_fleet_list_restart(&b->list);
+  if (lab_out_open(&rows, path, error))
     return error->status;
   folder_of(b, "batch.cost.csv", path);
   if (lab_out_open(&costs, path, error)) {
@@ -268,16 +293,8 @@ static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
   }
   lab_row_header(rows.file);
   fputs("name,seconds,cpu_seconds,memory_MB\n", costs.file);
-  status = copy_rows(b, rows.file, costs.file, index, t, error);
-  if (status != LAB_OK) {
-    lab_out_abandon(&rows);
-    lab_out_abandon(&costs);
-    return status;
-  }
-  status = lab_out_close(&costs, error);
-  if (status != LAB_OK)
-    lab_out_abandon(&rows);
-  return status == LAB_OK ? lab_out_close(&rows, error) : status;
+  status = lab_out_end(&costs, copy_rows(b, rows.file, costs.file, index, t, error), error);
+  return lab_out_end(&rows, status, error);
 }
 
 /* batch.csv and what goes with it. */
@@ -317,11 +334,9 @@ static int sum_up(const batch *b, const totals *t, lab_error *error)
 static int place_out(batch *b, lab_error *error)
 {
   const lab_batch_options *how = b->how;
-  const char *base = strrchr(how->list, '/'), *dot;
+  const char *base = lab_file_name(how->list), *dot = strrchr(base, '.');
   char cwd[LAB_PATH_TEXT];
   int length;
-  base = base ? base + 1 : how->list;
-  dot = strrchr(base, '.');
   snprintf(b->shown, sizeof b->shown, "results/%.*s", dot && dot > base ? (int)(dot - base) : (int)strlen(base), base);
   if (how->out)
     snprintf(b->shown, sizeof b->shown, "%s", how->out);
@@ -365,10 +380,10 @@ static int lock(const batch *b, lab_error *error)
   return LAB_OK;
 }
 
-static int lead(batch *b, const lab_crew *crew, lab_error *error)
+static int lead(batch *b, const lab_jobs *jobs, lab_error *error)
 {
   totals t = {{0}, LAB_OK};
-  int status = lab_list_check(&b->list, &b->n, error);
+  int status = lab_fleet_list_check(&b->list, &b->n, error);
   if (status == LAB_OK)
     status = lock(b, error);
   if (status == LAB_OK)
@@ -376,12 +391,8 @@ static int lead(batch *b, const lab_crew *crew, lab_error *error)
   if (status != LAB_OK)
     return status;
   lab_progress_begin(&b->progress, "closeloop", b->how->quiet);
-  status = lab_crew_run(crew, error);
+  status = lab_jobs_run(jobs, error);
   lab_progress_end(&b->progress);
-  if (status == LAB_OK && b->fault.status != LAB_OK) {
-    *error = b->fault;
-    status = error->status;
-  }
   if (lab_interrupt_pending() && !b->how->quiet)
     fprintf(stderr, "closeloop: stopped with %d of %d lines done; the same command goes on\n", b->done, b->n);
   if (status == LAB_OK && !lab_interrupt_pending())
@@ -392,21 +403,21 @@ static int lead(batch *b, const lab_crew *crew, lab_error *error)
 int lab_batch_run(const lab_batch_options *options, lab_error *error)
 {
   static batch b;
-  lab_crew crew = {0, sizeof(job), sizeof(lab_outcome), move_to_list, next, work, lost, done, &b};
+  lab_jobs jobs = {0, sizeof(job), sizeof(lab_outcome), move_to_list, next, work, lost, done, &b};
   double scale, offset;
   int status = LAB_OK;
   b.how = options;
   b.leader = getpid();
-  crew.at_once = options->at_once ? options->at_once : lab_crew_usual();
+  jobs.at_once = options->at_once ? options->at_once : lab_jobs_usual();
   if (place_out(&b, error) || lab_unit_factor("kPa", "Pa", &scale, &offset, error)) /* loads the units once for all */
     return error->status;
   lab_interrupt_hold();
-  if (lab_crew_join())
-    status = lab_list_open(&b.list, options->list, error) ? error->status : lead(&b, &crew, error);
+  if (lab_jobs_join())
+    status = lab_fleet_list_open(&b.list, options->list, error) ? error->status : lead(&b, &jobs, error);
   else
-    lab_crew_serve(&crew);
-  lab_crew_leave(&crew);
-  lab_list_close(&b.list);
+    lab_jobs_serve(&jobs);
+  lab_jobs_leave(&jobs);
+  lab_fleet_list_close(&b.list);
   lab_interrupt_release();
   return status;
 }

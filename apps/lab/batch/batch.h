@@ -6,7 +6,7 @@
  * depends neither on how many worked at once, nor on how often the run was stopped, nor on the folder that it was
  * started in.
  *
- * Memory: 16 bytes a line while the list is checked, none later.
+ * Memory: the list itself, and 16 bytes a line while it is checked.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCH_H
 #define LAB_BATCH_H
@@ -17,9 +17,11 @@ typedef struct lab_batch_options {
   const char *list;
   const char *out; /* folder; NULL: results/<name of the list> */
   double alpha, min_gain;
-  int extent;  /* enum lab_extent: what to write of each answer */
+  int extent;  /* enum lab_output: what to write of each answer */
   int at_once; /* 0: as many as are usual */
   int quiet;
+  int budget;        /* [s] of CPU for a line, at least 1: more is an error of the line */
+  int allow_include; /* 0: a rig file with @include is an error of its line */
 } lab_batch_options;
 
 /* Run; says on standard output what came out. Paths in the list are taken from its folder, to which the process moves.

@@ -1,6 +1,5 @@
 #include "batchindex.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,14 +7,17 @@
 #include <cjson/cJSON.h>
 
 #include "batchdone.h"
-#include "cells.h"
+#include "../base/csv.h"
+#include "../base/escape.h"
 #include "../base/outfile.h"
 #include "../report/pagetext.h"
-#include "../base/shown.h"
+#include "../base/format.h"
+#include "../base/json.h"
 #include "../base/template.h"
+#include "../base/text.h"
 
-/* Verdicts, the worst first. */
-static const char *const severities[] = {"error", "unlisted", "effect", "undecided", "none"};
+/* Verdicts, the worst first; where nothing is missing, what deviates comes before what does not. */
+static const char *const severities[] = {"error", "unlisted", "effect", "deviates", "undecided", "none"};
 enum { SEVERITIES = sizeof severities / sizeof *severities };
 
 /* Of the errors of a channel (enum lab_row_cells). */
@@ -26,7 +28,7 @@ enum { BEFORE, AFTER, HELD_BEFORE, HELD_AFTER };
 /* A row cut into its cells. */
 typedef struct cut_row {
   char text[LAB_ROW_TEXT];
-  char *cell[LAB_ROW_CELLS];
+  lab_cell cell[LAB_ROW_CELLS];
 } cut_row;
 
 static void cut(const char *row, cut_row *to)
@@ -34,14 +36,14 @@ static void cut(const char *row, cut_row *to)
   static char empty[] = "";
   int n;
   snprintf(to->text, sizeof to->text, "%s", row);
-  n = lab_cells_cut(to->text, ',', to->cell, LAB_ROW_CELLS);
+  n = lab_csv_cells(to->text, to->text + strlen(to->text), ',', to->cell, LAB_ROW_CELLS);
   for (n = n < 0 ? 0 : n; n < LAB_ROW_CELLS; n++)
-    to->cell[n] = empty;
+    to->cell[n].begin = empty;
 }
 
 static double error_of(const cut_row *row, int channel, int stage)
 {
-  const char *cell = row->cell[LAB_ROW_ERRORS + channel * LAB_ROW_STAGES + stage];
+  const char *cell = row->cell[LAB_ROW_ERRORS + channel * LAB_ROW_STAGES + stage].begin;
   return *cell ? strtod(cell, NULL) : (double)NAN;
 }
 
@@ -57,8 +59,11 @@ static double worst(const cut_row *row, int stage)
 
 static int severity_of(const cut_row *row)
 {
+  const char *condition = row->cell[LAB_ROW_CONDITION].begin, *verdict = row->cell[LAB_ROW_VERDICT].begin;
   int s = 0;
-  while (s < SEVERITIES - 1 && strcmp(row->cell[LAB_ROW_VERDICT], severities[s]) != 0)
+  if (!strcmp(verdict, severities[SEVERITIES - 1]) && !strcmp(condition, lab_condition_text(LAB_CONDITION_DEVIATES)))
+    verdict = condition;
+  while (s < SEVERITIES - 1 && strcmp(verdict, severities[s]) != 0)
     s++;
   return s;
 }
@@ -91,10 +96,9 @@ int lab_index_add(lab_index *index, const char *name, const lab_outcome *outcome
   entry->severity = severity_of(&row);
   entry->gain = isfinite(gain) ? gain : 0;
   entry->line = index->n;
-  entry->name = malloc(strlen(name) + 1);
+  entry->name = strdup(name);
   if (!entry->name)
     return lab_fail_memory(error, "index.html");
-  strcpy(entry->name, name);
   index->n++;
   return LAB_OK;
 }
@@ -120,27 +124,17 @@ static int by_severity(const void *a, const void *b)
 
 /* ---- Cells ---- */
 
-/* A path as an address: all but letters, digits and -._~/ as %xx. */
-static void put_address(FILE *file, const char *path)
-{
-  for (; *path; path++)
-    if (isalnum((unsigned char)*path) || strchr("-._~/", *path))
-      fputc(*path, file);
-    else
-      fprintf(file, "%%%02X", (unsigned char)*path);
-}
-
 static void put_text(FILE *file, const char *text)
 {
   fputs("<td>", file);
-  lab_html_escape(file, text);
+  lab_put_html(file, text);
   fputs("</td>", file);
 }
 
 static void put_error(FILE *file, double error)
 {
-  char text[LAB_SHOWN_TEXT];
-  put_text(file, isnan(error) ? "" : lab_shown_number(error, 3, text));
+  char text[LAB_FORMAT_TEXT];
+  put_text(file, isnan(error) ? "" : lab_format_number(error, 3, text));
 }
 
 /* The name, with a link to what was written about it. */
@@ -149,10 +143,10 @@ static void put_name(FILE *file, const char *name, const lab_done *done)
   fputs("<th scope=\"row\">", file);
   if (done->outcome.status == LAB_OK) {
     fputs("<a href=\"", file);
-    put_address(file, name);
+    lab_put_address(file, name);
     fputs(done->extent >= LAB_WRITE_PLAIN ? "/report.html\">" : "/report.json\">", file);
   }
-  lab_html_escape(file, name);
+  lab_put_html(file, name);
   fputs(done->outcome.status == LAB_OK ? "</a></th>" : "</th>", file);
 }
 
@@ -162,7 +156,7 @@ static void put_sizes(FILE *file, char *text)
   const char *plus = "";
   fputs("<td>", file);
   while (text && *text) {
-    char *next = strstr(text, " + "), *unit, shown[LAB_SHOWN_TEXT];
+    char *next = strstr(text, " + "), *unit, shown[LAB_FORMAT_TEXT];
     double value;
     if (next) {
       *next = '\0';
@@ -170,8 +164,8 @@ static void put_sizes(FILE *file, char *text)
     }
     value = strtod(text, &unit);
     fputs(plus, file);
-    lab_html_escape(
-        file, unit > text && *unit == ' ' && strlen(unit) < 24 ? lab_shown_quantity(value, unit + 1, 4, shown) : text);
+    lab_put_html(file, unit > text && *unit == ' ' && strlen(unit) < 24 ? lab_format_quantity(value, unit + 1, 4, shown)
+                                                                        : text);
     plus = " + ";
     text = next;
   }
@@ -186,14 +180,15 @@ static void put_row(FILE *file, const char *name, const lab_done *done)
   put_name(file, name, done);
   fprintf(file, "<td><span class=\"badge %s\">%s</span></td>", severities[severity_of(&row)],
           severities[severity_of(&row)]);
-  put_text(file, row.cell[LAB_ROW_FOUND]);
-  put_sizes(file, row.cell[LAB_ROW_SIZE]);
-  put_text(file, row.cell[LAB_ROW_ALIKE]);
+  put_text(file, row.cell[LAB_ROW_FOUND].begin);
+  put_sizes(file, row.cell[LAB_ROW_SIZE].begin);
+  put_text(file, row.cell[LAB_ROW_ALIKE].begin);
   put_error(file, worst(&row, BEFORE));
   put_error(file, worst(&row, AFTER));
   put_error(file, worst(&row, HELD_AFTER));
-  put_text(file, strcmp(row.cell[LAB_ROW_LIMITATIONS], "0") ? row.cell[LAB_ROW_LIMITATIONS] : "");
-  put_text(file, row.cell[LAB_ROW_MESSAGE]);
+  put_text(file, strcmp(row.cell[LAB_ROW_LIMITATIONS].begin, "0") ? row.cell[LAB_ROW_LIMITATIONS].begin : "");
+  put_text(file, row.cell[LAB_ROW_MESSAGE].begin);
+  put_text(file, row.cell[LAB_ROW_DEVIATIONS].begin);
   fputs("</tr>\n", file);
 }
 
@@ -213,32 +208,27 @@ static void add_counts(const lab_index *index, cJSON *page)
   cJSON *list = cJSON_AddArrayToObject(page, "counts");
   int s, i;
   for (s = 0; s < SEVERITIES; s++) {
-    char text[24];
     int n = 0;
     cJSON *item;
     for (i = 0; i < index->n; i++)
       n += index->entry[i].severity == s;
     if (n == 0)
       continue;
-    item = cJSON_CreateObject();
-    snprintf(text, sizeof text, "%d", n);
-    cJSON_AddStringToObject(item, "n", text);
-    cJSON_AddStringToObject(item, "kind", severities[s]);
-    cJSON_AddItemToArray(list, item);
+    item = lab_json_append(list);
+    lab_json_put(item, "n", "%d", n);
+    lab_json_put(item, "kind", "%s", severities[s]);
   }
 }
 
 static cJSON *values_of(const lab_index *index, const char *list)
 {
-  const char *slash = strrchr(list, '/');
   cJSON *page = cJSON_CreateObject();
-  char text[48];
-  snprintf(text, sizeof text, "%d line%s", index->n, index->n == 1 ? "" : "s");
-  cJSON_AddStringToObject(page, "list", slash ? slash + 1 : list);
-  cJSON_AddStringToObject(page, "lines", text);
+  cJSON_AddStringToObject(page, "list", lab_file_name(list));
+  lab_json_put(page, "lines", "%d line%s", index->n, index->n == 1 ? "" : "s");
   cJSON_AddStringToObject(page, "version", PNEU_VERSION);
   add_counts(index, page);
-  if (add_text(page, "style", lab_page_texts(LAB_PAGE_STYLE, LAB_PAGE_INDEX_STYLE)) &&
+  if (add_text(page, "common_style", lab_page_text(LAB_PAGE_STYLE)) &&
+      add_text(page, "style", lab_page_text(LAB_PAGE_INDEX_STYLE)) &&
       add_text(page, "script", lab_page_text(LAB_PAGE_INDEX_SCRIPT)))
     return page;
   cJSON_Delete(page);
@@ -283,13 +273,8 @@ int lab_index_write(lab_index *index, const char *list, const char *folder, lab_
   int status = page && template ? LAB_OK : lab_fail_memory(error, "index.html");
   qsort(index->entry, (size_t)index->n, sizeof *index->entry, by_severity);
   snprintf(path, sizeof path, "%s/index.html", folder);
-  if (status == LAB_OK && (status = lab_out_open(&out, path, error)) == LAB_OK) {
-    status = put_page(index, page, template, folder, out.file, error);
-    if (status == LAB_OK)
-      status = lab_out_close(&out, error);
-    else
-      lab_out_abandon(&out);
-  }
+  if (status == LAB_OK && (status = lab_out_open(&out, path, error)) == LAB_OK)
+    status = lab_out_end(&out, put_page(index, page, template, folder, out.file, error), error);
   cJSON_Delete(page);
   free(template);
   return status;

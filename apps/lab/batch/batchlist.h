@@ -14,49 +14,43 @@
 #ifndef LAB_BATCHLIST_H
 #define LAB_BATCHLIST_H
 
-#include <stdio.h>
-
+#include "../base/csv.h"
 #include "../rig/rig.h"
 
-enum { LAB_ENTRY_NAME = 128, LAB_ENTRY_TEXT = 4096, LAB_LIST_CELLS = 64 };
+enum { LAB_FLEET_ENTRY_NAME = 128, LAB_FLEET_ENTRY_TEXT = 4096 };
 
 /* A line; plain bytes, to be sent from process to process. */
-typedef struct lab_entry {
-  int line;                  /* in the file */
-  char name[LAB_ENTRY_NAME]; /* also of its folder */
+typedef struct lab_fleet_entry {
+  int line;                        /* in the file */
+  char name[LAB_FLEET_ENTRY_NAME]; /* also of its folder */
   char rig[LAB_PATH_TEXT];
-  char log[LAB_ENTRY_TEXT], holdout[LAB_ENTRY_TEXT]; /* paths, separated by semicolons */
-} lab_entry;
+  char log[LAB_FLEET_ENTRY_TEXT], holdout[LAB_FLEET_ENTRY_TEXT]; /* paths, separated by semicolons */
+} lab_fleet_entry;
 
-typedef struct lab_list {
-  FILE *file;
-  const char *path;
-  char *text; /* the present line, cut into cells */
-  size_t room;
-  int line; /* its number */
-  char mark;
-  int column[LAB_LIST_CELLS]; /* what each cell is */
+typedef struct lab_fleet_list {
+  lab_csv csv;
+  int column[LAB_CSV_CELLS]; /* what each cell is */
   int n_columns;
-} lab_list;
+} lab_fleet_list;
 
 /* Open a list and read its header.
  * In:      path  kept
  * Out:     list  to be closed, also after an error
  * Returns: LAB_OK; LAB_DATA with file and line; LAB_WORLD. */
-int lab_list_open(lab_list *list, const char *path, lab_error *error);
-void lab_list_close(lab_list *list);
+int lab_fleet_list_open(lab_fleet_list *list, const char *path, lab_error *error);
+void lab_fleet_list_close(lab_fleet_list *list);
 
 /* Go back to the first line. */
-int lab_list_restart(lab_list *list, lab_error *error);
+void lab_fleet_list_restart(lab_fleet_list *list);
 
 /* Read the next line.
  * Out:     more  0: there is none
- * Returns: as lab_list_open. */
-int lab_list_next(lab_list *list, lab_entry *entry, int *more, lab_error *error);
+ * Returns: as lab_fleet_list_open. */
+int lab_fleet_list_next(lab_fleet_list *list, lab_fleet_entry *entry, int *more, lab_error *error);
 
 /* Read to the end and go back, so that whatever is wrong is known before the work begins: also a name that stands there
- * twice, and a list without lines.
+ * twice, and a list without lines. Afterwards lab_fleet_list_next does not fail: the list is in memory.
  * Out:     n  lines that there is something to do for */
-int lab_list_check(lab_list *list, int *n, lab_error *error);
+int lab_fleet_list_check(lab_fleet_list *list, int *n, lab_error *error);
 
 #endif

@@ -3,8 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/escape.h"
+#include "../base/format.h"
 #include "../rig/rigterm.h"
-#include "../trace/unlisted.h"
+#include "../trace/freeterms.h"
 
 /* Channels that a model predicts. */
 static const int channels[LAB_ROW_CHANNELS] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
@@ -19,23 +21,7 @@ void lab_row_header(FILE *file)
   for (c = 0; c < LAB_ROW_CHANNELS; c++)
     for (s = 0; s < LAB_ROW_STAGES; s++)
       fprintf(file, ",%s_%s", lab_channels[channels[c]].quantity, stages[s]);
-  fputs(",limitations,message\n", file);
-}
-
-void lab_row_cell(FILE *file, const char *text)
-{
-  const int quoted = text[strcspn(text, ",\"\r\n")] != '\0';
-  if (!quoted) {
-    fputs(text, file);
-    return;
-  }
-  fputc('"', file);
-  for (; *text; text++) {
-    if (*text == '"') /* doubled */
-      fputc('"', file);
-    fputc(*text == '\n' || *text == '\r' ? ' ' : *text, file);
-  }
-  fputc('"', file);
+  fputs(",limitations,message,condition,deviations\n", file);
 }
 
 /* ---- What was found ---- */
@@ -43,22 +29,22 @@ void lab_row_cell(FILE *file, const char *text)
 /* "chamber_leak", or "unlisted force over x" */
 static void put_name(FILE *file, const lab_answer *a, const lab_found *found)
 {
-  const pneu_term *term = &a->completed.rig.term[found->term < 0 ? 0 : found->term];
+  const pneu_term *term = &a->now.completed.rig.term[found->term < 0 ? 0 : found->term];
   if (found->effect >= 0)
     fputs(pneu_effect_at(found->effect)->name, file);
   else
-    fprintf(file, "unlisted %s over %s", lab_unlisted_equation(term), lab_term_arguments[term->argument].key);
+    fprintf(file, "unlisted %s over %s", lab_free_term_equation(term), lab_term_arguments[term->argument].key);
 }
 
 /* The effect's parameter with its unit; where a free term acts. */
 static void put_size(FILE *file, const lab_answer *a, const lab_found *found)
 {
   char where[LAB_WHERE_TEXT];
-  const int j = found->effect >= 0 ? lab_unknowns_find(&a->completed, found->param) : -1;
+  const int j = found->effect >= 0 ? lab_unknowns_find(&a->now.completed, found->param) : -1;
   if (found->effect < 0)
-    fputs(lab_unlisted_where(&a->completed.rig.term[found->term], where), file);
+    fputs(lab_free_term_where(&a->now.completed.rig.term[found->term], where), file);
   else if (j >= 0)
-    fprintf(file, "%.6g %s", a->completed.unknown[j].value, a->completed.unknown[j].unit);
+    fprintf(file, "%.6g %s", a->now.completed.unknown[j].value, a->now.completed.unknown[j].unit);
 }
 
 /* What the log cannot tell from it. */
@@ -77,15 +63,15 @@ static void put_found(FILE *row, const lab_answer *a, void (*put)(FILE *, const 
   FILE *cell = fmemopen(text, sizeof text, "w");
   int i;
   text[0] = '\0';
-  for (i = 0; cell && i < a->result.n_found; i++) {
+  for (i = 0; cell && i < a->now.result.n_found; i++) {
     fputs(i ? " + " : "", cell);
-    put(cell, a, &a->result.found[i]);
+    put(cell, a, &a->now.result.found[i]);
   }
   if (cell)
     fclose(cell);
   text[sizeof text - 1] = '\0';
   fputc(',', row);
-  lab_row_cell(row, text);
+  lab_put_cell(row, text);
 }
 
 /* ---- Numbers ---- */
@@ -100,15 +86,37 @@ static void put_number(FILE *row, double value)
 
 static void put_errors(FILE *row, const lab_answer *a)
 {
-  const lab_story *story = &a->story;
-  const lab_errors *error[LAB_ROW_STAGES] = {&a->result.before, &a->result.after, &story->holdout_before,
-                                             &story->holdout_after};
+  const lab_report *report = &a->report;
+  const lab_errors *error[LAB_ROW_STAGES] = {&a->now.result.before, &a->now.result.after, &report->holdout_before,
+                                             &report->holdout_after};
   int c, s;
   for (c = 0; c < LAB_ROW_CHANNELS; c++)
     for (s = 0; s < LAB_ROW_STAGES; s++)
-      put_number(row, (s < 2 || story->has_holdout) && !isnan(error[s]->rmse[channels[c]])
+      put_number(row, (s < 2 || report->has_holdout) && !isnan(error[s]->rmse[channels[c]])
                           ? error[s]->in_noise[channels[c]]
                           : (double)NAN);
+}
+
+/* ---- Condition ---- */
+
+/* Over what was declared; where that is 0, as it was found. */
+static void put_deviation(FILE *file, const lab_deviation *d)
+{
+  char found[LAB_FORMAT_TEXT];
+  if (isfinite(d->ratio))
+    fprintf(file, "%s x%.3g", d->name, d->ratio);
+  else
+    fprintf(file, "%s %s", d->name, lab_format_quantity(d->found, d->unit, 3, found));
+}
+
+static void put_condition(FILE *row, const lab_deviations *all)
+{
+  int i;
+  fprintf(row, ",%s,", lab_condition_text(all->condition));
+  for (i = 0; i < all->n; i++) {
+    fputs(i ? " + " : "", row);
+    put_deviation(row, &all->of[i]);
+  }
 }
 
 /* ---- Rows ---- */
@@ -131,14 +139,15 @@ void lab_row_answer(const lab_answer *a, lab_outcome *outcome)
   char sentence[LAB_SENTENCE_TEXT];
   FILE *row = open_row(outcome);
   if (row) {
-    fputs(lab_verdict_text(a->result.verdict), row);
+    fputs(lab_verdict_text(a->now.result.verdict), row);
     put_found(row, a, put_name);
     put_found(row, a, put_size);
     put_found(row, a, put_alike);
     put_errors(row, a);
-    fprintf(row, ",%d,", a->fitted.remarks.n);
-    lab_story_sentence(&a->story, sentence, sizeof sentence);
-    lab_row_cell(row, sentence);
+    fprintf(row, ",%d,", a->now.logs.limitations.n);
+    lab_report_sentence(&a->report, sentence, sizeof sentence);
+    lab_put_users_cell(row, sentence);
+    put_condition(row, &a->report.deviations);
   }
   close_row(row, outcome);
 }
@@ -153,7 +162,8 @@ void lab_row_error(const lab_error *error, lab_outcome *outcome)
     for (i = 0; i < LAB_ROW_CHANNELS * LAB_ROW_STAGES + 1; i++)
       fputc(',', row);
     fputc(',', row);
-    lab_row_cell(row, error->text);
+    lab_put_users_cell(row, error->text);
+    fputs(",,", row);
   }
   close_row(row, outcome);
 }

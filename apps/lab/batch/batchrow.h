@@ -19,6 +19,8 @@ enum lab_row_cells {
   LAB_ROW_ERRORS, /* of each channel: before, after, held out before, held out after */
   LAB_ROW_LIMITATIONS = LAB_ROW_ERRORS + LAB_ROW_CHANNELS * LAB_ROW_STAGES,
   LAB_ROW_MESSAGE,
+  LAB_ROW_CONDITION,
+  LAB_ROW_DEVIATIONS, /* "dry_friction x3.7 + pressure_bias 0.5 kPa" */
   LAB_ROW_CELLS
 };
 
@@ -41,8 +43,5 @@ void lab_row_header(FILE *file);
 /* Out: outcome, but for its cost */
 void lab_row_answer(const lab_answer *answer, lab_outcome *outcome);
 void lab_row_error(const lab_error *error, lab_outcome *outcome);
-
-/* Write a cell, in quotes where it needs them. */
-void lab_row_cell(FILE *file, const char *text);
 
 #endif

@@ -1,22 +1,43 @@
-/* Values of a log that are no measurements: they become gaps, and a remark says so.
- *
- * Saturation. A value at the end of a converter's range shows by the noise that is missing: the largest (or smallest)
- * value comes back exactly, again and again, where the rest of the channel is noisy. A pressure without visible noise
- * that stops from one row to the next, under an open orifice, is taken as saturated too: a chamber settles slowly.
- * Spikes. A value far from its neighbours, two on either side, which agree. A peak of break-away has slopes.
+/* What is done to a log before it is checked, in this order; a limitation says so.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_MEND_H
 #define LAB_MEND_H
 
+#include "../base/limitations.h"
 #include "../log/log.h"
-#include "../base/remarks.h"
 #include "../rig/rig.h"
 
+/* Where the stamps of a run lie on a grid that is coarse beside its rows, and rows at even distances would have been
+ * rounded to just these stamps, they are taken to have been recorded at even distances. Rows that are missing do not
+ * count; a run of other stamps stays as it is.
+ * In/out:  log  its times; clock_step becomes the grid [s] on which its stamps lie unevenly, 0 if none */
+void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
+
+/* Take lines off the spectrum of p, x, T and force that stand on a log from its first row to its last, whatever the
+ * stem and the chamber do: the hum of the mains. Only what is fast counts, of at most 16 rows a period; rows at uneven
+ * distances have no spectrum. A motion that swings is not always there; a cycle that drives the rig is slower, or does
+ * not show while the orifices are shut.
+ * In/out:  log  its values; hum has what was taken off
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *error);
+
+/* Rows of a log that a fit uses. Its time grows with the rows (about 10 s for 100,000 without an effect, several times
+ * that with one), and what can be told from a stroke does not: 20,000 rows show one of 10 s every half a millisecond.
+ */
+enum { LAB_THIN_ROWS = 20000 };
+
+/* Keep every k-th row of a log of more than `most` rows, with the first and the last row of each run, and the row of
+ * each change of command with the one before it, which bracket the instant. Where the command changes in more than a
+ * quarter of `most` rows, it becomes its mean over the rows that each kept one stands for. */
+void lab_log_thin(lab_log *log, size_t most, lab_limitations *limitations);
+
 /* Make gaps of what is no measurement, run by run.
+ * Saturation. A value at the end of a converter's range shows by the noise that is missing: the largest (or smallest)
+ * value comes back exactly, again and again, where the rest of the channel is noisy. A pressure without visible noise
+ * that stops from one row to the next, under an open orifice, is taken as saturated too: a chamber settles slowly.
+ * Spikes. A value far from its neighbours, two on either side, which agree. A peak of break-away has slopes.
  * In:      rig  its inputs: a channel that drives the model cannot have such gaps
- * In/out:  log
- *          remarks
  * Returns: LAB_OK; LAB_DATA if an input is saturated or hardly anything is left; LAB_WORLD. */
-int lab_log_mend(const lab_rig *rig, lab_log *log, lab_remarks *remarks, lab_error *error);
+int lab_log_clean(const lab_rig *rig, lab_log *log, lab_limitations *limitations, lab_error *error);
 
 #endif

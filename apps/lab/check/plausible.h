@@ -5,8 +5,8 @@
  * the report carries as a limitation and which may forbid naming an effect. Thresholds are wide: a log is refused for
  * what no missing effect of a usual size makes of a rig, such as a factor of three in a level or of twenty in time.
  *
- *   lab_remarks remarks = {0};
- *   for each log: lab_log_thin(&log, LAB_THIN_ROWS, &remarks), lab_log_mend(rig, &log, &remarks, error),
+ *   lab_limitations remarks = {0};
+ *   for each log: lab_log_thin(&log, LAB_THIN_ROWS, &remarks), lab_log_clean(rig, &log, &remarks, error),
  *                 lab_plausible(rig, &log, &remarks, &content, error)
  *   at last:      lab_plausible_content(rig, &content, &remarks, error)
  * SPDX-License-Identifier: MIT */
@@ -14,7 +14,7 @@
 #define LAB_PLAUSIBLE_H
 
 #include "../log/log.h"
-#include "../base/remarks.h"
+#include "../base/limitations.h"
 #include "../rig/rig.h"
 
 /* How much there is to learn from, over all runs. */
@@ -28,10 +28,12 @@ typedef struct lab_content {
  * In/out:  remarks
  *          content  what the log adds
  * Returns: LAB_OK; LAB_DATA; LAB_WORLD. */
-int lab_plausible(const lab_rig *rig, const lab_log *log, lab_remarks *remarks, lab_content *content, lab_error *error);
+int lab_plausible(const lab_rig *rig, const lab_log *log, lab_limitations *limitations, lab_content *content,
+                  lab_error *error);
 
 /* Is there enough to determine what the rig file asks for?
  * Returns: LAB_OK; LAB_DATA if nothing moves, or there are fewer values than unknowns. */
-int lab_plausible_content(const lab_rig *rig, const lab_content *content, lab_remarks *remarks, lab_error *error);
+int lab_plausible_content(const lab_rig *rig, const lab_content *content, lab_limitations *limitations,
+                          lab_error *error);
 
 #endif

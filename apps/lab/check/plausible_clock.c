@@ -1,7 +1,8 @@
 /* Checks of plausible.h on command and measurement: are they from one test, and on one clock? */
 #include <math.h>
 
-#include "logscene.h"
+#include "../base/array.h"
+#include "logview.h"
 
 static const double alike = 0.4;         /* correlation of rates, measured and expected, below which they differ */
 static const double alike_shifted = 0.8; /* and above which a shift in time is the reason */
@@ -13,7 +14,7 @@ static const double early_rate = 0.3;    /* of the usual rate with an open orifi
 
 /* Correlation of the rates of the measured channel, `lag` cells later, with the expected ones; each over a few cells,
  * so that a short peak at break-away does not outweigh the strokes. */
-static double likeness(const lab_scene *s, int lag)
+static double likeness(const lab_log_view *s, int lag)
 {
   const double *m = s->cells[s->main].mean, *e = s->expected_cells.mean;
   const int over = 1 + s->n_cells / 64;
@@ -30,7 +31,7 @@ static double likeness(const lab_scene *s, int lag)
 }
 
 /* Enough movement, measured and expected, for its rates to be seen above the noise. */
-static int rates_are_seen(const lab_scene *s)
+static int rates_are_seen(const lab_log_view *s)
 {
   const double *m = s->cells[s->main].mean;
   const double per_cell = fmax((double)s->n / s->n_cells, 1), sigma = s->sigma[s->main];
@@ -44,12 +45,12 @@ static int rates_are_seen(const lab_scene *s)
 
 /* The lag at which both are most alike, the shortest one of those within 2 %.  Returns: in cells; 0 if not to be told.
  * Out: best */
-static int lag_of(const lab_scene *s, double *best)
+static int lag_of(const lab_log_view *s, double *best)
 {
   const int most = s->n_cells / 3;
   int lag;
   *best = 1;
-  if (s->main < 0 || !s->has_expected || lab_scene_is_driven(s) || !s->u || !rates_are_seen(s))
+  if (s->main < 0 || !s->has_expected || lab_log_view_is_driven(s) || !s->u || !rates_are_seen(s))
     return 0;
   *best = 0;
   for (lag = -most; lag <= most; lag++)
@@ -63,43 +64,45 @@ static int lag_of(const lab_scene *s, double *best)
   return 0;
 }
 
-int lab_check_early(const lab_scene *s, lab_finding *f)
+int lab_check_early(const lab_log_view *s, lab_check_result *f)
 {
   double best;
   const int lag = lag_of(s, &best);
   if (lag > -4 || best < alike_shifted)
     return 0;
-  return lab_find(f,
-                  "the command does not match: %s moves %.3g s before u says so; are both from one test, and on one "
-                  "clock?",
-                  lab_channels[s->main].key, -lag * s->cell);
+  return lab_check_fail(
+      f,
+      "the command does not match: %s moves %.3g s before u says so; are both from one test, and on one "
+      "clock?",
+      lab_channels[s->main].key, -lag * s->cell);
 }
 
-int lab_check_late(const lab_scene *s, lab_finding *f)
+int lab_check_late(const lab_log_view *s, lab_check_result *f)
 {
   double best;
   const int lag = lag_of(s, &best);
-  if (lag < 4 || best < alike_shifted || lag * s->cell < LAB_SCENE_DEAD_TIME)
+  if (lag < 4 || best < alike_shifted || lag * s->cell < LAB_VIEW_DEAD_TIME)
     return 0;
-  return lab_find(f,
-                  "%s follows u about %.3g s late, longer than a dead time of a transducer or a line: command and "
-                  "measurement seem to be on different clocks",
-                  lab_channels[s->main].key, lag * s->cell);
+  return lab_check_fail(
+      f,
+      "%s follows u about %.3g s late, longer than a dead time of a transducer or a line: command and "
+      "measurement seem to be on different clocks",
+      lab_channels[s->main].key, lag * s->cell);
 }
 
 /* Share of the movement that goes the way of the command, or may go on without one: falls while it is shut. A poor
  * guess of an area or a volume spoils the likeness, not this. */
-static double obedience(const lab_scene *s)
+static double obedience(const lab_log_view *s)
 {
-  const double *m = s->cells[s->main].mean, noise = LAB_SCENE_SIGNIFICANT * s->sigma[s->main];
+  const double *m = s->cells[s->main].mean, noise = LAB_VIEW_SIGNIFICANT * s->sigma[s->main];
   double good = 0, all = 0;
   lab_stretch stretch = {0, 0, 0, 0};
   int k, last;
-  while (lab_scene_next(s, &stretch)) {
+  while (lab_log_view_next(s, &stretch)) {
     last = (int)((s->t[stretch.end - 1] - s->t[0]) / s->cell);
     for (k = (int)((s->t[stretch.first] - s->t[0]) / s->cell); k < last && k + 1 < s->n_cells; k++) {
       const double change = m[k + 1] - m[k];
-      if (fabs(change) * LAB_SCENE_FEWEST < noise)
+      if (fabs(change) * LAB_VIEW_FEWEST < noise)
         continue;
       all += fabs(change);
       good += (change > 0) == (stretch.sign > 0) ? fabs(change) : 0;
@@ -108,18 +111,18 @@ static double obedience(const lab_scene *s)
   return all > 0 ? good / all : 1;
 }
 
-int lab_check_alike(const lab_scene *s, lab_finding *f)
+int lab_check_alike(const lab_log_view *s, lab_check_result *f)
 {
   double best, now = -1, obeys;
   int k, lag = lag_of(s, &best);
   if (best >= 1 || (best > alike_shifted && lag != 0))
     return 0;
-  for (k = 0; k < s->n_cells / 3 && k * s->cell < LAB_SCENE_DEAD_TIME; k++)
+  for (k = 0; k < s->n_cells / 3 && k * s->cell < LAB_VIEW_DEAD_TIME; k++)
     now = fmax(now, likeness(s, k));
   obeys = obedience(s);
   if (obeys > (now > alike ? disobedient : obedient))
     return 0;
-  return lab_find(
+  return lab_check_fail(
       f,
       "the command does not match: what %s does is not what the declared model makes of u (correlation of "
       "rates %.2f, %.0f %% of the movement the way of u); is u from another test, or the rig file of another "
@@ -132,48 +135,44 @@ int lab_check_alike(const lab_scene *s, lab_finding *f)
 /* What ought to follow the command, as means over cells: the main channel; or, where pressure and position are
  * measured, the air in the chamber, which no jump of the stem changes. */
 struct follower {
-  double mean[LAB_SCENE_CELLS];
+  double mean[LAB_VIEW_CELLS];
   double least; /* a change that counts */
   double rate;  /* usual rate with an open orifice */
 };
 
 /* First and last cell that lie within a stretch.  Returns: 0 if they are too few to say anything. */
-static int cells_in(const lab_scene *s, const lab_stretch *stretch, int *first, int *last)
+static int cells_in(const lab_log_view *s, const lab_stretch *stretch, int *first, int *last)
 {
   *first = (int)((s->t[stretch->first] - s->t[0]) / s->cell) + 1;
   *last = (int)((s->t[stretch->end - 1] - s->t[0]) / s->cell) - 1;
-  return *last - *first >= LAB_SCENE_FEWEST;
+  return *last - *first >= LAB_VIEW_FEWEST;
 }
 
 /* Median rate over the stretches in which an orifice is open, by size. */
-static double open_rate(const lab_scene *s, const double *mean)
+static double open_rate(const lab_log_view *s, const double *mean)
 {
   enum { MOST = 64 };
   double rate[MOST];
   lab_stretch stretch = {0, 0, 0, 0};
   int n = 0, first, last;
-  while (n < MOST && lab_scene_next(s, &stretch)) {
+  while (n < MOST && lab_log_view_next(s, &stretch)) {
     if (stretch.sign == 0 || !cells_in(s, &stretch, &first, &last))
       continue;
-    rate[n] = fabs(mean[last] - mean[first]) / ((last - first) * s->cell);
-    lab_sort_in(rate, n++);
+    rate[n++] = fabs(mean[last] - mean[first]) / ((last - first) * s->cell);
   }
+  lab_sort(rate, (size_t)n);
   return n > 0 ? rate[n / 2] : HUGE_VAL;
 }
 
-static void follow(const lab_scene *s, double noise, struct follower *f)
+static void follow(const lab_log_view *s, double noise, struct follower *f)
 {
-  double low = f->mean[0], high = f->mean[0];
-  int k;
-  for (k = 1; k < s->n_cells; k++) {
-    low = fmin(low, f->mean[k]);
-    high = fmax(high, f->mean[k]);
-  }
-  f->least = fmax(LAB_SCENE_SIGNIFICANT * noise, 0.02 * (high - low));
+  double low, high;
+  lab_range(f->mean, (size_t)s->n_cells, &low, &high);
+  f->least = fmax(LAB_VIEW_SIGNIFICANT * noise, 0.02 * (high - low));
   f->rate = open_rate(s, f->mean);
 }
 
-static void follow_channel(const lab_scene *s, struct follower *f)
+static void follow_channel(const lab_log_view *s, struct follower *f)
 {
   int k;
   for (k = 0; k < s->n_cells; k++)
@@ -182,7 +181,7 @@ static void follow_channel(const lab_scene *s, struct follower *f)
 }
 
 /* Absolute pressure times volume, as the mass at constant temperature. */
-static void follow_air(const lab_scene *s, struct follower *f)
+static void follow_air(const lab_log_view *s, struct follower *f)
 {
   const pneu_params *q = &s->rig->params;
   const double ambient = (double)q->ambient_pressure, dead = (double)q->dead_volume, area = (double)q->area;
@@ -196,7 +195,7 @@ static void follow_air(const lab_scene *s, struct follower *f)
 /* Does it turn within a stretch and then move the way of the coming command, as fast as through an orifice, though the
  * present one does not allow it? What lasts from the command before, such as a delay, a line that fills up or a chamber
  * that warms, begins with the stretch; this begins within it. */
-static int starts_early(const lab_scene *s, const struct follower *f, const lab_stretch *now, int next_sign)
+static int starts_early(const lab_log_view *s, const struct follower *f, const lab_stretch *now, int next_sign)
 {
   int first, last, k, turn;
   double moved;
@@ -214,7 +213,7 @@ static int starts_early(const lab_scene *s, const struct follower *f, const lab_
 
 /* Does it go on against the command to the end of the stretch, as fast as through an orifice? What lasts from the
  * command before slows down. */
-static int goes_against(const lab_scene *s, const struct follower *f, const lab_stretch *now)
+static int goes_against(const lab_log_view *s, const struct follower *f, const lab_stretch *now)
 {
   const double way = now->sign > 0 ? -1 : 1;
   int first, last, half;
@@ -227,7 +226,7 @@ static int goes_against(const lab_scene *s, const struct follower *f, const lab_
          moved > 0.8 * way * (f->mean[half] - f->mean[first]);
 }
 
-static int contradicts(const lab_scene *s, const struct follower *f, const lab_stretch *now, int next_sign)
+static int contradicts(const lab_log_view *s, const struct follower *f, const lab_stretch *now, int next_sign)
 {
   return goes_against(s, f, now) || starts_early(s, f, now, next_sign);
 }
@@ -239,7 +238,7 @@ static int are_many(int wrong, int all, int alone)
   return wrong >= (alone ? 3 : 2) && wrong * (alone ? 2 : 4) >= all;
 }
 
-int lab_check_starts(const lab_scene *s, lab_finding *f)
+int lab_check_starts(const lab_log_view *s, lab_check_result *f)
 {
   const int stem = s->rig->params.stroke > 0, both = s->y[LAB_CHANNEL_P] && s->y[LAB_CHANNEL_X] && stem;
   const int alone = stem && !s->y[LAB_CHANNEL_X];
@@ -247,12 +246,12 @@ int lab_check_starts(const lab_scene *s, lab_finding *f)
   lab_stretch now, next = {0, 0, 0, 0};
   size_t where = 0;
   int wrong = 0, all = 0, first, last;
-  if (s->main < 0 || lab_scene_is_driven(s) || !lab_scene_next(s, &next))
+  if (s->main < 0 || lab_log_view_is_driven(s) || !lab_log_view_next(s, &next))
     return 0;
   follow_channel(s, &channel);
   if (both)
     follow_air(s, &air);
-  for (now = next; lab_scene_next(s, &next); now = next) {
+  for (now = next; lab_log_view_next(s, &next); now = next) {
     all += cells_in(s, &now, &first, &last);
     if (!contradicts(s, &channel, &now, next.sign) || (both && !contradicts(s, &air, &now, next.sign)))
       continue;
@@ -260,7 +259,7 @@ int lab_check_starts(const lab_scene *s, lab_finding *f)
   }
   if (!are_many(wrong, all, alone))
     return 0;
-  return lab_find_at(
+  return lab_check_fail_at(
       f, where,
       "the command does not match: in %d of %d stretches of u %s moves against it or before it, the first "
       "time at t = %.6g s; is u from another test, or on another clock?",

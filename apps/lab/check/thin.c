@@ -1,4 +1,4 @@
-#include "thin.h"
+#include "mend.h"
 #include "../base/text.h"
 
 static int begins_or_ends(const lab_log *log, size_t run, size_t i)
@@ -8,7 +8,8 @@ static int begins_or_ends(const lab_log *log, size_t run, size_t i)
 
 static int changes(const lab_log *log, size_t run, size_t i)
 {
-  const double *u = log->value[LAB_CHANNEL_U];
+  const int command = lab_log_command(log);
+  const double *u = command < 0 ? NULL : log->value[command];
   return u && i > log->run[run] && i < log->run[run + 1] && u[i] != u[i - 1];
 }
 
@@ -24,7 +25,7 @@ static size_t count_changes(const lab_log *log)
 /* The command of a row becomes its mean up to the next row kept. */
 static void average_command(lab_log *log, size_t i, size_t end)
 {
-  double *u = log->value[LAB_CHANNEL_U], sum = 0;
+  double *u = log->value[lab_log_command(log)], sum = 0;
   size_t k;
   for (k = i; k < end; k++)
     sum += u[k];
@@ -56,7 +57,7 @@ static size_t thin_run(lab_log *log, size_t run, size_t step, int busy, size_t t
   return kept;
 }
 
-void lab_log_thin(lab_log *log, size_t most, lab_remarks *remarks)
+void lab_log_thin(lab_log *log, size_t most, lab_limitations *limitations)
 {
   const size_t all = log->n, n_changes = count_changes(log);
   const int busy = n_changes > most / 4;
@@ -71,7 +72,7 @@ void lab_log_thin(lab_log *log, size_t most, lab_remarks *remarks)
     kept += n;
   }
   log->run[log->n_runs] = log->n = kept;
-  lab_remark(remarks, "%s: of %zu rows %zu are used, one in %zu%s.", lab_file_name(log->path), all, kept, step,
-             busy ? "; the command, which changes often, is averaged between them"
-                  : " and those where the command changes");
+  lab_limitation(limitations, "%s: %zu of %zu rows are used, one in %zu%s.", lab_file_name(log->path), kept, all, step,
+                 busy ? "; the command, which changes often, is averaged between them"
+                      : " and those where the command changes");
 }

@@ -18,15 +18,15 @@ static void channel_error(const lab_unknowns *u, const double *r, int channel, l
   double noise2 = 0, unit2 = 0;
   size_t n = 0;
   int e, c;
-  for (e = 0; e < u->n_experiments; e++) {
-    const lab_experiment *x = &u->experiment[e];
+  for (e = 0; e < u->n_runs; e++) {
+    const lab_run *x = &u->run[e];
     for (c = 0; c < x->n_channels; c++) {
       size_t i;
       for (i = 0; x->channel[c] == channel && i < x->n; i++) {
         const double z = r[(size_t)c * x->n + i];
-        if (isnan(lab_experiment_measured(x, c, i)))
+        if (isnan(lab_run_measured(x, c, i)))
           continue;
-        noise2 += z * z;
+        noise2 += pow(z * x->weight[(size_t)c * x->n + i], 2);
         unit2 += z * z * x->sigma[c] * x->sigma[c];
         n++;
       }
@@ -41,16 +41,33 @@ static void channel_error(const lab_unknowns *u, const double *r, int channel, l
   errors->n += n;
 }
 
-int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
+/* Errors from residuals that `of` fills in. */
+static int sum_up(const lab_unknowns *u, int (*of)(const lab_unknowns *, double *, lab_error *), lab_errors *errors,
+                  lab_error *error)
 {
-  double *r = malloc((u->n_rows + 1) * sizeof *r);
+  double *r = malloc((u->n_rows + u->m + 1) * sizeof *r);
   int c, status;
   clear_errors(errors);
   if (!r)
     return lab_fail_memory(error, "residuals");
-  status = lab_unknowns_errors(u, r, error);
+  status = of(u, r, error);
   for (c = 0; status == LAB_OK && c < LAB_CHANNEL_COUNT; c++)
     channel_error(u, r, c, errors);
   free(r);
   return status;
+}
+
+int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
+{
+  return sum_up(u, lab_unknowns_errors, errors, error);
+}
+
+static int as_fitted(const lab_unknowns *u, double *r, lab_error *error)
+{
+  return lab_unknowns_residuals((void *)u, NULL, r, error);
+}
+
+int lab_fitted_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
+{
+  return sum_up(u, as_fitted, errors, error);
 }

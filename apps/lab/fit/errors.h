@@ -16,4 +16,7 @@ typedef struct lab_errors {
 /* Error of the present model of `u` on its experiments, row by row. */
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
 
+/* The same of the residuals as they are fitted: whitened, and without what held values may explain (nuisance.h). */
+int lab_fitted_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
+
 #endif

@@ -1,216 +1,245 @@
-/* The fit: checks, starts, the choice among them. */
 #include "fit.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit_private.h"
+#include "../base/array.h"
+#include "../base/clock.h"
+#include "normal.h"
 
-void lab_fit_options_default(lab_fit_options *options)
+enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12 };
+
+static const double usual_enough = 0.02; /* of chi-square: no decision hangs on it */
+static const double usual_share = 1e-6;  /* of chi-square */
+static const double poor = 0.5;          /* gain over promise below which kept slopes are renewed */
+
+/* Where a descent is. */
+typedef struct descent {
+  const lab_fit_problem *problem;
+  double theta[N], trial[N];
+  double *r, *r_trial; /* m */
+  double *J;           /* m * n, column by column */
+  double A[N][N];      /* J'J */
+  double g[N];         /* J'r */
+  double chi2, lambda;
+  double enough, enough_share;
+} descent;
+
+int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, double *chi2, lab_error *error)
 {
-  memset(options, 0, sizeof *options);
-  options->search = LAB_FIT_BOBYQA;
-  options->starts = 1;
-  options->threads = 1;
-  options->search_count = 8;
-  options->polish_count = 200;
-  options->chi2_exact = 1e-10;
-  options->precision = 1e-10;
-}
-
-/* ---- Checks ---- */
-
-static int check_param(const lab_fit_param *p, int bounded, lab_error *error)
-{
-  if (!isfinite(p->start) || !(p->start >= p->lower && p->start <= p->upper))
-    return lab_fail(error, LAB_DATA, "%s: the start %g %s is not within its bounds %g .. %g", p->name, p->start,
-                    p->unit, p->lower, p->upper);
-  if (!(p->lower < p->upper))
-    return lab_fail(error, LAB_DATA, "%s: the bounds %g .. %g %s leave nothing to fit", p->name, p->lower, p->upper,
-                    p->unit);
-  if (p->log_scaled && !(p->lower > 0))
-    return lab_fail(error, LAB_DATA, "%s: on a logarithmic scale the lower bound %g %s must be above 0", p->name,
-                    p->lower, p->unit);
-  if (bounded && !isfinite(p->upper - p->lower))
-    return lab_fail(error, LAB_DATA, "%s: a search from many starts needs finite bounds", p->name);
-  return LAB_OK;
-}
-
-static int check_options(const lab_fit_options *o, lab_error *error)
-{
-  if (o->starts < 1 || o->threads < 1 || o->search_count < 1 || o->polish_count < 1)
-    return lab_fail(error, LAB_DATA, "starts, threads and counts of a fit must be at least 1");
-  if (!(o->precision >= 1e-16 && o->precision <= 1e-2))
-    return lab_fail(error, LAB_DATA, "precision of the residuals must be within 1e-16 .. 1e-2");
-  return LAB_OK;
-}
-
-static int check(const lab_fit_problem *problem, const lab_fit_options *options, lab_error *error)
-{
-  int j;
-  size_t i;
-  if (problem->n < 1 || problem->n > LAB_FIT_MAX)
-    return lab_fail(error, LAB_DATA, "%d parameters to fit, expected 1 .. %d", problem->n, LAB_FIT_MAX);
-  if (problem->m < (size_t)problem->n || problem->m > 100000000)
-    return lab_fail(error, LAB_DATA, "%d parameters cannot be fitted to %zu values", problem->n, problem->m);
-  for (j = 0; j < problem->n; j++)
-    if (check_param(&problem->param[j], options->starts > 1 || options->search == LAB_FIT_CRS, error))
-      return error->status;
-  for (i = 0; problem->sigma && i < problem->m; i++)
-    if (!(problem->sigma[i] > 0 && isfinite(problem->sigma[i])))
-      return lab_fail(error, LAB_DATA, "standard deviation %zu is %g, expected a number above 0", i + 1,
-                      problem->sigma[i]);
-  return check_options(options, error);
-}
-
-/* ---- Starts ---- */
-
-/* Element `index` of van der Corput's sequence in a base: evenly spread over 0..1. */
-static double spread_evenly(int index, int base)
-{
-  double value = 0, digit = 1.0 / base;
-  for (; index > 0; index /= base, digit /= base)
-    value += digit * (index % base);
-  return value;
-}
-
-/* Where start `index` begins: at param.start, then along Halton's sequence through the box. */
-static void start_point(const fit_run *run, int index, double *z)
-{
-  static const int prime[LAB_FIT_MAX] = {2,  3,  5,  7,  11, 13, 17, 19, 23, 29, 31, 37,
-                                         41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, 89};
-  int j;
-  for (j = 0; j < run->problem->n; j++)
-    z[j] = index == 0 ? 0 : run->lower[j] + (run->upper[j] - run->lower[j]) * spread_evenly(index, prime[j]);
-}
-
-/* What is kept of a start. */
-typedef struct outcome {
-  int status; /* LAB_OK: it gave a point */
-  int finish;
-  double sum;
-  double z[LAB_FIT_MAX], step[LAB_FIT_MAX];
-  int held[LAB_FIT_MAX];
-  long evaluations, failed;
-  lab_error error;
-} outcome;
-
-static void keep(const fit_run *run, outcome *out)
-{
-  out->status = run->status != LAB_OK ? run->status : isfinite(run->best) ? LAB_OK : LAB_NUMERIC;
-  out->finish = run->finish;
-  out->sum = run->best;
-  memcpy(out->z, run->best_z, sizeof out->z);
-  memcpy(out->step, run->step, sizeof out->step);
-  memcpy(out->held, run->held, sizeof out->held);
-  out->evaluations = run->evaluations;
-  out->failed = run->failed;
-  out->error = run->error;
-}
-
-static void run_start(const lab_fit_problem *problem, const lab_fit_options *options, int index, outcome *out)
-{
-  fit_run run;
-  double z[LAB_FIT_MAX];
-  out->status = fit_open(&run, problem, options, &out->error);
-  if (out->status != LAB_OK)
-    return;
-  start_point(&run, index, z);
-  if (fit_search(&run, z, (unsigned long)index + 1) == FIT_GOOD)
-    fit_polish(&run);
-  keep(&run, out);
-  fit_close(&run);
-}
-
-static void run_starts(const lab_fit_problem *problem, const lab_fit_options *options, outcome *out)
-{
-  int i;
-#pragma omp parallel for schedule(dynamic) num_threads(options->threads) if (options->threads > 1)
-  for (i = 0; i < options->starts; i++)
-    run_start(problem, options, i, &out[i]);
-}
-
-/* ---- Choice ---- */
-
-/* The lowest sum of squares; of equals the first start, so that the order of the threads does not matter. An error
- * other than a failing model ends the fit, wherever it happened.  Returns: LAB_OK or the status. */
-static int choose(const lab_fit_problem *problem, const outcome *out, int starts, int *best, lab_error *error)
-{
-  int i;
-  *best = -1;
-  for (i = 0; i < starts; i++) {
-    if (out[i].status != LAB_OK && out[i].status != LAB_NUMERIC) {
-      *error = out[i].error;
-      return out[i].status;
-    }
-    if (out[i].status == LAB_OK && (*best < 0 || out[i].sum < out[*best].sum * (1 - 1e-9)))
-      *best = i;
-  }
-  if (*best >= 0)
+  size_t i = 0;
+  if (p->residuals(p->context, theta, r, error))
+    return error->status;
+  *chi2 = lab_dot(r, r, p->m);
+  if (isfinite(*chi2))
     return LAB_OK;
-  *error = out[0].error;
-  error->status = LAB_NUMERIC;
-  return lab_fail_in(error, "the model cannot be fitted: it fails at %s, %s = %g %s",
-                     starts > 1 ? "every start" : "the start", problem->param[0].name, problem->param[0].start,
-                     problem->param[0].unit);
+  while (i + 1 < p->m && isfinite(r[i]))
+    i++;
+  return lab_fail(error, LAB_NUMERIC, "residual %zu of %zu is not finite", i + 1, p->m);
 }
 
-static void count(const outcome *out, int starts, int best, lab_fit_result *result)
+int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, const int *wanted, double *J,
+                   lab_error *error)
 {
-  int i;
-  for (i = 0; i < starts; i++) {
-    result->evaluations += out[i].evaluations;
-    result->failed += out[i].failed;
-    result->starts += out[i].status == LAB_OK;
-    result->agree += out[i].status == LAB_OK && out[i].sum <= out[best].sum * (1 + 1e-6) + 1e-20;
+  int j, status = LAB_OK;
+#pragma omp parallel for schedule(dynamic)
+  for (j = 0; j < p->n; j++) {
+    lab_error mine;
+    double *column = J + (size_t)j * p->m;
+    const int wants = !wanted || wanted[j], spent = lab_cpu_is_spent(p->until);
+    const int at = wants && !spent ? p->slope(p->context, theta, r, j, column, &mine) : LAB_OK;
+    if (at == LAB_NUMERIC || (wants && spent))
+      memset(column, 0, p->m * sizeof *column);
+    else if (at != LAB_OK) {
+#pragma omp critical(fit_error)
+      *error = mine, status = at;
+    }
   }
+  return status;
 }
 
-/* Intervals and remarks of the best start. */
-static int describe(const lab_fit_problem *problem, const lab_fit_options *options, const outcome *best,
-                    lab_fit_result *result, lab_error *error)
+/* Renew the slopes, all of them or only those that do not last, and what follows from them. */
+static int renew(descent *d, int all, lab_error *error)
 {
-  fit_run run;
-  if (fit_open(&run, problem, options, error))
+  const lab_fit_problem *p = d->problem;
+  int fresh[N], j, k;
+  for (j = 0; j < p->n; j++)
+    fresh[j] = all || !p->lasting || !p->lasting[j];
+  if (lab_fit_slopes(p, d->theta, d->r, fresh, d->J, error))
     return error->status;
-  memcpy(run.best_z, best->z, sizeof run.best_z);
-  memcpy(run.step, best->step, sizeof run.step);
-  memcpy(run.held, best->held, sizeof run.held);
-  run.best = best->sum;
-  result->finish = best->finish;
-  if (fit_spread(&run, result) == FIT_END) {
-    *error = run.error;
-    error->status = run.status ? run.status : LAB_NUMERIC;
+#pragma omp parallel for schedule(dynamic) private(k)
+  for (j = 0; j < p->n; j++) {
+    d->g[j] = lab_dot(d->J + (size_t)j * p->m, d->r, p->m);
+    for (k = 0; k <= j; k++)
+      if (fresh[j] || fresh[k])
+        d->A[j][k] = lab_dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
   }
-  result->evaluations += run.evaluations;
-  fit_close(&run);
-  return error->status;
+  for (j = 0; j < p->n; j++)
+    for (k = 0; k < j; k++)
+      d->A[k][j] = d->A[j][k];
+  return LAB_OK;
 }
 
-int lab_fit_run(const lab_fit_problem *problem, const lab_fit_options *options, lab_fit_result *result,
-                lab_error *error)
+/* Damped step for the unknowns in `of`, the others moved by `step` already. */
+static int solve_free(const descent *d, const int *of, int k, const int *is_free, double *step)
 {
-  lab_fit_options usual;
-  outcome *out;
-  int best, status;
-  lab_fit_options_default(&usual);
-  if (!options)
-    options = &usual;
-  memset(result, 0, sizeof *result);
-  if (check(problem, options, error))
+  const int n = d->problem->n;
+  double a[N][N], b[N];
+  int i, j;
+  for (i = 0; i < k; i++) {
+    for (j = 0; j < k; j++)
+      a[i][j] = d->A[of[i]][of[j]];
+    a[i][i] += d->lambda * a[i][i] + 1e-300;
+    b[i] = -d->g[of[i]];
+    for (j = 0; j < n; j++)
+      if (!is_free[j])
+        b[i] -= d->A[of[i]][j] * step[j];
+  }
+  if (lab_solve_positive(k, N, &a[0][0], b))
+    return -1;
+  for (i = 0; i < k; i++)
+    step[of[i]] = b[i];
+  return 0;
+}
+
+/* A step that stays within the bounds: what would leave them goes onto its bound, and the rest is solved again. What
+ * stands on a bound and is pulled outwards does not take part.  Returns: 0, or -1 if there is no step. */
+static int bounded_step(const descent *d, double *step)
+{
+  const lab_fit_problem *p = d->problem;
+  int is_free[N], of[N], j, k, hit = 1;
+  for (j = 0; j < p->n; j++) {
+    step[j] = 0;
+    is_free[j] =
+        d->A[j][j] > 0 && !(d->theta[j] <= p->lower[j] && d->g[j] > 0) && !(d->theta[j] >= p->upper[j] && d->g[j] < 0);
+  }
+  while (hit) {
+    for (j = k = 0; j < p->n; j++)
+      if (is_free[j])
+        of[k++] = j;
+    if (k == 0)
+      return 0;
+    if (solve_free(d, of, k, is_free, step))
+      return -1;
+    for (hit = 0, j = 0; j < k; j++) {
+      const int at = of[j];
+      const double to = d->theta[at] + step[at], bound = fmin(fmax(to, p->lower[at]), p->upper[at]);
+      if (bound != to) {
+        step[at] = bound - d->theta[at];
+        is_free[at] = 0;
+        hit = 1;
+      }
+    }
+  }
+  return 0;
+}
+
+/* Decrease of chi-square that the linear model promises. */
+static double promise(const descent *d, const double *step)
+{
+  const int n = d->problem->n;
+  double sum = 0;
+  int i, j;
+  for (i = 0; i < n; i++) {
+    double row = 0;
+    for (j = 0; j < n; j++)
+      row += d->A[i][j] * step[j];
+    sum -= step[i] * (2 * d->g[i] + row);
+  }
+  return sum;
+}
+
+static void accept(descent *d, double chi2)
+{
+  double *keep = d->r;
+  d->r = d->r_trial;
+  d->r_trial = keep;
+  memcpy(d->theta, d->trial, sizeof d->theta);
+  d->chi2 = chi2;
+}
+
+/* One step downhill, damped until it is one.
+ * Out:     quality  gain over promise
+ *          done     1 when no step is worth taking */
+static int step_down(descent *d, double *quality, int *done, lab_error *error)
+{
+  const lab_fit_problem *p = d->problem;
+  const double least = fmax(d->enough, d->enough_share * d->chi2);
+  double step[N];
+  int j, tries;
+  *done = 1;
+  for (tries = 0; tries < TRIES && !lab_cpu_is_spent(p->until); tries++) {
+    double promised, chi2, gain;
+    int status;
+    if (bounded_step(d, step)) {
+      d->lambda = fmax(10 * d->lambda, 1e-12);
+      continue;
+    }
+    promised = promise(d, step);
+    if (!(promised > least))
+      return LAB_OK;
+    for (j = 0; j < p->n; j++)
+      d->trial[j] = fmin(fmax(d->theta[j] + step[j], p->lower[j]), p->upper[j]);
+    status = lab_fit_evaluate(p, d->trial, d->r_trial, &chi2, error);
+    if (status != LAB_OK && status != LAB_NUMERIC)
+      return status;
+    gain = d->chi2 - chi2;
+    if (status == LAB_OK && gain > 0) {
+      *quality = gain / promised;
+      *done = gain < least;
+      d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
+      accept(d, chi2);
+      return LAB_OK;
+    }
+    d->lambda = fmax(8 * d->lambda, 1e-3);
+  }
+  return LAB_OK;
+}
+
+static int descend(descent *d, lab_error *error)
+{
+  const lab_fit_problem *p = d->problem;
+  const int steps = p->steps > 0 ? p->steps : STEPS;
+  int i, done = 0, all = 1;
+  double quality = 1;
+  if (lab_fit_evaluate(p, d->theta, d->r, &d->chi2, error))
     return error->status;
-  result->n = problem->n;
-  result->m = problem->m;
-  if (!(out = calloc((size_t)options->starts, sizeof *out)))
-    return lab_fail_memory(error, "the starts of a fit");
-  run_starts(problem, options, out);
-  error->status = LAB_OK;
-  status = choose(problem, out, options->starts, &best, error);
+  for (i = 0; i < steps && !lab_cpu_is_spent(p->until); i++) {
+    if (renew(d, all, error) || step_down(d, &quality, &done, error))
+      return error->status;
+    if (done && all)
+      break;
+    all = done || quality < poor; /* before it ends, once more with slopes that are all new */
+  }
+  return LAB_OK;
+}
+
+int lab_fit(const lab_fit_problem *problem, double *theta, double *chi2, lab_error *error)
+{
+  const size_t m = problem->m, n = (size_t)problem->n;
+  descent *d = calloc(1, sizeof *d);
+  double *memory = malloc((n + 2) * m * sizeof *memory);
+  int status = d && memory ? LAB_OK : lab_fail_memory(error, "a fit");
   if (status == LAB_OK) {
-    count(out, options->starts, best, result);
-    status = describe(problem, options, &out[best], result, error);
+    d->problem = problem;
+    d->enough = problem->enough > 0 ? problem->enough : usual_enough;
+    d->enough_share = problem->enough_share > 0 ? problem->enough_share : usual_share;
+    d->lambda = 1e-6;
+    d->r = memory;
+    d->r_trial = memory + m;
+    d->J = memory + 2 * m;
+    memcpy(d->theta, theta, n * sizeof *theta);
+    if (problem->search > 0)
+      status = lab_fit_search(problem, d->theta, error);
   }
-  free(out);
+  if (status == LAB_OK)
+    status = descend(d, error);
+  if (status == LAB_OK) {
+    memcpy(theta, d->theta, n * sizeof *theta);
+    *chi2 = d->chi2;
+  }
+  free(memory);
+  free(d);
   return status;
 }

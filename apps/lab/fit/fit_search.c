@@ -1,84 +1,82 @@
-/* Stage 1: NLopt, which has no method for least squares but finds the valley. It may return a worse point than it
- * visited, one that is outside the bounds by a rounding, or the status ROUNDOFF_LIMITED: none of that matters here,
- * as fit_evaluate clips and keeps the best. */
+/* The global stage of a fit: DIRECT of NLopt, which divides the box and needs no luck. NLopt may end at a worse point
+ * than it has visited, with a rounding error for a status, and ask a rounding error outside of its bounds: the best
+ * point is kept here, held within the bounds, and its status is not asked for. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <nlopt.h>
 
-#include "fit_private.h"
+#include "../base/clock.h"
+#include "fit.h"
 
-/* What the objective needs. */
 typedef struct search {
-  fit_run *run;
+  const lab_fit_problem *problem;
   nlopt_opt opt;
-  double penalty; /* value where the model fails: finite, as quadratic models cannot bear infinity */
+  double *r;
+  double best, best_theta[LAB_FIT_MAX];
+  double penalty; /* value where the model fails, finite */
+  int status;     /* LAB_OK, or what ended it */
+  lab_error *error;
 } search;
 
 static double objective(unsigned n, const double *z, double *gradient, void *data)
 {
   search *s = data;
-  double sum;
-  int outcome;
-  (void)n, (void)gradient;
-  if (s->run->status != LAB_OK) /* some methods ask on after a forced stop */
-    return s->penalty;
-  outcome = fit_evaluate(s->run, z, &sum);
-  if (outcome == FIT_END)
+  const lab_fit_problem *p = s->problem;
+  double theta[LAB_FIT_MAX], chi2;
+  unsigned j;
+  int status;
+  (void)gradient;
+  if (lab_cpu_is_spent(p->until))
     nlopt_force_stop(s->opt);
-  return outcome == FIT_GOOD && sum < s->penalty ? sum : s->penalty;
-}
-
-/* The algorithm; BOBYQA's quadratic model needs two dimensions. */
-static nlopt_algorithm algorithm(const lab_fit_options *options, int n)
-{
-  if (options->search == LAB_FIT_CRS)
-    return NLOPT_GN_CRS2_LM;
-  return options->search == LAB_FIT_BOBYQA && n > 1 ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX;
-}
-
-/* A quarter of a unit, or of the box where that is less. */
-static void first_steps(const fit_run *run, double *step)
-{
-  int j;
-  for (j = 0; j < run->problem->n; j++)
-    step[j] = 0.25 * fmin(1, run->upper[j] - run->lower[j]);
-}
-
-static void run_search(search *s, const double *start)
-{
-  const lab_fit_options *o = s->run->options;
-  const int n = s->run->problem->n;
-  double z[LAB_FIT_MAX], step[LAB_FIT_MAX], sum;
-  int j;
+  if (s->status != LAB_OK || lab_cpu_is_spent(p->until)) /* it may ask on after a forced stop */
+    return s->penalty;
   for (j = 0; j < n; j++)
-    z[j] = start[j];
-  first_steps(s->run, step);
-  nlopt_set_lower_bounds(s->opt, s->run->lower);
-  nlopt_set_upper_bounds(s->opt, s->run->upper);
-  nlopt_set_min_objective(s->opt, objective, s);
-  nlopt_set_initial_step(s->opt, step);
-  nlopt_set_maxeval(s->opt, o->search_count * n);
-  nlopt_set_ftol_rel(s->opt, 1e-5); /* rough: the polish follows */
-  nlopt_set_xtol_rel(s->opt, 1e-5);
-  nlopt_optimize(s->opt, z, &sum);
+    theta[j] = fmin(fmax(z[j], p->lower[j]), p->upper[j]);
+  status = lab_fit_evaluate(p, theta, s->r, &chi2, s->error);
+  if (status != LAB_OK && status != LAB_NUMERIC) {
+    s->status = status;
+    nlopt_force_stop(s->opt);
+  }
+  if (status != LAB_OK)
+    return s->penalty;
+  if (chi2 < s->best) {
+    s->best = chi2;
+    memcpy(s->best_theta, theta, n * sizeof *theta);
+  }
+  return fmin(chi2, s->penalty);
 }
 
-int fit_search(fit_run *run, const double *z, unsigned long seed)
+static void run(search *s, const double *theta)
 {
-  search s;
-  double sum;
-  int outcome = fit_evaluate(run, z, &sum);
-  if (outcome != FIT_GOOD || run->options->search <= LAB_FIT_POLISH_ONLY)
-    return outcome;
-  s.run = run;
-  s.penalty = 1e3 * sum + 1e-30;
-  s.opt = nlopt_create(algorithm(run->options, run->problem->n), (unsigned)run->problem->n);
-  if (!s.opt) {
-    run->status = lab_fail_memory(&run->error, "NLopt");
-    return FIT_END;
+  const lab_fit_problem *p = s->problem;
+  double z[LAB_FIT_MAX], least;
+  memcpy(z, theta, (size_t)p->n * sizeof *z);
+  nlopt_set_lower_bounds(s->opt, p->lower);
+  nlopt_set_upper_bounds(s->opt, p->upper);
+  nlopt_set_min_objective(s->opt, objective, s);
+  nlopt_set_maxeval(s->opt, p->search);
+  nlopt_optimize(s->opt, z, &least);
+}
+
+int lab_fit_search(const lab_fit_problem *p, double *theta, lab_error *error)
+{
+  search s = {.problem = p, .error = error};
+  s.r = malloc(p->m * sizeof *s.r);
+  s.opt = nlopt_create(NLOPT_GN_DIRECT_L, (unsigned)p->n);
+  if (!s.r || !s.opt)
+    s.status = lab_fail_memory(error, "the search of a fit");
+  else
+    s.status = lab_fit_evaluate(p, theta, s.r, &s.best, error);
+  if (s.status == LAB_OK) {
+    memcpy(s.best_theta, theta, (size_t)p->n * sizeof *theta);
+    s.penalty = 1e3 * s.best + 1e-30;
+    run(&s, theta);
   }
-  nlopt_srand(seed); /* NLopt's generator is one a thread */
-  run_search(&s, z);
+  if (s.status == LAB_OK)
+    memcpy(theta, s.best_theta, (size_t)p->n * sizeof *theta);
   nlopt_destroy(s.opt);
-  return run->status == LAB_OK ? FIT_GOOD : FIT_END;
+  free(s.r);
+  return s.status;
 }

@@ -42,22 +42,6 @@ void lab_normal_select(const lab_normal *normal, int n, const int *keep, lab_nor
     }
 }
 
-void lab_normal_shift(lab_normal *normal, const double *change)
-{
-  const int k = normal->k;
-  double moved[LAB_NORMAL_MAX]; /* J'J change */
-  int i, j;
-  for (i = 0; i < k; i++) {
-    moved[i] = 0;
-    for (j = 0; j < k; j++)
-      moved[i] += normal->g[i < j ? i : j][i < j ? j : i] * change[j];
-  }
-  for (i = 0; i < k; i++)
-    normal->g[k][k] += change[i] * (moved[i] - 2 * normal->g[i][k]);
-  for (i = 0; i < k; i++)
-    normal->g[i][k] -= moved[i];
-}
-
 /* Take column `pivot` out of what is left of the others. */
 static void eliminate(matrix g, int k, const int *done, int pivot)
 {
@@ -99,56 +83,70 @@ double lab_normal_rest(const lab_normal *normal)
   return sqrt(fmax(g[normal->k][normal->k], 0));
 }
 
-/* J'J with the priors, in units of them, as L L'.  Out: factor, its lower triangle */
-static void factorise(const lab_normal *normal, const double *prior, matrix factor)
+int lab_solve_positive(int n, int stride, double *a, double *b)
 {
-  int i, j, l;
-  for (i = 0; i < normal->k; i++)
-    for (j = 0; j <= i; j++) {
-      double sum = prior[i] * normal->g[j][i] * prior[j] + (i == j);
-      for (l = 0; l < j; l++)
-        sum -= factor[i][l] * factor[j][l];
-      factor[i][j] = i == j ? sqrt(fmax(sum, 1)) : sum / factor[j][j]; /* 1 is the prior; less is rounding */
+  int i, j, k;
+  for (j = 0; j < n; j++) {
+    double *row = a + (size_t)j * (size_t)stride;
+    for (k = 0; k < j; k++) {
+      const double *above = a + (size_t)k * (size_t)stride;
+      double sum = row[k];
+      for (i = 0; i < k; i++)
+        sum -= row[i] * above[i];
+      row[k] = sum / above[k];
     }
-}
-
-static void solve(matrix factor, int k, double *b)
-{
-  int i, l;
-  for (i = 0; i < k; i++) {
-    for (l = 0; l < i; l++)
-      b[i] -= factor[i][l] * b[l];
-    b[i] /= factor[i][i];
+    for (k = 0; k < j; k++)
+      row[j] -= row[k] * row[k];
+    if (!(row[j] > 0))
+      return -1;
+    row[j] = sqrt(row[j]);
   }
-  for (i = k - 1; i >= 0; i--) {
-    for (l = i + 1; l < k; l++)
-      b[i] -= factor[l][i] * b[l];
-    b[i] /= factor[i][i];
+  for (j = 0; j < n; j++) {
+    for (k = 0; k < j; k++)
+      b[j] -= a[(size_t)j * (size_t)stride + (size_t)k] * b[k];
+    b[j] /= a[(size_t)j * (size_t)stride + (size_t)j];
   }
-}
-
-void lab_normal_step(const lab_normal *normal, const double *prior, double *step)
-{
-  matrix factor;
-  int j;
-  factorise(normal, prior, factor);
-  for (j = 0; j < normal->k; j++)
-    step[j] = prior[j] * normal->g[j][normal->k];
-  solve(factor, normal->k, step);
-  for (j = 0; j < normal->k; j++)
-    step[j] *= prior[j];
+  for (j = n - 1; j >= 0; j--) {
+    for (k = j + 1; k < n; k++)
+      b[j] -= a[(size_t)k * (size_t)stride + (size_t)j] * b[k];
+    b[j] /= a[(size_t)j * (size_t)stride + (size_t)j];
+  }
+  return 0;
 }
 
 void lab_normal_deviations(const lab_normal *normal, const double *prior, double *deviation)
 {
-  matrix factor;
-  int i, j;
-  factorise(normal, prior, factor);
-  for (j = 0; j < normal->k; j++) {
+  const int k = normal->k;
+  int i, j, l;
+  for (l = 0; l < k; l++) {
+    matrix a;
     double b[LAB_NORMAL_MAX] = {0};
-    for (i = 0; i < normal->k; i++)
-      b[i] = i == j;
-    solve(factor, normal->k, b);
-    deviation[j] = prior[j] * sqrt(b[j]);
+    b[l] = 1;
+    for (i = 0; i < k; i++)
+      for (j = 0; j <= i; j++)
+        a[i][j] = prior[i] * normal->g[j][i] * prior[j] + (i == j);
+    deviation[l] = lab_solve_positive(k, LAB_NORMAL_MAX + 1, &a[0][0], b) ? prior[l] : prior[l] * sqrt(b[l]);
+  }
+}
+
+void lab_normal_rows(const lab_normal *normal, double row[][LAB_NORMAL_MAX + 1])
+{
+  const double spanned = 1e-14;
+  const int k = normal->k;
+  int i, j, l;
+  for (i = 0; i <= k; i++) {
+    double left = normal->g[i][i];
+    for (l = 0; l < i; l++)
+      left -= row[l][i] * row[l][i];
+    for (j = 0; j <= k; j++)
+      row[i][j] = 0;
+    if (!(left > spanned * normal->g[i][i]))
+      continue;
+    for (j = i; j <= k; j++) {
+      double sum = normal->g[i][j];
+      for (l = 0; l < i; l++)
+        sum -= row[l][i] * row[l][j];
+      row[i][j] = sum / sqrt(left);
+    }
   }
 }

@@ -27,18 +27,21 @@ void lab_normal_add(lab_normal *normal, double weight, const lab_normal *other);
  * In:      keep  n that stay, in their new order */
 void lab_normal_select(const lab_normal *normal, int n, const int *keep, lab_normal *part);
 
-/* The same rows once the unknowns have changed: d less J change. */
-void lab_normal_shift(lab_normal *normal, const double *change);
-
 /* Length of d with the span of J taken out. A column that the others span to 1e-4 of its length adds nothing to it. */
 double lab_normal_rest(const lab_normal *normal);
-
-/* The combination of columns nearest to d, each taken to be 0 beforehand, give or take prior[j].
- * Out:     step  k entries */
-void lab_normal_step(const lab_normal *normal, const double *prior, double *step);
 
 /* Standard deviations of the unknowns, each known beforehand to prior[j].
  * Out:     deviation  k entries */
 void lab_normal_deviations(const lab_normal *normal, const double *prior, double *deviation);
+
+/* As many rows as columns that have these normal equations: an upper triangle U with U'U = G. A column of J that the
+ * others span has none.
+ * Out:     row  k + 1 of them */
+void lab_normal_rows(const lab_normal *normal, double row[][LAB_NORMAL_MAX + 1]);
+
+/* Solve a x = b for a symmetric, positive matrix of rows `stride` apart; a becomes its Cholesky factor.
+ * In/out:  b  becomes x
+ * Returns: 0, or -1 if the matrix is not positive. */
+int lab_solve_positive(int n, int stride, double *a, double *b);
 
 #endif

@@ -88,7 +88,7 @@ static int take(struct record *c, const lab_log *log, size_t found, lab_outliers
   lab_outlier *taken = realloc(out->taken, (out->n + found) * sizeof *taken);
   size_t i = c->n;
   if (!taken)
-    return lab_fail_memory(error, "the values that stand alone");
+    return lab_fail_memory(error, "the isolated values");
   out->taken = taken;
   while (i-- > 0)
     if (isnan(c->error[i]) && !isnan(c->y[i])) {
@@ -100,18 +100,18 @@ static int take(struct record *c, const lab_log *log, size_t found, lab_outliers
   return LAB_OK;
 }
 
-static void remark(const lab_experiment *x, int channel, size_t first, size_t n, lab_remarks *remarks)
+static void limitation(const lab_run *x, int channel, size_t first, size_t n, lab_limitations *limitations)
 {
-  lab_remark(remarks,
-             "%s: %zu value%s of channel %s stand%s alone, %g times the noise or more from neighbours and model, the "
-             "first at line %d (t = %.6g s): left out.",
-             lab_file_name(x->log->path), n, n > 1 ? "s" : "", lab_channels[channel].key, n > 1 ? "" : "s", alone,
-             x->log->line[x->first + first], x->log->value[LAB_CHANNEL_TIME][x->first + first]);
+  lab_limitation(limitations,
+                 "%s: %zu value%s of channel %s %s isolated, %g times the noise or more from neighbours and model, the "
+                 "first at line %d (t = %.6g s): left out.",
+                 lab_file_name(x->log->path), n, n > 1 ? "s" : "", lab_channels[channel].key, n > 1 ? "are" : "is",
+                 alone, x->log->line[x->first + first], x->log->value[LAB_CHANNEL_TIME][x->first + first]);
 }
 
 /* In/out:  e    errors over noise, of this channel; then in its unit
  *          log  the one of the experiment */
-static int take_channel(const lab_experiment *x, int k, double *e, lab_log *log, lab_outliers *out, lab_error *error)
+static int take_channel(const lab_run *x, int k, double *e, lab_log *log, lab_outliers *out, lab_error *error)
 {
   struct record c = {x->first, x->n, log->value[x->channel[k]] + x->first, e, 0};
   size_t i, found, first = 0;
@@ -125,7 +125,7 @@ static int take_channel(const lab_experiment *x, int k, double *e, lab_log *log,
     return LAB_OK;
   if (take(&c, log, found, out, &first, error))
     return error->status;
-  remark(x, x->channel[k], first, found, &out->remarks);
+  limitation(x, x->channel[k], first, found, &out->limitations);
   return LAB_OK;
 }
 
@@ -133,8 +133,8 @@ int lab_outliers_take(const lab_unknowns *u, lab_log *log, lab_outliers *out, la
 {
   double *r = malloc((u->n_rows + 1) * sizeof *r), *at = r;
   int i, k, status = r ? lab_unknowns_errors(u, r, error) : lab_fail_memory(error, "residuals");
-  for (i = 0; i < u->n_experiments; i++) {
-    const lab_experiment *x = &u->experiment[i];
+  for (i = 0; i < u->n_runs; i++) {
+    const lab_run *x = &u->run[i];
     for (k = 0; k < x->n_channels && status == LAB_OK; k++, at += x->n)
       status = take_channel(x, k, at, &log[x->log - log], out, error);
   }

@@ -3,7 +3,7 @@
 #ifndef LAB_OUTLIERS_H
 #define LAB_OUTLIERS_H
 
-#include "../base/remarks.h"
+#include "../base/limitations.h"
 #include "unknowns.h"
 
 typedef struct lab_outlier {
@@ -14,7 +14,7 @@ typedef struct lab_outlier {
 typedef struct lab_outliers {
   size_t n, n_soon; /* all; those within five rows after a change of command */
   lab_outlier *taken;
-  lab_remarks remarks; /* how many, and where the first is, for each channel of each run */
+  lab_limitations limitations; /* how many, and where the first is, for each channel of each run */
 } lab_outliers;
 
 /* Make gaps of values whose error is more than seven times the noise away from that of their neighbours, two on

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../rig/tolerance.h"
+
 static const double two_pi = 6.283185307179586;
 static const double uniform_spread = 0.28867513459481287; /* standard deviation of a uniform distribution of width 1 */
 static const double knot_spread = 20;                     /* of a knot about 0: it must not run away unseen */
@@ -13,7 +15,7 @@ static lab_unknown *append(lab_unknowns *u)
   lab_unknown *x = u->n < LAB_FIT_MAX ? &u->unknown[u->n++] : NULL;
   if (x) {
     memset(x, 0, sizeof *x);
-    x->experiment = LAB_ALL_EXPERIMENTS;
+    x->run = LAB_ALL_RUNS;
   }
   return x;
 }
@@ -29,7 +31,7 @@ static void describe_param(lab_unknown *x, int param)
   x->kind = LAB_UNKNOWN_PARAM;
   x->index = param;
   lab_fit_name(param, x->name);
-  if (param == LAB_FIT_ORIFICE_AREA) {
+  if (param == LAB_PARAM_ORIFICE_AREA) {
     snprintf(x->unit, sizeof x->unit, "1");
     x->lower = 1e-3;
     x->upper = 1e3;
@@ -43,17 +45,51 @@ static void describe_param(lab_unknown *x, int param)
   x->scale = fabs((double)info.value - (param < PNEU_PARAM_BASE_COUNT || info.shape ? 0 : (double)info.neutral));
 }
 
+int lab_unknown_is_known(const lab_unknown *x)
+{
+  return x->spread > 0 && (x->kind == LAB_UNKNOWN_PARAM || x->kind == LAB_UNKNOWN_INSTANT);
+}
+
+int lab_unknown_is_held(const lab_unknown *x)
+{
+  return x->tolerance > 0 && x->spread > 0;
+}
+
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
 {
-  lab_unknown *x = append(u);
+  const int held = lab_unknowns_find(u, param);
+  lab_unknown *x = held >= 0 && u->unknown[held].tolerance > 0 ? &u->unknown[held] : append(u);
   if (!x)
     return no_room(error);
+  x->spread = 0;
   describe_param(x, param);
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);
-  if (param != LAB_FIT_ORIFICE_AREA)
+  if (param != LAB_PARAM_ORIFICE_AREA)
     *pneu_param_at(&u->rig.params, param) = (pneu_real)x->value;
+  return LAB_OK;
+}
+
+int lab_unknowns_add_change(lab_unknowns *u, int param, int run, double spread, lab_error *error)
+{
+  lab_unknown *x = append(u);
+  double now;
+  if (!x)
+    return no_room(error);
+  describe_param(x, param);
+  now = param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at(&u->rig.params, param);
+  x->kind = LAB_UNKNOWN_CHANGE;
+  x->run = run;
+  x->from = -HUGE_VAL;
+  x->to = HUGE_VAL;
+  x->lower -= now;
+  x->upper -= now;
+  if (spread > 0)
+    x->scale = 100 * spread; /* whose thousandth is a step that shows beside the stepper's error */
+  else if (param < PNEU_PARAM_BASE_COUNT && now != 0)
+    x->scale = fabs(now);
+  x->spread = spread;
   return LAB_OK;
 }
 
@@ -61,9 +97,9 @@ static double longest_log(const lab_unknowns *u)
 {
   double longest = 0;
   int e;
-  for (e = 0; e < u->n_experiments; e++) {
-    const double *t = u->experiment[e].log->value[LAB_CHANNEL_TIME] + u->experiment[e].first;
-    longest = fmax(longest, t[u->experiment[e].n - 1] - t[0]);
+  for (e = 0; e < u->n_runs; e++) {
+    const double *t = u->run[e].log->value[LAB_CHANNEL_TIME] + u->run[e].first;
+    longest = fmax(longest, t[u->run[e].n - 1] - t[0]);
   }
   return longest;
 }
@@ -112,11 +148,14 @@ int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, 
 void lab_unknowns_drop(lab_unknowns *u, int param)
 {
   pneu_param_info info;
-  int j, k;
-  for (j = k = 0; j < u->n; j++)
-    if (u->unknown[j].kind != LAB_UNKNOWN_PARAM || u->unknown[j].index != param)
-      u->unknown[k++] = u->unknown[j];
-  u->n = k;
+  int j = lab_unknowns_find(u, param);
+  if (j >= 0 && u->unknown[j].tolerance > 0) {
+    u->unknown[j].spread = u->unknown[j].tolerance;
+    return;
+  }
+  if (j >= 0)
+    for (u->n--; j < u->n; j++)
+      u->unknown[j] = u->unknown[j + 1];
   pneu_param_describe(param, &info);
   *pneu_param_at(&u->rig.params, param) = info.shape ? info.value : info.neutral;
 }
@@ -148,69 +187,178 @@ int lab_unknowns_find(const lab_unknowns *u, int param)
 /* Room for three effects with their shapes, or a free term. */
 enum { SWITCHES_END = LAB_FIT_MAX - 40 };
 
-/* A change of command happened between the row before and the row that shows it: half the bracket, give or take what a
- * uniform distribution has. Those for which there is no room stay at half. */
-static void add_switches(lab_unknowns *u)
+static const double jump = 0.3; /* of the command: what half a row of it moves is far more than noise */
+enum { ROWS_A_SWITCH = 10 };    /* and more: a change of command has an instant of its own */
+
+/* A change of command happened between the row before and the row that shows it: half the width, give or take what a
+ * uniform distribution has. */
+static void add_switch(lab_unknowns *u, int e, int index, double width, const char *unit)
 {
-  int e, index = 0;
-  for (e = 0; e < u->n_experiments; e++) {
-    size_t k;
-    for (k = 0; k < u->experiment[e].n_switches; k++, index++) {
-      const double bracket = u->experiment[e].bracket[k];
-      lab_unknown *x = bracket > 0 && u->n < SWITCHES_END ? append(u) : NULL;
-      if (!x)
-        continue;
-      x->kind = LAB_UNKNOWN_SWITCH;
-      x->index = index;
-      x->experiment = e;
-      snprintf(x->name, sizeof x->name, "switch_%d", index + 1);
-      snprintf(x->unit, sizeof x->unit, "s");
-      x->value = x->first = x->prior = bracket / 2;
-      x->upper = bracket;
-      x->scale = bracket;
-      x->spread = uniform_spread * bracket;
-    }
-  }
+  lab_unknown *x = append(u);
+  x->kind = LAB_UNKNOWN_INSTANT;
+  x->index = index;
+  x->run = e;
+  snprintf(x->name, sizeof x->name, "switch_%d.%d", e + 1, index + 1);
+  snprintf(x->unit, sizeof x->unit, "%s", unit);
+  x->value = x->first = x->prior = width / 2;
+  x->upper = width;
+  x->scale = width;
+  x->spread = uniform_spread * width;
+}
+
+/* Whether a change of the command is a jump, of which a positioner makes one when its set position does. */
+static int is_jump(const lab_run *x, size_t k)
+{
+  const pneu_input *input = x->inputs.schedule.input + k;
+  return fabs((double)(input[1].u - input[0].u)) > jump;
+}
+
+static size_t count_jumps(const lab_run *x)
+{
+  size_t k, n = 0;
+  for (k = 0; k < x->n_instants; k++)
+    n += (size_t)is_jump(x, k);
+  return n;
+}
+
+/* The timing of the command in one experiment: an instant for each change where these are few beside the rows that tell
+ * of them, and there is room for all; else one share of the row for all of them but the jumps. */
+static void add_switches(lab_unknowns *u, int e)
+{
+  const lab_run *x = &u->run[e];
+  const size_t n = x->n_instants;
+  const int few = n * ROWS_A_SWITCH <= x->n && (size_t)u->n + n <= SWITCHES_END;
+  const size_t jumps = count_jumps(x);
+  size_t k;
+  if (!few && u->n < SWITCHES_END)
+    add_switch(u, e, LAB_ALL_INSTANTS, 1, "1");
+  for (k = 0; k < n && (few || (jumps * ROWS_A_SWITCH <= x->n && (size_t)u->n + jumps <= SWITCHES_END)); k++)
+    if (few || is_jump(x, k))
+      add_switch(u, e, (int)k, x->bracket[k], "s");
 }
 
 static double declared_value(const lab_rig *rig, int param)
 {
-  return param == LAB_FIT_ORIFICE_AREA ? 1.0 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
+  return param == LAB_PARAM_ORIFICE_AREA ? 1.0 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
 }
 
-/* A parameter that each experiment has for itself. */
-static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, lab_error *error)
+/* A parameter that each experiment has for itself, from one on. */
+static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first, lab_error *error)
 {
   int e;
-  for (e = 0; e < u->n_experiments; e++) {
-    char name[LAB_FIT_TEXT];
+  for (e = first; e < u->n_runs; e++) {
+    char name[LAB_PARAM_NAME_TEXT];
     lab_unknown *x;
     if (lab_unknowns_add(u, param, declared_value(rig, param), error))
       return error->status;
     x = &u->unknown[u->n - 1];
-    x->experiment = e;
+    x->run = e;
     snprintf(x->name, sizeof x->name, "%.80s.%d", lab_fit_name(param, name), e + 1);
   }
   return LAB_OK;
 }
 
-int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int n_experiments, lab_unknowns *u,
-                      lab_error *error)
+int lab_unknowns_join(lab_unknowns *u, const lab_run *run, int n_runs, lab_error *error)
 {
+  const int first = u->n_runs;
   int j, e;
+  u->run = run;
+  u->n_runs = n_runs;
+  for (e = first; e < n_runs; e++)
+    u->n_rows += run[e].n * (size_t)run[e].n_channels;
+  for (j = 0; j < u->rig.n_fit; j++)
+    if (u->rig.fit_per_log[j] && add_per_log(u, &u->rig, u->rig.fit[j], first, error))
+      return error->status;
+  for (e = first; e < n_runs; e++)
+    add_switches(u, e);
+  lab_unknowns_view(u, u->window);
+  return LAB_OK;
+}
+
+void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u)
+{
+  int e;
   memset(u, 0, sizeof *u);
-  u->experiment = experiment;
-  u->n_experiments = n_experiments;
+  u->run = run;
+  u->n_runs = n_runs;
   u->rig = *rig;
   u->declared = rig->params;
+  for (e = 0; e < n_runs; e++)
+    u->n_rows += run[e].n * (size_t)run[e].n_channels;
+  lab_unknowns_view(u, 0);
+}
+
+int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error)
+{
+  int j, e;
+  lab_unknowns_none(rig, run, n_runs, u);
   u->tol = 1e-6;
-  for (e = 0; e < n_experiments; e++)
-    u->n_rows += experiment[e].n * (size_t)experiment[e].n_channels;
   for (j = 0; j < rig->n_fit; j++)
-    if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], error)
+    if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], 0, error)
                             : lab_unknowns_add(u, rig->fit[j], declared_value(rig, rig->fit[j]), error))
       return error->status;
-  add_switches(u);
+  for (e = 0; e < n_runs; e++)
+    add_switches(u, e);
   lab_unknowns_view(u, 0);
   return LAB_OK;
+}
+
+/* The tolerance of a declared value that is to be held; 0 where it, or its scale, is fitted. */
+static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
+{
+  const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area;
+  if (param == LAB_PARAM_ORIFICE_AREA || lab_unknowns_find(u, param) >= 0 ||
+      (area && lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA) >= 0))
+    return 0;
+  return lab_tolerance(declared, param);
+}
+
+int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
+{
+  lab_rig declared = u->rig;
+  int param;
+  declared.params = u->declared;
+  for (param = 0; param < LAB_PARAM_COUNT; param++) {
+    const double tolerance = to_hold(u, &declared, param);
+    lab_unknown *x;
+    if (!(tolerance > 0))
+      continue;
+    if (lab_unknowns_add(u, param, (double)*pneu_param_at(&u->rig.params, param), error))
+      return error->status;
+    x = &u->unknown[u->n - 1];
+    x->prior = (double)*pneu_param_at(&u->declared, param);
+    x->first = x->prior;
+    x->spread = x->tolerance = x->scale = tolerance;
+  }
+  lab_unknowns_view(u, u->window);
+  return LAB_OK;
+}
+
+/* Move what a result says of one unknown. */
+static void move_result(lab_fit_result *r, int from, int to)
+{
+  int i;
+  r->state[to] = r->state[from];
+  r->low[to] = r->low[from];
+  r->high[to] = r->high[from];
+  r->deviation[to] = r->deviation[from];
+  for (i = 0; i < r->n; i++)
+    r->covariance[i][to] = r->covariance[i][from];
+  memcpy(r->covariance[to], r->covariance[from], sizeof r->covariance[to]);
+}
+
+void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result)
+{
+  int j, k;
+  for (j = k = 0; j < u->n; j++) {
+    if (lab_unknown_is_held(&u->unknown[j]))
+      continue;
+    if (result)
+      move_result(result, j, k);
+    u->unknown[k++] = u->unknown[j];
+  }
+  u->n = k;
+  if (result)
+    result->n = k;
+  lab_unknowns_count(u);
 }

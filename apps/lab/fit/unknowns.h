@@ -1,53 +1,80 @@
 /* What a fit of experiments looks for: parameters of the model that all experiments share or that each has for itself,
- * the knots of free terms, and the instants at which the command changed, which a log only brackets between two rows.
+ * the knots of free terms, and the instants at which the command changed, which a log only brackets between two rows:
+ * one for each change, or, where it changes often, one share of the row for all changes of an experiment.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_UNKNOWNS_H
 #define LAB_UNKNOWNS_H
 
-#include "../run/experiment.h"
-#include "fit.h"
+#include "../base/whiteness.h"
+#include "../run/run.h"
+#include "spread.h"
 
 enum lab_unknown_kind {
-  LAB_UNKNOWN_PARAM,  /* index: as in pneu_param_describe, or LAB_FIT_ORIFICE_AREA (a factor) */
-  LAB_UNKNOWN_KNOT,   /* index: knot of free term `term` */
-  LAB_UNKNOWN_PERIOD, /* of free term `term` over a cycle */
-  LAB_UNKNOWN_SWITCH  /* index: which change of command, counted over all experiments */
+  LAB_UNKNOWN_PARAM,   /* index: as in pneu_param_describe, or LAB_PARAM_ORIFICE_AREA (a factor) */
+  LAB_UNKNOWN_KNOT,    /* index: knot of free term `term` */
+  LAB_UNKNOWN_PERIOD,  /* of free term `term` over a cycle */
+  LAB_UNKNOWN_INSTANT, /* how early: index: which change of command of its experiment [s], or LAB_ALL_INSTANTS [row] */
+  LAB_UNKNOWN_CHANGE   /* index: as of LAB_UNKNOWN_PARAM: what is added to it, or the share by which orifice_area grows,
+                          from run `run` to the last */
 };
 
-enum { LAB_ALL_EXPERIMENTS = -1 };
+enum { LAB_ALL_RUNS = -1, LAB_ALL_INSTANTS = -1 };
 
 typedef struct lab_unknown {
   int kind, index, term;
-  int experiment; /* whose it is, or LAB_ALL_EXPERIMENTS */
-  char name[LAB_FIT_TEXT];
+  int run; /* whose it is, or LAB_ALL_RUNS; of a change, the first that it is of */
+  char name[LAB_PARAM_NAME_TEXT];
   char unit[32];
   double value, lower, upper, scale;
-  double first;  /* value before any fit */
-  double spread; /* of what is known of it beforehand, about `prior`; 0: nothing is */
+  double first;    /* value before any fit */
+  double from, to; /* [s] of a change: the times of the log between which it acts; infinite: all of it */
+  double spread;   /* of what is known of it beforehand, about `prior`; 0: nothing is */
   double prior;
+  double tolerance; /* of a declared value that is held: its spread while it is; 0: it is none */
 } lab_unknown;
 
 typedef struct lab_unknowns {
-  const lab_experiment *experiment;
-  int n_experiments;
+  const lab_run *run;
+  int n_runs;
   lab_rig rig;          /* the model, with the latest values of the unknowns in it */
   pneu_params declared; /* as declared; orifice_area scales its areas */
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
-  double tol;       /* of the stepper */
+  double tol;       /* of the stepper; 0: as in response.h */
+  double until;     /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
   size_t n_rows;    /* rows times channels, gaps among them */
   size_t window;    /* rows of a window where the residuals are those of coarse.h; 0: row by row */
   size_t n_values;  /* residuals of the data that are not of gaps */
-  size_t n_data, m; /* residuals of the data; all residuals: those, and one for each unknown */
+  size_t n_data, m; /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
+                       unknown */
+  const struct lab_nuisance *nuisance; /* declared values that may vary unseen; NULL: none (nuisance.h) */
 } lab_unknowns;
+
+/* No unknowns: the model as it is, every change of command at the row that shows it, and nothing fitted but where each
+ * experiment starts, which its first rows tell. Its errors are those of what `simulate` predicts. */
+void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u);
 
 /* Collect the unknowns of a rig's fit list and the switches of the experiments.
  * Returns: LAB_OK; LAB_DATA if there are more than LAB_FIT_MAX (switches are then left out first). */
-int lab_unknowns_open(const lab_rig *rig, const lab_experiment *experiment, int n_experiments, lab_unknowns *u,
-                      lab_error *error);
+int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);
 
-/* Take up a parameter that all experiments share, starting from `value`.  Returns: LAB_OK; LAB_DATA if there is no
- * room. */
+/* Hold what the rig declares, and the errors of its instruments, to their tolerances (tolerance.h) instead of exactly:
+ * what is not fitted becomes an unknown about its declared value.
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_hold(lab_unknowns *u, lab_error *error);
+
+/* Hold no longer: what was held stays in the model as it is.
+ * In/out:  result  intervals of the unknowns, from which it is taken out; NULL: none */
+void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result);
+
+/* Whether something is known of an unknown beforehand: it is held, or the instant of a command. */
+int lab_unknown_is_known(const lab_unknown *x);
+
+/* Whether an unknown is held. One that was added is not. */
+int lab_unknown_is_held(const lab_unknown *x);
+
+/* Take up a parameter that all experiments share, starting from `value`; one that is held is let go.  Returns: LAB_OK;
+ * LAB_DATA if there is no room. */
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error);
 
 /* Take up a free term, whose values in `term` are the start; over a cycle, with its period.
@@ -56,17 +83,35 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
  * Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, int held, lab_error *error);
 
+/* Take up runs that follow those there are: what each run has for itself is found for them as well.
+ * In:      run     n_runs of them, those of u first; used as long as u is
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_join(lab_unknowns *u, const lab_run *run, int n_runs, lab_error *error);
+
+/* Take up the change of a parameter from one run on, starting from none.
+ * In:      param   as in pneu_param_describe, or LAB_PARAM_ORIFICE_AREA
+ *          run     the first that has it
+ *          spread  of what is known of the change beforehand, about 0; 0: nothing is
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_add_change(lab_unknowns *u, int param, int run, double spread, lab_error *error);
+
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);
 
-/* Drop a parameter and set it to its neutral value. */
+/* Drop a parameter and set it to its neutral value; one that was held is held again. */
 void lab_unknowns_drop(lab_unknowns *u, int param);
+
+/* Count the residuals, after a change of the unknowns. */
+void lab_unknowns_count(lab_unknowns *u);
 
 /* Put the values of the unknowns into a model: those of all experiments, then those of one.
  * In:      theta       n values
- *          experiment  which one, or LAB_ALL_EXPERIMENTS
+ *          experiment  which one, or LAB_ALL_RUNS
  * In/out:  rig         its parameters and free terms change */
-void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int experiment, lab_rig *rig);
+void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int run, lab_rig *rig);
+
+/* Put the present values of the unknowns that all runs share into the model. */
+void lab_unknowns_take(lab_unknowns *u);
 
 /* Residuals (measured less predicted, over noise, whitened where the noise has memory; a gap counts 0), then those of
  * the priors.
@@ -75,7 +120,11 @@ void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int experime
  * Out:     r        m values */
 int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_error *error);
 
-/* The same with another model, for the unknowns as they are.
+/* The same of the runs that have unknown `which`; -1: of all.
+ * In/out:  r       those of other runs stay */
+int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error);
+
+/* Those of all with another model, for the unknowns as they are.
  * In:      rig  in the place of the model; what each experiment has for itself still applies */
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error);
 
@@ -85,27 +134,46 @@ void lab_unknowns_view(lab_unknowns *u, size_t window);
 /* Whether the stem of an experiment sticks and slips where the present model's does not.
  * Out:     window  rows in which to see the experiments coarsely if one does; else 0
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_unknowns_rough(const lab_unknowns *u, size_t *window, lab_error *error);
+int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_error *error);
 
-/* Whether what is left for the present unknowns is noise of up to one and a half times the size that was declared:
- * white, and as large everywhere.  Out: white  Returns: as lab_unknowns_residuals. */
-int lab_unknowns_white(const lab_unknowns *u, int *white, lab_error *error);
+/* What is left on one channel for the present unknowns. */
+typedef struct lab_residual_stats {
+  lab_whiteness whiteness; /* of the residuals as they are fitted: whitened where the noise has memory; n is 0 where the
+                              channel is not measured */
+  int even;                /* not 0: as large everywhere, and no more than one and a half times as large as declared */
+} lab_residual_stats;
+
+/* Look at what is left, row by row: u->window is 0.  Out: left  Returns: as lab_unknowns_residuals. */
+int lab_unknowns_residual_stats(const lab_unknowns *u, lab_residual_stats left[LAB_CHANNEL_COUNT], lab_error *error);
+
+/* Channels on which what is left is coloured; whether it is white on every one that is measured; whether it is noise
+ * there: white and even. */
+int lab_residual_stats_coloured(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
+int lab_residual_stats_white(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
+int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
 
 /* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);
 
-/* Slope of the residuals in unknown j by a difference. */
+/* Slope of the residuals in unknown j by a difference of `step` in the unknown, which is where the runs that have it
+ * are predicted again.
+ * In:      r       residuals at theta
+ * Out:     column  u->m values */
+int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const double *r, int j, double step,
+                            double *column, lab_error *error);
+
+/* The same with a small step, into the side where there is room. */
 int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
 
 /* Fit from the present values and take up what is found.
- * In:      steps  downhill, at most; LAB_FIT_WHOLE: as many as it takes
+ * In:      steps  downhill, at most; LAB_ROUNDS_ALL: as usual
  * Out:     chi2   may be NULL
- * Returns: as lab_descend. */
-enum { LAB_FIT_WHOLE = 40 };
+ * Returns: as lab_fit. */
+enum { LAB_ROUNDS_ALL = 0 };
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error);
 
-/* What the data say of each unknown, at a fit: intervals, correlations, remarks.  Returns: as lab_fit_run. */
-int lab_unknowns_spread(lab_unknowns *u, lab_fit_result *result, lab_error *error);
+/* What the data say of each unknown, at a fit: intervals, correlations, remarks.  Returns: as lab_fit_spread. */
+int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error);
 
 /* Place of a parameter among the unknowns, -1 if it is none of them. */
 int lab_unknowns_find(const lab_unknowns *u, int param);

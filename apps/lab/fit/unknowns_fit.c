@@ -1,86 +1,158 @@
 /* Slopes, fits and intervals of the unknowns. */
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "descent.h"
 #include "unknowns.h"
+#include "../base/clock.h"
 
 static const double slope_step = 1e-3;  /* of a slope's difference, over what matters */
 static const double coarse_step = 0.05; /* the same where slips come and go on shorter ones */
+static const double held_step = 0.25;   /* of what is held, over its tolerance: it moves little else */
 
-/* A difference into the side where there is room, with a step that is small beside what matters. */
-int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
+static const double central_step = 1e-4; /* of a central difference, over what matters or over five spreads: a stop that
+                                            is hit earlier by a row changes that row only */
+static const double exact = 1e-8; /* tolerance of the stepper for these: where only a prior tells values apart, their
+                                     slopes have to cancel */
+
+static double step_of(const lab_unknowns *u, const lab_unknown *x)
 {
-  const lab_unknowns *u = context;
-  const lab_unknown *x = &u->unknown[j];
-  double at[LAB_FIT_MAX], step = (u->window ? coarse_step : slope_step) * (x->scale > 0 ? x->scale : 1);
+  const double size = x->scale > 0 ? x->scale : 1;
+  return lab_unknown_is_held(x) ? held_step * x->spread : (u->window ? coarse_step : slope_step) * size;
+}
+
+int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const double *r, int j, double step,
+                            double *column, lab_error *error)
+{
+  double at[LAB_FIT_MAX];
   size_t i;
   memcpy(at, theta, (size_t)u->n * sizeof *at);
-  if (theta[j] + step > x->upper)
-    step = -step;
   at[j] = theta[j] + step;
-  if (lab_unknowns_residuals(context, at, column, error))
+  memcpy(column, r, u->m * sizeof *column);
+  if (lab_unknowns_residuals_of(u, at, j, column, error))
     return error->status;
   for (i = 0; i < u->m; i++)
     column[i] = (column[i] - r[i]) / (at[j] - theta[j]);
   return LAB_OK;
 }
 
-int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
+/* A change is seen along a long valley, where what several of them do cancels but for a hundredth: the mean of both
+ * sides, whose error is of second order.  In: there  room for u->m values */
+static int slope_of_change(const lab_unknowns *u, const double *theta, const double *r, int j, double step,
+                           double *column, double *there, lab_error *error)
 {
-  double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], own;
-  unsigned char lasting[LAB_FIT_MAX];
-  lab_descent problem = {u->n, 0, steps, lower, upper, lasting, u, lab_unknowns_residuals, lab_unknowns_slope};
-  int j;
-  u->m = problem.m = u->n_data + (size_t)u->n;
-  for (j = 0; j < u->n; j++) {
-    lower[j] = u->unknown[j].lower;
-    upper[j] = u->unknown[j].upper;
-    lasting[j] = u->unknown[j].kind == LAB_UNKNOWN_SWITCH;
-    theta[j] = u->unknown[j].value;
-  }
-  if (lab_descend(&problem, theta, chi2 ? chi2 : &own, error))
+  size_t i;
+  if (lab_unknowns_difference(u, theta, r, j, step, column, error) ||
+      lab_unknowns_difference(u, theta, r, j, -step, there, error))
     return error->status;
-  for (j = 0; j < u->n; j++)
-    u->unknown[j].value = theta[j];
-  lab_unknowns_apply(u, theta, LAB_ALL_EXPERIMENTS, &u->rig);
+  for (i = 0; i < u->m; i++)
+    column[i] = (column[i] + there[i]) / 2;
   return LAB_OK;
 }
 
-/* All columns of the slopes, in parallel; 0 where the model fails. Signature of fit.h. */
-static int slopes(void *context, const double *theta, const double *r, double *slope, lab_error *error)
+/* A step that is small beside what matters. */
+int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
 {
-  lab_unknowns *u = context;
-  int j, status = LAB_OK;
-#pragma omp parallel for schedule(dynamic)
-  for (j = 0; j < u->n; j++) {
-    lab_error mine;
-    double *column = slope + (size_t)j * u->m;
-    const int at = lab_unknowns_slope(u, theta, r, j, column, &mine);
-    if (at == LAB_NUMERIC)
-      memset(column, 0, u->m * sizeof *column);
-    else if (at != LAB_OK) {
-#pragma omp critical(slope_error)
-      *error = mine, status = at;
-    }
-  }
+  const lab_unknowns *u = context;
+  const lab_unknown *x = &u->unknown[j];
+  const double step = step_of(u, x);
+  double *there;
+  int status;
+  if (x->kind != LAB_UNKNOWN_CHANGE || theta[j] + step > x->upper || theta[j] - step < x->lower)
+    return lab_unknowns_difference(u, theta, r, j, theta[j] + step > x->upper ? -step : step, column, error);
+  there = malloc(u->m * sizeof *there);
+  status = there ? slope_of_change(u, theta, r, j, step, column, there, error) : lab_fail_memory(error, "a slope");
+  free(there);
   return status;
 }
 
-int lab_unknowns_spread(lab_unknowns *u, lab_fit_result *result, lab_error *error)
+/* The same by a central difference, where there is room on both sides. */
+static int central_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
 {
-  lab_fit_param param[LAB_FIT_MAX];
-  lab_fit_problem problem = {u->n, param, 0, lab_unknowns_residuals, slopes, u, NULL, 1};
-  lab_fit_options options;
+  const lab_unknowns *u = context;
+  const lab_unknown *x = &u->unknown[j];
+  const double step = central_step * (lab_unknown_is_known(x) ? 5 * x->spread : x->scale > 0 ? x->scale : 1);
+  double at[LAB_FIT_MAX], *below;
+  size_t i;
+  int status;
+  if (u->window || theta[j] + step > x->upper || theta[j] - step < x->lower)
+    return lab_unknowns_slope(context, theta, r, j, column, error);
+  if (!(below = malloc(u->m * sizeof *below)))
+    return lab_fail_memory(error, "a slope");
+  memcpy(at, theta, (size_t)u->n * sizeof *at);
+  at[j] = theta[j] - step;
+  status = lab_unknowns_residuals(context, at, below, error);
+  at[j] = theta[j] + step;
+  if (status == LAB_OK)
+    status = lab_unknowns_residuals(context, at, column, error);
+  for (i = 0; status == LAB_OK && i < u->m; i++)
+    column[i] = (column[i] - below[i]) / (2 * step);
+  free(below);
+  return status;
+}
+
+/* The problem that the unknowns pose, and its memory. */
+typedef struct posed {
+  double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX];
+  unsigned char lasting[LAB_FIT_MAX];
+  lab_fit_problem problem;
+} posed;
+
+static void pose(lab_unknowns *u, posed *p)
+{
   int j;
-  memset(result, 0, sizeof *result);
-  if (u->n == 0)
-    return LAB_OK;
-  u->m = problem.m = u->n_data + (size_t)u->n;
+  lab_unknowns_count(u);
   for (j = 0; j < u->n; j++) {
-    const lab_unknown *x = &u->unknown[j];
-    param[j] = (lab_fit_param){x->name, x->unit, x->value, x->lower, x->upper, 0, x->scale};
+    p->theta[j] = u->unknown[j].value;
+    p->lower[j] = u->unknown[j].lower;
+    p->upper[j] = u->unknown[j].upper;
+    p->lasting[j] = lab_unknown_is_known(&u->unknown[j]);
   }
-  lab_fit_options_default(&options);
-  options.search = LAB_FIT_NONE;
-  return lab_fit_run(&problem, &options, result, error);
+  p->problem = (lab_fit_problem){.n = u->n,
+                                 .m = u->m,
+                                 .lower = p->lower,
+                                 .upper = p->upper,
+                                 .context = u,
+                                 .residuals = lab_unknowns_residuals,
+                                 .slope = lab_unknowns_slope,
+                                 .lasting = p->lasting};
+}
+
+int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
+{
+  double own;
+  posed p;
+  int j;
+  pose(u, &p);
+  p.problem.steps = steps;
+  p.problem.until = u->until;
+  if (lab_fit(&p.problem, p.theta, chi2 ? chi2 : &own, error))
+    return error->status;
+  for (j = 0; j < u->n; j++)
+    u->unknown[j].value = p.theta[j];
+  lab_unknowns_apply(u, p.theta, LAB_ALL_RUNS, &u->rig);
+  return LAB_OK;
+}
+
+int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error)
+{
+  const int in_time = !lab_cpu_is_spent(u->until);
+  lab_fit_param param[LAB_FIT_MAX];
+  const double tol = u->tol;
+  posed p;
+  int j, status = LAB_NUMERIC;
+  pose(u, &p);
+  for (j = 0; j < u->n; j++)
+    param[j] = (lab_fit_param){u->unknown[j].name, u->unknown[j].scale, lab_unknown_is_held(&u->unknown[j])};
+  p.problem.until = 0; /* they belong to the answer */
+  if (in_time) {
+    p.problem.slope = central_slope;
+    u->tol = fmin(u->tol, exact);
+    status = lab_fit_spread(&p.problem, param, p.theta, result, error);
+    u->tol = tol;
+  }
+  if (status != LAB_NUMERIC)
+    return status;
+  p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
+  return lab_fit_spread(&p.problem, param, p.theta, result, error);
 }

@@ -1,9 +1,25 @@
 /* What is left of the measured values for given unknowns, row by row or seen coarsely. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "coarse.h"
-#include "unknowns.h"
+#include "windowed.h"
+#include "nuisance.h"
+
+/* Add to what all runs have, within the bounds. */
+static void apply_change(const lab_unknown *x, double value, lab_rig *rig)
+{
+  pneu_param_info info;
+  pneu_real *at;
+  if (x->index == LAB_PARAM_ORIFICE_AREA) {
+    rig->params.fill_area *= 1 + (pneu_real)value;
+    rig->params.vent_area *= 1 + (pneu_real)value;
+    return;
+  }
+  pneu_param_describe(x->index, &info);
+  at = pneu_param_at(&rig->params, x->index);
+  *at = (pneu_real)fmin(fmax((double)*at + value, (double)info.lower), (double)info.upper);
+}
 
 static void apply_one(const lab_unknown *x, double value, const pneu_params *declared, lab_rig *rig)
 {
@@ -11,51 +27,65 @@ static void apply_one(const lab_unknown *x, double value, const pneu_params *dec
     rig->term[x->term].value[x->index] = (pneu_real)value;
   } else if (x->kind == LAB_UNKNOWN_PERIOD) {
     rig->term[x->term].to = rig->term[x->term].from + (pneu_real)value;
-  } else if (x->kind == LAB_UNKNOWN_PARAM && x->index == LAB_FIT_ORIFICE_AREA) {
+  } else if (x->kind == LAB_UNKNOWN_PARAM && x->index == LAB_PARAM_ORIFICE_AREA) {
     rig->params.fill_area = declared->fill_area * (pneu_real)value;
     rig->params.vent_area = declared->vent_area * (pneu_real)value;
   } else if (x->kind == LAB_UNKNOWN_PARAM) {
     *pneu_param_at(&rig->params, x->index) = (pneu_real)value;
+  } else if (x->kind == LAB_UNKNOWN_CHANGE) {
+    apply_change(x, value, rig);
   }
 }
 
-void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int experiment, lab_rig *rig)
+/* Whether an unknown acts in run e. */
+static int is_of(const lab_unknown *x, int e)
+{
+  return x->run == LAB_ALL_RUNS || (x->kind == LAB_UNKNOWN_CHANGE ? e >= x->run : e == x->run);
+}
+
+void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int run, lab_rig *rig)
 {
   int j;
   for (j = 0; j < u->n; j++)
-    if (u->unknown[j].experiment == LAB_ALL_EXPERIMENTS || u->unknown[j].experiment == experiment)
+    if (u->unknown[j].run == LAB_ALL_RUNS || (run != LAB_ALL_RUNS && is_of(&u->unknown[j], run)))
       apply_one(&u->unknown[j], theta[j], &u->declared, rig);
 }
 
-/* How early each change of command of an experiment was, in its order. */
-static void early_of(const lab_unknowns *u, const double *theta, int first, const lab_experiment *e, double *early)
+/* How early one unknown has the changes of command of its experiment. */
+static void early_of(const lab_unknown *x, double value, const lab_run *e, double *early)
 {
-  int j;
   size_t i;
-  for (i = 0; i < e->n_switches; i++)
-    early[i] = e->bracket[i] / 2;
-  for (j = 0; j < u->n; j++) {
-    const int k = u->unknown[j].index - first;
-    if (u->unknown[j].kind == LAB_UNKNOWN_SWITCH && k >= 0 && k < (int)e->n_switches)
-      early[k] = theta[j];
-  }
+  if (x->kind != LAB_UNKNOWN_INSTANT)
+    return;
+  if (x->index != LAB_ALL_INSTANTS)
+    early[x->index] = value;
+  for (i = 0; x->index == LAB_ALL_INSTANTS && i < e->n_instants; i++)
+    early[i] = value * e->bracket[i];
 }
 
 /* Turn predictions into errors over noise, in place. */
-static void weigh(const lab_experiment *e, double *r)
+static void weigh(const lab_run *e, double *r)
 {
   int c;
   size_t i;
   for (c = 0; c < e->n_channels; c++)
     for (i = 0; i < e->n; i++) {
       double *at = &r[(size_t)c * e->n + i];
-      const double measured = lab_experiment_measured(e, c, i);
+      const double measured = lab_run_measured(e, c, i);
       *at = isnan(measured) ? 0 : (measured - *at) / e->sigma[c];
     }
 }
 
+/* Rows that are known less well count less. */
+static void weigh_rows(const lab_run *e, double *r)
+{
+  size_t i;
+  for (i = 0; i < e->n * (size_t)e->n_channels; i++)
+    r[i] *= e->weight[i];
+}
+
 /* Take the memory out of the noise: what is left of each error after the part that the row before it predicts. */
-static void whiten(const lab_experiment *e, double *r)
+static void whiten(const lab_run *e, double *r)
 {
   int c;
   size_t i;
@@ -68,77 +98,114 @@ static void whiten(const lab_experiment *e, double *r)
   }
 }
 
-/* Predictions of one experiment. */
-static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, int first, double *r,
-                   lab_error *error)
+/* The instants within a run at which a change begins or ends, in order, each once.  Returns: their number */
+static int cuts_of(const lab_unknowns *u, int e, double cut[LAB_EPISODES_MAX - 1])
 {
-  const lab_experiment *x = &u->experiment[e];
-  lab_rig rig = *model;
-  double *early = malloc((x->n_switches + 1) * sizeof *early);
-  int j, status;
-  if (!early)
-    return lab_fail_memory(error, "a schedule");
+  int j, k, side, n = 0;
   for (j = 0; j < u->n; j++)
-    if (u->unknown[j].experiment == e)
-      apply_one(&u->unknown[j], theta[j], &u->declared, &rig);
-  early_of(u, theta, first, x, early);
-  status = lab_experiment_predict(x, &rig, early, u->tol, r, error);
+    for (side = 0; side < 2 && u->unknown[j].kind == LAB_UNKNOWN_CHANGE && is_of(&u->unknown[j], e); side++) {
+      const double at = side ? u->unknown[j].to : u->unknown[j].from;
+      for (k = 0; k < n && cut[k] < at; k++)
+        ;
+      if (!isfinite(at) || n == LAB_EPISODES_MAX - 1 || (k < n && cut[k] == at))
+        continue;
+      memmove(cut + k + 1, cut + k, (size_t)(n - k) * sizeof *cut);
+      cut[k] = at;
+      n++;
+    }
+  return n;
+}
+
+/* Apply what acts in a run from an instant on: first what is its own, then what is added to that. */
+static void apply_from(const lab_unknowns *u, const double *theta, int e, double from, lab_rig *rig)
+{
+  int j, change;
+  for (change = 0; change < 2; change++)
+    for (j = 0; j < u->n; j++) {
+      const lab_unknown *x = &u->unknown[j];
+      if (x->run == LAB_ALL_RUNS || !is_of(x, e) || (x->kind == LAB_UNKNOWN_CHANGE) != change)
+        continue;
+      if (!change || (x->from <= from && from < x->to))
+        apply_one(x, theta[j], &u->declared, rig);
+    }
+}
+
+/* Predictions of one experiment. */
+static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r, lab_error *error)
+{
+  const lab_run *x = &u->run[e];
+  const double begin = x->log->value[LAB_CHANNEL_TIME][x->first];
+  double cut[LAB_EPISODES_MAX - 1], *early = calloc(x->n_instants + 1, sizeof *early);
+  lab_episode episode[LAB_EPISODES_MAX];
+  const int n = 1 + cuts_of(u, e, cut);
+  lab_rig *rig = malloc((size_t)n * sizeof *rig);
+  int j, k, status = early && rig ? LAB_OK : lab_fail_memory(error, "a schedule");
+  for (k = 0; k < n && status == LAB_OK; k++) {
+    episode[k].from = k ? cut[k - 1] : begin;
+    episode[k].rig = &rig[k];
+    rig[k] = *model;
+    apply_from(u, theta, e, episode[k].from, &rig[k]);
+  }
+  for (j = 0; j < u->n && status == LAB_OK; j++)
+    if (u->unknown[j].run == e)
+      early_of(&u->unknown[j], theta[j], x, early);
+  for (j = 0; u->nuisance && j < u->nuisance->n && status == LAB_OK; j++)
+    if (u->nuisance->of[j].run == e)
+      early_of(&u->nuisance->of[j], u->nuisance->of[j].value, x, early);
+  if (status == LAB_OK)
+    status = lab_run_predict_episodes(x, episode, n, early, u->tol, r, error);
   free(early);
+  free(rig);
   return status;
 }
 
-static int errors_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int whitened, double *r,
+/* How the residuals of a run are looked at. */
+enum view { AS_FITTED, NOT_WHITENED };
+
+/* Residuals of one run, row by row. */
+static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, enum view view, double *r,
                      lab_error *error)
 {
-  int e, first = 0;
-  for (e = 0; e < u->n_experiments; e++) {
-    const lab_experiment *x = &u->experiment[e];
-    if (predict(u, model, theta, e, first, r, error))
-      return error->status;
-    weigh(x, r);
-    if (whitened)
-      whiten(x, r);
-    r += x->n * (size_t)x->n_channels;
-    first += (int)x->n_switches;
+  if (predict(u, model, theta, e, r, error))
+    return error->status;
+  weigh(&u->run[e], r);
+  if (view == AS_FITTED) {
+    weigh_rows(&u->run[e], r);
+    whiten(&u->run[e], r);
   }
   return LAB_OK;
 }
 
-/* Residuals of all channels of an experiment, seen coarsely.  Returns: the place after them. */
-static double *coarsen(const lab_unknowns *u, const lab_experiment *x, const double *predicted, double *r)
-{
-  int c;
-  for (c = 0; c < x->n_channels; c++) {
-    lab_coarse_residuals(x->log->value[x->channel[c]] + x->first, predicted + (size_t)c * x->n, x->n, u->window,
-                         x->sigma[c], r);
-    r += 2 * lab_coarse_count(x->n, u->window);
-  }
-  return r;
-}
-
-static int coarse_residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, double *r,
+/* The same, seen coarsely. */
+static int coarse_residuals_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
                                lab_error *error)
 {
-  double *predicted = malloc((u->n_rows + 1) * sizeof *predicted);
-  int e, first = 0, status = predicted ? LAB_OK : lab_fail_memory(error, "a response");
-  for (e = 0; e < u->n_experiments && status == LAB_OK; e++) {
-    status = predict(u, model, theta, e, first, predicted, error);
-    if (status == LAB_OK)
-      r = coarsen(u, &u->experiment[e], predicted, r);
-    first += (int)u->experiment[e].n_switches;
+  const lab_run *x = &u->run[e];
+  double *predicted = malloc((x->n * (size_t)x->n_channels + 1) * sizeof *predicted);
+  int c, status = predicted ? predict(u, model, theta, e, predicted, error) : lab_fail_memory(error, "a response");
+  for (c = 0; c < x->n_channels && status == LAB_OK; c++) {
+    lab_windowed_residuals(x->log->value[x->channel[c]] + x->first, predicted + (size_t)c * x->n, x->n, u->window,
+                           x->sigma[c], r);
+    r += 2 * lab_windowed_count(x->n, u->window);
   }
   free(predicted);
   return status;
+}
+
+static size_t residuals_in(const lab_unknowns *u, int e)
+{
+  const lab_run *x = &u->run[e];
+  return (u->window ? 2 * lab_windowed_count(x->n, u->window) : x->n) * (size_t)x->n_channels;
 }
 
 static size_t count_values(const lab_unknowns *u)
 {
   size_t i, count = 0;
   int e, c;
-  for (e = 0; e < u->n_experiments; e++)
-    for (c = 0; c < u->experiment[e].n_channels; c++)
-      for (i = 0; i < u->experiment[e].n; i++)
-        count += !isnan(lab_experiment_measured(&u->experiment[e], c, i));
+  for (e = 0; e < u->n_runs; e++)
+    for (c = 0; c < u->run[e].n_channels; c++)
+      for (i = 0; i < u->run[e].n; i++)
+        count += !isnan(lab_run_measured(&u->run[e], c, i));
   return count;
 }
 
@@ -146,21 +213,40 @@ void lab_unknowns_view(lab_unknowns *u, size_t window)
 {
   int e;
   u->window = window;
-  u->n_data = window ? 0 : u->n_rows;
-  for (e = 0; window && e < u->n_experiments; e++)
-    u->n_data += 2 * lab_coarse_count(u->experiment[e].n, window) * (size_t)u->experiment[e].n_channels;
+  for (u->n_data = 0, e = 0; e < u->n_runs; e++)
+    u->n_data += residuals_in(u, e);
   u->n_values = window ? u->n_data : count_values(u);
-  u->m = u->n_data + (size_t)u->n;
+  lab_unknowns_count(u);
 }
 
-static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, double *r, lab_error *error)
+/* Where the residuals of the unknowns begin. */
+static size_t before_unknowns(const lab_unknowns *u)
 {
-  int j, status = u->window ? coarse_residuals_at(u, model, theta, r, error) : errors_at(u, model, theta, 1, r, error);
+  return u->n_data + (size_t)(u->nuisance ? u->nuisance->n : 0);
+}
+
+void lab_unknowns_count(lab_unknowns *u)
+{
+  u->m = before_unknowns(u) + (size_t)u->n;
+}
+
+/* Residuals of the runs that have unknown `which`, or of all for -1; those of other runs are left as they are. */
+static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, double *r,
+                        lab_error *error)
+{
+  double *all = r;
+  int e, j;
+  for (e = 0; e < u->n_runs; r += residuals_in(u, e), e++)
+    if ((which < 0 || is_of(&u->unknown[which], e)) && (u->window ? coarse_residuals_of(u, model, theta, e, r, error)
+                                                                  : errors_of(u, model, theta, e, AS_FITTED, r, error)))
+      return error->status;
+  if (u->nuisance)
+    lab_nuisance_apply(u->nuisance, all);
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    r[u->n_data + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / x->spread : 0;
+    all[before_unknowns(u) + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / x->spread : 0;
   }
-  return status;
+  return LAB_OK;
 }
 
 static void present(const lab_unknowns *u, double *theta)
@@ -170,29 +256,43 @@ static void present(const lab_unknowns *u, double *theta)
     theta[j] = u->unknown[j].value;
 }
 
+int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
+{
+  lab_rig model = u->rig;
+  lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
+  return residuals_at(u, &model, theta, u->nuisance ? -1 : which, r, error);
+}
+
+void lab_unknowns_take(lab_unknowns *u)
+{
+  double now[LAB_FIT_MAX];
+  present(u, now);
+  lab_unknowns_apply(u, now, LAB_ALL_RUNS, &u->rig);
+}
+
 int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_error *error)
 {
   const lab_unknowns *u = context;
   double now[LAB_FIT_MAX];
-  lab_rig model = u->rig;
-  if (!theta) {
+  if (!theta)
     present(u, now);
-    theta = now;
-  }
-  lab_unknowns_apply(u, theta, LAB_ALL_EXPERIMENTS, &model);
-  return residuals_at(u, &model, theta, r, error);
+  return lab_unknowns_residuals_of(u, theta ? theta : now, -1, r, error);
 }
 
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
   present(u, now);
-  return residuals_at(u, rig, now, r, error);
+  return residuals_at(u, rig, now, -1, r, error);
 }
 
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
+  int e;
   present(u, now);
-  return errors_at(u, &u->rig, now, 0, r, error);
+  for (e = 0; e < u->n_runs; r += u->run[e].n * (size_t)u->run[e].n_channels, e++)
+    if (errors_of(u, &u->rig, now, e, NOT_WHITENED, r, error))
+      return error->status;
+  return LAB_OK;
 }

@@ -1,14 +1,12 @@
-/* Whether what a model leaves is noise, only more of it than was declared. */
+/* What a model leaves: whether it is white, and whether it is noise, only more of it than was declared. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "../base/array.h"
-#include "../base/whiteness.h"
 #include "unknowns.h"
 
-static const double most = 1.5;         /* times the declared noise: beyond that the declaration means something else */
-static const double white_level = 0.01; /* p-value */
-static const double even = 0.85;        /* of the root mean square: noise has its size everywhere, not in bursts */
+static const double most = 1.5;  /* times the declared noise: beyond that the declaration means something else */
+static const double even = 0.85; /* of the root mean square: noise has its size everywhere, not in bursts */
 static const double median_of_size = 0.6744897501960817; /* of a normal value */
 
 /* Residuals of one channel of all experiments, as stretches; gaps, which are 0, as NaN.  Returns: stretches */
@@ -16,14 +14,14 @@ static int gather(const lab_unknowns *u, int channel, double *r, lab_stretch *st
 {
   int e, c, n = 0;
   size_t i;
-  for (e = 0; e < u->n_experiments; e++)
-    for (c = 0; c < u->experiment[e].n_channels; c++, r += u->experiment[e].n) {
-      if (u->experiment[e].channel[c] != channel)
+  for (e = 0; e < u->n_runs; e++)
+    for (c = 0; c < u->run[e].n_channels; c++, r += u->run[e].n) {
+      if (u->run[e].channel[c] != channel)
         continue;
-      for (i = 0; i < u->experiment[e].n; i++)
+      for (i = 0; i < u->run[e].n; i++)
         if (r[i] == 0)
           r[i] = (double)NAN;
-      stretch[n++] = (lab_stretch){r, u->experiment[e].n};
+      stretch[n++] = (lab_stretch){r, u->run[e].n};
     }
   return n;
 }
@@ -44,32 +42,52 @@ static int is_even(const lab_stretch *stretch, int n, double *size)
   return m > 0 && rms < most && lab_median(size, m) / median_of_size > even * rms;
 }
 
-static int all_white(const lab_unknowns *u, double *r, double *size, lab_stretch *stretch)
+static void look(const lab_unknowns *u, double *r, double *size, lab_stretch *stretch,
+                 lab_residual_stats left[LAB_CHANNEL_COUNT])
 {
-  int c, white = 1;
-  for (c = 0; c < LAB_CHANNEL_COUNT && white; c++) {
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
     const int n = gather(u, c, r, stretch);
-    lab_whiteness w;
-    if (n == 0)
-      continue;
-    lab_whiteness_test(stretch, n, &w);
-    white = w.p_value >= white_level && is_even(stretch, n, size);
+    lab_whiteness_test(stretch, n, &left[c].whiteness);
+    left[c].even = is_even(stretch, n, size);
   }
-  return white;
 }
 
-int lab_unknowns_white(const lab_unknowns *u, int *white, lab_error *error)
+int lab_unknowns_residual_stats(const lab_unknowns *u, lab_residual_stats left[LAB_CHANNEL_COUNT], lab_error *error)
 {
   double *r = malloc((u->m + 1) * sizeof *r), *size = malloc((u->n_rows + 1) * sizeof *size);
-  lab_stretch *stretch = malloc((size_t)(u->n_experiments + 1) * sizeof *stretch);
+  lab_stretch *stretch = malloc((size_t)(u->n_runs + 1) * sizeof *stretch);
   int status = r && size && stretch ? LAB_OK : lab_fail_memory(error, "residuals");
-  *white = 0;
-  if (status == LAB_OK && u->window == 0)
+  if (status == LAB_OK)
     status = lab_unknowns_residuals((void *)u, NULL, r, error);
-  if (status == LAB_OK && u->window == 0)
-    *white = all_white(u, r, size, stretch);
+  if (status == LAB_OK)
+    look(u, r, size, stretch, left);
   free(r);
   free(size);
   free(stretch);
   return status;
+}
+
+int lab_residual_stats_coloured(const lab_residual_stats left[LAB_CHANNEL_COUNT])
+{
+  int c, n = 0;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    n += lab_is_coloured(&left[c].whiteness);
+  return n;
+}
+
+int lab_residual_stats_white(const lab_residual_stats left[LAB_CHANNEL_COUNT])
+{
+  int c, white = 1;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    white = white && (left[c].whiteness.n == 0 || lab_is_white(&left[c].whiteness));
+  return white;
+}
+
+int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT])
+{
+  int c, noise = lab_residual_stats_white(left);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    noise = noise && (left[c].whiteness.n == 0 || left[c].even);
+  return noise;
 }

@@ -7,6 +7,7 @@
 #define LAB_CHANNEL_LIST(X)                                                                                            \
   X(TIME, "t", "s", "time", "time")                                                                                    \
   X(U, "u", "1", "command", "command: 1 supply orifice fully open, -1 vent fully open, 0 both shut")                   \
+  X(SP, "sp", "1", "set_point", "set position of a positioner, share of the stroke")                                   \
   X(P, "p", "Pa", "pressure", "chamber pressure, gauge")                                                               \
   X(X, "x", "m", "position", "stem position")                                                                          \
   X(PS, "ps", "Pa", "supply", "supply pressure, gauge")                                                                \

@@ -1,6 +1,5 @@
 #include "log.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,13 +8,13 @@
 #include "loglong.h"
 #include "logshape.h"
 #include "../base/number.h"
-#include "../base/text.h"
 
 /* A command may be a measured one that overshoots a little; beyond this it is in other units. */
 static const double command_max = 1.05;
+static const double set_point_max = 2; /* a set position may lie beyond the stops */
 
 struct reader {
-  lab_log_source source;
+  lab_csv csv;
   const lab_log_format *format;
   lab_header header;
   lab_log *log;
@@ -30,19 +29,17 @@ struct reader {
 /* ---- Fields and rows ---- */
 
 /* Long format: which quantity is this? */
-static int read_word(struct reader *r, const char *begin, const char *end)
+static int read_word(struct reader *r, const char *word)
 {
-  char shown[LAB_SHOWN];
+  char shown[LAB_QUOTE];
   int i;
-  for (i = 0; i < r->format->n_quantities; i++) {
-    const char *word = r->format->quantity[i].word;
-    if (strlen(word) == (size_t)(end - begin) && memcmp(word, begin, strlen(word)) == 0) {
+  for (i = 0; i < r->format->n_quantities; i++)
+    if (strcmp(r->format->quantity[i].word, word) == 0) {
       r->quantity = i;
       return LAB_OK;
     }
-  }
   return lab_fail(r->error, LAB_DATA, "unknown quantity \"%s\"; it is not in log.quantities",
-                  lab_log_show(begin, end, shown));
+                  lab_log_quote(word, shown));
 }
 
 /* Where columns have weights, those of one channel are added up; its offset counts once. */
@@ -59,18 +56,19 @@ static void put_number(struct reader *r, int i, const lab_column *column, double
   *at = r->format->weight[i] * column->scale * number + (before ? *at : column->offset);
 }
 
-static int read_field(struct reader *r, int i, const char *begin, const char *end)
+static int read_field(struct reader *r, int i)
 {
   const lab_column *column = &r->header.column[i];
-  char shown[LAB_SHOWN];
+  const lab_cell *cell = &r->csv.cell[i];
+  char shown[LAB_QUOTE];
   double number;
   if (column->channel == LAB_COLUMN_IGNORED)
     return LAB_OK;
   if (column->channel == LAB_COLUMN_QUANTITY)
-    return read_word(r, begin, end);
-  if (lab_number_read(begin, end, r->format->decimal, r->format->thousands, &number) == LAB_NUMBER_BAD)
+    return read_word(r, cell->begin);
+  if (lab_number_read(cell->begin, cell->end, r->format->decimal, r->format->thousands, &number) == LAB_NUMBER_BAD)
     return lab_fail(r->error, LAB_DATA, "column %d \"%s\": expected a number, found \"%s\"", i + 1, r->header.text[i],
-                    lab_log_show(begin, end, shown));
+                    lab_log_quote(cell->begin, shown));
   if (column->channel == LAB_COLUMN_VALUE)
     r->value = number;
   else
@@ -78,26 +76,17 @@ static int read_field(struct reader *r, int i, const char *begin, const char *en
   return LAB_OK;
 }
 
-static int ragged(struct reader *r, const char *begin, const char *end)
+static int read_row(struct reader *r)
 {
-  int found = 1;
-  for (; begin < end; begin++)
-    found += *begin == r->format->delimiter;
-  return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d", r->header.n, found);
-}
-
-static int read_row(struct reader *r, const char *begin, const char *end)
-{
-  const char *at = begin, *stop = begin;
   int i;
-  for (i = 0; i < r->header.n; i++, at = stop + 1) {
-    if (i > 0 && stop == end)
-      return ragged(r, begin, end);
-    stop = lab_log_field(&r->source, at, end);
-    if (read_field(r, i, at, stop))
+  if (lab_csv_cut(&r->csv, r->error))
+    return r->error->status;
+  for (i = 0; i < r->header.n && i < r->csv.n; i++)
+    if (read_field(r, i))
       return r->error->status;
-  }
-  return stop == end ? LAB_OK : ragged(r, begin, end);
+  if (r->csv.n == r->header.n)
+    return LAB_OK;
+  return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d", r->header.n, r->csv.n);
 }
 
 /* Put constants, or gaps, where the row may bring nothing. */
@@ -127,14 +116,17 @@ static int place_value(struct reader *r)
 
 static int check_command(struct reader *r)
 {
-  const double *u = r->log->value[LAB_CHANNEL_U];
+  const int command = lab_log_command(r->log);
   double now;
-  if (!u || r->format->n_quantities)
+  if (command < 0 || r->format->n_quantities)
     return LAB_OK;
-  now = u[r->log->n];
+  now = r->log->value[command][r->log->n];
   if (isnan(now))
-    return lab_fail(r->error, LAB_DATA, "channel u: expected a number, found a gap; u holds until the next row");
-  if (!r->format->command_is_pressure && fabs(now) > command_max)
+    return lab_fail(r->error, LAB_DATA, "channel %s: expected a number, found a gap; %s holds until the next row",
+                    lab_channels[command].key, lab_channels[command].key);
+  if (command == LAB_CHANNEL_SP && fabs(now) > set_point_max)
+    return lab_fail(r->error, LAB_DATA, "channel sp: expected a share of the stroke, found %g; is its unit %%?", now);
+  if (command == LAB_CHANNEL_U && !r->format->command_is_pressure && fabs(now) > command_max)
     return lab_fail(r->error, LAB_DATA,
                     "channel u: expected -1..1, found %g; is its unit %%, or a pressure "
                     "(transducer.proportional_band)?",
@@ -181,35 +173,25 @@ static int take_row(struct reader *r)
   if (check_command(r) || check_time(r, t))
     return r->error->status;
   r->last_t = t;
-  r->log->line[r->log->n++] = r->source.lines.number;
+  r->log->line[r->log->n++] = r->csv.line;
   return LAB_OK;
 }
 
 /* ---- The whole file ---- */
 
-static int is_blank(const char *begin, const char *end)
-{
-  while (begin < end && isspace((unsigned char)*begin))
-    begin++;
-  return begin == end;
-}
-
 static int read_rows(struct reader *r)
 {
-  const char *begin, *end;
-  int found;
-  while (lab_log_line(&r->source, &begin, &end, &found, r->error) == LAB_OK && found) {
-    if (is_blank(begin, end) && is_blank(end, r->source.lines.end))
-      return LAB_OK;
+  int more, status;
+  while ((status = lab_csv_line(&r->csv, &more, r->error)) == LAB_OK && more && !lab_csv_is_over(&r->csv)) {
     clear_row(r);
     r->rows++;
-    if (read_row(r, begin, end) || (place_value(r) && take_row(r))) {
+    if (read_row(r) || (place_value(r) && take_row(r))) {
       if (r->error->status != LAB_DATA || r->format->damaged != LAB_DAMAGED_DROP)
-        return lab_log_fail_in(&r->source, r->error);
+        return lab_csv_fail_in(&r->csv, r->error);
       r->log->dropped++;
     }
   }
-  return found ? r->error->status : LAB_OK;
+  return status;
 }
 
 static int allocate(struct reader *r, size_t rows)
@@ -240,17 +222,15 @@ static int finish(struct reader *r)
   return lab_log_shape(log, r->format, r->error);
 }
 
-static int read_text(struct reader *r, const char *path, double ambient, const lab_text *text)
+static int read_file(struct reader *r, const char *path, double ambient)
 {
-  lab_lines_start(&r->source.lines, text);
-  r->log->path = malloc(strlen(path) + 1);
+  r->log->path = strdup(path);
   if (!r->log->path)
     return lab_fail_memory(r->error, path);
-  strcpy(r->log->path, path);
-  if (lab_header_read(&r->source, ambient, &r->header, r->error) || allocate(r, lab_lines_count(text)) ||
-      read_rows(r) || finish(r))
+  if (lab_csv_open(&r->csv, path, r->error) || lab_header_read(&r->csv, r->format, ambient, &r->header, r->error) ||
+      allocate(r, lab_csv_lines(&r->csv)) || read_rows(r))
     return r->error->status;
-  return LAB_OK;
+  return finish(r);
 }
 
 /* Channels that the file's name tells become constants. */
@@ -280,17 +260,13 @@ static int take_name(const char *path, lab_log_format *format, lab_error *error)
 int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error)
 {
   lab_log_format own = *format;
-  struct reader r = {.source = {.path = path, .format = &own}, .format = &own, .log = log, .error = error};
-  lab_text text;
+  struct reader r = {.format = &own, .log = log, .error = error};
   int status;
   memset(log, 0, sizeof *log);
   status = take_name(path, &own, error);
   if (status == LAB_OK)
-    status = lab_text_read(path, &text, error);
-  if (status != LAB_OK)
-    return status;
-  status = read_text(&r, path, ambient, &text);
-  lab_text_free(&text);
+    status = read_file(&r, path, ambient);
+  lab_csv_close(&r.csv);
   if (status != LAB_OK)
     lab_log_free(log);
   return status;
@@ -307,9 +283,15 @@ void lab_log_free(lab_log *log)
   memset(log, 0, sizeof *log);
 }
 
+int lab_log_command(const lab_log *log)
+{
+  return log->value[LAB_CHANNEL_U] ? LAB_CHANNEL_U : log->value[LAB_CHANNEL_SP] ? LAB_CHANNEL_SP : -1;
+}
+
 int lab_log_command_changes(const lab_log *log, size_t first, size_t last)
 {
-  const double *u = log->value[LAB_CHANNEL_U];
+  const int command = lab_log_command(log);
+  const double *u = command < 0 ? NULL : log->value[command];
   size_t i;
   for (i = first; u && i < last; i++)
     if (u[i + 1] != u[i])

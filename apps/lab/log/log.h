@@ -7,15 +7,22 @@
 
 #include "logformat.h"
 
+/* A swing that does not come from the rig. */
+typedef struct lab_hum {
+  double frequency, amplitude; /* [Hz], SI; 0: none */
+} lab_hum;
+
 typedef struct lab_log {
   char *path;                       /* for messages */
   size_t n;                         /* rows */
-  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap (never in t, u); NULL where the channel is absent */
+  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap (never in t or what commands); NULL where the channel is absent */
   int *line;                        /* line of each row in the file */
   size_t n_runs;
-  size_t *run;    /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
-  size_t dropped; /* damaged rows left out, as the format asks */
-  size_t outside; /* rows left out by the window */
+  size_t *run;                    /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
+  size_t dropped;                 /* damaged rows left out, as the format asks */
+  size_t outside;                 /* rows left out by the window */
+  double clock_step;              /* [s] to which the time was rounded before it was mended; 0: it was not */
+  lab_hum hum[LAB_CHANNEL_COUNT]; /* that was taken off the values */
 } lab_log;
 
 /* Read a log.
@@ -26,6 +33,9 @@ typedef struct lab_log {
 int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error);
 
 void lab_log_free(lab_log *log);
+
+/* The channel that commands: u, or else the set position sp of a positioner; -1 where there is neither. */
+int lab_log_command(const lab_log *log);
 
 /* Whether the command changes between two rows.
  * In:      first, last  rows of one run, first <= last

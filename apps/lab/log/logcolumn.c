@@ -51,6 +51,12 @@ static int read_unit(const char *text, const struct column_name *found, const ch
     column->scale = 0.01 * frame->stroke;
     return LAB_OK;
   }
+  if (found->channel == LAB_CHANNEL_SP && frame->stroke > 0 &&
+      lab_unit_factor(unit, "m", &column->scale, &column->offset, error) == LAB_OK) {
+    column->scale /= frame->stroke;
+    column->offset /= frame->stroke;
+    return LAB_OK;
+  }
   if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
     return lab_fail_in(error, "column \"%s\"", text);
   return LAB_OK;

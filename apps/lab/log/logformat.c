@@ -1,7 +1,7 @@
 #include "logformat.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "../base/config.h"
@@ -11,25 +11,15 @@
 /* Above every value that a log can have, and an exact integer with those after it. */
 static const double lead_code = 1e15;
 
-struct word {
-  const char *name;
-};
-
-static const struct word new_run_words[] = {{"never"}, {"t drops"}};
-static const struct word runs_words[] = {{"each"}, {"mean"}};
-static const struct word damaged_words[] = {{"error"}, {"drop"}};
+static const char *const new_run_words[] = {"never", "t drops"};
+static const char *const runs_words[] = {"each", "mean"};
+static const char *const damaged_words[] = {"error", "drop"};
 static const struct mark {
   const char *name;
   char mark;
 } marks[] = {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}};
 
-enum {
-  NEW_RUN_WORDS = sizeof new_run_words / sizeof new_run_words[0],
-  RUNS_WORDS = sizeof runs_words / sizeof runs_words[0],
-  DAMAGED_WORDS = sizeof damaged_words / sizeof damaged_words[0],
-  MARKS = sizeof marks / sizeof marks[0],
-  SKIP_MAX = 1000000
-};
+enum { MARKS = sizeof marks / sizeof marks[0], SKIP_MAX = 1000000 };
 
 void lab_log_format_default(lab_log_format *format)
 {
@@ -66,11 +56,6 @@ static int read_mark(const config_setting_t *setting, char *mark, lab_error *err
   return LAB_OK;
 }
 
-static int read_delimiter(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return read_mark(setting, &format->delimiter, error);
-}
-
 static int read_decimal(const config_setting_t *setting, lab_log_format *format, lab_error *error)
 {
   if (read_mark(setting, &format->decimal, error))
@@ -78,21 +63,6 @@ static int read_decimal(const config_setting_t *setting, lab_log_format *format,
   if (format->decimal != '.' && format->decimal != ',')
     return lab_config_expected(setting, "\".\" or \",\"", error);
   return LAB_OK;
-}
-
-static int read_thousands(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return read_mark(setting, &format->thousands, error);
-}
-
-static int read_comment(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return read_mark(setting, &format->comment, error);
-}
-
-static int read_skip_lines(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_count(setting, 0, SKIP_MAX, &format->skip_lines, error);
 }
 
 static int read_columns(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -120,26 +90,6 @@ static int read_window(const config_setting_t *setting, lab_log_format *format, 
     return lab_config_fail(setting, error, "expected a window (from, to), found one from %g s to %g s", format->from,
                            format->to);
   return LAB_OK;
-}
-
-static int read_new_run(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_choice(setting, new_run_words, NEW_RUN_WORDS, sizeof new_run_words[0], &format->new_run, error);
-}
-
-static int read_damaged(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_choice(setting, damaged_words, DAMAGED_WORDS, sizeof damaged_words[0], &format->damaged, error);
-}
-
-static int read_every(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_count(setting, 1, SKIP_MAX, &format->every, error);
-}
-
-static int read_first(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_count(setting, 0, SKIP_MAX, &format->first, error);
 }
 
 /* Channels that the file's name tells. */
@@ -171,16 +121,6 @@ static int read_weights(const config_setting_t *setting, lab_log_format *format,
                                  &format->weight[i], error);
   format->weighted = status == LAB_OK ? config_setting_length(setting) : 0;
   return status;
-}
-
-static int read_way_back(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_choice(setting, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], &format->way_back, error);
-}
-
-static int read_runs(const config_setting_t *setting, lab_log_format *format, lab_error *error)
-{
-  return lab_config_choice(setting, runs_words, RUNS_WORDS, sizeof runs_words[0], &format->runs, error);
 }
 
 /* A number a channel, such as `scale` or `constants`, by `read`. */
@@ -308,14 +248,15 @@ static int read_quantities(const config_setting_t *setting, lab_log_format *form
 
 static int read_holdout(const config_setting_t *group, lab_log_format *format, lab_error *error)
 {
-  static const struct word keys[] = {{"window"}, {"first"}};
+  static const char *const keys[] = {"window", "first"};
   const config_setting_t *window, *first;
   lab_log_format out = *format;
   if (lab_config_is_group(group, error) || lab_config_known(group, keys, 2, sizeof keys[0], error))
     return error->status;
   window = config_setting_get_member((config_setting_t *)group, "window");
   first = config_setting_get_member((config_setting_t *)group, "first");
-  if ((window && read_window(window, &out, error)) || (first && read_first(first, &out, error)))
+  if ((window && read_window(window, &out, error)) ||
+      (first && lab_config_count(first, 0, SKIP_MAX, &out.first, error)))
     return error->status;
   format->holdout_from = window ? out.from : (double)NAN;
   format->holdout_to = window ? out.to : (double)NAN;
@@ -333,34 +274,62 @@ void lab_log_format_hold_out(lab_log_format *format)
     format->first = format->holdout_first;
 }
 
+/* ---- All keys ---- */
+
+enum kind { MARK, COUNT, CHOICE, OWN };
+
+#define MEMBER(name) .member = offsetof(lab_log_format, name)
+#define WORDS(table) .words = table, .n = sizeof table / sizeof table[0], .stride = sizeof table[0]
+
 static const struct log_key {
   const char *name;
-  int (*read)(const config_setting_t *, lab_log_format *, lab_error *);
+  enum kind kind;
+  size_t member;     /* of the format: a char for MARK, an int for COUNT and CHOICE */
+  int lower;         /* COUNT, to SKIP_MAX */
+  const void *words; /* CHOICE (names.h) */
+  size_t n, stride;
+  int (*read)(const config_setting_t *, lab_log_format *, lab_error *); /* OWN */
 } log_keys[] = {
-    {"delimiter", read_delimiter},
-    {"decimal", read_decimal},
-    {"thousands", read_thousands},
-    {"comment", read_comment},
-    {"skip_lines", read_skip_lines},
-    {"columns", read_columns},
-    {"time_step", read_time_step},
-    {"window", read_window},
-    {"new_run", read_new_run},
-    {"damaged", read_damaged},
-    {"scale", read_scale},
-    {"offset", read_offset},
-    {"constants", read_constants},
-    {"quantities", read_quantities},
-    {"weights", read_weights},
-    {"first", read_first},
-    {"name", read_name},
-    {"holdout", read_holdout},
-    {"every", read_every},
-    {"way_back", read_way_back},
-    {"runs", read_runs},
-    {"lead", read_lead},
+    {.name = "delimiter", .kind = MARK, MEMBER(delimiter)},
+    {.name = "decimal", .kind = OWN, .read = read_decimal},
+    {.name = "thousands", .kind = MARK, MEMBER(thousands)},
+    {.name = "comment", .kind = MARK, MEMBER(comment)},
+    {.name = "skip_lines", .kind = COUNT, MEMBER(skip_lines)},
+    {.name = "columns", .kind = OWN, .read = read_columns},
+    {.name = "time_step", .kind = OWN, .read = read_time_step},
+    {.name = "window", .kind = OWN, .read = read_window},
+    {.name = "new_run", .kind = CHOICE, MEMBER(new_run), WORDS(new_run_words)},
+    {.name = "damaged", .kind = CHOICE, MEMBER(damaged), WORDS(damaged_words)},
+    {.name = "scale", .kind = OWN, .read = read_scale},
+    {.name = "offset", .kind = OWN, .read = read_offset},
+    {.name = "constants", .kind = OWN, .read = read_constants},
+    {.name = "quantities", .kind = OWN, .read = read_quantities},
+    {.name = "weights", .kind = OWN, .read = read_weights},
+    {.name = "first", .kind = COUNT, MEMBER(first)},
+    {.name = "name", .kind = OWN, .read = read_name},
+    {.name = "holdout", .kind = OWN, .read = read_holdout},
+    {.name = "every", .kind = COUNT, MEMBER(every), .lower = 1},
+    {.name = "way_back", .kind = CHOICE, MEMBER(way_back), WORDS(lab_channels)},
+    {.name = "runs", .kind = CHOICE, MEMBER(runs), WORDS(runs_words)},
+    {.name = "lead", .kind = OWN, .read = read_lead},
 };
 enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };
+
+static int read_key(const config_setting_t *setting, const struct log_key *key, lab_log_format *format,
+                    lab_error *error)
+{
+  void *const member = (char *)format + key->member;
+  switch (key->kind) {
+  case MARK:
+    return read_mark(setting, member, error);
+  case COUNT:
+    return lab_config_count(setting, key->lower, SKIP_MAX, member, error);
+  case CHOICE:
+    return lab_config_choice(setting, key->words, key->n, key->stride, member, error);
+  default:
+    return key->read(setting, format, error);
+  }
+}
 
 /* ---- Checks over keys ---- */
 
@@ -405,7 +374,7 @@ int lab_log_format_read(const config_setting_t *group, lab_log_format *format, l
   for (i = 0; status == LAB_OK && i < LOG_KEYS; i++) {
     const config_setting_t *member = config_setting_get_member((config_setting_t *)group, log_keys[i].name);
     if (member)
-      status = log_keys[i].read(member, format, error);
+      status = read_key(member, &log_keys[i], format, error);
   }
   return status == LAB_OK ? check_format(group, format, error) : status;
 }

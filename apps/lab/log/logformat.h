@@ -35,11 +35,12 @@
 #include <libconfig.h>
 
 #include "logcolumn.h"
+#include "../base/csv.h"
 
 enum {
-  LAB_COLUMN_MAX = 64,   /* columns in a file */
-  LAB_QUANTITY_MAX = 32, /* quantities in a long file */
-  LAB_LEAD_MAX = 4       /* rows put before each run */
+  LAB_COLUMN_MAX = LAB_CSV_CELLS, /* columns in a file */
+  LAB_QUANTITY_MAX = 32,          /* quantities in a long file */
+  LAB_LEAD_MAX = 4                /* rows put before each run */
 };
 
 enum lab_new_run { LAB_RUN_NEVER, LAB_RUN_T_DROPS };

@@ -6,38 +6,13 @@
 
 #include "../base/number.h"
 
-const char *lab_log_show(const char *begin, const char *end, char text[LAB_SHOWN])
+const char *lab_log_quote(const char *text, char shown[LAB_QUOTE])
 {
-  size_t n = 0;
-  for (; begin < end && n < LAB_SHOWN - 4; begin++)
-    text[n++] = (char)(isprint((unsigned char)*begin) ? *begin : '?');
-  strcpy(text + n, begin < end ? "..." : "");
-  return text;
-}
-
-int lab_log_fail_in(const lab_log_source *source, lab_error *error)
-{
-  return lab_fail_in(error, "%s:%d", source->path, source->lines.number);
-}
-
-int lab_log_line(lab_log_source *source, const char **begin, const char **end, int *found, lab_error *error)
-{
-  char comment = source->format->comment;
-  do {
-    *found = lab_lines_next(&source->lines, begin, end);
-    if (*found && *end - *begin > LAB_LINE_MAX) {
-      lab_fail(error, LAB_DATA, "expected a line of at most %d bytes, found %ld: this is not a log", LAB_LINE_MAX,
-               (long)(*end - *begin));
-      return lab_log_fail_in(source, error);
-    }
-  } while (*found && comment && *end > *begin && **begin == comment);
-  return LAB_OK;
-}
-
-const char *lab_log_field(const lab_log_source *source, const char *begin, const char *end)
-{
-  const char *stop = memchr(begin, source->format->delimiter, (size_t)(end - begin));
-  return stop ? stop : end;
+  size_t n;
+  for (n = 0; *text && n < LAB_QUOTE - 4; text++)
+    shown[n++] = (char)(isprint((unsigned char)*text) ? *text : '?');
+  strcpy(shown + n, *text ? "..." : "");
+  return shown;
 }
 
 /* A column with the scale and the offset of the format worked in. */
@@ -67,79 +42,70 @@ static int add_column(const char *text, const lab_log_format *format, double amb
   return LAB_OK;
 }
 
-static int has_control(const char *begin, const char *end)
+static int has_control(const char *text)
 {
-  while (begin < end && !iscntrl((unsigned char)*begin))
-    begin++;
-  return begin < end;
+  while (*text && !iscntrl((unsigned char)*text))
+    text++;
+  return *text != '\0';
 }
 
-/* One field of the header line, without the quotes and blanks around it. */
-static int add_field(const char *begin, const char *end, const lab_log_format *format, double ambient,
-                     lab_header *header, lab_error *error)
+/* A cell of the header line. */
+static int add_cell(const lab_cell *cell, const lab_log_format *format, double ambient, lab_header *header,
+                    lab_error *error)
 {
-  char text[LAB_COLUMN_TEXT], shown[LAB_SHOWN];
-  while (begin < end && (isspace((unsigned char)*begin) || *begin == '"'))
-    begin++;
-  while (begin < end && (isspace((unsigned char)end[-1]) || end[-1] == '"'))
-    end--;
-  if (header->n == LAB_COLUMN_MAX)
-    return lab_fail(error, LAB_DATA, "expected at most %d columns", LAB_COLUMN_MAX);
-  if (end - begin >= LAB_COLUMN_TEXT || has_control(begin, end))
+  const char *text = lab_trim(cell->begin);
+  char shown[LAB_QUOTE];
+  if (strlen(text) >= LAB_COLUMN_TEXT || has_control(text))
     return lab_fail(error, LAB_DATA, "column %d: expected \"name [unit]\", found \"%s\"", header->n + 1,
-                    lab_log_show(begin, end, shown));
-  memcpy(text, begin, (size_t)(end - begin));
-  text[end - begin] = '\0';
+                    lab_log_quote(text, shown));
   return add_column(text, format, ambient, header, error);
 }
 
-static int split_header(const lab_log_source *source, const char *begin, const char *end, double ambient,
-                        lab_header *header, lab_error *error)
-{
-  for (;;) {
-    const char *stop = lab_log_field(source, begin, end);
-    if (add_field(begin, stop, source->format, ambient, header, error))
-      return lab_log_fail_in(source, error);
-    if (stop == end)
-      return LAB_OK;
-    begin = stop + 1;
-  }
-}
-
 /* A first line that begins with a number is a row: the file has no header. */
-static int begins_with_number(const lab_log_source *source, const char *begin, const char *end)
+static int begins_with_number(const lab_cell *cell, const lab_log_format *format)
 {
   double value;
-  return lab_number_read(begin, lab_log_field(source, begin, end), source->format->decimal, source->format->thousands,
-                         &value) == LAB_NUMBER_FINITE;
+  return lab_number_read(cell->begin, cell->end, format->decimal, format->thousands, &value) == LAB_NUMBER_FINITE;
 }
 
-static int read_line(lab_log_source *source, double ambient, lab_header *header, lab_error *error)
+static int read_cells(lab_csv *csv, const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
 {
-  const char *begin, *end;
-  int found;
-  if (lab_log_line(source, &begin, &end, &found, error))
+  int i;
+  if (lab_csv_cut(csv, error))
     return error->status;
-  if (!found)
-    return lab_fail(error, LAB_DATA, "%s: expected a header \"name [unit], ...\", found the end of the file",
-                    source->path);
-  if (begins_with_number(source, begin, end)) {
-    lab_fail(error, LAB_DATA,
-             "expected a header \"name [unit], ...\", found numbers; for a file without a header "
-             "give log.columns in the rig file");
-    return lab_log_fail_in(source, error);
+  if (begins_with_number(csv->cell, format))
+    return lab_fail(error, LAB_DATA,
+                    "expected a header \"name [unit], ...\", found numbers; for a file without a header "
+                    "give log.columns in the rig file");
+  for (i = 0; i < csv->n; i++) {
+    if (i == LAB_COLUMN_MAX)
+      return lab_fail(error, LAB_DATA, "expected at most %d columns", LAB_COLUMN_MAX);
+    if (add_cell(&csv->cell[i], format, ambient, header, error))
+      return error->status;
   }
-  return split_header(source, begin, end, ambient, header, error);
+  return LAB_OK;
 }
 
-static int skip_lines(lab_log_source *source, lab_error *error)
+static int read_line(lab_csv *csv, const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
 {
-  const char *begin, *end;
-  while (source->lines.number < source->format->skip_lines)
-    if (!lab_lines_next(&source->lines, &begin, &end))
-      return lab_fail(error, LAB_DATA, "%s: expected more than the %d lines to skip, found %d", source->path,
-                      source->format->skip_lines, source->lines.number);
-  return LAB_OK;
+  int more;
+  if (lab_csv_line(csv, &more, error))
+    return error->status;
+  if (!more)
+    return lab_fail(error, LAB_DATA, "%s: expected a header \"name [unit], ...\", found the end of the file",
+                    csv->path);
+  return read_cells(csv, format, ambient, header, error) ? lab_csv_fail_in(csv, error) : LAB_OK;
+}
+
+static int skip_lines(lab_csv *csv, int n, lab_error *error)
+{
+  int more = 1;
+  while (csv->line < n && more)
+    if (lab_csv_line(csv, &more, error))
+      return error->status;
+  return more ? LAB_OK
+              : lab_fail(error, LAB_DATA, "%s: expected more than the %d lines to skip, found %d", csv->path, n,
+                         csv->line);
 }
 
 /* Columns as the rig file lists them, with the words of a long file. */
@@ -203,16 +169,17 @@ static int check_long(const lab_header *header, const lab_log_format *format, la
                   "log.quantities, or none of the three");
 }
 
-int lab_header_read(lab_log_source *source, double ambient, lab_header *header, lab_error *error)
+int lab_header_read(lab_csv *csv, const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
 {
-  const lab_log_format *format = source->format;
   header->n = 0;
   memset(header->quantity, 0, sizeof header->quantity);
-  if (skip_lines(source, error) || take_listed(format, ambient, header, error))
+  if (skip_lines(csv, format->skip_lines, error) || take_listed(format, ambient, header, error))
     return error->status;
-  if (header->n == 0 && read_line(source, ambient, header, error))
+  csv->mark = format->delimiter;
+  csv->comment = format->comment;
+  if (header->n == 0 && read_line(csv, format, ambient, header, error))
     return error->status;
   if (check_channels(header, format, error) || check_time(header, format, error) || check_long(header, format, error))
-    return lab_log_fail_in(source, error);
+    return lab_csv_fail_in(csv, error);
   return LAB_OK;
 }

@@ -52,11 +52,12 @@ static void join_lines(lab_log *log, const lab_instant *order, const size_t *to,
 /* A command holds until the next one. */
 static int hold_command(lab_log *log, lab_error *error)
 {
-  double *u = log->value[LAB_CHANNEL_U];
+  const int command = lab_log_command(log);
+  double *u = command < 0 ? NULL : log->value[command];
   size_t i;
   if (u && isnan(u[0]))
-    return lab_fail(error, LAB_DATA, "%s:%d: expected a command u at the first instant, found none", log->path,
-                    log->line[0]);
+    return lab_fail(error, LAB_DATA, "%s:%d: expected a command %s at the first instant, found none", log->path,
+                    log->line[0], lab_channels[command].key);
   for (i = 1; u && i < log->n; i++)
     if (isnan(u[i]))
       u[i] = u[i - 1];

@@ -80,7 +80,7 @@ static void mean_channel(const lab_log *log, const lab_instant *order, int chann
         sum += value[order[k].row];
         there++;
       }
-    mean[n++] = channel == LAB_CHANNEL_U ? value[order[i].row] : sum / (double)there;
+    mean[n++] = channel == lab_log_command(log) ? value[order[i].row] : sum / (double)there;
   }
 }
 
@@ -122,6 +122,11 @@ static int mean_of_runs(lab_log *log, lab_error *error)
 
 /* ---- Rows before each run ---- */
 
+static int is_command(int channel)
+{
+  return channel == LAB_CHANNEL_U || channel == LAB_CHANNEL_SP;
+}
+
 /* A channel that only the lead has: gaps in all rows. */
 static int add_channels(lab_log *log, const lab_log_format *format, lab_error *error)
 {
@@ -134,7 +139,7 @@ static int add_channels(lab_log *log, const lab_log_format *format, lab_error *e
       if (!(log->value[c] = malloc(log->n * sizeof(double))))
         return lab_fail_memory(error, log->path);
       for (i = 0; i < log->n; i++)
-        log->value[c][i] = c == LAB_CHANNEL_U ? format->lead[format->n_lead - 1][c] : (double)NAN;
+        log->value[c][i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
     }
   return LAB_OK;
 }
@@ -171,7 +176,7 @@ static int lead_channel(const lab_log *log, const lab_log_format *format, int ch
     const size_t first = log->run[run], rows = log->run[run + 1] - first;
     for (k = 0; k < extra; k++) {
       const double given = lead_value(log, format, k, channel, run);
-      to[n++] = channel == LAB_CHANNEL_U && isnan(given) ? value[first] : given;
+      to[n++] = is_command(channel) && isnan(given) ? value[first] : given;
     }
     memcpy(to + n, value + first, rows * sizeof *to);
     n += rows;

@@ -1,25 +1,27 @@
 #include "logformat.h"
 
+#include <limits.h>
 #include <math.h>
 
+#include "../base/escape.h"
 #include "../base/number.h"
 
-/* A character as libconfig reads it back. */
 static void write_mark(FILE *file, const char *key, char mark)
 {
-  if (mark == '\t')
-    fprintf(file, "  %s = \"tab\";\n", key);
-  else if (mark == '"' || mark == '\\')
-    fprintf(file, "  %s = \"\\%c\";\n", key, mark);
-  else if (mark)
-    fprintf(file, "  %s = \"%c\";\n", key, mark);
+  if (!mark)
+    return;
+  fprintf(file, "  %s = ", key);
+  lab_put_config(file, mark == '\t' ? "tab" : (char[]){mark, '\0'});
+  fputs(";\n", file);
 }
 
 static void write_columns(FILE *file, const lab_log_format *format)
 {
   int i;
-  for (i = 0; i < format->n_columns; i++)
-    fprintf(file, "%s\"%s\"", i ? ", " : "  columns = ( ", format->column[i]);
+  for (i = 0; i < format->n_columns; i++) {
+    fputs(i ? ", " : "  columns = ( ", file);
+    lab_put_config(file, format->column[i]);
+  }
   if (format->n_columns)
     fputs(" );\n", file);
 }
@@ -45,18 +47,24 @@ static void write_channels(FILE *file, const char *key, const lab_log_format *fo
 static void write_quantities(FILE *file, const lab_log_format *format)
 {
   int i;
-  for (i = 0; i < format->n_quantities; i++)
-    fprintf(file, "%s %s = \"%s\";", i ? "" : "  quantities = {", format->quantity[i].word, format->quantity[i].column);
+  for (i = 0; i < format->n_quantities; i++) {
+    fprintf(file, "%s %s = ", i ? ";" : "  quantities = {", format->quantity[i].word);
+    lab_put_config(file, format->quantity[i].column);
+  }
   if (format->n_quantities)
-    fputs(" };\n", file);
+    fputs("; };\n", file);
 }
 
 static void write_weights(FILE *file, const lab_log_format *format)
 {
   char number[LAB_NUMBER_TEXT];
   int i;
-  for (i = 0; i < format->weighted; i++)
-    fprintf(file, "%s%s", i ? ", " : "  weights = ( ", lab_number_write(format->weight[i], number));
+  for (i = 0; i < format->weighted; i++) {
+    const char *quote =
+        fabs(format->weight[i]) < INT_MAX ? "" : "\""; /* libconfig takes it for an int without a point */
+    fprintf(file, "%s%s%s%s%s", i ? ", " : "  weights = ( ", quote, lab_number_write(format->weight[i], number),
+            *quote ? " 1" : "", quote);
+  }
   if (format->weighted)
     fputs(" );\n", file);
 }
@@ -86,10 +94,12 @@ static void write_channel_names(FILE *file, const lab_log_format *format)
 {
   int c, any = 0;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (*format->name[c])
-      fprintf(file, "%s %s = \"%s\";", any++ ? "" : "  name = {", lab_channels[c].key, format->name[c]);
+    if (*format->name[c]) {
+      fprintf(file, "%s %s = ", any++ ? ";" : "  name = {", lab_channels[c].key);
+      lab_put_config(file, format->name[c]);
+    }
   if (any)
-    fputs(" };\n", file);
+    fputs("; };\n", file);
 }
 
 static void write_lead(FILE *file, const lab_log_format *format)

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include <nlopt.h>
+#include "../fit/fit.h"
 
 enum { GRID = 400 };
 static const double window_from = 0.05, window_to = 0.95;
@@ -65,29 +65,53 @@ static double line_fit(const double *z, const double *y, double *a, double *b)
   return left / n;
 }
 
-/* Mean square left by y = a + b exp(-s/T), T in units of the window, a and b free. */
-static double lag_misfit(unsigned n, const double *log_T, double *gradient, void *data)
+/* What y = a + b exp(-s/T) leaves, T in units of the window, a and b free. */
+static int lag_residuals(void *context, const double *log_T, double *r, lab_error *error)
 {
-  const double *y = data;
+  const double *y = context;
   double z[GRID + 1], a, b;
   int i;
-  (void)n, (void)gradient;
+  (void)error;
   for (i = 0; i <= GRID; i++)
     z[i] = expm1(-(double)i / GRID * exp(-*log_T));
-  return line_fit(z, y, &a, &b);
+  line_fit(z, y, &a, &b);
+  for (i = 0; i <= GRID; i++)
+    r[i] = y[i] - a - b * z[i];
+  return LAB_OK;
 }
 
-static double fit_lag(const double *y, double *misfit)
+static int lag_slope(void *context, const double *log_T, const double *r, int j, double *column, lab_error *error)
 {
-  nlopt_opt opt = nlopt_create(NLOPT_LN_SBPLX, 1);
-  double log_T = 0;
-  nlopt_set_lower_bounds1(opt, log(1e-2));
-  nlopt_set_upper_bounds1(opt, log(1e2));
-  nlopt_set_min_objective(opt, lag_misfit, (void *)y);
-  nlopt_set_xtol_abs1(opt, 1e-8);
-  nlopt_set_maxeval(opt, 500);
-  nlopt_optimize(opt, &log_T, misfit);
-  nlopt_destroy(opt);
+  const double step = 1e-4, above = *log_T + step, below = *log_T - step;
+  double other[GRID + 1];
+  int i;
+  (void)r, (void)j;
+  lag_residuals(context, &above, column, error);
+  lag_residuals(context, &below, other, error);
+  for (i = 0; i <= GRID; i++)
+    column[i] = (column[i] - other[i]) / (2 * step);
+  return LAB_OK;
+}
+
+/* Out: misfit  mean square  Returns: T in units of the window, NaN where there is no memory to find it */
+static double fit_lag(double *y, double *misfit)
+{
+  const double lower = log(1e-2), upper = log(1e2);
+  const lab_fit_problem problem = {.n = 1,
+                                   .m = GRID + 1,
+                                   .lower = &lower,
+                                   .upper = &upper,
+                                   .context = y,
+                                   .residuals = lag_residuals,
+                                   .slope = lag_slope,
+                                   .search = 20,
+                                   .enough = 1e-30,
+                                   .enough_share = 1e-14};
+  double log_T = 0, chi2;
+  lab_error error;
+  if (lab_fit(&problem, &log_T, &chi2, &error))
+    return *misfit = (double)NAN;
+  *misfit = chi2 / (GRID + 1);
   return exp(log_T);
 }
 
@@ -114,15 +138,18 @@ double lab_asymmetry_ramp_time(const lab_edge *e, double *rms)
   return duration / b;
 }
 
-/* Trapezoidal rule over |y_up - y_down|, both brought from 5..95 % to 0..1. A falling stroke's share grows
- * from 0 as well: that is the mirror. */
-static double shape_distance(const double *up, const double *down)
+/* Trapezoidal rule over y_up - y_down and its size, both brought from 5..95 % to 0..1. A falling stroke's share
+ * grows from 0 as well: that is the mirror. */
+static void compare_shapes(const double *up, const double *down, lab_asymmetry *out)
 {
-  double sum = 0;
+  const double scale = 1 / (GRID * (window_to - window_from));
   int i;
-  for (i = 0; i <= GRID; i++)
-    sum += fabs(up[i] - down[i]) * (i == 0 || i == GRID ? 0.5 : 1);
-  return sum / GRID / (window_to - window_from);
+  out->asymmetry = out->asymmetry_signed = 0;
+  for (i = 0; i <= GRID; i++) {
+    const double gap = (up[i] - down[i]) * (i == 0 || i == GRID ? 0.5 : 1) * scale;
+    out->asymmetry_signed += gap;
+    out->asymmetry += fabs(gap);
+  }
 }
 
 static int check(const lab_edge *e, const char *which, lab_error *error)
@@ -140,7 +167,7 @@ int lab_asymmetry_measure(const lab_edge *up, const lab_edge *down, lab_asymmetr
   out->rise_time = resample(up, y_up);
   out->fall_time = resample(down, y_down);
   out->duration_ratio = out->fall_time / out->rise_time;
-  out->asymmetry = shape_distance(y_up, y_down);
+  compare_shapes(y_up, y_down, out);
   out->T1 = lab_asymmetry_lag_time(up, &out->lag_error);
   out->T2 = lab_asymmetry_ramp_time(down, &out->ramp_error);
   return LAB_OK;

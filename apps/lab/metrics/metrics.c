@@ -20,14 +20,7 @@ static int noise_of(const double *value, size_t n, double declared, double *nois
   return LAB_OK;
 }
 
-static void deny_all(lab_measuring *m, const char *reason)
-{
-  int i;
-  for (i = 0; i < LAB_METRIC_COUNT; i++)
-    lab_metric_deny(m, i, "%s", reason);
-}
-
-static int measure(lab_measuring *m, lab_error *error)
+static int measure(lab_metrics_work *m, lab_error *error)
 {
   const lab_record *r = m->record;
   if (noise_of(r->p, r->n, r->noise_p, &m->noise_p, error) || noise_of(r->x, r->n, r->noise_x, &m->noise_x, error))
@@ -43,20 +36,20 @@ static int measure(lab_measuring *m, lab_error *error)
 
 int lab_metrics_measure(const lab_record *record, lab_metrics *metrics, lab_error *error)
 {
-  lab_measuring m = {0};
+  lab_metrics_work m = {0};
   int status = LAB_OK;
   memset(metrics, 0, sizeof *metrics);
   metrics->command = record->command;
   m.record = record;
   m.metrics = metrics;
   if (record->unfit)
-    deny_all(&m, record->unfit);
+    lab_metrics_absent(&m, 0, LAB_METRIC_COUNT - 1, record->unfit);
   else if (!(record->stroke > 0))
-    deny_all(&m, "there is no stem: the stroke is 0");
+    lab_metrics_absent(&m, 0, LAB_METRIC_COUNT - 1, "there is no stem: the stroke is 0");
   else if (!record->x)
-    deny_all(&m, "the record has no position");
+    lab_metrics_absent(&m, 0, LAB_METRIC_COUNT - 1, "the record has no position");
   else if (record->n == 0)
-    deny_all(&m, "the record has no rows");
+    lab_metrics_absent(&m, 0, LAB_METRIC_COUNT - 1, "the record has no rows");
   else
     status = measure(&m, error);
   free(m.hold);

@@ -5,10 +5,11 @@
  * (stroking time, dead band of a valve), IEC 61298-2 (dead band, hysteresis, linearity) and M. Bartys, "Dynamics of
  * single-action pneumatic actuators" [B], section 5 (energy).
  *
- * Two signals are told apart. A step is a step of what is commanded: the opening of the transducer, a set pressure, or
- * the chamber pressure itself where it is the model's input. The static figures (dead band, resolution, hysteresis,
- * linearity) set position against a set pressure where there is a transducer that regulates, else against chamber
- * pressure: an opening commands how fast the chamber fills, not where the stem is to go.
+ * Two signals are told apart. A step is a step of what is commanded: the opening of the transducer, a set pressure, a
+ * set position, or the chamber pressure itself where it is the model's input. The static figures (dead band,
+ * resolution, hysteresis, linearity) set position against a set pressure where there is a transducer that regulates,
+ * against the set position where a positioner is in the loop, else against chamber pressure: an opening commands how
+ * fast the chamber fills, not where the stem is to go.
  *
  * A figure that a record cannot give is NaN, with the reason in words.
  * SPDX-License-Identifier: MIT */
@@ -23,7 +24,8 @@
 enum lab_command {
   LAB_COMMAND_OPENING,      /* of the transducer, -1..1 */
   LAB_COMMAND_SET_PRESSURE, /* [Pa], to a transducer that regulates */
-  LAB_COMMAND_PRESSURE      /* chamber pressure [Pa] is the input */
+  LAB_COMMAND_PRESSURE,     /* chamber pressure [Pa] is the input */
+  LAB_COMMAND_SET_POSITION  /* [1] share of the stroke, to a positioner */
 };
 
 /* Channels over time, in SI; NaN is a gap. A channel that is not recorded is NULL. */
@@ -42,7 +44,8 @@ typedef struct lab_record {
   double noise_p;        /* standard deviations; NaN: estimate them from the record */
   double noise_x;
   double stroke;                  /* [m] rated travel */
-  double signal_low, signal_high; /* [Pa] pressures that balance the spring at both ends: the bench set */
+  double signal_low, signal_high; /* [Pa] pressures that balance the spring at both ends: the bench set; of a set
+                                     position 0 and 1 */
   double area;                    /* [m2] of the diaphragm */
   double supply;                  /* [Pa] gauge */
   double gas_constant;            /* [J/kg/K] */

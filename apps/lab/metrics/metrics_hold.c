@@ -1,4 +1,4 @@
-/* Levels of the command: what a step goes from and to. */
+/* Levels: of the command, which a step goes from and to, and at which a channel comes to rest. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -18,7 +18,7 @@ static size_t held_until(const double *u, size_t i, size_t end)
   return j;
 }
 
-static void commands_of_run(lab_measuring *m, int run)
+static void commands_of_run(lab_metrics_work *m, int run)
 {
   const lab_record *r = m->record;
   const size_t first = r->first[run], end = r->first[run + 1];
@@ -47,7 +47,7 @@ static double flat_level(const double *p, size_t i, size_t end, double band)
   return sum / FLAT;
 }
 
-static void pressures_of_run(lab_measuring *m, int run)
+static void pressures_of_run(lab_metrics_work *m, int run)
 {
   const lab_record *r = m->record;
   const double band = fmax(band_noise * m->noise_p, band_share * lab_span(r));
@@ -70,7 +70,7 @@ static void pressures_of_run(lab_measuring *m, int run)
 }
 
 /* Whether a level drifts by a good part of its step from or to a neighbour, as pieces of a ramp do. */
-static int drifts(const lab_measuring *m, size_t k)
+static int drifts(const lab_metrics_work *m, size_t k)
 {
   const lab_hold *hold = &m->hold[k], *other = k > 0 ? hold - 1 : hold + 1;
   const lab_part first = lab_part_mean(m->record, m->record->p, hold->begin, hold->end, 0);
@@ -79,7 +79,7 @@ static int drifts(const lab_measuring *m, size_t k)
 }
 
 /* Drop the pieces of ramps; what is left of the signal takes as long as they did. */
-static void drop_ramps(lab_measuring *m)
+static void drop_ramps(lab_metrics_work *m)
 {
   const double *t = m->record->t;
   size_t k, n = 0;
@@ -99,7 +99,7 @@ static void drop_ramps(lab_measuring *m)
   m->n_holds = n;
 }
 
-int lab_holds_find(lab_measuring *m, lab_error *error)
+int lab_holds_find(lab_metrics_work *m, lab_error *error)
 {
   const lab_record *r = m->record;
   const double *signal = r->command == LAB_COMMAND_PRESSURE ? r->p : r->u;
@@ -112,4 +112,36 @@ int lab_holds_find(lab_measuring *m, lab_error *error)
   if (r->command == LAB_COMMAND_PRESSURE)
     drop_ramps(m);
   return LAB_OK;
+}
+
+/* ---- Rest ---- */
+
+lab_part lab_part_mean(const lab_record *r, const double *value, size_t begin, size_t end, int k)
+{
+  const double from = r->t[begin], whole = r->t[end - 1] - from;
+  lab_part part = {0, 0};
+  size_t i;
+  for (i = begin; i < end; i++) {
+    const double share = whole > 0 ? (r->t[i] - from) / whole : 1;
+    if (isnan(value[i]) || (int)fmin(LAB_PARTS * share, LAB_PARTS - 1) != k)
+      continue;
+    part.mean += value[i];
+    part.n++;
+  }
+  part.mean = part.n ? part.mean / (double)part.n : (double)NAN;
+  return part;
+}
+
+lab_rest lab_rest_of(const lab_record *r, const double *value, size_t begin, size_t end, double noise)
+{
+  const lab_part before = lab_part_mean(r, value, begin, end, LAB_PARTS - 2);
+  const lab_part last = lab_part_mean(r, value, begin, end, LAB_PARTS - 1);
+  lab_rest rest = {(double)NAN, (double)NAN, (double)NAN};
+  if (last.n == 0 || before.n == 0)
+    return rest;
+  rest.level = last.mean;
+  rest.error = 2 * noise / sqrt((double)last.n);
+  noise *= LAB_SEEN * sqrt(1 / (double)before.n + 1 / (double)last.n);
+  rest.drift = fmax(fabs(last.mean - before.mean) - noise, 0);
+  return rest;
 }

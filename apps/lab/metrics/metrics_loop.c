@@ -4,20 +4,13 @@
 #include "metrics_private.h"
 
 enum { GRID = 201, SEARCH = 80 };
-static const double whole = 0.8;   /* of the stroke that a loop covers at least */
-static const double inside = 0.02; /* share of the stroke that counts as the stop, at either end */
-
+static const double whole = 0.8; /* of the stroke that a loop covers at least */
 /* Two neighbouring legs, and their positions over the signal that they share. */
 typedef struct loop {
   const lab_leg *up, *down;
   double low, high; /* signals between which every point of both is off the stops */
   double s[GRID], x_up[GRID], x_down[GRID];
 } loop;
-
-static double covered(const lab_path *path, const lab_leg *leg)
-{
-  return fabs(path->point[leg->end - 1].x - path->point[leg->begin].x);
-}
 
 /* Position of a leg at a signal: between the point at which the signal first gets there and the one before. */
 static double position_at(const lab_path *path, const lab_leg *leg, double s)
@@ -33,14 +26,13 @@ static double position_at(const lab_path *path, const lab_leg *leg, double s)
 }
 
 /* Narrow a range of signals to that of a leg's points off the stops. */
-static void narrow(const lab_measuring *m, const lab_leg *leg, loop *l)
+static void narrow(const lab_metrics_work *m, const lab_leg *leg, loop *l)
 {
-  const double stroke = m->record->stroke;
   double low = (double)INFINITY, high = -(double)INFINITY;
   size_t i;
   for (i = leg->begin; i < leg->end; i++) {
     const lab_point *at = &m->path.point[i];
-    if (at->x <= inside * stroke || at->x >= (1 - inside) * stroke)
+    if (!lab_is_off_stops(m, at->x))
       continue;
     low = fmin(low, at->s);
     high = fmax(high, at->s);
@@ -49,7 +41,7 @@ static void narrow(const lab_measuring *m, const lab_leg *leg, loop *l)
   l->high = fmin(l->high, high);
 }
 
-static void sample(const lab_measuring *m, loop *l)
+static void sample(const lab_metrics_work *m, loop *l)
 {
   const lab_path *path = &m->path;
   const lab_point *at = path->point;
@@ -76,7 +68,7 @@ static int find_loop(const lab_path *path, loop *l, double *cover, double *cover
   *cover = *cover_any = 0;
   for (k = 1; k < path->n_legs; k++) {
     const lab_leg *a = &path->leg[k - 1], *b = &path->leg[k];
-    const double both = fmin(covered(path, a), covered(path, b));
+    const double both = fmin(lab_leg_travel(path, a), lab_leg_travel(path, b));
     if (path->point[a->begin].run != path->point[b->begin].run || a->up == b->up)
       continue;
     *cover_any = fmax(*cover_any, both);
@@ -110,7 +102,7 @@ static double misfit(const loop *l, double slope, int *n)
 }
 
 /* Smallest misfit over the slope, which is convex in it: golden section.  Out: slope [m/Pa] */
-static double best_line(const lab_measuring *m, const loop *l, double *slope, int *n)
+static double best_line(const lab_metrics_work *m, const loop *l, double *slope, int *n)
 {
   const double golden = 0.6180339887498949, rated = m->record->stroke / lab_span(m->record);
   double a = 0, b = 4 * rated;
@@ -137,50 +129,50 @@ static double widest(const loop *l)
   return most;
 }
 
-static void report_hysteresis(lab_measuring *m, double both, double error, double gain)
+static void report_hysteresis(lab_metrics_work *m, double both, double error, double gain)
 {
   const lab_metric *band = &m->metrics->metric[LAB_METRIC_DEAD_BAND];
   if (isnan(band->value))
-    lab_metric_deny(m, LAB_METRIC_HYSTERESIS, "it takes the dead band, and there: %.150s", band->text);
+    lab_metric_absent(m, LAB_METRIC_HYSTERESIS, "it takes the dead band, and there: %.150s", band->text);
   else
-    lab_metric_give(m, LAB_METRIC_HYSTERESIS, fmax(both - gain * band->value, 0), error + gain * band->uncertainty,
-                    "%.3g %% less the dead band of %.3g %% times the gain %.3g", both, band->value, gain);
+    lab_metric_set(m, LAB_METRIC_HYSTERESIS, fmax(both - gain * band->value, 0), error + gain * band->uncertainty,
+                   "%.3g %% less the dead band of %.3g %% times the gain %.3g", both, band->value, gain);
 }
 
-static void report(lab_measuring *m, const loop *l, double cover)
+static void report(lab_metrics_work *m, const loop *l, double cover)
 {
   const double stroke = m->record->stroke, noise = m->path.held ? 0 : m->noise_x;
   const double both = 100 * widest(l) / stroke, error = 100 * (2 * noise + m->path.least) / stroke;
   double slope, straight;
   int n;
   straight = best_line(m, l, &slope, &n);
-  lab_metric_give(m, LAB_METRIC_HYSTERESIS_DEAD_BAND, both, error, "loop over %.3g %% of the travel, %s",
-                  100 * cover / stroke, m->path.held ? "from points at rest" : "run slowly");
+  lab_metric_set(m, LAB_METRIC_HYSTERESIS_DEAD_BAND, both, error, "loop over %.3g %% of the travel, %s",
+                 100 * cover / stroke, m->path.held ? "from points at rest" : "run slowly");
   if (n < GRID / 4) {
-    lab_metric_deny(m, LAB_METRIC_LINEARITY, "too little of the loop lies between the stops");
+    lab_metric_absent(m, LAB_METRIC_LINEARITY, "too little of the loop lies between the stops");
     slope = stroke / lab_span(m->record);
   } else
-    lab_metric_give(m, LAB_METRIC_LINEARITY, 100 * straight / stroke, error, "mean branch between the stops, gain %.3g",
-                    slope * lab_span(m->record) / stroke);
+    lab_metric_set(m, LAB_METRIC_LINEARITY, 100 * straight / stroke, error, "mean branch between the stops, gain %.3g",
+                   slope * lab_span(m->record) / stroke);
   report_hysteresis(m, both, error, slope * lab_span(m->record) / stroke);
 }
 
-static void deny(lab_measuring *m, double cover, double cover_any)
+static void deny(lab_metrics_work *m, double cover, double cover_any)
 {
   static const int of_loop[] = {LAB_METRIC_HYSTERESIS_DEAD_BAND, LAB_METRIC_HYSTERESIS, LAB_METRIC_LINEARITY};
   const double stroke = m->record->stroke;
   size_t i;
   for (i = 0; i < sizeof of_loop / sizeof *of_loop; i++)
     if (m->path.rejected)
-      lab_metric_deny(m, of_loop[i], "%s", m->path.rejected);
+      lab_metric_absent(m, of_loop[i], "%s", m->path.rejected);
     else if (cover_any >= whole * stroke)
-      lab_metric_deny(m, of_loop[i], "no slow loop: the stem moves faster than 5 %% of the travel a second");
+      lab_metric_absent(m, of_loop[i], "no slow loop: the stem moves faster than 5 %% of the travel a second");
     else
-      lab_metric_deny(m, of_loop[i], "no loop over most of the travel: the largest%s covers %.3g %%",
-                      cover > 0 ? " slow one" : "", 100 * fmax(cover, cover_any) / stroke);
+      lab_metric_absent(m, of_loop[i], "no loop over most of the travel: the largest%s covers %.3g %%",
+                        cover > 0 ? " slow one" : "", 100 * fmax(cover, cover_any) / stroke);
 }
 
-void lab_loop_measure(lab_measuring *m)
+void lab_loop_measure(lab_metrics_work *m)
 {
   double cover = 0, cover_any = 0;
   loop l;

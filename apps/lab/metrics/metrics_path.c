@@ -10,7 +10,6 @@ enum { POINTS = 2000, SLICES = 10, HELD_LEAST = 4 };
 static const double turn_noise = 6;      /* the signal has turned from so many standard deviations on */
 static const double turn_share = 0.0005; /* and from this share of its span on */
 static const double cycle_share = 0.05;  /* of the span: the same for legs of cycles */
-static const double inside = 0.02;       /* share of the stroke that counts as the stop, at either end */
 static const double rest_share = 0.001;  /* of the stroke and of the span: what still moves moves more */
 static const double slow = 0.05;         /* [1/s] strokes a second, up to which a leg is slow */
 
@@ -28,10 +27,15 @@ void lab_path_free(lab_path *path)
   memset(path, 0, sizeof *path);
 }
 
+double lab_leg_travel(const lab_path *path, const lab_leg *leg)
+{
+  return fabs(path->point[leg->end - 1].x - path->point[leg->begin].x);
+}
+
 /* ---- Points ---- */
 
 /* Points where the command holds and both signal and stem have come to rest.  Returns: how many are off the stops */
-static int add_held(const lab_measuring *m, const double *signal, double noise, lab_path *path)
+static int add_held(const lab_metrics_work *m, const double *signal, double noise, lab_path *path)
 {
   const lab_record *r = m->record;
   int off = 0;
@@ -48,7 +52,7 @@ static int add_held(const lab_measuring *m, const double *signal, double noise, 
     at->run = hold->run;
     at->t = r->t[hold->end - 1];
     path->n++;
-    off += at->x > inside * r->stroke && at->x < (1 - inside) * r->stroke;
+    off += lab_is_off_stops(m, at->x);
   }
   return off;
 }
@@ -132,30 +136,29 @@ static double leg_speed(const lab_path *path, const lab_leg *leg)
   return lab_median(speed, SLICES);
 }
 
-static void judge_legs(const lab_measuring *m, lab_path *path)
+static void judge_legs(const lab_metrics_work *m, lab_path *path)
 {
   size_t k;
   for (k = 0; k < path->n_legs; k++) {
-    const lab_leg *leg = &path->leg[k];
-    const double travel = fabs(path->point[leg->end - 1].x - path->point[leg->begin].x);
-    path->leg[k].slow = path->held || travel < m->least || leg_speed(path, leg) <= slow * m->record->stroke;
+    lab_leg *leg = &path->leg[k];
+    leg->slow = path->held || lab_leg_travel(path, leg) < m->least || leg_speed(path, leg) <= slow * m->record->stroke;
   }
 }
 
 /* ---- Both paths ---- */
 
 /* As many rows as it takes to see a small movement through the noise, if there are so many. */
-static size_t rows_a_point(const lab_measuring *m)
+static size_t rows_a_point(const lab_metrics_work *m)
 {
   const double needed = m->least / (rest_share * m->record->stroke);
   return (size_t)fmin(fmax(ceil(needed * needed), 1), 1 + (double)(m->record->n / POINTS));
 }
 
 /* Static points of one kind or the other. */
-static void choose_points(const lab_measuring *m, lab_path *path)
+static void choose_points(const lab_metrics_work *m, lab_path *path)
 {
   const lab_record *r = m->record;
-  const int set = r->command == LAB_COMMAND_SET_PRESSURE;
+  const int set = lab_command_is_set(r->command);
   const double *signal = set ? r->u : r->p;
   const size_t each = rows_a_point(m);
   const double noise = set ? 0 : m->noise_p;
@@ -167,7 +170,9 @@ static void choose_points(const lab_measuring *m, lab_path *path)
   path->n = 0;
   path->held = 0;
   if (set) {
-    path->rejected = "the set pressure has no staircase at whose levels the stem comes to rest";
+    path->rejected = r->command == LAB_COMMAND_SET_PRESSURE
+                         ? "the set pressure has no staircase at whose levels the stem comes to rest"
+                         : "the set position has no staircase at whose levels the stem comes to rest";
     return;
   }
   add_rows(r, signal, each, path);
@@ -175,12 +180,12 @@ static void choose_points(const lab_measuring *m, lab_path *path)
   path->least = fmax(m->least / sqrt((double)each), rest_share * r->stroke);
 }
 
-int lab_path_find(lab_measuring *m, lab_error *error)
+int lab_path_find(lab_metrics_work *m, lab_error *error)
 {
   const lab_record *r = m->record;
   if (!(lab_span(r) > 0))
     m->path.rejected = "the bench set, the span of the signal, is not known";
-  else if (!r->p && r->command != LAB_COMMAND_SET_PRESSURE)
+  else if (!r->p && !lab_command_is_set(r->command))
     m->path.rejected = "the record has no chamber pressure, which is the signal of a bare actuator";
   if (open_path(&m->path, r->n, error) || open_path(&m->rows, r->n, error))
     return error->status;

@@ -40,7 +40,7 @@ typedef struct lab_path {
   const char *rejected; /* why there are no points; NULL if there are some */
 } lab_path;
 
-typedef struct lab_measuring {
+typedef struct lab_metrics_work {
   const lab_record *record;
   lab_metrics *metrics;
   double noise_p, noise_x;
@@ -51,7 +51,7 @@ typedef struct lab_measuring {
   size_t n_steps;
   lab_path path; /* of static points */
   lab_path rows; /* every row as a point of pressure and position */
-} lab_measuring;
+} lab_metrics_work;
 
 /* Mean of a part of some rows. */
 typedef struct lab_part {
@@ -65,10 +65,20 @@ enum {
 };
 
 /* Set a figure. */
-void lab_metric_give(lab_measuring *m, int metric, double value, double uncertainty, const char *format, ...)
+void lab_metric_set(lab_metrics_work *m, int metric, double value, double uncertainty, const char *format, ...)
     LAB_PRINTF(5, 6);
 /* Say why there is none. */
-void lab_metric_deny(lab_measuring *m, int metric, const char *format, ...) LAB_PRINTF(3, 4);
+void lab_metric_absent(lab_metrics_work *m, int metric, const char *format, ...) LAB_PRINTF(3, 4);
+void lab_metrics_absent(lab_metrics_work *m, int first, int last, const char *reason);
+
+/* Of the rated travel, from which on a stroke is a full one. */
+#define LAB_FULL_STROKE 0.9
+
+/* Whether a position [m] is well off both stops. */
+int lab_is_off_stops(const lab_metrics_work *m, double x);
+
+/* How far apart the ends of a leg are [m]. */
+double lab_leg_travel(const lab_path *path, const lab_leg *leg);
 
 /* Mean of the finite values over the k-th of the parts of equal time of rows begin..end. */
 lab_part lab_part_mean(const lab_record *r, const double *value, size_t begin, size_t end, int k);
@@ -82,22 +92,25 @@ typedef struct lab_rest {
 
 lab_rest lab_rest_of(const lab_record *r, const double *value, size_t begin, size_t end, double noise);
 
-int lab_holds_find(lab_measuring *m, lab_error *error);    /* levels of the command */
-int lab_steps_measure(lab_measuring *m, lab_error *error); /* responses to steps */
-int lab_steps_report(lab_measuring *m, lab_error *error);  /* their figures */
-int lab_strokes_measure(lab_measuring *m, lab_error *error);
-int lab_path_find(lab_measuring *m, lab_error *error); /* static points, and rows */
-void lab_staircase_measure(lab_measuring *m);          /* dead band, resolution */
-void lab_loop_measure(lab_measuring *m);               /* hysteresis, linearity; after the staircase */
-void lab_energy_measure(lab_measuring *m);
+int lab_holds_find(lab_metrics_work *m, lab_error *error);    /* levels of the command */
+int lab_steps_measure(lab_metrics_work *m, lab_error *error); /* responses to steps */
+int lab_steps_report(lab_metrics_work *m, lab_error *error);  /* their figures */
+int lab_strokes_measure(lab_metrics_work *m, lab_error *error);
+int lab_path_find(lab_metrics_work *m, lab_error *error); /* static points, and rows */
+void lab_staircase_measure(lab_metrics_work *m);          /* dead band, resolution */
+void lab_loop_measure(lab_metrics_work *m);               /* hysteresis, linearity; after the staircase */
+void lab_energy_measure(lab_metrics_work *m);
 
 /* Say what figures of steps in one direction are missing for. */
-void lab_steps_deny(lab_measuring *m, int metric, int up);
+void lab_steps_deny(lab_metrics_work *m, int metric, int up);
 
 /* Free a path's memory. */
 void lab_path_free(lab_path *path);
 
 /* What the static figures set position against, and its span [Pa]. */
 double lab_span(const lab_record *r);
+
+/* Whether a command (enum lab_command) is a set value, against which the static figures are taken. */
+int lab_command_is_set(int command);
 
 #endif

@@ -2,10 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../base/format.h"
 #include "metrics_private.h"
 
 enum { GAPS = 512 };
-static const double inside = 0.02;      /* share of the stroke that counts as the stop, at either end */
 static const double moved_share = 0.01; /* of the stroke: a leg that moves less says nothing of what comes after it */
 static const double coarse = 0.1;       /* of the span: a dead band that is not known better is not known */
 static const double small_steps = 1.5;  /* times the smallest step of a staircase, up to which steps count as small */
@@ -22,11 +22,6 @@ typedef struct gaps {
   int n;
 } gaps;
 
-static int off_stops(const lab_measuring *m, double x)
-{
-  return x > inside * m->record->stroke && x < (1 - inside) * m->record->stroke;
-}
-
 /* First point of a leg after `from` at which the stem has visibly moved on from x; leg->end if none. */
 static size_t first_move(const lab_path *path, const lab_leg *leg, size_t from, double x)
 {
@@ -38,7 +33,7 @@ static size_t first_move(const lab_path *path, const lab_leg *leg, size_t from, 
 }
 
 /* It moved at some signal between the points before and at i: half way, give or take. */
-static void add_gap(const lab_measuring *m, gaps *g, double from, size_t i, int single)
+static void add_gap(const lab_metrics_work *m, gaps *g, double from, size_t i, int single)
 {
   const lab_path *path = &m->path;
   const double now = path->point[i].s, before = path->point[i - 1].s, last = fabs(now - before);
@@ -47,7 +42,7 @@ static void add_gap(const lab_measuring *m, gaps *g, double from, size_t i, int 
 }
 
 /* What moving by what can be seen takes, where nothing sticks. */
-static double seen(const lab_measuring *m)
+static double seen(const lab_metrics_work *m)
 {
   return m->path.least / m->record->stroke * lab_span(m->record);
 }
@@ -84,26 +79,35 @@ static void keep_smallest(const lab_path *path, gaps *g)
   g->n = n;
 }
 
-/* Set a figure to the median, over the span. */
-static void give_median(lab_measuring *m, int metric, const gaps *g, double error, const char *of)
+/* How a static signal is written: a set position is a share of the stroke. */
+static lab_format written(const lab_metrics_work *m)
 {
-  const double span = lab_span(m->record);
-  lab_metric_give(m, metric, 100 * g->gap[g->n / 2].size / span, 100 * error / span,
-                  "median of %d %s: %.3g to %.3g kPa of a span of %.4g kPa", g->n, of, g->gap[0].size / 1e3,
-                  g->gap[g->n - 1].size / 1e3, span / 1e3);
+  return m->record->command == LAB_COMMAND_SET_POSITION ? (lab_format){100, "%"} : lab_format_as("Pa");
 }
 
-/* Set a figure that is at most `size` [Pa]. */
-static void give_bound(lab_measuring *m, int metric, double size, const char *words)
+/* Set a figure to the median, over the span. */
+static void give_median(lab_metrics_work *m, int metric, const gaps *g, double error, const char *of)
 {
   const double span = lab_span(m->record);
-  lab_metric_give(m, metric, 100 * size / span, 0, "%.3g kPa of %.4g kPa %s", size / 1e3, span / 1e3, words);
+  const lab_format as = written(m);
+  lab_metric_set(m, metric, 100 * g->gap[g->n / 2].size / span, 100 * error / span,
+                 "median of %d %s: %.3g to %.3g %s of a span of %.4g %s", g->n, of, as.scale * g->gap[0].size,
+                 as.scale * g->gap[g->n - 1].size, as.unit, as.scale * span, as.unit);
+}
+
+/* Set a figure that is at most `size` of the signal. */
+static void give_bound(lab_metrics_work *m, int metric, double size, const char *words)
+{
+  const double span = lab_span(m->record);
+  const lab_format as = written(m);
+  lab_metric_set(m, metric, 100 * size / span, 0, "%.3g %s of %.4g %s %s", as.scale * size, as.unit, as.scale * span,
+                 as.unit, words);
   m->metrics->metric[metric].at_most = 1;
 }
 
 /* ---- Dead band ---- */
 
-static void collect_turns(const lab_measuring *m, gaps *g, int *fast, int *at_stop)
+static void collect_turns(const lab_metrics_work *m, gaps *g, int *fast, int *at_stop)
 {
   const lab_path *path = &m->path;
   size_t k;
@@ -114,7 +118,7 @@ static void collect_turns(const lab_measuring *m, gaps *g, int *fast, int *at_st
     size_t i;
     if (path->point[before->begin].run != turn->run)
       continue;
-    if (!off_stops(m, turn->x)) {
+    if (!lab_is_off_stops(m, turn->x)) {
       ++*at_stop;
       continue;
     }
@@ -128,7 +132,7 @@ static void collect_turns(const lab_measuring *m, gaps *g, int *fast, int *at_st
   }
 }
 
-static void report_dead_band(lab_measuring *m)
+static void report_dead_band(lab_metrics_work *m)
 {
   const char *signal = lab_metrics_static_signal(m->record->command);
   gaps g = {.n = 0};
@@ -136,19 +140,19 @@ static void report_dead_band(lab_measuring *m)
   double error;
   collect_turns(m, &g, &fast, &at_stop);
   if (g.n == 0 && fast > 0)
-    lab_metric_deny(m, LAB_METRIC_DEAD_BAND,
-                    "the stem passes all %d turns of the %s faster than 5 %% of the travel a second", fast, signal);
+    lab_metric_absent(m, LAB_METRIC_DEAD_BAND,
+                      "the stem passes all %d turns of the %s faster than 5 %% of the travel a second", fast, signal);
   else if (g.n == 0)
-    lab_metric_deny(m, LAB_METRIC_DEAD_BAND, "the %s does not turn between the stops, between movements both ways%s",
-                    signal, at_stop ? "; on a stop it does" : "");
+    lab_metric_absent(m, LAB_METRIC_DEAD_BAND, "the %s does not turn between the stops, between movements both ways%s",
+                      signal, at_stop ? "; on a stop it does" : "");
   if (g.n == 0)
     return;
   keep_smallest(&m->path, &g);
   error = sort_gaps(&g) + seen(m);
   if (error > coarse * lab_span(m->record))
-    lab_metric_deny(m, LAB_METRIC_DEAD_BAND,
-                    "the %s runs through the dead band between rows: these tell it within %.3g kPa either way", signal,
-                    error / 1e3);
+    lab_metric_absent(m, LAB_METRIC_DEAD_BAND,
+                      "the %s runs through the dead band between rows: these tell it within %.3g %s either way", signal,
+                      written(m).scale * error, written(m).unit);
   else if (g.gap[g.n / 2].size > error)
     give_median(m, LAB_METRIC_DEAD_BAND, &g, error, g.n == 1 ? "turn" : "turns");
   else
@@ -158,13 +162,13 @@ static void report_dead_band(lab_measuring *m)
 /* ---- Resolution ---- */
 
 /* Movements that follow the first one of a leg, in its direction. */
-static void collect_moves(const lab_measuring *m, const lab_leg *leg, gaps *g)
+static void collect_moves(const lab_metrics_work *m, const lab_leg *leg, gaps *g)
 {
   const lab_path *path = &m->path;
   size_t at = first_move(path, leg, leg->begin, path->point[leg->begin].x), next;
   for (; at < leg->end; at = next) {
     next = first_move(path, leg, at, path->point[at].x);
-    if (next == leg->end || !off_stops(m, path->point[at].x) || !off_stops(m, path->point[next].x))
+    if (next == leg->end || !lab_is_off_stops(m, path->point[at].x) || !lab_is_off_stops(m, path->point[next].x))
       continue;
     add_gap(m, g, path->point[at].s, next,
             next == at + 1 || fabs(path->point[next].s - path->point[at].s) <= 2 * seen(m));
@@ -172,7 +176,7 @@ static void collect_moves(const lab_measuring *m, const lab_leg *leg, gaps *g)
 }
 
 /* Where most of the smallest changes moved the stem, they are all that is known. */
-static void give_resolution(lab_measuring *m, gaps *g)
+static void give_resolution(lab_metrics_work *m, gaps *g)
 {
   const double error = sort_gaps(g);
   const gap *median = &g->gap[g->n / 2];
@@ -187,7 +191,7 @@ static void give_resolution(lab_measuring *m, gaps *g)
              "move the stem; smaller changes were not tried, or cannot be seen");
 }
 
-static void report_resolution(lab_measuring *m)
+static void report_resolution(lab_metrics_work *m)
 {
   const char *signal = lab_metrics_static_signal(m->record->command);
   gaps g = {.n = 0};
@@ -202,18 +206,17 @@ static void report_resolution(lab_measuring *m)
   if (g.n > 0)
     give_resolution(m, &g);
   else if (fast > 0)
-    lab_metric_deny(m, LAB_METRIC_RESOLUTION,
-                    "the %s changes slowly nowhere: the stem is faster than 5 %% of the travel a second", signal);
+    lab_metric_absent(m, LAB_METRIC_RESOLUTION,
+                      "the %s changes slowly nowhere: the stem is faster than 5 %% of the travel a second", signal);
   else
-    lab_metric_deny(m, LAB_METRIC_RESOLUTION,
-                    "the %s does not move the stem twice in the same direction between the stops", signal);
+    lab_metric_absent(m, LAB_METRIC_RESOLUTION,
+                      "the %s does not move the stem twice in the same direction between the stops", signal);
 }
 
-void lab_staircase_measure(lab_measuring *m)
+void lab_staircase_measure(lab_metrics_work *m)
 {
   if (m->path.rejected) {
-    lab_metric_deny(m, LAB_METRIC_DEAD_BAND, "%s", m->path.rejected);
-    lab_metric_deny(m, LAB_METRIC_RESOLUTION, "%s", m->path.rejected);
+    lab_metrics_absent(m, LAB_METRIC_DEAD_BAND, LAB_METRIC_RESOLUTION, m->path.rejected);
     return;
   }
   report_dead_band(m);

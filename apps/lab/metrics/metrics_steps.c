@@ -163,7 +163,7 @@ static void measure_times(const stepping *s, lab_step_response *step)
 }
 
 /* Whether a step can be measured. */
-static int judge(const lab_measuring *m, const lab_hold *hold, const lab_rest *before, const lab_rest *after)
+static int judge(const lab_metrics_work *m, const lab_hold *hold, const lab_rest *before, const lab_rest *after)
 {
   const double *t = m->record->t, change = fabs(after->level - before->level);
   const double least = size_share * m->record->stroke, allowed = fmax(least / 4, rest_share * change);
@@ -178,7 +178,7 @@ static int judge(const lab_measuring *m, const lab_hold *hold, const lab_rest *b
   return change < fmax(size_noise * m->noise_x, least) ? LAB_STEP_TOO_SMALL : LAB_STEP_GOOD;
 }
 
-static void measure_step(const lab_measuring *m, const lab_hold *from, const lab_hold *hold, lab_step_response *step)
+static void measure_step(const lab_metrics_work *m, const lab_hold *from, const lab_hold *hold, lab_step_response *step)
 {
   const lab_record *r = m->record;
   const lab_rest before = lab_rest_of(r, r->x, from->begin, from->end, m->noise_x);
@@ -200,7 +200,7 @@ static void measure_step(const lab_measuring *m, const lab_hold *from, const lab
   measure_times(&s, step);
 }
 
-int lab_steps_measure(lab_measuring *m, lab_error *error)
+int lab_steps_measure(lab_metrics_work *m, lab_error *error)
 {
   size_t k;
   m->step = calloc(m->n_holds + 1, sizeof *m->step);
@@ -221,7 +221,7 @@ static int goes_up(const lab_step_response *step)
   return step->to > step->from;
 }
 
-void lab_steps_deny(lab_measuring *m, int metric, int up)
+void lab_steps_deny(lab_metrics_work *m, int metric, int up)
 {
   static const char *const fate[] = {NULL,
                                      "with a signal that takes its time",
@@ -243,11 +243,11 @@ void lab_steps_deny(lab_measuring *m, int metric, int up)
       snprintf(words + used, sizeof words - used, "%s%d %s", used ? ", " : "", count[i], fate[i]);
   }
   if (all)
-    lab_metric_deny(m, metric, "no step %s of the %s can be used: %.120s", up ? "up" : "down",
-                    lab_metrics_step_signal(m->record->command), words);
+    lab_metric_absent(m, metric, "no step %s of the %s can be used: %.120s", up ? "up" : "down",
+                      lab_metrics_step_signal(m->record->command), words);
   else
-    lab_metric_deny(m, metric, "the record has no step %s of the %s", up ? "up" : "down",
-                    lab_metrics_step_signal(m->record->command));
+    lab_metric_absent(m, metric, "the record has no step %s of the %s", up ? "up" : "down",
+                      lab_metrics_step_signal(m->record->command));
 }
 
 static double change_of(const lab_step_response *step)
@@ -278,7 +278,7 @@ static double field(const lab_step_response *step, size_t offset)
 
 /* The large steps of a direction: the largest change, and how many come near it.
  * Out:     least, largest  [m] */
-static int large_steps(const lab_measuring *m, int up, double *least, double *largest)
+static int large_steps(const lab_metrics_work *m, int up, double *least, double *largest)
 {
   int n = 0;
   size_t i;
@@ -295,7 +295,7 @@ static int large_steps(const lab_measuring *m, int up, double *least, double *la
   return n;
 }
 
-static void report_figure(lab_measuring *m, const figure *f, int up, double *value)
+static void report_figure(lab_metrics_work *m, const figure *f, int up, double *value)
 {
   const int metric = up ? f->up : f->down;
   const double stroke = m->record->stroke;
@@ -313,20 +313,20 @@ static void report_figure(lab_measuring *m, const figure *f, int up, double *val
       error = fmax(error, field(&m->step[i], f->error));
     }
   if (n == 0) {
-    lab_metric_deny(m, metric, "noise hides when the stem comes to stay within 2 %% of the change");
+    lab_metric_absent(m, metric, "noise hides when the stem comes to stay within 2 %% of the change");
     return;
   }
   lab_sort(value, (size_t)n);
   if (n > 1)
-    lab_metric_give(m, metric, value[n / 2], fmax(error, (value[n - 1] - value[0]) / 2),
-                    "median of %d steps %s of %.3g to %.3g %% of travel", n, up ? "up" : "down", 100 * least / stroke,
-                    100 * largest / stroke);
+    lab_metric_set(m, metric, value[n / 2], fmax(error, (value[n - 1] - value[0]) / 2),
+                   "median of %d steps %s of %.3g to %.3g %% of travel", n, up ? "up" : "down", 100 * least / stroke,
+                   100 * largest / stroke);
   else
-    lab_metric_give(m, metric, value[0], error, "one step %s of %.3g %% of travel", up ? "up" : "down",
-                    100 * largest / stroke);
+    lab_metric_set(m, metric, value[0], error, "one step %s of %.3g %% of travel", up ? "up" : "down",
+                   100 * largest / stroke);
 }
 
-int lab_steps_report(lab_measuring *m, lab_error *error)
+int lab_steps_report(lab_metrics_work *m, lab_error *error)
 {
   double *value = malloc((m->n_steps + 1) * sizeof *value);
   size_t i;

@@ -5,10 +5,8 @@
 #include "asymmetry.h"
 #include "metrics_private.h"
 
-static const double full = 0.9; /* of the rated travel, from which on a stroke is a full one */
-
 /* The first full stroke up or down, NULL where there is none; with the largest change of any step that way. */
-static const lab_step_response *full_stroke(const lab_measuring *m, int up, double *largest)
+static const lab_step_response *full_stroke(const lab_metrics_work *m, int up, double *largest)
 {
   const lab_step_response *found = NULL;
   size_t i;
@@ -19,13 +17,13 @@ static const lab_step_response *full_stroke(const lab_measuring *m, int up, doub
     if (step->fate != LAB_STEP_GOOD)
       continue;
     *largest = fmax(*largest, change);
-    if (!found && change >= full * m->record->stroke)
+    if (!found && change >= LAB_FULL_STROKE * m->record->stroke)
       found = step;
   }
   return found;
 }
 
-static const lab_hold *hold_of(const lab_measuring *m, const lab_step_response *step)
+static const lab_hold *hold_of(const lab_metrics_work *m, const lab_step_response *step)
 {
   size_t k;
   for (k = 0; k + 1 < m->n_holds && m->hold[k].t < step->t; k++)
@@ -33,22 +31,22 @@ static const lab_hold *hold_of(const lab_measuring *m, const lab_step_response *
   return &m->hold[k];
 }
 
-static void deny(lab_measuring *m, int metric, int up, double largest)
+static void deny(lab_metrics_work *m, int metric, int up, double largest)
 {
   if (largest > 0)
-    lab_metric_deny(m, metric, "no full stroke %s: the largest step covers %.3g %% of the travel", up ? "up" : "down",
-                    100 * largest / m->record->stroke);
+    lab_metric_absent(m, metric, "no full stroke %s: the largest step covers %.3g %% of the travel", up ? "up" : "down",
+                      100 * largest / m->record->stroke);
   else
     lab_steps_deny(m, metric, up);
 }
 
-static void report_time(lab_measuring *m, int metric, int up, const lab_step_response *step, double largest)
+static void report_time(lab_metrics_work *m, int metric, int up, const lab_step_response *step, double largest)
 {
   if (!step)
     deny(m, metric, up, largest);
   else
-    lab_metric_give(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s",
-                    up ? "up" : "down", step->t);
+    lab_metric_set(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s", up ? "up" : "down",
+                   step->t);
 }
 
 /* The samples of a stroke, its rest before and after as one sample each.
@@ -68,7 +66,7 @@ static size_t samples(const lab_record *r, const lab_step_response *step, const 
   return n;
 }
 
-static int report_shape(lab_measuring *m, const lab_edge *up, const lab_edge *down, const lab_step_response *rise,
+static int report_shape(lab_metrics_work *m, const lab_edge *up, const lab_edge *down, const lab_step_response *rise,
                         lab_error *error)
 {
   const double noise = m->noise_x / fabs(rise->x_to - rise->x_from);
@@ -77,17 +75,17 @@ static int report_shape(lab_measuring *m, const lab_edge *up, const lab_edge *do
   if (lab_asymmetry_measure(up, down, &a, error))
     return error->status;
   spacing = (up->t[up->n - 1] - up->t[0]) / (double)(up->n - 1);
-  lab_metric_give(m, LAB_METRIC_DURATION_RATIO, a.duration_ratio,
-                  a.duration_ratio * (spacing / a.rise_time + spacing / a.fall_time + 4 * noise),
-                  "rise %.4g s, fall %.4g s from 5 %% to 95 %% of travel", a.rise_time, a.fall_time);
+  lab_metric_set(m, LAB_METRIC_DURATION_RATIO, a.duration_ratio,
+                 a.duration_ratio * (spacing / a.rise_time + spacing / a.fall_time + 4 * noise),
+                 "rise %.4g s, fall %.4g s from 5 %% to 95 %% of travel", a.rise_time, a.fall_time);
   /* |noise| of the difference of two curves: sqrt(2) sqrt(2/pi) */
-  lab_metric_give(m, LAB_METRIC_ASYMMETRY, a.asymmetry,
-                  1.13 * noise / 0.9 + spacing / a.rise_time + spacing / a.fall_time,
-                  "first full stroke up and first full stroke down");
+  lab_metric_set(m, LAB_METRIC_ASYMMETRY, a.asymmetry,
+                 1.13 * noise / 0.9 + spacing / a.rise_time + spacing / a.fall_time,
+                 "first full stroke up and first full stroke down");
   return LAB_OK;
 }
 
-static int compare(lab_measuring *m, const lab_step_response *rise, const lab_step_response *fall, lab_error *error)
+static int compare(lab_metrics_work *m, const lab_step_response *rise, const lab_step_response *fall, lab_error *error)
 {
   const lab_hold *up = hold_of(m, rise), *down = hold_of(m, fall);
   const size_t n_up = up->end - up->begin + 2, n_down = down->end - down->begin + 2;
@@ -104,7 +102,7 @@ static int compare(lab_measuring *m, const lab_step_response *rise, const lab_st
   return status;
 }
 
-int lab_strokes_measure(lab_measuring *m, lab_error *error)
+int lab_strokes_measure(lab_metrics_work *m, lab_error *error)
 {
   double most_up, most_down;
   const lab_step_response *rise = full_stroke(m, 1, &most_up), *fall = full_stroke(m, 0, &most_down);

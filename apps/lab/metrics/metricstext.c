@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-#include "../base/shown.h"
+#include "../base/format.h"
+#include "../base/json.h"
 
 static const char *const fates[] = {"",
                                     "the signal takes its time",
@@ -15,9 +16,9 @@ static const char *const fates[] = {"",
 
 const char *lab_metric_value(const lab_metric *metric, char text[LAB_METRIC_SHOWN])
 {
-  char number[LAB_SHOWN_TEXT];
+  char number[LAB_FORMAT_TEXT];
   snprintf(text, LAB_METRIC_SHOWN, "%s%s", metric->at_most && isfinite(metric->value) ? "<= " : "",
-           lab_shown_number(metric->value, 4, number));
+           lab_format_number(metric->value, 4, number));
   return text;
 }
 
@@ -28,10 +29,10 @@ static void print_figures(FILE *file, const lab_metrics *metrics)
   for (i = 0; i < LAB_METRIC_COUNT; i++) {
     const lab_metric *metric = &metrics->metric[i];
     const lab_metric_info *info = &lab_metric_infos[i];
-    char value[LAB_METRIC_SHOWN], error[LAB_SHOWN_TEXT];
+    char value[LAB_METRIC_SHOWN], error[LAB_FORMAT_TEXT];
     fprintf(file, "%-21s %10s %9s %-4s %-39s %s\n", info->key, lab_metric_value(metric, value),
-            lab_shown_number(metric->at_most ? (double)NAN : metric->uncertainty, 2, error), info->unit, info->standard,
-            metric->text);
+            lab_format_number(metric->at_most ? (double)NAN : metric->uncertainty, 2, error), info->unit,
+            info->standard, metric->text);
   }
 }
 
@@ -42,7 +43,8 @@ static int kept(const lab_metrics *metrics)
 
 static void print_step(FILE *file, const lab_metrics *metrics, const lab_step_response *step)
 {
-  const double scale = metrics->command == LAB_COMMAND_OPENING ? 1 : 1e-3;
+  const double scale =
+      metrics->command == LAB_COMMAND_OPENING || metrics->command == LAB_COMMAND_SET_POSITION ? 1 : 1e-3;
   fprintf(file, "%9.6g %9.6g %9.6g %9.5g %9.5g ", step->t, scale * step->from, scale * step->to, 1e3 * step->x_from,
           1e3 * step->x_to);
   if (step->fate == LAB_STEP_GOOD)
@@ -70,14 +72,6 @@ void lab_metrics_print(FILE *file, const lab_metrics *metrics)
 
 /* ---- For programs ---- */
 
-static void add_number(cJSON *to, const char *name, double value)
-{
-  if (isfinite(value))
-    cJSON_AddNumberToObject(to, name, value);
-  else
-    cJSON_AddNullToObject(to, name);
-}
-
 cJSON *lab_metrics_object(const lab_metrics *metrics)
 {
   cJSON *all = cJSON_CreateObject();
@@ -86,13 +80,13 @@ cJSON *lab_metrics_object(const lab_metrics *metrics)
     const lab_metric *metric = &metrics->metric[i];
     const lab_metric_info *info = &lab_metric_infos[i];
     cJSON *o = cJSON_AddObjectToObject(all, info->key);
-    add_number(o, "value", metric->value);
+    cJSON_AddNumberToObject(o, "value", metric->value);
     cJSON_AddStringToObject(o, "unit", info->unit);
     if (isnan(metric->value)) {
       cJSON_AddStringToObject(o, "reason", metric->text);
       continue;
     }
-    add_number(o, "uncertainty", metric->uncertainty);
+    cJSON_AddNumberToObject(o, "uncertainty", metric->uncertainty);
     cJSON_AddBoolToObject(o, "at_most", metric->at_most);
     cJSON_AddStringToObject(o, "standard", info->standard);
     cJSON_AddStringToObject(o, "basis", metric->text);
@@ -102,18 +96,18 @@ cJSON *lab_metrics_object(const lab_metrics *metrics)
 
 static void add_step(cJSON *list, const lab_step_response *step)
 {
-  cJSON *o = cJSON_CreateObject();
-  cJSON_AddItemToArray(list, o);
-  add_number(o, "t", step->t);
-  add_number(o, "from", step->from);
-  add_number(o, "to", step->to);
-  add_number(o, "x_from", step->x_from);
-  add_number(o, "x_to", step->x_to);
-  add_number(o, "dead_time", step->dead_time);
-  add_number(o, "t63", step->t63);
-  add_number(o, "t86", step->t86);
-  add_number(o, "settling_time", step->settling_time);
-  add_number(o, "overshoot", step->overshoot);
+  cJSON *o = lab_json_append(list);
+  lab_json_numbers(o, (const lab_json_named[]){{"t", step->t},
+                                               {"from", step->from},
+                                               {"to", step->to},
+                                               {"x_from", step->x_from},
+                                               {"x_to", step->x_to},
+                                               {"dead_time", step->dead_time},
+                                               {"t63", step->t63},
+                                               {"t86", step->t86},
+                                               {"settling_time", step->settling_time},
+                                               {"overshoot", step->overshoot},
+                                               {NULL, 0}});
   if (step->fate != LAB_STEP_GOOD)
     cJSON_AddStringToObject(o, "reason", fates[step->fate]);
 }
@@ -121,7 +115,6 @@ static void add_step(cJSON *list, const lab_step_response *step)
 int lab_metrics_json(FILE *file, const lab_metrics *metrics, lab_error *error)
 {
   cJSON *root = cJSON_CreateObject(), *list;
-  char *text;
   int i;
   cJSON_AddStringToObject(root, "step_signal", lab_metrics_step_signal(metrics->command));
   cJSON_AddStringToObject(root, "static_signal", lab_metrics_static_signal(metrics->command));
@@ -129,11 +122,5 @@ int lab_metrics_json(FILE *file, const lab_metrics *metrics, lab_error *error)
   list = cJSON_AddArrayToObject(root, "steps");
   for (i = 0; i < kept(metrics); i++)
     add_step(list, &metrics->step[i]);
-  text = cJSON_Print(root);
-  cJSON_Delete(root);
-  if (!text)
-    return lab_fail_memory(error, "figures of merit");
-  fprintf(file, "%s\n", text);
-  cJSON_free(text);
-  return LAB_OK;
+  return lab_json_write(file, root, "figures of merit", error);
 }

@@ -1,44 +1,50 @@
 #include "answer.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-#include "advise.h"
-#include "answer_judge.h"
 #include "../base/clock.h"
-#include "../metrics/appraise.h"
-#include "../trace/second_look.h"
+#include "../fit/weights.h"
+#include "../metrics/recording.h"
+#include "../trace/search.h"
 
-static void tell(const lab_question *q, const char *what)
+static void on_progress(const lab_request *q, const char *what)
 {
-  if (q->tell)
-    q->tell(q->context, what);
+  if (q->on_progress)
+    q->on_progress(q->context, what);
 }
 
 /* ---- Reading ---- */
 
-static int read_held_out(const lab_question *q, lab_answer *a, lab_error *error)
+static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
 {
   int i;
   a->rig_held = a->rig;
+  a->held.is_whole = 1;
   lab_log_format_hold_out(&a->rig_held.log);
   for (i = 0; i < q->n_holdout; i++)
-    if (lab_bench_add(&a->held, &a->rig_held, q->holdout[i], error))
+    if (lab_logs_add(&a->held, &a->rig_held, q->holdout[i], error))
       return error->status;
-  lab_remarks_join(&a->fitted.remarks, &a->held.remarks);
+  lab_limitations_join(&a->now.logs.limitations, &a->held.limitations);
   return LAB_OK;
 }
 
 /* Read every log before any fit, so that a bad one costs no waiting. */
-static int read_files(const lab_question *q, lab_answer *a, lab_error *error)
+static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
 {
   int i;
-  tell(q, "reading");
+  on_progress(q, "reading");
   if (lab_rig_read(q->rig, &a->rig, error))
     return error->status;
   for (i = 0; i < q->n_logs; i++)
-    if (lab_bench_add(&a->fitted, &a->rig, q->log[i], error))
+    if (lab_logs_add(&a->now.logs, &a->rig, q->log[i], error))
       return error->status;
-  if (lab_plausible_content(&a->rig, &a->fitted.content, &a->fitted.remarks, error))
+  for (i = 0; i < q->n_baseline; i++)
+    if (lab_logs_add(&a->then.logs, &a->rig, q->baseline[i], error))
+      return error->status;
+  if (lab_plausible_content(&a->rig, &a->now.logs.content, &a->now.logs.limitations, error) ||
+      (q->n_baseline && lab_plausible_content(&a->rig, &a->then.logs.content, &a->then.logs.limitations, error)))
     return error->status;
   return read_held_out(q, a, error);
 }
@@ -48,81 +54,176 @@ static int read_files(const lab_question *q, lab_answer *a, lab_error *error)
 /* Of what was measured, and of what the completed model makes of the same commands. */
 static int appraise(lab_answer *a, lab_error *error)
 {
-  a->story.measured = &a->measured;
-  a->story.predicted = &a->predicted;
-  return lab_appraise(&a->completed, &a->measured, &a->predicted, error);
+  a->report.measured = &a->measured;
+  a->report.predicted = &a->predicted;
+  return lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error);
 }
 
 /* ---- The loop ---- */
 
 /* The loop's result where the log cannot carry a name: the fit, and nothing traced. */
-static int decline(lab_unknowns *u, lab_loop_result *result, lab_error *error)
+static int decline(lab_unknowns *u, lab_search_result *result, lab_error *error)
 {
-  if (lab_loop_errors(u, &result->before, error))
+  if (lab_search_measure(u, LAB_STAGE_BEFORE, result, error) || lab_search_measure(u, LAB_STAGE_AFTER, result, error))
     return error->status;
-  result->after = result->before;
   result->verdict = LAB_VERDICT_UNDECIDED;
-  return lab_unknowns_spread(u, &result->fit, error);
+  return lab_unknowns_intervals(u, &result->fit, error);
 }
 
-static void begin_story(lab_answer *a)
+static void begin_report(lab_answer *a)
 {
-  a->story.rig = &a->rig;
-  a->story.declared = &a->declared;
-  a->story.completed = &a->completed;
-  a->story.result = &a->result;
-  a->story.remarks = &a->fitted.remarks;
+  a->report.rig = &a->rig;
+  a->report.declared = &a->now.declared;
+  a->report.completed = &a->now.completed;
+  a->report.result = &a->now.result;
+  a->report.limitations = &a->now.logs.limitations;
 }
 
-/* Fit the declared model, and add what it lacks.  Out: left_out  values that turned out to be no measurement */
-static int complete(const lab_question *q, lab_answer *a, size_t *left_out, lab_error *error)
+/* What the fit says of the declared values, which are not unknowns from here on. */
+static int conclude(lab_answer *a, lab_error *error)
 {
-  const double start = lab_clock();
-  lab_loop_options how;
-  lab_loop_options_default(&how);
-  how.tell = q->tell;
+  lab_deviations *all = &a->report.deviations;
+  if (lab_deviations_find(&a->rig, &a->now.completed, &a->now.result.fit, all, error))
+    return error->status;
+  if (a->now.result.verdict == LAB_VERDICT_UNDECIDED) { /* the values stand in for what is not known */
+    all->condition = LAB_CONDITION_CANNOT_TELL;
+    all->n = 0;
+  }
+  lab_unknowns_settle(&a->now.completed, &a->now.result.fit);
+  return LAB_OK;
+}
+
+/* How much of a budget the search may take: what it leaves is for the intervals and for judging, a few simulations for
+ * each unknown, of which the fit of the declared model has shown the cost.
+ * In:      budget, fit  [s] of CPU: what is given, and what the fit took */
+static double for_search(double budget, double fit)
+{
+  static const double least = 0.5, most = 0.8;
+  return fmax(fmin(most * budget, budget - fit), least * budget);
+}
+
+/* Fit the declared model; once more where the logs show another noise or clock than is declared. */
+static int fit_declared(lab_logs *logs, lab_unknowns *declared, lab_error *error)
+{
+  int any;
+  if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) || lab_weigh_runs(declared, logs->run, &any, error))
+    return error->status;
+  lab_weights_say(logs->run, logs->n, &logs->limitations);
+  return any ? lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
+}
+
+/* How much CPU time there is, from when on [s]; 0: no end. */
+typedef struct allowance {
+  double start, budget;
+} allowance;
+
+static double until(const allowance *time, double fit)
+{
+  return time->budget > 0 ? time->start + for_search(time->budget, fit) : 0;
+}
+
+/* Fit the declared model to the logs.  Out: fit_s  [s] of CPU that it took */
+static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *time, lab_completion *c, double *fit_s,
+                  lab_error *error)
+{
+  const double used = lab_cpu_time();
+  int status;
+  on_progress(q, "fitting the declared model");
+  if (lab_unknowns_open(rig, c->logs.run, c->logs.n, &c->declared, error))
+    return error->status;
+  c->declared.until = until(time, 0);
+  status = fit_declared(&c->logs, &c->declared, error);
+  *fit_s = lab_cpu_time() - used;
+  return status;
+}
+
+/* Add what the fitted model lacks.  In: fit_s  of fit_to */
+static int complete(const lab_request *q, const allowance *time, double fit_s, lab_completion *c, lab_error *error)
+{
+  lab_search_options how;
+  lab_search_options_default(&how);
+  how.on_progress = q->on_progress;
   how.context = q->context;
   how.alpha = q->alpha;
   how.min_gain = q->min_gain;
-  *left_out = 0;
-  tell(q, "fitting the declared model");
-  if (lab_unknowns_open(&a->rig, a->fitted.experiment, a->fitted.n, &a->declared, error) ||
-      lab_unknowns_fit(&a->declared, LAB_FIT_WHOLE, NULL, error))
+  if (!c->logs.limitations.doubt)
+    c->declared.until = until(time, fit_s);
+  c->completed = c->declared;
+  if (c->logs.limitations.doubt)
+    return decline(&c->completed, &c->result, error);
+  if (lab_search_run(&c->completed, &how, &c->result, error))
     return error->status;
-  a->story.fit_s = lab_clock() - start;
-  a->completed = a->declared;
-  if (a->fitted.remarks.doubt)
-    return decline(&a->completed, &a->result, error);
-  if (lab_loop_run(&a->completed, &how, &a->result, error) ||
-      lab_second_look(&how, &a->fitted, &a->declared, &a->completed, &a->result, left_out, error))
-    return error->status;
-  a->story.trace_s = a->result.trace_s;
-  return LAB_OK;
+  return lab_search_without_outliers(&how, &c->logs, &c->declared, &c->completed, &c->result, error);
 }
 
-static int close_loop(const lab_question *q, lab_answer *a, lab_error *error)
+/* What has changed since the baseline, which is asked before the new logs are traced. Where the logs of either side are
+ * in doubt, that is all that can be said.
+ * In:      time  of all; a third is for the model of the baseline, what is left but a fifth for the comparison */
+static int compare(const lab_request *q, const allowance *time, lab_answer *a, lab_error *error)
 {
+  static const double baseline = 1.0 / 3, both = 0.8;
+  const allowance own = {lab_cpu_time(), baseline * time->budget};
+  lab_completion *then = &a->then;
+  const lab_limitations *doubtful = a->now.logs.limitations.doubt ? &a->now.logs.limitations : &then->logs.limitations;
+  double fit_s;
+  if (then->logs.n == 0)
+    return LAB_OK;
+  a->report.changes = &a->changes;
+  if (doubtful->doubt) {
+    snprintf(a->changes.why, sizeof a->changes.why, "%s", doubtful->text[doubtful->doubt - 1]);
+    return LAB_OK;
+  }
+  on_progress(q, "completing the model of the baseline");
+  if (fit_to(q, &a->rig, &own, then, &fit_s, error) || complete(q, &own, fit_s, then, error))
+    return error->status;
+  lab_unknowns_settle(&then->completed, &then->result.fit);
+  a->report.baseline = &then->completed.rig;
+  on_progress(q, "looking for what has changed");
+  then->completed.until = time->budget > 0 ? time->start + both * time->budget : 0;
+  return lab_changes_find(&then->completed, then->result.verdict != LAB_VERDICT_UNDECIDED, a->now.logs.run,
+                          a->now.logs.n, q->alpha, &a->changes, error);
+}
+
+/* With nothing to fit the declared model is judged as it stands: its command changes at the rows that show it. */
+static int leave_as_declared(lab_answer *a, lab_error *error)
+{
+  if (a->rig.n_fit > 0)
+    return LAB_OK;
+  lab_unknowns_none(&a->rig, a->now.logs.run, a->now.logs.n, &a->now.declared);
+  return lab_loop_errors(&a->now.declared, &a->now.result.before, error);
+}
+
+static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
+{
+  const allowance time = {lab_cpu_time(), q->budget};
   const double start = lab_clock();
-  size_t left_out;
-  begin_story(a);
-  if (complete(q, a, &left_out, error))
+  double fit_s;
+  begin_report(a);
+  if (fit_to(q, &a->rig, &time, &a->now, &fit_s, error))
     return error->status;
-  tell(q, "judging");
-  if (lab_answer_judge(a, left_out, error) || appraise(a, error))
+  a->report.fit_s = lab_clock() - start;
+  if (compare(q, &time, a, error) || complete(q, &time, fit_s, &a->now, error) || conclude(a, error) ||
+      leave_as_declared(a, error))
     return error->status;
-  tell(q, "looking for the test to record next");
-  if (lab_advise(&a->story, error))
+  a->report.trace_s = a->now.result.score_s;
+  on_progress(q, "evaluating on the held-out logs");
+  if (lab_answer_judge(a, error) || appraise(a, error))
     return error->status;
-  a->story.total_s = lab_clock() - start;
+  if (!a->now.result.cut_short) {
+    on_progress(q, "looking for the test to record next");
+    if (lab_answer_advise(a, error))
+      return error->status;
+  }
+  a->report.total_s = lab_clock() - start;
   return LAB_OK;
 }
 
-int lab_answer_find(const lab_question *question, lab_answer **answer, lab_error *error)
+int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error)
 {
   lab_answer *a = calloc(1, sizeof *a);
-  int status = a ? read_files(question, a, error) : lab_fail_memory(error, "the answer");
+  int status = a ? read_files(request, a, error) : lab_fail_memory(error, "the answer");
   if (status == LAB_OK)
-    status = close_loop(question, a, error);
+    status = close_loop(request, a, error);
   if (status != LAB_OK && a) {
     lab_answer_free(a);
     a = NULL;
@@ -133,7 +234,8 @@ int lab_answer_find(const lab_question *question, lab_answer **answer, lab_error
 
 void lab_answer_free(lab_answer *answer)
 {
-  lab_bench_close(&answer->fitted);
-  lab_bench_close(&answer->held);
+  lab_logs_close(&answer->now.logs);
+  lab_logs_close(&answer->then.logs);
+  lab_logs_close(&answer->held);
   free(answer);
 }

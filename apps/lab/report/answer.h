@@ -3,40 +3,60 @@
 #ifndef LAB_ANSWER_H
 #define LAB_ANSWER_H
 
-#include "../check/bench.h"
-#include "loopfiles.h"
+#include "../check/logs.h"
+#include "report.h"
 
-typedef struct lab_question {
+typedef struct lab_request {
   const char *rig;        /* path of the rig file */
   const char *const *log; /* paths of the logs to fit */
   int n_logs;
   const char *const *holdout; /* paths of those to judge on */
   int n_holdout;
-  double alpha, min_gain;                        /* see lab_loop_options */
-  void (*tell)(void *context, const char *what); /* told what is being done; may be NULL */
+  const char *const *baseline; /* paths of logs of the rig as it was */
+  int n_baseline;
+  double alpha, min_gain; /* see lab_search_options */
+  double budget;          /* [s] of CPU after which the best answer so far is given; 0: none */
+  void (*on_progress)(void *context, const char *what); /* told what is being done; may be NULL */
   void *context;
-} lab_question;
+} lab_request;
+
+/* Logs, and a model fitted to them and completed. */
+typedef struct lab_completion {
+  lab_logs logs;
+  lab_unknowns declared, completed;
+  lab_search_result result;
+} lab_completion;
 
 typedef struct lab_answer {
-  lab_rig rig, rig_held;  /* as declared; the same for logs held out */
-  lab_bench fitted, held; /* logs */
-  lab_unknowns declared, completed;
-  lab_loop_result result;
+  lab_rig rig, rig_held; /* as declared; the same for logs held out */
+  lab_completion now;
+  lab_completion then;             /* of the baseline; nothing without one */
+  lab_logs held;                   /* logs held out */
+  lab_changes changes;             /* since then */
   lab_metrics measured, predicted; /* figures of merit of the runs fitted, and of the completed model there */
-  lab_story story;                 /* all of it; points into this struct */
+  lab_report report;               /* all of it; points into this struct */
 } lab_answer;
 
 /* Read, fit, trace, add, judge.
  * Out:     answer  to be freed; NULL after an error
  * Returns: LAB_OK; LAB_DATA for a bad file; LAB_NUMERIC, LAB_WORLD. */
-int lab_answer_find(const lab_question *question, lab_answer **answer, lab_error *error);
+int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error);
 void lab_answer_free(lab_answer *answer);
 
+/* Add to the report of an answer, of whose models it tells:
+ *   judge   the errors of the declared model, of the completed one and of each between them, on the logs fitted and on
+ *           those held out. On these nothing is fitted: their errors are those of what `simulate` predicts. A model
+ * that cannot follow a held-out log is a limitation. advise  the tests to record next, or why there are none Returns:
+ * LAB_OK, LAB_NUMERIC, LAB_WORLD. */
+int lab_answer_judge(lab_answer *answer, lab_error *error);
+int lab_answer_advise(lab_answer *answer, lab_error *error);
+
 /* How much of an answer to write; each is more than the one before. */
-enum lab_extent {
+enum lab_output {
   LAB_WRITE_JSON,   /* report.json */
-  LAB_WRITE_PLAIN,  /* everything but figures */
-  LAB_WRITE_FIGURES /* everything; needs gnuplot */
+  LAB_WRITE_PLAIN,  /* everything but figures as SVG */
+  LAB_WRITE_DRAWN,  /* everything that can be written: figures if there is gnuplot */
+  LAB_WRITE_FIGURES /* everything; without gnuplot, LAB_WORLD */
 };
 
 /* Write into a folder, which is made; all files at once, as far as Ctrl-C is concerned.

@@ -1,151 +1,143 @@
 #include "figures.h"
 
+#include <ctype.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/gnuplot.h"
-#include "../base/outfile.h"
 #include "figures_private.h"
 
-static const struct {
-  const char *name, *keys, *reading;
-  int (*draw)(const drawing *d); /* writes a script; returns 0 if there is nothing to show */
-} figures_known[LAB_FIGURE_COUNT] = {
-    {"response", "measured before after",
-     "Where the lines part from the grey, the model is wrong; the figure of the residual magnifies it.",
-     figure_draw_response},
-    {"residual", "before after",
-     "A good model leaves a carpet of even height within the band. Humps and spikes say when the model errs; the "
-     "panels have scales of their own.",
-     figure_draw_residual},
-    {"arguments", "before after band",
-     "Points outside the band say at which pressure, position, velocity or command the model errs. p, x and v are "
-     "the model's own.",
-     figure_draw_arguments},
-    {"autocorrelation", "before after band",
-     "Bars beyond the band mean that the residual follows a pattern, so that the model, or the noise that was "
-     "declared, is not the whole truth. The p-value is that of Ljung and Box for all lags of the last model at once; "
-     "below 0.01 the residual is not white.",
-     figure_draw_autocorrelation},
-    {"candidates", "",
-     "Many effects pass where one is missing, because their footprints overlap. Those that pass best are taken "
-     "up in turn, everything is fitted again, and the best fit decides. If nothing were missing, T would be chi-square "
-     "with 1 degree of freedom.",
-     figure_draw_candidates},
-    {"unlisted", "",
-     "Knots where the model hardly ever is are loosely known. Over a cycle, time is that of the log: its zero is the "
-     "zero of t.",
-     figure_draw_unlisted},
-    {"parameters", "before after", "Bars are 95 % intervals, often narrower than the point.", figure_draw_parameters}};
+const double lab_figure_two_sided_99 = 2.5758293035489004;
 
-/* The script of all figures, and the list of those that it draws. */
-static void put_all(drawing *d, lab_figures *figures)
+const char *const lab_figure_names[LAB_FIGURE_COUNT] = {"signature", "response",        "residual",
+                                                        "arguments", "autocorrelation", "unlisted"};
+
+/* In that order. */
+static const struct {
+  const char *reading;
+  int (*fill)(const drawing *d);
+} known[LAB_FIGURE_COUNT] = {
+    {"A loop wider than its lines has more friction than dry friction, or was run fast. Green lines apart from the "
+     "orange "
+     "ones: a value is not as declared.",
+     lab_figure_signature},
+    {"Where the lines leave the grey, the model is wrong; the figure of the residual magnifies this.",
+     lab_figure_response},
+    {"A good model leaves an even residual within the band. Humps and spikes show when the model errs. Each panel has "
+     "its own scale.",
+     lab_figure_residual},
+    {"Points outside the band say at which pressure, position, velocity or command the model errs. p, x and v are "
+     "the model's own.",
+     lab_figure_arguments},
+    {"Bars beyond the band mean that the residual has a pattern, so that the model is incomplete or the declared noise "
+     "is wrong. The p-value is that of the Ljung-Box test on all lags of the last model; below 0.01 the residual is "
+     "not white.",
+     lab_figure_autocorrelation},
+    {"Knots that the model hardly reaches are uncertain. Over a cycle, time is the t of the log.",
+     lab_figure_unlisted}};
+
+/* ---- What figures have in common ---- */
+
+void lab_figure_entitle(const drawing *d, const char *title, const char *subtitle)
 {
+  d->figure->title = title;
+  d->figure->subtitle = subtitle;
+}
+
+void lab_figure_tell(const drawing *d, const char *format, ...)
+{
+  const size_t used = strlen(d->figure->alt);
+  va_list list;
+  va_start(list, format);
+  vsnprintf(d->figure->alt + used, LAB_FIGURE_ALT - used, format, list);
+  va_end(list);
+}
+
+lab_panel *lab_figure_panel(const drawing *d, const char *name, const char *unit, int height)
+{
+  lab_panel *panel = &d->figure->panel[d->figure->n++];
+  snprintf(panel->name, sizeof panel->name, "%s", name);
+  panel->unit = unit;
+  panel->height = height;
+  panel->x_name = "t";
+  panel->x_unit = "s";
+  panel->x = d->all->t;
+  return panel;
+}
+
+const char *lab_figure_channel_name(int channel, char text[LAB_FORMAT_TEXT])
+{
+  char *at;
+  snprintf(text, LAB_FORMAT_TEXT, "%s %s", lab_channels[channel].quantity, lab_channels[channel].key);
+  *text = (char)toupper((unsigned char)*text);
+  while ((at = strchr(text, '_')))
+    *at = ' ';
+  return text;
+}
+
+const char *lab_figure_stage_name(int channel, int stage, char text[2 * LAB_FORMAT_TEXT])
+{
+  char name[LAB_FORMAT_TEXT];
+  snprintf(text, 2 * LAB_FORMAT_TEXT, "%s, %s model", lab_figure_channel_name(channel, name),
+           stage == LAB_STAGE_BEFORE ? "declared" : "completed");
+  return text;
+}
+
+int lab_figure_has_completed(const drawing *d)
+{
+  return d->report->result->n_found > 0;
+}
+
+int lab_figure_stages(const drawing *d)
+{
+  return lab_figure_has_completed(d) ? LAB_STAGE_COUNT : 1;
+}
+
+int lab_figure_key(int stage)
+{
+  return stage == LAB_STAGE_BEFORE ? LAB_KEY_BEFORE : LAB_KEY_AFTER;
+}
+
+/* ---- All of them ---- */
+
+static void fill_all(drawing *d)
+{
+  lab_figures *all = d->all;
   int i;
   for (i = 0; i < LAB_FIGURE_COUNT; i++) {
-    d->figure = &figures->figure[figures->n];
-    memset(d->figure, 0, sizeof *d->figure);
-    d->figure->name = figures_known[i].name;
-    d->figure->keys = figures_known[i].keys;
-    d->figure->reading = figures_known[i].reading;
-    figures->n += figures_known[i].draw(d) != 0;
+    d->figure = &all->figure[all->n];
+    d->figure->name = lab_figure_names[i];
+    d->figure->reading = known[i].reading;
+    d->figure->across = 1;
+    all->n += known[i].fill(d) != 0;
   }
 }
 
-/* Cut what gnuplot drew into one text for each figure. */
-static int share_out(const char *drawn, lab_figures *figures, lab_error *error)
+int lab_figures_make(const lab_report *report, const lab_residual_table *table, lab_figures **figures, lab_error *error)
 {
-  static const char begin[] = "<?xml", end[] = "</svg>";
-  int i;
-  for (i = 0; i < figures->n; i++) {
-    const char *from = strstr(drawn, begin), *to = from ? strstr(from, end) : NULL;
-    char *svg;
-    if (!to)
-      return lab_fail(error, LAB_WORLD, "gnuplot drew %d figures of the %d asked for", i, figures->n);
-    if (!(svg = malloc((size_t)(to - from) + sizeof end + 1)))
-      return lab_fail_memory(error, "the figures");
-    sprintf(svg, "%.*s%s\n", (int)(to - from), from, end);
-    figures->figure[i].svg = svg;
-    drawn = to + sizeof end - 1;
+  drawing d = {report, table, calloc(1, sizeof **figures), NULL, calloc(table->n + 1, 1)};
+  if (d.all && d.kept) {
+    lab_figure_lay_out_time(&d);
+    fill_all(&d);
   }
-  if (strstr(drawn, begin))
-    return lab_fail(error, LAB_WORLD, "gnuplot drew more than the %d figures asked for", figures->n);
-  return LAB_OK;
-}
-
-int lab_figures_draw(const lab_story *story, const lab_evidence *evidence, lab_figures *figures, lab_error *error)
-{
-  drawing d = {story, evidence, NULL, NULL, NULL, NULL, NULL, NULL, -1};
-  char *drawn = NULL;
-  int status;
-  memset(figures, 0, sizeof *figures);
-  d.readings = figures->readings = lab_readings_new();
-  d.point = malloc(((size_t)3 * FIGURE_COLUMNS + (size_t)evidence->n_runs) * sizeof *d.point);
-  d.kept = calloc(evidence->n + 1, 1);
-  d.clock = malloc((evidence->n + 1) * sizeof *d.clock);
-  if (!d.point || !d.kept || !d.clock) {
-    status = lab_fail_memory(error, "the figures");
-  } else if ((d.file = tmpfile())) {
-    figure_keep_rows(&d);
-    put_all(&d, figures);
-    status = lab_gnuplot_run(d.file, &drawn, error);
-    fclose(d.file);
-  } else {
-    status = lab_fail(error, LAB_WORLD, "no room for the script of the figures in the folder of temporary files");
+  if (d.all && (!d.kept || d.all->failed)) {
+    lab_figures_free(d.all);
+    d.all = NULL;
   }
-  if (status == LAB_OK)
-    status = share_out(drawn, figures, error);
-  free(drawn);
-  free(d.point);
   free(d.kept);
-  free(d.clock);
-  return status;
+  *figures = d.all;
+  return d.all ? LAB_OK : lab_fail_memory(error, "the figures");
 }
 
 void lab_figures_free(lab_figures *figures)
 {
   int i;
-  for (i = 0; i < figures->n; i++)
-    free(figures->figure[i].svg);
-  cJSON_Delete(figures->readings);
-  memset(figures, 0, sizeof *figures);
-}
-
-/* What an earlier run has left of figures that this one does not draw, lest they be taken for its own. */
-static void remove_others(const lab_figures *figures, const char *folder)
-{
-  static const char *const endings[] = {".svg", ".svg.part"};
-  char path[LAB_PATH_TEXT + 32];
-  int i, k;
-  for (i = 0; i < LAB_FIGURE_COUNT; i++)
-    for (k = 0; k < 2 && !lab_figures_find(figures, figures_known[i].name); k++) {
-      snprintf(path, sizeof path, "%s/%s%s", folder, figures_known[i].name, endings[k]);
-      remove(path);
-    }
-}
-
-int lab_figures_write(const lab_figures *figures, const char *folder, lab_error *error)
-{
-  int i;
-  remove_others(figures, folder);
-  for (i = 0; i < figures->n; i++) {
-    char path[LAB_PATH_TEXT + 32];
-    lab_outfile out;
-    snprintf(path, sizeof path, "%s/%s.svg", folder, figures->figure[i].name);
-    if (lab_out_open(&out, path, error))
-      return error->status;
-    fputs(figures->figure[i].svg, out.file);
-    if (lab_out_close(&out, error))
-      return error->status;
-  }
-  return LAB_OK;
-}
-
-const lab_figure *lab_figures_find(const lab_figures *figures, const char *name)
-{
-  int i;
-  for (i = 0; i < figures->n; i++)
-    if (!strcmp(figures->figure[i].name, name))
-      return &figures->figure[i];
-  return NULL;
+  if (!figures)
+    return;
+  for (i = 0; i < figures->n_columns; i++)
+    free(figures->column[i].value);
+  free(figures->column);
+  free(figures->first);
+  free(figures->shift);
+  free(figures);
 }

@@ -1,108 +1,112 @@
 /* Values of the page: texts, numbers, what is known of an unknown. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "../base/shown.h"
+#include "../base/escape.h"
+#include "../base/format.h"
 #include "page_private.h"
 
-const double page_white_level = 0.01;
-
-void page_put(cJSON *to, const char *name, const char *format, ...)
+/* Length of "(name)" at `at`, 0 if it is no effect's. */
+static size_t bracketed_name(const char *at)
 {
-  char text[1400];
-  va_list list;
-  va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
-  va_end(list);
-  cJSON_AddStringToObject(to, name, text);
+  int i;
+  for (i = 0; *at == '(' && i < PNEU_EFFECT_COUNT; i++) {
+    const size_t n = strlen(lab_page_effect_name(i));
+    if (!strncmp(at + 1, lab_page_effect_name(i), n) && at[n + 1] == ')')
+      return n + 2;
+  }
+  return 0;
 }
 
-void page_say(cJSON *list, const char *format, ...)
+void lab_page_put_coded(cJSON *to, const char *name, const char *text)
 {
-  char text[1400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  cJSON_AddItemToArray(list, cJSON_CreateString(text));
+  char *html = NULL;
+  size_t size;
+  FILE *file = open_memstream(&html, &size);
+  while (file && *text) {
+    const size_t n = bracketed_name(text), plain = n ? 0 : 1 + strcspn(text + 1, "(");
+    char part[LAB_SENTENCE_TEXT];
+    snprintf(part, sizeof part, "%.*s", (int)(n ? n - 2 : plain), text + (n > 0));
+    fputs(n ? "<code>" : "", file);
+    lab_put_html(file, part);
+    fputs(n ? "</code>" : "", file);
+    text += n + plain;
+  }
+  if (file && fclose(file) == 0)
+    cJSON_AddStringToObject(to, name, html);
+  free(html);
 }
 
-cJSON *page_append(cJSON *list)
+void lab_page_put_number(cJSON *to, const char *name, double value, int digits)
 {
-  cJSON *item = cJSON_CreateObject();
-  cJSON_AddItemToArray(list, item);
-  return item;
+  char text[LAB_FORMAT_TEXT];
+  cJSON_AddStringToObject(to, name, lab_format_number(value, digits, text));
 }
 
-void page_put_number(cJSON *to, const char *name, double value, int digits)
+void lab_page_put_quantity(cJSON *to, const char *name, double value, const char *unit, int digits)
 {
-  char text[LAB_SHOWN_TEXT];
-  cJSON_AddStringToObject(to, name, lab_shown_number(value, digits, text));
+  char text[LAB_FORMAT_TEXT];
+  cJSON_AddStringToObject(to, name, lab_format_quantity(value, unit, digits, text));
 }
 
-void page_put_quantity(cJSON *to, const char *name, double value, const char *unit, int digits)
+void lab_page_put_p(cJSON *to, const char *name, double p)
 {
-  char text[LAB_SHOWN_TEXT];
-  cJSON_AddStringToObject(to, name, lab_shown_quantity(value, unit, digits, text));
+  char text[LAB_FORMAT_TEXT];
+  cJSON_AddStringToObject(to, name, lab_format_p(p, text));
 }
 
-void page_put_p(cJSON *to, const char *name, double p)
+void lab_page_put_share(cJSON *to, const char *name, double share)
 {
-  char text[LAB_SHOWN_TEXT];
-  cJSON_AddStringToObject(to, name, lab_shown_p(p, text));
+  lab_json_put(to, name, "%.3g %%", 100 * fmin(fmax(share, 0), 1));
 }
 
-void page_put_share(cJSON *to, const char *name, double share)
-{
-  page_put(to, name, "%.3g %%", 100 * fmin(fmax(share, 0), 1));
-}
-
-const char *page_effect_name(int effect)
+const char *lab_page_effect_name(int effect)
 {
   return pneu_effect_at(effect)->name;
 }
 
-int page_has_completed(const telling *t)
+int lab_page_has_completed(const page_context *t)
 {
-  return t->story->result->n_found > 0;
+  return t->report->result->n_found > 0 || t->report->rig->n_fit == 0;
 }
 
-const char *page_unit(const lab_unknown *x)
+const char *lab_page_unit(const lab_unknown *x)
 {
   pneu_param_info info;
-  const int is_listed = x->kind == LAB_UNKNOWN_PARAM && x->index != LAB_FIT_ORIFICE_AREA;
+  const int is_listed = x->kind == LAB_UNKNOWN_PARAM && x->index != LAB_PARAM_ORIFICE_AREA;
   return is_listed && pneu_param_describe(x->index, &info) == PNEU_OK ? info.unit : x->unit;
 }
 
-int page_digits(const telling *t, int j)
+int lab_page_digits(const page_context *t, int j)
 {
-  const lab_fit_result *fit = &t->story->result->fit;
-  const double value = fabs(t->story->completed->unknown[j].value), width = fit->high[j] - fit->low[j];
-  if (fit->state[j] != LAB_FIT_FREE || !(width > 0) || !(value > width))
+  const lab_fit_result *fit = &t->report->result->fit;
+  const double value = fabs(t->report->completed->unknown[j].value), width = fit->high[j] - fit->low[j];
+  if (fit->state[j] != LAB_STATE_FREE || !(width > 0) || !(value > width))
     return 4;
   return (int)fmin(fmax(4, 2 + ceil(log10(value / width))), 9);
 }
 
-void page_put_interval(const telling *t, int j, cJSON *to)
+void lab_page_put_interval(const page_context *t, int j, cJSON *to)
 {
-  const lab_fit_result *fit = &t->story->result->fit;
-  const double scale = lab_shown_as(page_unit(&t->story->completed->unknown[j])).scale;
+  const lab_fit_result *fit = &t->report->result->fit;
+  const double scale = lab_format_as(lab_page_unit(&t->report->completed->unknown[j])).scale;
   const char *state = lab_fit_state_text(fit->state[j]);
-  char low[LAB_SHOWN_TEXT], high[LAB_SHOWN_TEXT];
-  lab_shown_number(scale * fit->low[j], page_digits(t, j), low);
-  lab_shown_number(scale * fit->high[j], page_digits(t, j), high);
+  char low[LAB_FORMAT_TEXT], high[LAB_FORMAT_TEXT];
+  lab_format_number(scale * fit->low[j], lab_page_digits(t, j), low);
+  lab_format_number(scale * fit->high[j], lab_page_digits(t, j), high);
   switch (fit->state[j]) {
-  case LAB_FIT_FREE:
-    page_put(to, "interval", "%s .. %s", low, high);
+  case LAB_STATE_FREE:
+    lab_json_put(to, "interval", "%s .. %s", low, high);
     break;
-  case LAB_FIT_AT_LOWER:
-    page_put(to, "interval", "%s, at most %s", state, high);
+  case LAB_STATE_AT_LOWER:
+    lab_json_put(to, "interval", "%s, at most %s", state, high);
     break;
-  case LAB_FIT_AT_UPPER:
-    page_put(to, "interval", "%s, at least %s", state, low);
+  case LAB_STATE_AT_UPPER:
+    lab_json_put(to, "interval", "%s, at least %s", state, low);
     break;
   default:
-    page_put(to, "interval", "%s", state);
+    lab_json_put(to, "interval", "%s", state);
   }
 }

@@ -2,14 +2,14 @@
 #include <string.h>
 
 #include "../base/quantile.h"
-#include "../base/shown.h"
-#include "../trace/unlisted.h"
+#include "../base/format.h"
+#include "../trace/freeterms.h"
 #include "page_private.h"
 
 /* All parameters of an effect that were fitted. */
-static void put_sizes(const telling *t, int effect, cJSON *list)
+static void put_sizes(const page_context *t, int effect, cJSON *list)
 {
-  const lab_unknowns *u = t->story->completed;
+  const lab_unknowns *u = t->report->completed;
   int i, count, first = pneu_effect_params(effect, &count);
   for (i = first; i < first + count; i++) {
     const int j = lab_unknowns_find(u, i);
@@ -18,32 +18,39 @@ static void put_sizes(const telling *t, int effect, cJSON *list)
     if (j < 0)
       continue;
     pneu_param_describe(i, &info);
-    item = page_append(list);
-    page_put(item, "meaning", "%s", info.meaning);
-    page_put_quantity(item, "value", u->unknown[j].value, page_unit(&u->unknown[j]), page_digits(t, j));
-    page_put_interval(t, j, item);
+    item = lab_json_append(list);
+    lab_json_put(item, "meaning", "%s", info.meaning);
+    lab_page_put_quantity(item, "value", u->unknown[j].value, lab_page_unit(&u->unknown[j]), lab_page_digits(t, j));
+    lab_page_put_interval(t, j, item);
   }
 }
 
-/* What was found and has no name. */
-static void put_unlisted(const telling *t, const lab_found *found, cJSON *list)
+static void put_sentence(const page_context *t, const lab_found *found, cJSON *item)
 {
-  const pneu_term *term = &t->story->completed->rig.term[found->term];
-  char where[LAB_WHERE_TEXT];
-  cJSON *item = page_append(list);
-  page_put(item, "name", "Not in the catalogue");
-  page_put(item, "what", "Something acts like %s: %s.", lab_unlisted_what(term), lab_unlisted_where(term, where));
-  page_put(item, "footprint", "%s", lab_unlisted_where(term, where));
-  page_put(item, "source", "a free term; its values are in model.cfg");
-  page_put(item, "equation", "%s", lab_unlisted_equation(term));
-  cJSON_AddArrayToObject(item, "sizes");
-  page_put_share(item, "explained", found->explained);
-  page_put_number(item, "statistic", found->statistic, 3);
-  page_put_number(item, "threshold", lab_chi2_threshold(t->story->result->level), 3);
-  page_put_p(item, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+  char sentence[LAB_FOUND_SENTENCE];
+  lab_report_found_sentence(t->report, found, sentence);
+  lab_json_put(item, "sentence", "%s", sentence);
 }
 
-static void put_found(const telling *t, const lab_found *found, cJSON *list)
+/* What was found and has no name. */
+static void put_unlisted(const page_context *t, const lab_found *found, cJSON *list)
+{
+  const pneu_term *term = &t->report->completed->rig.term[found->term];
+  char where[LAB_WHERE_TEXT];
+  cJSON *item = lab_json_append(list);
+  lab_json_put(item, "name", "Not in the catalogue");
+  put_sentence(t, found, item);
+  lab_json_put(item, "footprint", "%s", lab_free_term_where(term, where));
+  lab_json_put(item, "source", "A free term was added; its values are in model.cfg.");
+  lab_json_put(item, "equation", "%s", lab_free_term_equation(term));
+  cJSON_AddArrayToObject(item, "sizes");
+  lab_page_put_share(item, "explained", found->explained);
+  lab_page_put_number(item, "statistic", found->statistic, 3);
+  lab_page_put_number(item, "threshold", lab_chi2_threshold(t->report->result->level), 3);
+  lab_page_put_p(item, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+}
+
+static void put_found(const page_context *t, const lab_found *found, cJSON *list)
 {
   static const struct {
     const char *key, *words;
@@ -51,53 +58,54 @@ static void put_found(const telling *t, const lab_found *found, cJSON *list)
                    {"energy", "balance of energy in the chamber"},
                    {"force", "balance of forces on the stem"},
                    {"command", "from the command to the opening"},
-                   {"sensor", "what a sensor shows"}};
+                   {"sensor", "reading of a sensor"}};
   const pneu_effect *effect = pneu_effect_at(found->effect);
-  cJSON *item = page_append(list);
+  cJSON *item = lab_json_append(list);
   size_t i;
-  page_put(item, "name", "%s", effect->name);
-  page_put(item, "what", "%s", effect->what);
-  page_put(item, "footprint", "%s", effect->footprint);
-  page_put(item, "source", "%s", effect->source);
+  lab_json_put(item, "code", "%s", effect->name);
+  put_sentence(t, found, item);
+  lab_json_put(item, "footprint", "%s", effect->footprint);
+  lab_json_put(item, "source", "%s", effect->source);
   for (i = 0; i < sizeof equations / sizeof *equations; i++)
     if (!strcmp(equations[i].key, effect->equation))
-      page_put(item, "equation", "%s: %s", effect->equation, equations[i].words);
+      lab_json_put(item, "equation", "%s: %s", effect->equation, equations[i].words);
   put_sizes(t, found->effect, cJSON_AddArrayToObject(item, "sizes"));
-  page_put_share(item, "explained", found->explained);
-  page_put_number(item, "statistic", found->statistic, 3);
-  page_put_number(item, "threshold", lab_chi2_threshold(t->story->result->level), 3);
-  page_put_p(item, "p_value", found->p_value);
+  lab_page_put_share(item, "explained", found->explained);
+  lab_page_put_number(item, "statistic", found->statistic, 3);
+  lab_page_put_number(item, "threshold", lab_chi2_threshold(t->report->result->level), 3);
+  lab_page_put_p(item, "p_value", found->p_value);
 }
 
 /* Why nothing was added, or nothing more. */
-static void put_reasons(const telling *t, cJSON *list)
+static void put_reasons(const page_context *t, cJSON *list)
 {
-  const lab_loop_result *r = t->story->result;
-  char statistic[LAB_SHOWN_TEXT], threshold[LAB_SHOWN_TEXT], where[LAB_WHERE_TEXT];
+  const lab_search_result *r = t->report->result;
+  char statistic[LAB_FORMAT_TEXT], threshold[LAB_FORMAT_TEXT], where[LAB_WHERE_TEXT];
   int i;
-  if (r->n_found == 0 && r->n_listed == 0 && r->trace.n > 0 && r->level > 0)
-    page_say(list, "Of all effects %s comes nearest, with a statistic of %s; it would take %s to be more than chance.",
-             page_effect_name(r->trace.candidate[0].effect),
-             lab_shown_number(r->trace.candidate[0].statistic, 3, statistic),
-             lab_shown_number(lab_chi2_threshold(r->level), 3, threshold));
+  if (r->n_found == 0 && r->n_listed == 0 && r->scores.n > 0 && r->level > 0)
+    lab_json_say(list, "The effect with the highest score is %s: %s. Above %s it would be significant.",
+                 lab_page_effect_name(r->scores.of[0].effect),
+                 lab_format_number(r->scores.of[0].statistic, 3, statistic),
+                 lab_format_number(lab_chi2_threshold(r->level), 3, threshold));
   for (i = 0; i < r->n_listed; i++)
-    page_say(list,
-             "%s is more than chance, but would lower the error by less than --min-gain asks for, and was not added.",
-             page_effect_name(r->listed[i]));
+    lab_json_say(list,
+                 "The effect %s is significant, but would lower the error by less than --min-gain. It was not added.",
+                 lab_page_effect_name(r->listed[i]));
   if (r->has_small)
-    page_say(list,
-             "Something without a name, like %s (%s), is more than chance, but would lower the error by less than "
-             "--min-gain asks for, and was not added.",
-             lab_unlisted_what(&r->small), lab_unlisted_where(&r->small, where));
+    lab_json_say(
+        list,
+        "A free term that acts like %s (%s) is significant, but would lower the error by less than --min-gain. "
+        "It was not added.",
+        lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
   if (r->verdict == LAB_VERDICT_UNDECIDED)
-    page_say(list,
-             "What is left is not noise, and no effect of the catalogue explains it. The figures below show when and "
-             "where it arises.");
+    lab_json_say(
+        list, "The residual is not noise, and no effect of the catalogue explains it. The figures below show when and "
+              "where it arises.");
 }
 
-void page_why(const telling *t, cJSON *page)
+void lab_page_why(const page_context *t, cJSON *page)
 {
-  const lab_loop_result *r = t->story->result;
+  const lab_search_result *r = t->report->result;
   cJSON *list = cJSON_AddArrayToObject(page, "found");
   int i;
   for (i = 0; i < r->n_found; i++)

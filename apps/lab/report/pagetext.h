@@ -4,21 +4,21 @@
 #define LAB_PAGETEXT_H
 
 enum lab_page_text {
-  LAB_PAGE_REPORT,       /* template of report.html */
-  LAB_PAGE_FIGURE,       /* template of a figure in it */
-  LAB_PAGE_REPORT_STYLE, /* after the common style */
+  LAB_PAGE_STYLE,  /* what both pages have in common */
+  LAB_PAGE_REPORT, /* template of report.html */
+  LAB_PAGE_REPORT_STYLE,
   LAB_PAGE_REPORT_SCRIPT,
-  LAB_PAGE_INDEX,       /* template of the head and foot of index.html */
-  LAB_PAGE_INDEX_STYLE, /* after the common style */
+  LAB_PAGE_FIGURE, /* template of a figure in it */
+  LAB_PAGE_PLOT,   /* the library that draws its curves, with its style and licence */
+  LAB_PAGE_PLOT_STYLE,
+  LAB_PAGE_PLOT_LICENCE,
+  LAB_PAGE_INDEX, /* template of the head and foot of index.html */
+  LAB_PAGE_INDEX_STYLE,
   LAB_PAGE_INDEX_SCRIPT,
-  LAB_PAGE_STYLE, /* what both have in common */
   LAB_PAGE_TEXTS
 };
 
 /* One of them, to be freed; NULL without memory. */
 char *lab_page_text(int which);
-
-/* Two of them, one after the other. */
-char *lab_page_texts(int first, int second);
 
 #endif

@@ -29,24 +29,24 @@ static int column_of(double at, double from, double to, int columns)
 }
 
 /* The widest gap over which the line of a series is drawn. */
-static double widest(const double *value, size_t n, double from, double to)
+static double widest(const lab_line *line, double from, double to)
 {
   size_t i, values = 0;
-  for (i = 0; i < n; i++)
-    values += !isnan(value[i]);
+  for (i = 0; i < line->n; i++)
+    values += !isnan(line->value[i]);
   return (to - from) * fmax(widest_gap, values > 1 ? usual_gaps / (double)(values - 1) : 0);
 }
 
-size_t lab_envelope(const double *at, const double *value, size_t n, const size_t *first, int n_runs, double from,
-                    double to, int columns, lab_point *point)
+size_t lab_envelope(const lab_line *line, int columns, lab_point *point)
 {
-  const double too_wide = widest(value, n, from, to);
+  const double *at = line->at, *value = line->value, from = at[0], to = at[line->n - 1];
+  const double too_wide = widest(line, from, to);
   column c = {-1, 0, 0, 0};
   size_t i, used = 0;
   int run = 0;
-  for (i = 0; i < n; i++) {
+  for (i = 0; i < line->n; i++) {
     int index, breaks = 0;
-    for (; run < n_runs && first[run] <= i; run++)
+    for (; run < line->n_runs && line->first[run] <= i; run++)
       breaks = 1;
     if (breaks && c.index >= 0) {
       used += put_column(&c, at, value, point + used);
@@ -84,17 +84,4 @@ void lab_bin_means(const double *at, const double *value, size_t n, double from,
     }
   for (b = 0; b < n_bins; b++)
     bin[b].mean = bin[b].n ? bin[b].mean / (double)bin[b].n : (double)NAN;
-}
-
-int lab_range(const double *value, size_t n, double *low, double *high)
-{
-  size_t i;
-  *low = HUGE_VAL;
-  *high = -HUGE_VAL;
-  for (i = 0; i < n; i++)
-    if (!isnan(value[i])) {
-      *low = fmin(*low, value[i]);
-      *high = fmax(*high, value[i]);
-    }
-  return *low <= *high;
 }

@@ -6,27 +6,41 @@
 #include "page_private.h"
 #include "pagetext.h"
 
-static int put_text(cJSON *page, const char *name, char *text)
+static const struct {
+  const char *name;
+  int which;
+} carried[] = {
+    {"common_style", LAB_PAGE_STYLE},    {"style", LAB_PAGE_REPORT_STYLE},   {"plot", LAB_PAGE_PLOT},
+    {"plot_style", LAB_PAGE_PLOT_STYLE}, {"script", LAB_PAGE_REPORT_SCRIPT}, {"plot_licence", LAB_PAGE_PLOT_LICENCE}};
+
+static int put_carried(cJSON *page)
 {
-  if (text)
-    cJSON_AddStringToObject(page, name, text);
-  free(text);
-  return text != NULL;
+  size_t i;
+  for (i = 0; i < sizeof carried / sizeof *carried; i++) {
+    char *text = lab_page_text(carried[i].which);
+    if (!text)
+      return 0;
+    cJSON_AddStringToObject(page, carried[i].name, text);
+    free(text);
+  }
+  return 1;
 }
 
-static cJSON *values_of(const telling *t)
+static cJSON *values_of(const page_context *t)
 {
   cJSON *page = cJSON_CreateObject();
-  page_head(t, page);
-  page_why(t, page);
-  page_limits(t, page);
-  page_first(t, page_next(t, page), page);
-  page_parameters(t, page);
-  page_whiteness(t, page);
-  page_candidates(t, page);
-  page_merit(t, page);
-  if (page_figures(t, page) && put_text(page, "style", lab_page_texts(LAB_PAGE_STYLE, LAB_PAGE_REPORT_STYLE)) &&
-      put_text(page, "script", lab_page_text(LAB_PAGE_REPORT_SCRIPT)))
+  lab_page_head(t, page);
+  lab_page_changes(t, page);
+  lab_page_why(t, page);
+  lab_page_limits(t, page);
+  lab_page_first(t, lab_page_next(t, page), page);
+  lab_page_signature(t, page);
+  lab_page_deviations(t, page);
+  lab_page_parameters(t, page);
+  lab_page_whiteness(t, page);
+  lab_page_candidates(t, page);
+  lab_page_merit(t, page);
+  if (lab_page_figures(t, page) && put_carried(page))
     return page;
   cJSON_Delete(page);
   return NULL;
@@ -35,7 +49,7 @@ static cJSON *values_of(const telling *t)
 static int write_page(const cJSON *page, const char *text, const char *folder, lab_error *error)
 {
   lab_outfile out;
-  if (lab_report_open(folder, "report.html", &out, error))
+  if (lab_report_file_open(folder, "report.html", &out, error))
     return error->status;
   if (lab_template_write(out.file, text, page, error)) {
     lab_out_abandon(&out);
@@ -44,10 +58,10 @@ static int write_page(const cJSON *page, const char *text, const char *folder, l
   return lab_out_close(&out, error);
 }
 
-int lab_report_html(const lab_story *story, const lab_evidence *evidence, const lab_figures *figures,
+int lab_report_html(const lab_report *report, const lab_residual_table *table, const lab_figures *figures,
                     const char *folder, lab_error *error)
 {
-  const telling t = {story, evidence, figures};
+  const page_context t = {report, table, figures};
   cJSON *page = values_of(&t);
   char *text = lab_page_text(LAB_PAGE_REPORT);
   const int status = page && text ? write_page(page, text, folder, error) : lab_fail_memory(error, "report.html");

@@ -5,10 +5,9 @@
 
 #include "figures.h"
 
-/* Write the page; the same bytes for the same story.
- * In:      figures  may have none
+/* Write the page; the same bytes for the same report.
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_report_html(const lab_story *story, const lab_evidence *evidence, const lab_figures *figures,
+int lab_report_html(const lab_report *report, const lab_residual_table *table, const lab_figures *figures,
                     const char *folder, lab_error *error);
 
 #endif

@@ -1,88 +1,81 @@
 /* report.json */
 #include <math.h>
-#include <stdio.h>
 
-#include <cjson/cJSON.h>
-
-#include "../base/quantile.h"
+#include "../base/json.h"
+#include "../base/text.h"
 #include "../metrics/metricstext.h"
 #include "../rig/rigterm.h"
-#include "../trace/unlisted.h"
-#include "loopfiles.h"
+#include "../trace/freeterms.h"
+#include "report.h"
 
-static void add_number(cJSON *to, const char *name, double value)
+static void add_unit_and_interval(cJSON *to, const char *unit, double low, double high)
 {
-  if (isfinite(value))
-    cJSON_AddNumberToObject(to, name, value);
-  else
-    cJSON_AddNullToObject(to, name);
+  cJSON_AddStringToObject(to, "unit", unit);
+  lab_json_range(to, "ci95", low, high);
 }
 
-static cJSON *add_interval(cJSON *to, const char *name, double value, const char *unit, double low, double high)
+static void add_interval(cJSON *to, const char *name, double value, const char *unit, double low, double high)
 {
-  cJSON *o = cJSON_AddObjectToObject(to, name), *ci;
-  add_number(o, "value", value);
-  cJSON_AddStringToObject(o, "unit", unit);
-  ci = cJSON_AddArrayToObject(o, "ci95");
-  cJSON_AddItemToArray(ci, isfinite(low) ? cJSON_CreateNumber(low) : cJSON_CreateNull());
-  cJSON_AddItemToArray(ci, isfinite(high) ? cJSON_CreateNumber(high) : cJSON_CreateNull());
-  return o;
+  cJSON *o = cJSON_AddObjectToObject(to, name);
+  cJSON_AddNumberToObject(o, "value", value);
+  add_unit_and_interval(o, unit, low, high);
 }
 
-static void add_effect_param(cJSON *to, const lab_story *story, int param)
+static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
-  const int j = param < 0 ? -1 : lab_unknowns_find(story->completed, param);
+  const int j = param < 0 ? -1 : lab_unknowns_find(report->completed, param);
   pneu_param_info info;
   if (j < 0)
     return;
   pneu_param_describe(param, &info);
-  add_interval(to, info.name, story->completed->unknown[j].value, info.unit, story->result->fit.low[j],
-               story->result->fit.high[j]);
+  add_interval(to, info.name, report->completed->unknown[j].value, info.unit, report->result->fit.low[j],
+               report->result->fit.high[j]);
 }
 
-static void add_found(cJSON *to, const lab_story *story, int which)
+static void add_sentence(cJSON *to, const lab_report *report, const lab_found *found)
 {
-  const lab_found *found = &story->result->found[which];
+  char sentence[LAB_FOUND_SENTENCE];
+  lab_report_found_sentence(report, found, sentence);
+  cJSON_AddStringToObject(to, "sentence", sentence);
+}
+
+static void add_found(cJSON *to, const lab_report *report, int which)
+{
+  const lab_found *found = &report->result->found[which];
   const pneu_effect *effect = pneu_effect_at(found->effect);
-  cJSON *o = cJSON_CreateObject(), *list;
+  cJSON *o = lab_json_append(to), *list;
   int i;
-  cJSON_AddItemToArray(to, o);
   cJSON_AddStringToObject(o, "effect", effect->name);
   cJSON_AddStringToObject(o, "equation", effect->equation);
+  add_sentence(o, report, found);
   list = cJSON_AddObjectToObject(o, "parameters");
-  add_effect_param(list, story, found->param);
-  add_effect_param(list, story, found->shape);
-  add_number(o, "statistic", found->statistic);
-  add_number(o, "p_value", found->p_value);
-  add_number(o, "explained", found->explained);
+  add_effect_param(list, report, found->param);
+  add_effect_param(list, report, found->shape);
+  lab_json_numbers(
+      o, (const lab_json_named[]){
+             {"statistic", found->statistic}, {"p_value", found->p_value}, {"explained", found->explained}, {NULL, 0}});
   list = cJSON_AddArrayToObject(o, "indistinguishable_from");
   for (i = 0; i < found->n_alike; i++)
-    cJSON_AddItemToArray(list, cJSON_CreateString(pneu_effect_at(found->alike[i])->name));
-  cJSON_AddStringToObject(o, "would_separate", found->n_alike ? story->separate[which].text : "");
+    lab_json_say(list, "%s", pneu_effect_at(found->alike[i])->name);
+  cJSON_AddStringToObject(o, "would_separate", found->n_alike ? report->separate[which].text : "");
 }
 
-static void add_unlisted(cJSON *to, const lab_story *story, const lab_found *found)
+static void add_unlisted(cJSON *to, const lab_report *report, const lab_found *found)
 {
-  const pneu_term *term = &story->completed->rig.term[found->term];
-  cJSON *o = cJSON_CreateObject();
+  const pneu_term *term = &report->completed->rig.term[found->term];
+  cJSON *o = lab_json_append(to);
   char where[LAB_WHERE_TEXT];
-  cJSON_AddItemToArray(to, o);
-  cJSON_AddStringToObject(o, "equation", lab_unlisted_equation(term));
+  cJSON_AddStringToObject(o, "equation", lab_free_term_equation(term));
   cJSON_AddStringToObject(o, "argument", lab_term_arguments[term->argument].key);
-  cJSON_AddStringToObject(o, "what", lab_unlisted_what(term));
-  cJSON_AddStringToObject(o, "where", lab_unlisted_where(term, where));
-  add_number(o, "statistic", found->statistic);
-  add_number(o, "degrees", found->degrees);
-  add_number(o, "p_value", fmin(1, lab_slot_tests(term) * lab_chi2_tail(found->statistic, found->degrees)));
-  add_number(o, "explained", found->explained);
-}
-
-/* "unlisted:force" */
-static void add_small_term(cJSON *list, const pneu_term *term)
-{
-  char text[40];
-  snprintf(text, sizeof text, "unlisted:%s", lab_unlisted_equation(term));
-  cJSON_AddItemToArray(list, cJSON_CreateString(text));
+  cJSON_AddStringToObject(o, "what", lab_free_term_what(term));
+  cJSON_AddStringToObject(o, "where", lab_free_term_where(term, where));
+  add_sentence(o, report, found);
+  lab_json_numbers(o,
+                   (const lab_json_named[]){{"statistic", found->statistic},
+                                            {"degrees", found->degrees},
+                                            {"p_value", lab_free_term_p_value(term, found->statistic, found->degrees)},
+                                            {"explained", found->explained},
+                                            {NULL, 0}});
 }
 
 static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
@@ -94,84 +87,158 @@ static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
     if (isnan(errors->rmse[c]))
       continue;
     channel = cJSON_AddObjectToObject(o, lab_channels[c].quantity);
-    add_number(channel, "rmse", errors->rmse[c]);
+    cJSON_AddNumberToObject(channel, "rmse", errors->rmse[c]);
     cJSON_AddStringToObject(channel, "unit", lab_channels[c].unit);
-    add_number(channel, "in_noise", errors->in_noise[c]);
+    cJSON_AddNumberToObject(channel, "in_noise", errors->in_noise[c]);
+  }
+}
+
+/* What the log does that is none of the rig's: of each channel of a log's first run the noise that counts, and what it
+ * was declared to be, both in SI. */
+static void add_log(cJSON *root, const lab_unknowns *u)
+{
+  cJSON *list = cJSON_AddArrayToObject(root, "log"), *o, *channel;
+  const lab_log *last = NULL;
+  int e, c;
+  for (e = 0; e < u->n_runs; e++) {
+    const lab_run *x = &u->run[e];
+    if (x->log == last)
+      continue;
+    last = x->log;
+    o = lab_json_append(list);
+    cJSON_AddStringToObject(o, "log", lab_file_name(x->log->path));
+    lab_json_numbers(
+        o, (const lab_json_named[]){{"clock_step_s", x->log->clock_step}, {"clock_jitter_s", x->jitter}, {NULL, 0}});
+    for (c = 0; c < x->n_channels; c++) {
+      const int at = x->channel[c];
+      channel = cJSON_AddObjectToObject(o, lab_channels[at].quantity);
+      cJSON_AddStringToObject(channel, "unit", lab_channels[at].unit);
+      lab_json_numbers(channel, (const lab_json_named[]){{"noise", x->sigma[c]},
+                                                         {"noise_declared", x->rig->noise[at]},
+                                                         {"resolution", x->resolution[c]},
+                                                         {"correlation", x->memory[c]},
+                                                         {"hum", x->log->hum[at].amplitude},
+                                                         {"hum_hz", x->log->hum[at].frequency},
+                                                         {NULL, 0}});
+    }
+  }
+}
+
+/* On each channel, how white the declared and the completed model leave it: the test that the verdict goes by. */
+static void add_whiteness(cJSON *root, const lab_search_result *r)
+{
+  static const char *const name[LAB_STAGE_COUNT] = {"declared", "completed"};
+  cJSON *list = cJSON_AddObjectToObject(root, "whiteness"), *o, *stage;
+  int c, i;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    if (isnan(r->after.rmse[c]))
+      continue;
+    o = cJSON_AddObjectToObject(list, lab_channels[c].quantity);
+    for (i = 0; i < LAB_STAGE_COUNT; i++) {
+      const lab_whiteness *w = &r->left[i][c].whiteness;
+      stage = cJSON_AddObjectToObject(o, name[i]);
+      lab_json_numbers(stage, (const lab_json_named[]){{"lag1", w->correlation[1]},
+                                                       {"statistic", w->statistic},
+                                                       {"degrees", w->degrees},
+                                                       {"p_value", w->p_value},
+                                                       {NULL, 0}});
+      cJSON_AddBoolToObject(stage, "white", lab_is_white(w));
+    }
   }
 }
 
 /* Errors before and after on what was held out, and on each of its logs. */
-static void add_holdout(cJSON *to, const lab_story *story)
+static void add_holdout(cJSON *to, const lab_report *report)
 {
   cJSON *o = cJSON_AddObjectToObject(to, "holdout"), *list;
   int i;
-  add_errors(o, "before", &story->holdout_before);
-  add_errors(o, "after", &story->holdout_after);
+  add_errors(o, "before", &report->holdout_before);
+  add_errors(o, "after", &report->holdout_after);
   list = cJSON_AddArrayToObject(o, "logs");
-  for (i = 0; i < story->n_held; i++) {
-    cJSON *log = cJSON_CreateObject();
-    cJSON_AddItemToArray(list, log);
-    cJSON_AddStringToObject(log, "log", story->held[i].name);
-    add_errors(log, "before", &story->held[i].before);
-    add_errors(log, "after", &story->held[i].after);
+  for (i = 0; i < report->n_held; i++) {
+    cJSON *log = lab_json_append(list);
+    cJSON_AddStringToObject(log, "log", report->held[i].name);
+    add_errors(log, "before", &report->held[i].before);
+    add_errors(log, "after", &report->held[i].after);
   }
 }
 
-static void add_parameters(cJSON *to, const lab_story *story)
+static void add_parameters(cJSON *to, const lab_report *report)
 {
-  const lab_unknowns *u = story->completed;
-  const lab_fit_result *fit = &story->result->fit;
+  const lab_unknowns *u = report->completed;
+  const lab_fit_result *fit = &report->result->fit;
   cJSON *o = cJSON_AddObjectToObject(to, "parameters");
-  char undetermined[LAB_FIT_REMARK];
+  char undetermined[LAB_FIT_UNDETERMINED_TEXT];
   int j;
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM)
       add_interval(o, u->unknown[j].name, u->unknown[j].value, u->unknown[j].unit, fit->low[j], fit->high[j]);
-  lab_story_undetermined(story, undetermined);
+  lab_report_undetermined(report, undetermined);
   if (*undetermined)
     cJSON_AddStringToObject(to, "undetermined", undetermined);
 }
 
-static void add_candidates(cJSON *to, const lab_trace_result *trace)
+static void add_candidates(cJSON *to, const lab_search_result *r)
 {
+  const lab_scores *scores = &r->scores;
   cJSON *list = cJSON_AddArrayToObject(to, "candidates");
   int i;
-  for (i = 0; i < trace->n; i++) {
-    const lab_candidate *c = &trace->candidate[i];
-    cJSON *o = cJSON_CreateObject();
+  for (i = 0; i < scores->n; i++) {
+    const lab_score *c = &scores->of[i];
+    cJSON *o = lab_json_append(list);
     pneu_param_info info;
     pneu_param_describe(c->param, &info);
-    cJSON_AddItemToArray(list, o);
     cJSON_AddStringToObject(o, "effect", pneu_effect_at(c->effect)->name);
     cJSON_AddStringToObject(o, "parameter", info.name);
-    add_number(o, "statistic", c->statistic);
-    add_number(o, "p_value", c->p_value);
-    add_number(o, "explained", c->explained);
-    add_number(o, "visible", c->visible);
+    lab_json_numbers(o, (const lab_json_named[]){{"statistic", c->statistic},
+                                                 {"p_value", c->p_value},
+                                                 {"explained", lab_report_refit_explains(r, c)},
+                                                 {"explained_by_slope", c->explained},
+                                                 {"visible", c->visible},
+                                                 {NULL, 0}});
+  }
+}
+
+/* Whether the rig is as declared, and what is not. */
+static void add_condition(cJSON *root, const lab_report *report)
+{
+  const lab_deviations *all = &report->deviations;
+  cJSON *list;
+  int i;
+  if (!report->changes) /* with a baseline the condition is whether anything has changed */
+    cJSON_AddStringToObject(root, "condition", lab_condition_text(all->condition));
+  list = cJSON_AddArrayToObject(root, "deviations");
+  for (i = 0; i < all->n; i++) {
+    const lab_deviation *d = &all->of[i];
+    cJSON *o = lab_json_append(list);
+    cJSON_AddStringToObject(o, "parameter", d->name);
+    lab_json_numbers(o, (const lab_json_named[]){{"declared", d->declared}, {"found", d->found}, {NULL, 0}});
+    add_unit_and_interval(o, d->unit, d->lower, d->upper);
+    lab_json_numbers(o, (const lab_json_named[]){{"ratio", d->ratio}, {"tolerance", d->tolerance}, {NULL, 0}});
+    cJSON_AddBoolToObject(o, "beyond", d->beyond);
+    cJSON_AddBoolToObject(o, "held", d->held);
   }
 }
 
 static cJSON *add_model(cJSON *list, const char *name, double chi2, double bic)
 {
-  cJSON *o = cJSON_CreateObject();
-  cJSON_AddItemToArray(list, o);
+  cJSON *o = lab_json_append(list);
   cJSON_AddStringToObject(o, "model", name);
-  add_number(o, "chi2", chi2);
-  add_number(o, "bic", bic);
+  lab_json_numbers(o, (const lab_json_named[]){{"chi2", chi2}, {"bic", bic}, {NULL, 0}});
   return o;
 }
 
 /* The way from the declared model to the final one, with the held-out error of each; and every model that was tried. */
-static void add_steps(cJSON *root, const lab_story *story)
+static void add_steps(cJSON *root, const lab_report *report)
 {
-  const lab_loop_result *r = story->result;
+  const lab_search_result *r = report->result;
   cJSON *list = cJSON_AddArrayToObject(root, "path");
   int i;
   for (i = 0; i < r->n_path; i++) {
     cJSON *o = add_model(list, r->path[i].name, r->path[i].chi2, r->path[i].bic);
-    add_errors(o, "error", &story->fitted_path[i]);
-    if (story->has_holdout)
-      add_errors(o, "holdout", &story->holdout_path[i]);
+    add_errors(o, "error", &report->fitted_path[i]);
+    if (report->has_holdout)
+      add_errors(o, "holdout", &report->holdout_path[i]);
   }
   list = cJSON_AddArrayToObject(root, "steps");
   for (i = 0; i < r->n_steps; i++)
@@ -179,74 +246,71 @@ static void add_steps(cJSON *root, const lab_story *story)
 }
 
 /* Figures of merit of what was measured, and of what the completed model does in its place. */
-static void add_metrics(cJSON *to, const lab_story *story)
+static void add_metrics(cJSON *to, const lab_report *report)
 {
   cJSON *o;
-  if (!story->measured)
+  if (!report->measured)
     return;
   o = cJSON_AddObjectToObject(to, "metrics");
-  cJSON_AddStringToObject(o, "step_signal", lab_metrics_step_signal(story->measured->command));
-  cJSON_AddStringToObject(o, "static_signal", lab_metrics_static_signal(story->measured->command));
-  cJSON_AddItemToObject(o, "measured", lab_metrics_object(story->measured));
-  cJSON_AddItemToObject(o, "predicted", lab_metrics_object(story->predicted));
+  cJSON_AddStringToObject(o, "step_signal", lab_metrics_step_signal(report->measured->command));
+  cJSON_AddStringToObject(o, "static_signal", lab_metrics_static_signal(report->measured->command));
+  cJSON_AddItemToObject(o, "measured", lab_metrics_object(report->measured));
+  cJSON_AddItemToObject(o, "predicted", lab_metrics_object(report->predicted));
 }
 
-static cJSON *json_of(const lab_story *story)
+static cJSON *json_of(const lab_report *report)
 {
-  const lab_loop_result *result = story->result;
+  const lab_search_result *result = report->result;
   cJSON *root = cJSON_CreateObject(), *o;
   char sentence[LAB_SENTENCE_TEXT];
   int i;
-  lab_story_sentence(story, sentence, sizeof sentence);
+  lab_report_sentence(report, sentence, sizeof sentence);
   cJSON_AddStringToObject(root, "verdict", lab_verdict_text(result->verdict));
   cJSON_AddStringToObject(root, "sentence", sentence);
+  if (report->limitations && report->limitations->doubt)
+    cJSON_AddStringToObject(root, "doubt", report->limitations->text[report->limitations->doubt - 1]);
+  cJSON_AddBoolToObject(root, "complete", !result->cut_short);
+  if (report->changes)
+    lab_report_changes(report->changes, root);
   o = cJSON_AddArrayToObject(root, "found");
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].effect >= 0)
-      add_found(o, story, i);
+      add_found(o, report, i);
   o = cJSON_AddArrayToObject(root, "unlisted");
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].term >= 0)
-      add_unlisted(o, story, &result->found[i]);
-  add_parameters(root, story);
+      add_unlisted(o, report, &result->found[i]);
+  add_condition(root, report);
+  add_parameters(root, report);
   o = cJSON_AddObjectToObject(root, "error");
   add_errors(o, "before", &result->before);
   add_errors(o, "after", &result->after);
-  if (story->has_holdout)
-    add_holdout(o, story);
-  add_candidates(root, &result->trace);
+  if (report->has_holdout)
+    add_holdout(o, report);
+  add_whiteness(root, result);
+  add_log(root, report->completed);
+  add_candidates(root, result);
   o = cJSON_AddArrayToObject(root, "significant_but_small");
   for (i = 0; i < result->n_listed; i++)
-    cJSON_AddItemToArray(o, cJSON_CreateString(pneu_effect_at(result->listed[i])->name));
+    lab_json_say(o, "%s", pneu_effect_at(result->listed[i])->name);
   if (result->has_small)
-    add_small_term(o, &result->small);
-  if (story->next.kind == LAB_ADVICE_TRIAL)
-    cJSON_AddStringToObject(root, "record_next", story->next.text);
-  add_steps(root, story);
-  lab_story_limits(story, cJSON_AddArrayToObject(root, "limitations"));
-  add_metrics(root, story);
-  o = cJSON_AddObjectToObject(root, "timing");
-  add_number(o, "fit_s", story->fit_s);
-  add_number(o, "trace_s", story->trace_s);
-  add_number(o, "total_s", story->total_s);
+    lab_json_say(o, "unlisted:%s", lab_free_term_equation(&result->small));
+  if (report->next.kind == LAB_ADVICE_TEST)
+    cJSON_AddStringToObject(root, "record_next", report->next.text);
+  add_steps(root, report);
+  lab_report_limits(report, cJSON_AddArrayToObject(root, "limitations"));
+  add_metrics(root, report);
+  lab_json_numbers(cJSON_AddObjectToObject(root, "timing"), (const lab_json_named[]){{"fit_s", report->fit_s},
+                                                                                     {"trace_s", report->trace_s},
+                                                                                     {"total_s", report->total_s},
+                                                                                     {NULL, 0}});
   return root;
 }
 
-int lab_story_json(const lab_story *story, const char *folder, lab_error *error)
+int lab_report_json(const lab_report *report, const char *folder, lab_error *error)
 {
   lab_outfile out;
-  cJSON *root;
-  char *text;
-  if (lab_report_open(folder, "report.json", &out, error))
+  if (lab_report_file_open(folder, "report.json", &out, error))
     return error->status;
-  root = json_of(story);
-  text = cJSON_Print(root);
-  cJSON_Delete(root);
-  if (!text) {
-    lab_out_abandon(&out);
-    return lab_fail_memory(error, "report.json");
-  }
-  fprintf(out.file, "%s\n", text);
-  cJSON_free(text);
-  return lab_out_close(&out, error);
+  return lab_out_end(&out, lab_json_write(out.file, json_of(report), "report.json", error), error);
 }

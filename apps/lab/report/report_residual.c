@@ -1,88 +1,54 @@
 /* residual.csv: every row fitted, beside what both models make of it. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "loopfiles.h"
+#include "residual_table.h"
 
-/* Whether any experiment measures a channel. */
-static int is_measured(const lab_unknowns *u, int channel)
-{
-  int e, c, any = 0;
-  for (e = 0; e < u->n_experiments; e++)
-    for (c = 0; c < u->experiment[e].n_channels; c++)
-      any |= u->experiment[e].channel[c] == channel;
-  return any;
-}
-
-static void residual_head(FILE *file, const lab_unknowns *u)
+static void put_head(FILE *file, const lab_residual_table *v)
 {
   int c;
   fputs("run [1],t [s]", file);
   for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
     const lab_channel_info *info = &lab_channels[c];
-    if (is_measured(u, c))
+    if (lab_residual_table_channel(v, c))
       fprintf(file, ",%s [%s],%s_before [%s],%s_after [%s],%s_residual_before [1],%s_residual_after [1]", info->key,
               info->unit, info->key, info->unit, info->key, info->unit, info->key, info->key);
   }
   fputc('\n', file);
 }
 
-/* One row of one channel; empty where the experiment does not have it, and in a gap. */
-static void residual_cell(FILE *file, const lab_experiment *x, int channel, size_t i, const double *before,
-                          const double *after)
+/* One row of one channel; empty where the run does not have it, and in a gap. */
+static void put_cell(FILE *file, const lab_residual_channel *mine, size_t row)
 {
-  int c = 0;
-  size_t at;
-  double y;
-  while (c < x->n_channels && x->channel[c] != channel)
-    c++;
-  y = c < x->n_channels ? lab_experiment_measured(x, c, i) : (double)NAN;
-  at = (size_t)c * x->n + i;
-  if (isnan(y))
+  if (isnan(mine->measured[row]))
     fputs(",,,,,", file);
   else
-    fprintf(file, ",%.9g,%.9g,%.9g,%.5g,%.5g", y, y - before[at] * x->sigma[c], y - after[at] * x->sigma[c], before[at],
-            after[at]);
+    fprintf(file, ",%.9g,%.9g,%.9g,%.5g,%.5g", mine->measured[row], mine->predicted[LAB_STAGE_BEFORE][row],
+            mine->predicted[LAB_STAGE_AFTER][row], mine->residual[LAB_STAGE_BEFORE][row],
+            mine->residual[LAB_STAGE_AFTER][row]);
 }
 
-static void residual_rows(FILE *file, const lab_unknowns *u, const double *before, const double *after)
+static void put_run(FILE *file, const lab_residual_table *v, int run, const lab_run *x)
 {
-  int e, c;
-  for (e = 0; e < u->n_experiments; e++) {
-    const lab_experiment *x = &u->experiment[e];
-    size_t i;
-    for (i = 0; i < x->n; i++) {
-      fprintf(file, "%d,%.9g", e + 1, x->log->value[LAB_CHANNEL_TIME][x->first + i]);
-      for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-        if (is_measured(u, c))
-          residual_cell(file, x, c, i, before, after);
-      fputc('\n', file);
-    }
-    before += x->n * (size_t)x->n_channels;
-    after += x->n * (size_t)x->n_channels;
+  size_t i;
+  int c;
+  for (i = 0; i < x->n; i++) {
+    fprintf(file, "%d,%.9g", run + 1, x->log->value[LAB_CHANNEL_TIME][x->first + i]);
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      if (lab_residual_table_channel(v, c))
+        put_cell(file, lab_residual_table_channel(v, c), v->first[run] + i);
+    fputc('\n', file);
   }
 }
 
-int lab_story_residual(const lab_story *story, const char *folder, lab_error *error)
+int lab_report_residual(const lab_report *report, const lab_residual_table *table, const char *folder, lab_error *error)
 {
-  const lab_unknowns *u = story->completed;
-  double *before = malloc((u->n_rows + 1) * sizeof *before);
-  double *after = malloc((u->n_rows + 1) * sizeof *after);
   lab_outfile out;
-  int status = before && after ? LAB_OK : lab_fail_memory(error, "residuals");
-  if (status == LAB_OK)
-    status = lab_unknowns_errors(story->declared, before, error);
-  if (status == LAB_OK)
-    status = lab_unknowns_errors(u, after, error);
-  if (status == LAB_OK)
-    status = lab_report_open(folder, "residual.csv", &out, error);
-  if (status == LAB_OK) {
-    residual_head(out.file, u);
-    residual_rows(out.file, u, before, after);
-    status = lab_out_close(&out, error);
-  }
-  free(before);
-  free(after);
-  return status;
+  int run;
+  if (lab_report_file_open(folder, "residual.csv", &out, error))
+    return error->status;
+  put_head(out.file, table);
+  for (run = 0; run < table->n_runs; run++)
+    put_run(out.file, table, run, &report->completed->run[run]);
+  return lab_out_close(&out, error);
 }

@@ -1,78 +1,244 @@
-/* The answer in one sentence. */
+/* The answer in words: what deviates, what is missing, and what that does to the error. */
+#include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
-#include "../trace/unlisted.h"
-#include "loopfiles.h"
+#include "../base/format.h"
+#include "../trace/freeterms.h"
+#include "effect_sentence.h"
+#include "report.h"
 
-/* "chamber_leak", "dry friction at x = 11 .. 13 mm, both directions" */
-static void name_found(const lab_story *story, const lab_found *found, char *text, size_t size)
+enum { DEVIATIONS_TOLD = 3 };
+
+typedef struct words {
+  char *text;
+  size_t size;
+} words;
+
+static void add(const words *w, const char *format, ...) LAB_PRINTF(2, 3);
+
+static void add(const words *w, const char *format, ...)
 {
-  char where[LAB_WHERE_TEXT];
-  const pneu_term *term;
-  if (found->effect >= 0) {
-    snprintf(text, size, "%s", pneu_effect_at(found->effect)->name);
+  const size_t used = strlen(w->text);
+  va_list list;
+  va_start(list, format);
+  vsnprintf(w->text + used, w->size - used, format, list);
+  va_end(list);
+}
+
+/* ", " or " and " before item i of n, nothing before the first. */
+static const char *joint(int i, int n)
+{
+  return i == 0 ? "" : i + 1 < n ? ", " : " and ";
+}
+
+/* ---- What deviates ---- */
+
+/* What a person calls a parameter, and by how much less or more of it there is; others are "the" and their name. */
+static const struct {
+  const char *name, *called, *less, *more;
+} plain[] = {{"dry_friction", "friction", NULL, NULL},
+             {"spring_rate", "the spring", "soft", "stiff"},
+             {"orifice_area", "the area of both orifices", NULL, NULL}};
+
+/* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa" */
+static void add_ratio(const words *w, const lab_deviation *d, const char *less, const char *more)
+{
+  const double percent = 100 * (d->ratio - 1);
+  char found[LAB_FORMAT_TEXT], declared[LAB_FORMAT_TEXT];
+  if (!isfinite(d->ratio))
+    add(w, "%s in place of %s", lab_format_quantity(d->found, d->unit, 3, found),
+        lab_format_quantity(d->declared, d->unit, 3, declared));
+  else if (d->ratio >= 2 || d->ratio < 0.5)
+    add(w, "%.2g times its sheet", d->ratio);
+  else if (less)
+    add(w, "%.2g %% %s", fabs(percent), percent < 0 ? less : more);
+  else
+    add(w, "%.2g %% %s its sheet", fabs(percent), percent < 0 ? "below" : "above");
+}
+
+static void add_deviation(const words *w, const lab_deviation *d, int first)
+{
+  const char *verb = first ? "is " : "";
+  char name[LAB_PARAM_NAME_TEXT];
+  size_t i;
+  for (i = 0; i < sizeof plain / sizeof *plain; i++)
+    if (!strcmp(plain[i].name, d->name)) {
+      add(w, "%s %s", plain[i].called, verb);
+      add_ratio(w, d, plain[i].less, plain[i].more);
+      return;
+    }
+  snprintf(name, sizeof name, "%s", d->name);
+  for (i = 0; name[i]; i++)
+    if (name[i] == '_' || name[i] == '.')
+      name[i] = ' ';
+  add(w, "the %s %s", name, verb);
+  add_ratio(w, d, NULL, NULL);
+}
+
+/* Those beyond their tolerance.  Returns: their number */
+static int add_deviations(const words *w, const lab_deviations *all)
+{
+  char *begin = w->text + strlen(w->text);
+  int i, n = 0, told = 0;
+  for (i = 0; i < all->n; i++)
+    n += all->of[i].beyond != 0;
+  for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
+    if (all->of[i].beyond) {
+      add(w, "%s", told ? ", " : "");
+      add_deviation(w, &all->of[i], told++ == 0);
+    }
+  if (n > told)
+    add(w, ", and %d more", n - told);
+  *begin = (char)toupper((unsigned char)*begin);
+  return n;
+}
+
+/* ---- What is missing ---- */
+
+void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
+{
+  char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT];
+  const lab_rig *rig = &report->completed->rig;
+  if (found->effect >= 0)
+    snprintf(text, LAB_FOUND_SENTENCE, "%s", lab_effect_sentence(rig, found->effect, found->param, sentence));
+  else
+    snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
+             lab_free_term_what(&rig->term[found->term]), lab_free_term_where(&rig->term[found->term], where));
+}
+
+/* The sentence of each, with its name before the full stop. */
+static void add_found(const words *w, const lab_report *report)
+{
+  const lab_search_result *r = report->result;
+  int i;
+  for (i = 0; i < r->n_found; i++) {
+    char sentence[LAB_FOUND_SENTENCE];
+    lab_report_found_sentence(report, &r->found[i], sentence);
+    add(w, "%s%.*s", i ? " " : "", (int)strlen(sentence) - 1, sentence);
+    if (r->found[i].effect >= 0)
+      add(w, " (%s)", pneu_effect_at(r->found[i].effect)->name);
+    add(w, ".");
+  }
+}
+
+static int is_small(const lab_search_result *r)
+{
+  return r->n_listed > 0 || r->has_small;
+}
+
+/* In the words that follow deviations, or in those that stand alone. */
+static const char *nothing(const lab_report *report, int deviates)
+{
+  if (is_small(report->result))
+    return deviates ? "; nothing else is missing that is worth adding." : "Nothing is missing that is worth adding.";
+  if (deviates)
+    return "; nothing else is missing.";
+  return report->deviations.condition == LAB_CONDITION_AS_DECLARED
+             ? "Nothing is missing, and every declared value is within its tolerance."
+             : "Nothing is missing.";
+}
+
+static const char *doubt(const lab_report *report)
+{
+  const lab_limitations *l = report->limitations;
+  return l && l->doubt ? l->text[l->doubt - 1] : NULL;
+}
+
+void lab_report_headline(const lab_report *report, char *text, size_t size)
+{
+  const words w = {text, size};
+  const lab_search_result *r = report->result;
+  int deviates;
+  *text = '\0';
+  if (report->changes)
+    lab_report_change_sentence(report->changes, text, size);
+  if (doubt(report)) {
+    add(&w, "Undecided: %s", doubt(report));
     return;
   }
-  term = &story->completed->rig.term[found->term];
-  snprintf(text, size, "something that has no name here (%s, %s)", lab_unlisted_what(term),
-           lab_unlisted_where(term, where));
-}
-
-static const char *found_names(const lab_story *story, char *text, size_t size)
-{
-  const lab_loop_result *r = story->result;
-  size_t used = 0;
-  int i;
-  for (i = 0; i < r->n_found && used < size; i++) {
-    char name[LAB_WHERE_TEXT + 128];
-    name_found(story, &r->found[i], name, sizeof name);
-    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " and " : "", name);
+  deviates = add_deviations(&w, &report->deviations) > 0;
+  if (r->verdict == LAB_VERDICT_NONE) {
+    add(&w, "%s", nothing(report, deviates));
+    return;
   }
-  return text;
+  add(&w, deviates ? ". " : "");
+  if (r->verdict == LAB_VERDICT_UNDECIDED)
+    add(&w, "Something%s is missing, but the log does not say what.", deviates ? " else" : "");
+  else
+    add_found(&w, report);
 }
 
-/* "wall_temperature and 2 more are" */
-static const char *listed_names(const lab_loop_result *r, char *text, size_t size)
+/* ---- What that does to the error ---- */
+
+static double in_noise(const lab_errors *errors)
 {
-  const char *first = r->n_listed ? pneu_effect_at(r->listed[0])->name : "something without a name";
+  return sqrt(errors->chi2 / (double)errors->n);
+}
+
+/* "laminar_leak, heat_transfer and a free term" */
+static void add_names(const words *w, const lab_search_result *r)
+{
+  int i;
+  for (i = 0; i < r->n_found; i++)
+    add(w, "%s%s", joint(i, r->n_found),
+        r->found[i].effect >= 0 ? pneu_effect_at(r->found[i].effect)->name : "a free term");
+}
+
+static void add_undecided(const words *w, const lab_search_result *r)
+{
+  const double before = in_noise(&r->before), after = in_noise(&r->after);
+  if (r->n_found == 0) {
+    add(w, "The residual is %.2f times the noise, and no effect of the catalogue explains it.", after);
+    return;
+  }
+  add(w, "With the best candidate%s, ", r->n_found > 1 ? "s" : "");
+  add_names(w, r);
+  add(w, ", the error falls from %.2f to %.2f times the noise, but what is left is not noise.", before, after);
+}
+
+static void add_small(const words *w, const lab_search_result *r)
+{
   const int more = r->n_listed + r->has_small - 1;
-  if (more > 0)
-    snprintf(text, size, "%s and %d more are", first, more);
-  else
-    snprintf(text, size, "%s is", first);
-  return text;
+  add(w, " Significant, but lowering the error by less than --min-gain: %s",
+      r->n_listed ? pneu_effect_at(r->listed[0])->name : "a free term");
+  add(w, more > 0 ? " and %d more." : ".", more);
 }
 
-void lab_story_sentence(const lab_story *story, char *text, size_t size)
+void lab_report_evidence(const lab_report *report, char *text, size_t size)
 {
-  const lab_loop_result *r = story->result;
-  const double before = sqrt(r->before.chi2 / (double)r->before.n), after = sqrt(r->after.chi2 / (double)r->after.n);
-  char names[512];
-  if (story->remarks && story->remarks->doubt)
-    snprintf(text, size, "Undecided: %s", story->remarks->text[story->remarks->doubt - 1]);
-  else if (r->verdict == LAB_VERDICT_UNDECIDED && r->n_found)
-    snprintf(text, size,
-             "Undecided: %s comes nearest and lowers the error from %.2f to %.2f times the noise, but what is left is "
-             "not noise.",
-             found_names(story, names, sizeof names), before, after);
-  else if (r->verdict == LAB_VERDICT_UNDECIDED)
-    snprintf(text, size,
-             "Undecided: what is left, %.2f times the noise, is not noise, and the catalogue does not explain it.",
-             after);
-  else if (r->window > 0)
-    snprintf(text, size,
-             "The model lacks %s: the stem sticks and slips, and with it the model does so as much as the log, though "
-             "no model keeps in step with every slip.",
-             found_names(story, names, sizeof names));
+  const words w = {text, size};
+  const lab_search_result *r = report->result;
+  const char *with = r->n_found > 1 ? "With them" : "With it";
+  *text = '\0';
+  if (doubt(report))
+    return;
+  if (r->verdict == LAB_VERDICT_UNDECIDED)
+    add_undecided(&w, r);
+  else if (r->window > 0 && r->n_found > 0)
+    add(&w, "%s the stem sticks and slips as it does in the log; the instants of single slips cannot be predicted.",
+        with);
   else if (r->n_found > 0)
-    snprintf(text, size, "The model lacks %s: with it the error falls from %.2f to %.2f times the noise.",
-             found_names(story, names, sizeof names), before, after);
-  else if (r->n_listed || r->has_small)
-    snprintf(text, size,
-             "Nothing worth adding: the declared model leaves %.2f times the noise; %s significant, but would lower "
-             "that by less than --min-gain asks for.",
-             before, listed_names(r, names, sizeof names));
+    add(&w, "%s the error falls from %.2f to %.2f times the noise.", with, in_noise(&r->before), in_noise(&r->after));
   else
-    snprintf(text, size, "Nothing is missing: the declared model leaves %.2f times the noise.", before);
+    add(&w, "The declared model leaves %.2f times the noise.", in_noise(&r->after));
+  if (r->verdict == LAB_VERDICT_NONE && is_small(r))
+    add_small(&w, r);
+  if (r->cut_short)
+    add(&w, " The search was ended by --budget: this is the best answer so far.");
+}
+
+void lab_report_sentence(const lab_report *report, char *text, size_t size)
+{
+  size_t used;
+  lab_report_headline(report, text, size);
+  used = strlen(text);
+  if (used + 1 < size) {
+    text[used] = ' ';
+    lab_report_evidence(report, text + used + 1, size - used - 1);
+    if (!text[used + 1])
+      text[used] = '\0';
+  }
 }

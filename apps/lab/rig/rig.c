@@ -4,34 +4,27 @@
 #include <string.h>
 
 #include "../base/config.h"
+#include "../base/escape.h"
 #include "../base/names.h"
 #include "rigkeys.h"
 #include "rigterm.h"
+#include "tolerance.h"
 #include "../base/text.h"
 
 /* ---- Names of what can be fitted ---- */
 
-/* Effect that owns a parameter. */
-static int effect_of(int param)
-{
-  int e = 0;
-  while (e + 1 < PNEU_EFFECT_COUNT && pneu_effect_params(e + 1, NULL) <= param)
-    e++;
-  return e;
-}
-
-const char *lab_fit_name(int index, char name[LAB_FIT_TEXT])
+const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT])
 {
   pneu_param_info info;
-  if (index == LAB_FIT_ORIFICE_AREA) {
+  if (index == LAB_PARAM_ORIFICE_AREA) {
     strcpy(name, "orifice_area");
     return name;
   }
   pneu_param_describe(index, &info);
   if (index < PNEU_PARAM_BASE_COUNT)
-    snprintf(name, LAB_FIT_TEXT, "%s", info.name);
+    snprintf(name, LAB_PARAM_NAME_TEXT, "%s", info.name);
   else
-    snprintf(name, LAB_FIT_TEXT, "%s.%s", pneu_effect_at(effect_of(index))->name, info.name);
+    snprintf(name, LAB_PARAM_NAME_TEXT, "%s.%s", pneu_effect_at(pneu_effect_of(index))->name, info.name);
   return name;
 }
 
@@ -54,9 +47,10 @@ static int read_name(const config_setting_t *setting, int param, lab_rig *rig, l
   (void)param;
   if (lab_config_text(setting, rig->name, sizeof rig->name, error))
     return error->status;
-  if (*rig->name && !strpbrk(rig->name, "/\n"))
+  if (*rig->name && lab_is_plain(rig->name))
     return LAB_OK;
-  return lab_config_expected(setting, "a name without \"/\"", error);
+  return lab_config_expected(setting, "a name in UTF-8, without control characters or marks that turn the writing",
+                             error);
 }
 
 static int read_action(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
@@ -99,9 +93,9 @@ static int read_friction(const config_setting_t *setting, int param, lab_rig *ri
   effect = lab_friction_words[rig->friction].effect;
   if (!effect)
     return LAB_OK;
-  if (lab_effect_index(effect) < 0)
+  if (pneu_effect_find(effect) < 0)
     return lab_config_fail(setting, error, "this build of the library has no effect %s", effect);
-  first = pneu_effect_params(lab_effect_index(effect), &count);
+  first = pneu_effect_params(pneu_effect_find(effect), &count);
   for (i = first; i < first + count; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
@@ -167,23 +161,36 @@ static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, 
     status = lab_config_known(group, names, (size_t)count, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
-    k = lab_name_index(config_setting_name(setting), names, (size_t)count, sizeof names[0]);
-    status = read_param(setting, first + k, rig, error);
+    status = read_param(setting, pneu_param_find(config_setting_name(setting)), rig, error);
   }
   return status;
+}
+
+/* A positioner has its usual gain unless the group says otherwise. */
+static int read_positioner(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  const int gain = pneu_param_find("positioner.gain");
+  pneu_param_info info;
+  if (gain < 0)
+    return lab_config_fail(group, error, "this build of the library has no positioner");
+  pneu_param_describe(gain, &info);
+  *pneu_param_at(&rig->params, gain) = info.value;
+  return read_effect(group, pneu_effect_of(gain), rig, error);
 }
 
 static int read_effects(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
   const char *names[PNEU_EFFECT_COUNT + 1];
-  int i, status = lab_config_is_group(group, error);
+  const int positioner = pneu_effect_find("positioner"); /* has a group of its own */
+  int i, n = 0, status = lab_config_is_group(group, error);
   for (i = 0; i < PNEU_EFFECT_COUNT; i++)
-    names[i] = pneu_effect_at(i)->name;
+    if (i != positioner)
+      names[n++] = pneu_effect_at(i)->name;
   if (status == LAB_OK)
-    status = lab_config_known(group, names, PNEU_EFFECT_COUNT, sizeof names[0], error);
+    status = lab_config_known(group, names, (size_t)n, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
-    status = read_effect(member, lab_effect_index(config_setting_name(member)), rig, error);
+    status = read_effect(member, pneu_effect_find(config_setting_name(member)), rig, error);
   }
   return status;
 }
@@ -194,14 +201,14 @@ static int read_effects(const config_setting_t *group, lab_rig *rig, lab_error *
 static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab_error *error)
 {
   const int area[2] = {PNEU_PARAM_fill_area, PNEU_PARAM_vent_area};
-  char name[LAB_FIT_TEXT];
+  char name[LAB_PARAM_NAME_TEXT];
   int i;
   for (i = 0; i < rig->n_fit; i++) {
     int other = rig->fit[i];
     if (other == index)
       return lab_config_fail(setting, error, "%s is there twice", lab_fit_name(index, name));
-    if ((index == LAB_FIT_ORIFICE_AREA && (other == area[0] || other == area[1])) ||
-        (other == LAB_FIT_ORIFICE_AREA && (index == area[0] || index == area[1])))
+    if ((index == LAB_PARAM_ORIFICE_AREA && (other == area[0] || other == area[1])) ||
+        (other == LAB_PARAM_ORIFICE_AREA && (index == area[0] || index == area[1])))
       return lab_config_fail(setting, error, "orifice_area scales fill_area and vent_area: give it alone, or these");
   }
   rig->fit[rig->n_fit++] = index;
@@ -210,14 +217,14 @@ static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab
 
 static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
 {
-  char text[LAB_FIT_COUNT][LAB_FIT_TEXT];
-  const char *names[LAB_FIT_COUNT];
-  int i, index, status = lab_config_list(list, 0, LAB_FIT_COUNT, error);
-  for (i = 0; i < LAB_FIT_COUNT; i++)
+  char text[LAB_PARAM_COUNT][LAB_PARAM_NAME_TEXT];
+  const char *names[LAB_PARAM_COUNT];
+  int i, index, status = lab_config_list(list, 0, LAB_PARAM_COUNT, error);
+  for (i = 0; i < LAB_PARAM_COUNT; i++)
     names[i] = lab_fit_name(i, text[i]);
   for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
     const config_setting_t *setting = config_setting_get_elem(list, (unsigned)i);
-    status = lab_config_choice(setting, names, LAB_FIT_COUNT, sizeof names[0], &index, error);
+    status = lab_config_choice(setting, names, LAB_PARAM_COUNT, sizeof names[0], &index, error);
     if (status == LAB_OK)
       status = add_fit(setting, index, rig, error);
     if (status == LAB_OK)
@@ -307,9 +314,20 @@ static const struct section {
   const char *name;
   int (*read)(const config_setting_t *, lab_rig *, lab_error *);
 } sections[] = {
-    {"actuator", read_keys}, {"transducer", read_keys}, {"supply", read_keys},     {"ambient", read_keys},
-    {"gas", read_keys},      {"laws", read_keys},       {"fit", read_fit},         {"fit_per_log", read_fit_per_log},
-    {"noise", read_noise},   {"inputs", read_inputs},   {"effects", read_effects}, {"unlisted", read_unlisted},
+    {"actuator", read_keys},
+    {"transducer", read_keys},
+    {"supply", read_keys},
+    {"ambient", read_keys},
+    {"gas", read_keys},
+    {"laws", read_keys},
+    {"fit", read_fit},
+    {"fit_per_log", read_fit_per_log},
+    {"noise", read_noise},
+    {"inputs", read_inputs},
+    {"positioner", read_positioner},
+    {"effects", read_effects},
+    {"unlisted", read_unlisted},
+    {"tolerance", lab_tolerance_read},
     {"log", read_log},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
@@ -325,6 +343,8 @@ void lab_rig_default(lab_rig *rig)
   rig->input[LAB_CHANNEL_U] = 1;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++)
     rig->noise[i] = NAN;
+  for (i = 0; i < LAB_PARAM_COUNT; i++)
+    rig->tolerance[i] = NAN;
   lab_log_format_default(&rig->log);
   tell_log(rig);
 }
@@ -337,6 +357,7 @@ static void name_from_path(const char *path, char name[LAB_NAME_TEXT])
   dot = strrchr(name, '.');
   if (dot && dot > name)
     *dot = '\0';
+  lab_make_plain(name);
 }
 
 /* A rig that can fill must have something to fill from. */
@@ -370,8 +391,9 @@ static int check_effects_act(const lab_rig *rig, const pneu_model *model, lab_er
       pneu_param_describe(first + i, &info);
       if (!info.shape && *pneu_param_at((pneu_params *)&rig->params, first + i) != info.neutral)
         return lab_fail(error, LAB_DATA,
-                        "%s: effects.%s.%s does nothing with the other laws and effects declared (gas law \"%s\"): %s",
-                        rig->file, pneu_effect_at(e)->name, info.name, pneu_gas_key(rig->laws.gas), info.meaning);
+                        "%s: %s%s.%s does nothing with the other laws and effects declared (gas law \"%s\"): %s",
+                        rig->file, e == pneu_effect_find("positioner") ? "" : "effects.", pneu_effect_at(e)->name,
+                        info.name, pneu_gas_key(rig->laws.gas), info.meaning);
     }
   }
   return LAB_OK;
@@ -426,9 +448,15 @@ int lab_rig_read(const char *path, lab_rig *rig, lab_error *error)
   return status == LAB_OK ? check_all_acts(rig, error) : status;
 }
 
+int lab_rig_has_positioner(const lab_rig *rig)
+{
+  const int gain = pneu_param_find("positioner.gain");
+  return gain >= 0 && *pneu_param_at((pneu_params *)&rig->params, gain) > 0;
+}
+
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)
 {
-  char name[LAB_FIT_TEXT];
+  char name[LAB_PARAM_NAME_TEXT];
   int bad, status = pneu_model_init(model, &rig->params, &rig->laws, &bad);
   if (status != PNEU_OK)
     return lab_fail(error, LAB_DATA, "%s: %s%s%s", rig->file, bad >= 0 ? lab_fit_name(bad, name) : "",

@@ -12,7 +12,7 @@
  * its equation is supply, force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p, u
  * or t, and numbers are in SI where no unit is given. Over t the values are the amplitudes of cosine and sine of the
  * period to - from, of its half and so on. Between [ and ] libconfig wants all numbers with a point or none; ( and )
- * take both. The group log is described in logformat.h.
+ * take both. The groups log and tolerance are described in logformat.h and tolerance.h.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_RIG_H
 #define LAB_RIG_H
@@ -25,11 +25,11 @@
 #include "../base/message.h"
 
 enum {
-  LAB_FIT_ORIFICE_AREA = PNEU_PARAM_COUNT, /* in lab_rig.fit: scales fill_area and vent_area together */
-  LAB_FIT_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
+  LAB_PARAM_ORIFICE_AREA = PNEU_PARAM_COUNT, /* in lab_rig.fit: scales fill_area and vent_area together */
+  LAB_PARAM_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
   LAB_TERM_MAX = 4,
   LAB_NAME_TEXT = 64,
-  LAB_FIT_TEXT = 96, /* bytes of a name from lab_fit_name */
+  LAB_PARAM_NAME_TEXT = 96, /* bytes of a name from lab_fit_name */
   LAB_PATH_TEXT = 1024
 };
 
@@ -47,10 +47,12 @@ typedef struct lab_rig {
   pneu_term term[LAB_TERM_MAX]; /* free terms: what acts without a name */
   int n_terms;
   int n_fit;
-  int fit[LAB_FIT_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_FIT_ORIFICE_AREA */
-  unsigned char fit_per_log[LAB_FIT_COUNT]; /* 1: every log has its own value */
-  double noise[LAB_CHANNEL_COUNT];          /* standard deviation, SI; NaN: estimate it from the log */
-  unsigned char input[LAB_CHANNEL_COUNT];   /* 1: drives the model; u always does */
+  int fit[LAB_PARAM_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_PARAM_ORIFICE_AREA */
+  unsigned char fit_per_log[LAB_PARAM_COUNT]; /* 1: every log has its own value */
+  double tolerance[LAB_PARAM_COUNT];          /* with which a value is known, SI; NaN: see tolerance.h */
+  int others_are_exact;                       /* the file says so of tolerances that it does not give */
+  double noise[LAB_CHANNEL_COUNT];            /* standard deviation, SI; NaN: estimate it from the log */
+  unsigned char input[LAB_CHANNEL_COUNT];     /* 1: drives the model; u always does */
   lab_log_format log;
 } lab_rig;
 
@@ -67,17 +69,25 @@ int lab_rig_read(const char *path, lab_rig *rig, lab_error *error);
 void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark);
 
 /* Write parameters, laws and free terms as C: macros MODEL_PARAMS, MODEL_LAWS, MODEL_N_TERMS and, unless there are
- * none, MODEL_TERMS, for initialisers. */
-void lab_rig_write_c(FILE *file, const lab_rig *rig);
+ * none, MODEL_TERMS, for initialisers. In C99 parameters of effects go by name, and any catalogue will do that has what
+ * is named; in C90 and C++ they go by place, and any catalogue but the whole one is an error at compile time. To be
+ * included after pneu.h. In:      whole  not 0: the names of neutral effects too */
+void lab_rig_write_c(FILE *file, const lab_rig *rig, int whole);
+
+/* Write the catalogue that a rig needs, in the form of lib/effects.def: its effects that are not neutral. */
+void lab_rig_write_catalogue(FILE *file, const lab_rig *rig);
 
 /* The library's model of a rig. It uses the rig's free terms where they lie: the rig must outlive it, unmoved.
  * Out:     model
  * Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
 
+/* Whether the rig file declares a positioner. */
+int lab_rig_has_positioner(const lab_rig *rig);
+
 /* Name of something fitted: "dry_friction", "orifice_area", "chamber_leak.leak_area".
- * In:      index  0 <= index < LAB_FIT_COUNT
+ * In:      index  0 <= index < LAB_PARAM_COUNT
  * Out:     name   Returns: name */
-const char *lab_fit_name(int index, char name[LAB_FIT_TEXT]);
+const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT]);
 
 #endif

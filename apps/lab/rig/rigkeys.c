@@ -1,7 +1,5 @@
 #include "rigkeys.h"
 
-#include <string.h>
-
 #define PARAM(group, key, name)                                                                                        \
   {                                                                                                                    \
     key, group, LAB_KEY_PARAM, PNEU_PARAM_##name                                                                       \
@@ -42,12 +40,3 @@ const int lab_key_count = sizeof lab_keys / sizeof lab_keys[0];
 const lab_word lab_action_words[2] = {{"normal", NULL}, {"reverse", NULL}};
 const lab_word lab_friction_words[LAB_FRICTION_COUNT] = {
     {"coulomb", NULL}, {"stribeck", "stribeck_friction"}, {"lugre", "presliding"}};
-
-int lab_effect_index(const char *name)
-{
-  int i;
-  for (i = 0; i < PNEU_EFFECT_COUNT; i++)
-    if (strcmp(pneu_effect_at(i)->name, name) == 0)
-      return i;
-  return -1;
-}

@@ -27,7 +27,4 @@ typedef struct lab_word {
 extern const lab_word lab_action_words[2];
 extern const lab_word lab_friction_words[LAB_FRICTION_COUNT];
 
-/* Index of an effect by name, -1 if this build of the library has none of that name. */
-int lab_effect_index(const char *name);
-
 #endif

@@ -3,23 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/escape.h"
 #include "../base/number.h"
 #include "rigkeys.h"
 #include "rigterm.h"
+#include "tolerance.h"
 
-/* Text in quotes as libconfig reads it back. */
-static void write_text(FILE *file, const char *text)
-{
-  fputc('"', file);
-  for (; *text; text++) {
-    if (*text == '"' || *text == '\\')
-      fputc('\\', file);
-    fputc(*text, file);
-  }
-  fputc('"', file);
-}
-
-static void write_param(FILE *file, const lab_rig *rig, const char *key, int param, const char *indent)
+static void write_param(FILE *file, const lab_rig *rig, const char *key, int param, int indent)
 {
   pneu_params p = rig->params;
   pneu_param_info info;
@@ -27,9 +17,9 @@ static void write_param(FILE *file, const lab_rig *rig, const char *key, int par
   pneu_param_describe(param, &info);
   lab_number_write((double)*pneu_param_at(&p, param), number);
   if (strcmp(info.unit, "1") == 0)
-    fprintf(file, "%s%s = %s;\n", indent, key, number);
+    fprintf(file, "%*s%s = %s;\n", indent, "", key, number);
   else
-    fprintf(file, "%s%s = \"%s %s\";\n", indent, key, number, info.unit);
+    fprintf(file, "%*s%s = \"%s %s\";\n", indent, "", key, number, info.unit);
 }
 
 static void write_word(FILE *file, const char *key, const char *word)
@@ -41,11 +31,11 @@ static void write_key(FILE *file, const lab_rig *rig, const lab_key *key)
 {
   switch (key->kind) {
   case LAB_KEY_PARAM:
-    write_param(file, rig, key->key, key->param, "  ");
+    write_param(file, rig, key->key, key->param, 2);
     break;
   case LAB_KEY_NAME:
     fprintf(file, "  %s = ", key->key);
-    write_text(file, rig->name);
+    lab_put_config(file, rig->name);
     fputs(";\n", file);
     break;
   case LAB_KEY_ACTION:
@@ -79,7 +69,7 @@ static void write_keys(FILE *file, const lab_rig *rig)
 
 static void write_fit(FILE *file, const lab_rig *rig, const char *key, int per_log)
 {
-  char name[LAB_FIT_TEXT];
+  char name[LAB_PARAM_NAME_TEXT];
   int i, any = 0;
   for (i = 0; i < rig->n_fit; i++)
     if (rig->fit_per_log[i] == per_log)
@@ -125,25 +115,32 @@ static int is_written(const lab_rig *rig, int effect)
   return law && strcmp(law, pneu_effect_at(effect)->name) == 0;
 }
 
-static void write_effect(FILE *file, const lab_rig *rig, int effect)
+static void write_effect(FILE *file, const lab_rig *rig, int effect, int indent)
 {
   int i, count, first = pneu_effect_params(effect, &count);
-  fprintf(file, "  %s = {\n", pneu_effect_at(effect)->name);
+  fprintf(file, "%*s%s = {\n", indent, "", pneu_effect_at(effect)->name);
   for (i = first; i < first + count; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
-    write_param(file, rig, info.name, i, "    ");
+    write_param(file, rig, info.name, i, indent + 2);
   }
-  fputs("  };\n", file);
+  fprintf(file, "%*s};\n", indent, "");
+}
+
+static void write_positioner(FILE *file, const lab_rig *rig)
+{
+  const int positioner = pneu_effect_find("positioner");
+  if (positioner >= 0 && is_written(rig, positioner))
+    write_effect(file, rig, positioner, 0);
 }
 
 static void write_effects(FILE *file, const lab_rig *rig)
 {
   int i, any = 0;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++)
-    if (is_written(rig, i)) {
+    if (is_written(rig, i) && i != pneu_effect_find("positioner")) {
       fputs(any++ ? "" : "effects = {\n", file);
-      write_effect(file, rig, i);
+      write_effect(file, rig, i, 2);
     }
   if (any)
     fputs("};\n", file);
@@ -164,29 +161,79 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
   write_keys(file, rig);
   write_fit(file, rig, "fit", 0);
   write_fit(file, rig, "fit_per_log", 1);
+  lab_tolerance_write(file, rig);
   write_noise(file, rig);
   write_inputs(file, rig);
+  write_positioner(file, rig);
   write_effects(file, rig);
   lab_terms_write(file, rig->term, rig->n_terms);
   lab_log_format_write(file, &rig->log);
 }
 
-void lab_rig_write_c(FILE *file, const lab_rig *rig)
+/* A parameter in C, with what comes before and after it. */
+static void write_c(FILE *file, const lab_rig *rig, int param, const char *before)
 {
-  pneu_params params = rig->params;
+  pneu_params p = rig->params;
+  pneu_param_info info;
+  char number[LAB_NUMBER_TEXT];
+  pneu_param_describe(param, &info);
+  fprintf(file, "%s(pneu_real)%s, /* %s [%s] */ \\\n", before,
+          lab_number_write((double)*pneu_param_at(&p, param), number), info.name, info.unit);
+}
+
+/* Parameters of the effects that are not neutral, or of all, each by its name. */
+static void write_c_by_name(FILE *file, const lab_rig *rig, int whole)
+{
+  char place[128];
+  int e, i, count;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    for (i = pneu_effect_params(e, &count); count > 0 && (whole || is_written(rig, e)); i++, count--) {
+      snprintf(place, sizeof place, "    [PNEU_AT_%s + %d] = ", pneu_effect_at(e)->name,
+               i - pneu_effect_params(e, NULL));
+      write_c(file, rig, i, place);
+    }
+}
+
+/* Parameters of all effects by their places, and what these places are. */
+static void write_c_by_place(FILE *file, const lab_rig *rig)
+{
+  int e, i;
+  for (i = PNEU_PARAM_BASE_COUNT; i < PNEU_PARAM_COUNT; i++)
+    write_c(file, rig, i, "    ");
+  fputs("    (pneu_real)0\ntypedef char model_needs_the_whole_catalogue[ \\\n", file);
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    fprintf(file, "    PNEU_AT_%s == %d && \\\n", pneu_effect_at(e)->name,
+            pneu_effect_params(e, NULL) - PNEU_PARAM_BASE_COUNT);
+  fprintf(file, "    PNEU_EFFECT_PARAM_COUNT == %d ? 1 : -1];\n", PNEU_EFFECT_PARAM_COUNT);
+}
+
+void lab_rig_write_c(FILE *file, const lab_rig *rig, int whole)
+{
   int i;
-  fputs("#define MODEL_PARAMS \\\n  { \\\n", file);
-  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
-    pneu_param_info info;
-    char number[LAB_NUMBER_TEXT];
-    pneu_param_describe(i, &info);
-    if (i == PNEU_PARAM_BASE_COUNT)
-      fputs("    { \\\n", file);
-    fprintf(file, "    %s(pneu_real)%s, /* %s [%s] */ \\\n", i >= PNEU_PARAM_BASE_COUNT ? "  " : "",
-            lab_number_write((double)*pneu_param_at(&params, i), number), info.name, info.unit);
-  }
-  fprintf(file, "      (pneu_real)0 } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n", rig->laws.gas,
+  fputs("#if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 199901L && !defined(__cplusplus)\n"
+        "#define MODEL_EFFECTS \\\n",
+        file);
+  write_c_by_name(file, rig, whole);
+  fputs("    [PNEU_EFFECT_PARAM_COUNT] = (pneu_real)0\n#else\n#define MODEL_EFFECTS \\\n", file);
+  write_c_by_place(file, rig);
+  fputs("#endif\n#define MODEL_PARAMS \\\n  { \\\n", file);
+  for (i = 0; i < PNEU_PARAM_BASE_COUNT; i++)
+    write_c(file, rig, i, "    ");
+  fprintf(file, "    { MODEL_EFFECTS } \\\n  }\n#define MODEL_LAWS {%d, %d, %d, %d} /* %s, %s */\n", rig->laws.gas,
           rig->laws.flow, rig->laws.pressure_input, rig->laws.position_input, pneu_gas_key(rig->laws.gas),
           pneu_flow_key(rig->laws.flow));
   lab_terms_print_c(file, rig->term, rig->n_terms);
+}
+
+void lab_rig_write_catalogue(FILE *file, const lab_rig *rig)
+{
+  static const char *const lines[] = {
+#define PNEU_EFFECT(name, n_param, n_state) "PNEU_EFFECT(" #name ", " #n_param ", " #n_state ")",
+#include "../../../lib/effects.def"
+#undef PNEU_EFFECT
+      NULL};
+  int e;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    if (is_written(rig, e))
+      fprintf(file, "%s\n", lines[e]);
 }

@@ -31,9 +31,8 @@ struct lab_cvode {
   solver by_size[PNEU_STATE_MAX + 1];
   /* of the run in progress */
   const pneu_model *model;
-  const pneu_input *input;
+  const lab_cvode_stretch *run;
   pneu_state *state;
-  double tol;
 };
 
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -92,7 +91,7 @@ static int rhs(real t, N_Vector y, N_Vector dydt, void *data)
 {
   lab_cvode *c = data;
   (void)t;
-  return pneu_rhs(c->model, c->state, c->input, N_VGetArrayPointer(y), N_VGetArrayPointer(dydt));
+  return pneu_rhs(c->model, c->state, c->run->input, N_VGetArrayPointer(y), N_VGetArrayPointer(dydt));
 }
 
 static int jacobian(real t, N_Vector y, N_Vector f, SUNMatrix matrix, void *data, N_Vector w1, N_Vector w2, N_Vector w3)
@@ -103,7 +102,7 @@ static int jacobian(real t, N_Vector y, N_Vector f, SUNMatrix matrix, void *data
   long i, j;
   int status;
   (void)t, (void)w1, (void)w2, (void)w3;
-  status = pneu_jacobian(c->model, c->state, c->input, N_VGetArrayPointer(y), N_VGetArrayPointer(f), jac);
+  status = pneu_jacobian(c->model, c->state, c->run->input, N_VGetArrayPointer(y), N_VGetArrayPointer(f), jac);
   if (status != PNEU_OK)
     return status;
   for (j = 0; j < n; j++)
@@ -117,7 +116,7 @@ static int events(real t, N_Vector y, real *g, void *data)
   lab_cvode *c = data;
   int i, n;
   (void)t;
-  n = pneu_events(c->model, c->state, c->input, N_VGetArrayPointer(y), g);
+  n = pneu_events(c->model, c->state, c->run->input, N_VGetArrayPointer(y), g);
   for (i = n; i < PNEU_EVENT_MAX; i++)
     g[i] = -1;
   return 0;
@@ -132,7 +131,7 @@ static int weights(N_Vector y, N_Vector w, void *data)
   (void)y;
   pneu_scales(c->model, scale);
   for (i = 0; i < n; i++)
-    out[i] = 1 / (c->tol * scale[i]);
+    out[i] = 1 / (c->run->tol * scale[i]);
   return 0;
 }
 
@@ -206,8 +205,9 @@ static int fired(solver *s)
   return 0;
 }
 
-static int sample_step(lab_cvode *c, solver *s, double t, lab_sampler *sampler)
+static int sample_step(lab_cvode *c, solver *s, double t)
 {
+  lab_sampler *sampler = c->run->sampler;
   pneu_state at = *c->state;
   N_Vector y = N_VClone(s->y);
   if (!y)
@@ -221,34 +221,53 @@ static int sample_step(lab_cvode *c, solver *s, double t, lab_sampler *sampler)
   return 0;
 }
 
-int lab_cvode_run(lab_cvode *c, const pneu_model *model, pneu_state *state, const pneu_input *input, double duration,
-                  double tol, lab_sampler *sampler, pneu_stats *stats, lab_error *error)
+/* On to `end`, under one command. */
+static int run_stretch(lab_cvode *c, double t, double end, lab_error *error)
 {
-  double t = 0;
-  c->model = model;
-  c->state = state;
-  c->input = input;
-  c->tol = tol;
-  pneu_settle(model, input, state);
-  while (t < duration) {
-    solver *s = solver_start(c, t, duration);
+  pneu_settle(c->model, c->run->input, c->state);
+  while (t < end) {
+    solver *s = solver_start(c, t, end);
     int flag = CV_SUCCESS;
     if (!s)
       return lab_fail_memory(error, "CVODE");
     while (flag == CV_SUCCESS) {
-      flag = CVode(s->memory, duration, s->y, &t, CV_ONE_STEP);
+      flag = CVode(s->memory, end, s->y, &t, CV_ONE_STEP);
       if (flag < 0)
         return give_up(c, flag, t, error);
-      if (sampler && sample_step(c, s, t, sampler))
+      if (c->run->sampler && sample_step(c, s, t))
         return lab_fail_memory(error, "CVODE");
     }
-    pneu_unpack(model, N_VGetArrayPointer(s->y), state);
-    count(s, stats);
+    pneu_unpack(c->model, N_VGetArrayPointer(s->y), c->state);
+    count(s, c->run->stats);
     if (flag == CV_ROOT_RETURN) {
-      pneu_switch(model, input, fired(s), state);
-      if (stats)
-        stats->events++;
+      pneu_switch(c->model, c->run->input, fired(s), c->state);
+      if (c->run->stats)
+        c->run->stats->events++;
     }
   }
   return LAB_OK;
+}
+
+int lab_cvode_run(lab_cvode *c, const pneu_model *model, const lab_cvode_stretch *run, pneu_state *state,
+                  lab_error *error)
+{
+  pneu_delay *late = model->command_delay > 0 ? run->input->delay : NULL;
+  double t = 0;
+  int status = LAB_OK;
+  c->model = model;
+  c->run = run;
+  c->state = state;
+  if (late && pneu_delay_give(late, model->command_delay, run->input->u) != PNEU_OK)
+    return lab_fail(error, LAB_NUMERIC, "%s", pneu_status_text(PNEU_E_DELAY));
+  do {
+    const double left = run->duration - t, stretch = late ? (double)pneu_delay_until(late, left) : left;
+    const double end = stretch < left ? t + stretch : run->duration;
+    status = run_stretch(c, t, end, error);
+    if (late) {
+      pneu_delay_pass(late, stretch);
+      pneu_delay_release(late);
+    }
+    t = end;
+  } while (status == LAB_OK && t < run->duration);
+  return status;
 }

@@ -14,13 +14,20 @@ typedef struct lab_cvode lab_cvode;
 lab_cvode *lab_cvode_new(void);
 void lab_cvode_free(lab_cvode *cvode);
 
-/* Run with constant input, as pneu_run does, by BDF of variable order with a dense solver, the
- * analytic Jacobian and root finding for the events.
- * In:      duration  [s] >= 0;  tol  local error in units of full scale, 1e-4 .. 1e-13
- *          sampler   may be NULL
- * In/out:  state;  stats (added up; may be NULL)
+/* A run under one input. */
+typedef struct lab_cvode_stretch {
+  const pneu_input *input;
+  double duration;      /* [s] >= 0 */
+  double tol;           /* local error in units of full scale, 1e-4 .. 1e-13 */
+  lab_sampler *sampler; /* NULL: no samples */
+  pneu_stats *stats;    /* added up, if not NULL */
+} lab_cvode_stretch;
+
+/* Run as pneu_run does, by BDF of variable order with a dense solver, the analytic Jacobian and root finding for the
+ * events.
+ * In/out:  state
  * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */
-int lab_cvode_run(lab_cvode *cvode, const pneu_model *model, pneu_state *state, const pneu_input *input,
-                  double duration, double tol, lab_sampler *sampler, pneu_stats *stats, lab_error *error);
+int lab_cvode_run(lab_cvode *cvode, const pneu_model *model, const lab_cvode_stretch *stretch, pneu_state *state,
+                  lab_error *error);
 
 #endif

@@ -16,10 +16,11 @@ typedef struct lab_schedule {
 } lab_schedule;
 
 /* Sampled response; every array has n entries, owned by this struct; NULL what was not asked for. */
-typedef struct lab_trace {
+typedef struct lab_response {
   size_t n;
   double *t;        /* [s] */
   double *u;        /* [1] command as given, before any delay */
+  double *opening;  /* [1] of the transducer */
   double *p;        /* [Pa] gauge, as its sensor shows it; x and T likewise */
   double *x;        /* [m] */
   double *v;        /* [m/s] */
@@ -31,30 +32,38 @@ typedef struct lab_trace {
   double *force;    /* [N] that holds the stem, see pneu_output.holding_force */
   double *ps;       /* [Pa] gauge, supply at the transducer */
   int *mode;        /* enum pneu_mode */
-} lab_trace;
+} lab_response;
 
 /* Which integrator answers. */
 enum lab_integrator { LAB_STEPPER, LAB_CVODE };
 
-/* Integrals over the run, for the audit of mass and energy (energies [J], mass [kg]). */
+/* How a response is computed; 0 is the default of every field. */
 typedef struct lab_response_options {
   int integrator; /* enum lab_integrator */
-  double tol;     /* relative to full scale: 1e-4 .. 1e-10 */
-  double t_end;   /* [s] */
-  int count_only; /* not 0: no samples, statistics only (trace may be NULL) */
+  double tol; /* relative to full scale: 1e-4 .. 1e-10; 0: 1e-7, that of `simulate` and of errors on held-out logs */
   int shown_only; /* not 0: only p, x, T and force of the trace are filled, in a third of the time */
   int max_steps;  /* of the stepper from one change of input to the next; 0: as pneu_options_default */
 } lab_response_options;
 
-/* Run `model` from `start` at schedule->t[0] and sample at `t` (increasing, within the run). Commands act
- * model->command_delay after they are given, but for the first, which has been acting; positions are those of
- * model->position_skew before. The model's clock, where it has one, begins at schedule->t[0].
- * Out:     trace  allocated; free with lab_trace_free
- *          stats  may be NULL
- * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */
-int lab_respond(const pneu_model *model, const pneu_state *start, const lab_schedule *schedule, const double *t,
-                size_t n, const lab_response_options *options, lab_trace *trace, pneu_stats *stats, lab_error *error);
+/* What is run. */
+typedef struct lab_simulation {
+  const pneu_state *start;       /* at schedule->t[0] */
+  const lab_schedule *schedule;  /* at least one row */
+  const pneu_model *const *rows; /* model of each row, all of the same laws; NULL: one model throughout */
+  const double *t;               /* [s] n times to sample at, increasing, within the run */
+  size_t n;
+  double t_end; /* [s]; 0: the last sample */
+  lab_response_options options;
+  pneu_stats *stats; /* written if not NULL */
+} lab_simulation;
 
-void lab_trace_free(lab_trace *trace);
+/* Run a model. Commands act model->command_delay after they are given, but for the first, which has been acting;
+ * positions are those of model->position_skew before. The model's clock, where it has one, begins at schedule->t[0].
+ * Out:     trace  allocated; free with lab_response_free; NULL: only statistics are wanted
+ * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */
+int lab_response_run(const pneu_model *model, const lab_simulation *simulation, lab_response *response,
+                     lab_error *error);
+
+void lab_response_free(lab_response *response);
 
 #endif

@@ -7,8 +7,14 @@
 static int check_inputs(const lab_rig *rig, const lab_log *log, lab_error *error)
 {
   int i;
+  if (lab_log_command(log) == LAB_CHANNEL_SP && !rig->laws.pressure_input && !lab_rig_has_positioner(rig))
+    return lab_fail(error, LAB_DATA,
+                    "%s: a set position sp and no command u: expected a positioner in the rig file, such as positioner "
+                    "= { gain = 20; }",
+                    log->path);
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
-    if (!rig->input[i] || log->value[i] || (i == LAB_CHANNEL_U && rig->laws.pressure_input))
+    if (!rig->input[i] || log->value[i] ||
+        (i == LAB_CHANNEL_U && (rig->laws.pressure_input || lab_log_command(log) >= 0)))
       continue;
     return lab_fail(error, LAB_DATA,
                     "%s: expected a column %s, which drives the model; where it is constant give "
@@ -18,12 +24,17 @@ static int check_inputs(const lab_rig *rig, const lab_log *log, lab_error *error
   return LAB_OK;
 }
 
-/* The value of a channel, or what was before where it is absent, no input, or a gap. */
-static double held(const lab_rig *rig, const lab_log *log, int channel, size_t i, double before)
+/* The value of a channel, or what was before where it is absent or a gap. */
+static double held(const lab_log *log, int channel, size_t i, double before)
 {
-  if (!rig->input[channel] || !log->value[channel] || isnan(log->value[channel][i]))
+  if (channel < 0 || !log->value[channel] || isnan(log->value[channel][i]))
     return before;
   return log->value[channel][i];
+}
+
+static double held_input(const lab_rig *rig, const lab_log *log, int channel, size_t i, double before)
+{
+  return rig->input[channel] ? held(log, channel, i, before) : before;
 }
 
 /* A position that drives the model and lies beyond a stop, as noise at rest does, counts as on the stop. */
@@ -54,48 +65,50 @@ static int same(const pneu_input *a, const pneu_input *b)
          a->pressure_rate == b->pressure_rate && a->position_rate == b->position_rate;
 }
 
-static void fill(const lab_rig *rig, const lab_log *log, size_t first, size_t end, pneu_input input, lab_drive *drive)
+static void fill(const lab_rig *rig, const lab_log *log, size_t first, size_t end, pneu_input input, lab_inputs *inputs)
 {
+  const int command = lab_log_command(log);
   size_t i, n = 0;
+  input.set_position = command == LAB_CHANNEL_SP;
   for (i = first; i < end; i++) {
-    input.u = (pneu_real)held(rig, log, LAB_CHANNEL_U, i, (double)input.u);
-    input.supply_pressure = (pneu_real)held(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
-    input.force = (pneu_real)held(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);
+    input.u = (pneu_real)held(log, command, i, (double)input.u);
+    input.supply_pressure = (pneu_real)held_input(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
+    input.force = (pneu_real)held_input(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);
     input.pressure_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_P, i, end, (double)input.pressure_rate);
     input.position_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_X, i, end, (double)input.position_rate);
-    if (n > 0 && same(&input, &drive->input[n - 1]))
+    if (n > 0 && same(&input, &inputs->input[n - 1]))
       continue;
-    drive->t[n] = log->value[LAB_CHANNEL_TIME][i];
-    drive->input[n++] = input;
+    inputs->t[n] = log->value[LAB_CHANNEL_TIME][i];
+    inputs->input[n++] = input;
   }
-  drive->schedule.n = n;
-  drive->schedule.t = drive->t;
-  drive->schedule.input = drive->input;
+  inputs->schedule.n = n;
+  inputs->schedule.t = inputs->t;
+  inputs->schedule.input = inputs->input;
 }
 
-int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_drive *drive,
-                       lab_error *error)
+int lab_inputs_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_inputs *inputs,
+                        lab_error *error)
 {
   size_t first = log->run[run], end = log->run[run + 1];
   pneu_input input;
   if (check_inputs(rig, log, error))
     return error->status;
-  drive->t = malloc((end - first) * sizeof *drive->t);
-  drive->input = malloc((end - first) * sizeof *drive->input);
-  if (!drive->t || !drive->input) {
-    lab_drive_free(drive);
+  inputs->t = malloc((end - first) * sizeof *inputs->t);
+  inputs->input = malloc((end - first) * sizeof *inputs->input);
+  if (!inputs->t || !inputs->input) {
+    lab_inputs_free(inputs);
     return lab_fail_memory(error, "a schedule");
   }
   pneu_input_default(model, &input);
-  fill(rig, log, first, end, input, drive);
+  fill(rig, log, first, end, input, inputs);
   return LAB_OK;
 }
 
-void lab_drive_free(lab_drive *drive)
+void lab_inputs_free(lab_inputs *inputs)
 {
-  free(drive->t);
-  free(drive->input);
-  drive->t = NULL;
-  drive->input = NULL;
-  drive->schedule.n = 0;
+  free(inputs->t);
+  free(inputs->input);
+  inputs->t = NULL;
+  inputs->input = NULL;
+  inputs->schedule.n = 0;
 }

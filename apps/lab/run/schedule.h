@@ -8,22 +8,22 @@
 #include "../rig/rig.h"
 
 /* A schedule and its memory. */
-typedef struct lab_drive {
+typedef struct lab_inputs {
   lab_schedule schedule; /* points into the arrays below */
   double *t;
   pneu_input *input;
-} lab_drive;
+} lab_inputs;
 
 /* Inputs of one run of a log. A command holds until it changes; measured channels that are inputs run along
  * straight lines between their values, over gaps as well; a measured supply or force holds.
  * In:      model  of `rig`
  *          rig    says which channels are inputs
  *          run    0 <= run < log->n_runs
- * Out:     drive  to be freed with lab_drive_free
+ * Out:     drive  to be freed with lab_inputs_free
  * Returns: LAB_OK; LAB_DATA if a channel that drives the model is not in the log; LAB_WORLD. */
-int lab_drive_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_drive *drive,
-                       lab_error *error);
+int lab_inputs_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_inputs *inputs,
+                        lab_error *error);
 
-void lab_drive_free(lab_drive *drive);
+void lab_inputs_free(lab_inputs *inputs);
 
 #endif

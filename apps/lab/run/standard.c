@@ -14,14 +14,14 @@ static double command_for(const pneu_model *model, double opening)
   return opening;
 }
 
-int lab_standard_experiment(const pneu_model *model, const lab_response_options *options, lab_trace *trace,
+int lab_standard_experiment(const pneu_model *model, const lab_response_options *options, lab_response *response,
                             lab_error *error)
 {
-  lab_response_options own = *options;
   pneu_input input[PHASES];
   lab_schedule schedule = {PHASES, phase_time, input};
   pneu_state start;
   double t[ROWS];
+  const lab_simulation task = {.start = &start, .schedule = &schedule, .t = t, .n = ROWS, .options = *options};
   int i, status;
   for (i = 0; i < PHASES; i++) {
     pneu_input_default(model, &input[i]);
@@ -29,9 +29,8 @@ int lab_standard_experiment(const pneu_model *model, const lab_response_options 
   }
   for (i = 0; i < ROWS; i++)
     t[i] = i * PERIOD_MS / 1000.0;
-  own.t_end = t[ROWS - 1];
   status = pneu_state_rest(model, 0, model->p.ambient_temperature, 0, &input[0], &start);
   if (status != PNEU_OK)
     return lab_fail(error, LAB_NUMERIC, "no state at rest to start from: %s", pneu_status_text(status));
-  return lab_respond(model, &start, &schedule, t, ROWS, &own, trace, NULL, error);
+  return lab_response_run(model, &task, response, error);
 }

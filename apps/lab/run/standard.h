@@ -7,10 +7,9 @@
 
 /* Run it: start at rest on the lower stop with the chamber at ambient, u = 1 from 0.5 s, u = -1 from 15.5 s, to
  * 30.5 s, sampled every 10 ms. Where u is a set pressure: the supply pressure and ambient instead of 1 and -1.
- * In:      options  t_end is not used
- * Out:     trace    free with lab_trace_free
- * Returns: as lab_respond. */
-int lab_standard_experiment(const pneu_model *model, const lab_response_options *options, lab_trace *trace,
+ * Out:     trace  free with lab_response_free
+ * Returns: as lab_response_run. */
+int lab_standard_experiment(const pneu_model *model, const lab_response_options *options, lab_response *response,
                             lab_error *error);
 
 #endif

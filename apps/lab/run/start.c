@@ -12,7 +12,9 @@ struct seen {
 /* Whether what drives the model has changed from the first row of a run to another. */
 static int has_changed(const pneu_laws *law, const lab_log *log, size_t first, size_t row)
 {
-  const double *u = log->value[LAB_CHANNEL_U], *p = log->value[LAB_CHANNEL_P], *x = log->value[LAB_CHANNEL_X];
+  const int command = lab_log_command(log);
+  const double *u = command < 0 ? NULL : log->value[command], *p = log->value[LAB_CHANNEL_P],
+               *x = log->value[LAB_CHANNEL_X];
   return (u && u[row] != u[first]) || (law->pressure_input && p && p[row] != p[first]) ||
          (law->position_input && x && x[row] != x[first]);
 }
@@ -98,19 +100,32 @@ static double look(const pneu_laws *law, const lab_log *log, int channel, size_t
                 : level(log->value[channel] + first, rows_before_change(law, log, first, end));
 }
 
-/* Force on the stem at rest [N], up positive, friction left out. */
-static double net_force(const pneu_model *model, const pneu_input *input, double p, double x)
+static double balance(const pneu_model *model, double x, const pneu_input *input)
 {
-  return (double)model->p.area * p - (double)model->p.spring_rate * (x + (double)model->p.spring_preload) -
-         (double)model->p.external_force - (double)input->force;
+  return (double)pneu_balance_pressure(model, (pneu_real)x, input, 0);
 }
 
-/* Position that the balance of forces asks for. */
-static double balanced_position(const pneu_model *model, const pneu_input *input, double p)
+double lab_balance_position(const pneu_model *model, double pressure, const pneu_input *input)
 {
-  const double travel = (double)model->travel, force = net_force(model, input, p, 0);
-  double x = (double)model->p.spring_rate > 0 ? force / (double)model->p.spring_rate : force > 0 ? travel : 0;
-  return fmin(fmax(x, 0), travel);
+  enum { ROUNDS = 20 }; /* false position: one for a spring with a straight line */
+  const double travel = (double)model->travel, enough = 1e-12;
+  double low = 0, high = travel, p_low = balance(model, low, input), p_high = balance(model, high, input), x = 0;
+  const double span = p_high - p_low;
+  int i;
+  if (!(pressure > p_low))
+    return 0;
+  if (!(pressure < p_high))
+    return travel;
+  for (i = 0; i < ROUNDS; i++) {
+    double p;
+    x = low + (high - low) * (pressure - p_low) / (p_high - p_low);
+    p = balance(model, x, input);
+    if (!(fabs(p - pressure) > enough * span))
+      break;
+    *(p < pressure ? &low : &high) = x;
+    *(p < pressure ? &p_low : &p_high) = p;
+  }
+  return x;
 }
 
 /* Pressure that holds the stem where it is seen: none on the lower stop, the supply on the upper one while the
@@ -122,7 +137,7 @@ static double balanced_pressure(const pneu_model *model, const pneu_input *input
     return 0;
   if (x > (double)model->travel - near && input->u > 0)
     return (double)input->supply_pressure;
-  return -net_force(model, input, 0, x) / (double)model->p.area;
+  return balance(model, x, input);
 }
 
 /* Pressure at a start that shows none: what the stem says; without a stem, the supply while the transducer fills. */
@@ -137,9 +152,9 @@ static double unseen_pressure(const pneu_model *model, const pneu_input *input, 
 static double on_stop(const pneu_model *model, const pneu_input *input, double p, double x)
 {
   const double travel = (double)model->travel, near = 0.02 * (double)model->p.stroke;
-  if (x < near && net_force(model, input, p, 0) < 0)
+  if (x < near && p < balance(model, 0, input))
     return 0;
-  if (x > travel - near && net_force(model, input, p, travel) > 0)
+  if (x > travel - near && p > balance(model, travel, input))
     return travel;
   return fmin(fmax(x, 0), travel);
 }
@@ -149,7 +164,7 @@ static int rest(const pneu_model *model, const pneu_input *input, const struct s
 {
   double T = isnan(seen->T) ? (double)model->p.ambient_temperature : seen->T;
   double p = isnan(seen->p) ? unseen_pressure(model, input, seen->x) : seen->p;
-  double x = isnan(seen->x) ? balanced_position(model, input, p) : on_stop(model, input, p, seen->x);
+  double x = isnan(seen->x) ? lab_balance_position(model, p, input) : on_stop(model, input, p, seen->x);
   int status = pneu_state_rest(model, (pneu_real)p, (pneu_real)T, (pneu_real)x, input, state);
   if (status == PNEU_OK && model->law.position_input && !isnan(seen->x))
     state->x = (pneu_real)fmin(fmax(seen->x, 0), (double)model->travel); /* as measured: its slopes start from there */
@@ -158,8 +173,8 @@ static int rest(const pneu_model *model, const pneu_input *input, const struct s
   return status;
 }
 
-int lab_start_from_log(const pneu_model *model, const pneu_input *input, const lab_log *log, size_t run,
-                       pneu_state *state, lab_error *error)
+int lab_run_initial_state(const pneu_model *model, const pneu_input *input, const lab_log *log, size_t run,
+                          pneu_state *state, lab_error *error)
 {
   const int rounds = 3; /* a bias is gone after one, a gain of 10 % to 1e-3 after three */
   const struct seen read = {look(&model->law, log, LAB_CHANNEL_P, run, model->law.pressure_input),

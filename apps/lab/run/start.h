@@ -13,7 +13,12 @@
  *          run    0 <= run < log->n_runs
  * Out:     state
  * Returns: LAB_OK; LAB_DATA if the log begins in a state that is none. */
-int lab_start_from_log(const pneu_model *model, const pneu_input *input, const lab_log *log, size_t run,
-                       pneu_state *state, lab_error *error);
+int lab_run_initial_state(const pneu_model *model, const pneu_input *input, const lab_log *log, size_t run,
+                          pneu_state *state, lab_error *error);
+
+/* Where the stem is in balance at a pressure, friction left out: see pneu_balance_pressure.
+ * In:      pressure  [Pa] gauge
+ * Returns: [m] 0..travel; the nearer stop where the balance lies beyond it. */
+double lab_balance_position(const pneu_model *model, double pressure, const pneu_input *input);
 
 #endif

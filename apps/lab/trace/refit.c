@@ -1,124 +1,199 @@
 #include "refit.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/clock.h"
 #include "../base/quantile.h"
+#include "../fit/nuisance.h"
 
-static const double rival = 3;                /* times the best chi-square: what leaves more falls behind */
-static const double worth = 0.05;             /* of the best statistic: leaders have at least so much, */
-static const double foremost = 0.2;           /* and those that are refitted first so much */
-static const double nearly = 1.2;             /* times the best BIC: still in the running after a brief fit */
-static const double much = 0.5;               /* of what the declared model leaves: a good effect takes so much */
-enum { FIRST = 3, BRIEF = 8, FINALISTS = 3 }; /* steps of a fit; models fitted to the end */
+/* ---- Candidates ---- */
+
+/* Schwarz 1978: what a fit costs, with what it fits counted, and what has no name against what has. A declared value
+ * that is held costs what its prior adds to chi-square. */
+static double bic(const lab_unknowns *u, double chi2)
+{
+  int j, n = 0;
+  for (j = 0; j < u->n; j++)
+    n += !lab_unknown_is_held(&u->unknown[j]);
+  return chi2 + n * log((double)u->n_values) + lab_constant(LAB_TERM_BIC) * u->rig.n_terms;
+}
+
+int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error)
+{
+  lab_quality *q = &c->quality;
+  lab_residual_stats left[LAB_CHANNEL_COUNT];
+  int status = lab_unknowns_fit(&c->u, steps, &q->chi2, error);
+  q->values = (double)c->u.n_values;
+  q->bic = bic(&c->u, q->chi2);
+  q->white = 0;
+  q->fitted = status == LAB_OK;
+  if (q->fitted && c->u.window == 0 && !lab_is_noise(q) && q->chi2 < lab_constant(LAB_NOISE_DOUBTFUL) * q->values) {
+    status = lab_unknowns_residual_stats(&c->u, left, error);
+    q->fitted = status == LAB_OK;
+    q->white = q->fitted && lab_residual_stats_noise(left);
+  }
+  if (q->fitted) {
+    status = lab_nuisance_strain(&c->u, &q->strain, error);
+    q->fitted = status == LAB_OK;
+  }
+  return status;
+}
+
+/* Fit one of many candidates, which fail for want of memory together; not at all when the time is spent. */
+static int fit(lab_candidate *c, int steps, lab_error *all)
+{
+  lab_error error;
+  int status;
+  if (lab_cpu_is_spent(c->u.until))
+    return LAB_NUMERIC;
+  status = lab_candidate_fit(c, steps, &error);
+  if (status != LAB_OK)
+    lab_fail_together(all, &error);
+  return status;
+}
+
+int lab_any(const lab_candidate *c, int n, int (*is)(const lab_quality *q))
+{
+  int i, any = 0;
+  for (i = 0; i < n; i++)
+    any |= is(&c[i].quality);
+  return any;
+}
+
+int lab_candidate_by_bic(const void *x, const void *y)
+{
+  const lab_quality *a = &((const lab_candidate *)x)->quality, *b = &((const lab_candidate *)y)->quality;
+  if (a->fitted != b->fitted)
+    return b->fitted - a->fitted;
+  return a->bic < b->bic ? -1 : a->bic > b->bic;
+}
+
+/* One more addition, to be filled in.  Returns: its place. */
+static lab_found *add_found(lab_candidate *c)
+{
+  lab_found *found = &c->found[c->n_found++];
+  memset(found, 0, sizeof *found);
+  found->effect = found->term = found->shape = -1;
+  found->degrees = 1;
+  return found;
+}
+
+void lab_candidate_explain(lab_candidate *c, double chi2_before)
+{
+  lab_found *found = &c->found[c->n_found - 1];
+  found->explained = (chi2_before - c->quality.chi2) / fmax(chi2_before - c->quality.values, 1);
+}
+
+void lab_candidate_name(const lab_candidate *c, char *text, size_t size)
+{
+  size_t used = 0;
+  int i;
+  snprintf(text, size, "declared model");
+  for (i = 0; i < c->n_found && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " + " : "",
+                             c->found[i].effect < 0 ? "unlisted" : pneu_effect_at(c->found[i].effect)->name);
+}
+
+/* ---- Refits of effects ---- */
 
 /* Where a refit begins. The present fit may have bent its parameters to stand in for the effect; then the values
  * before any fit, with the effect at its usual size, are nearer to the truth, or at the largest size there is: a film
  * that lets no heat through. */
 enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, FROM_BOUND, STARTS };
 
-/* The model with one candidate of some size, before it is fitted.  Returns: 0, or -1 if there is no room. */
-static int take_up(const lab_attempt *base, const lab_candidate *c, double size, int as_declared, lab_attempt *a)
+/* By how much an effect leaves neutral at the start. */
+static double size_at(const lab_score *score, enum start start)
+{
+  pneu_param_info info;
+  pneu_param_describe(score->param, &info);
+  if (start == FROM_BOUND)
+    return (double)(info.upper - info.neutral);
+  if (start == FROM_SLOPE && score->size != 0)
+    return score->size;
+  return (double)(info.value - info.neutral) * (score->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
+}
+
+/* Take the values that the unknowns had before any fit. */
+static void undo_fit(lab_unknowns *u)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    u->unknown[j].value = u->unknown[j].first;
+  lab_unknowns_take(u);
+}
+
+/* The model with one effect more, from one start, after the first steps. */
+static void begin_refit(const lab_candidate *base, const lab_score *score, enum start start, lab_candidate *c,
+                        lab_error *all)
 {
   pneu_param_info info;
   lab_error ignored;
-  double theta[LAB_FIT_MAX];
-  int j;
-  *a = *base;
-  a->fitted = 0;
-  pneu_param_describe(c->param, &info);
-  if (as_declared)
-    lab_attempt_undo_fit(a);
-  if (lab_unknowns_add(&a->u, c->param, (double)info.neutral + size, &ignored) ||
-      (c->shape >= 0 && lab_unknowns_add(&a->u, c->shape, c->shape_value, &ignored)))
-    return -1;
-  for (j = 0; j < a->u.n; j++)
-    theta[j] = a->u.unknown[j].value;
-  lab_unknowns_apply(&a->u, theta, LAB_ALL_EXPERIMENTS, &a->u.rig);
-  return 0;
-}
-
-/* The model with one candidate, from one start. */
-static void refit_from(const lab_attempt *base, const lab_candidate *c, int start, lab_attempt *a, lab_error *all)
-{
-  pneu_param_info info;
-  double usual;
-  lab_error error;
   lab_found *found;
-  pneu_param_describe(c->param, &info);
-  usual = (double)(info.value - info.neutral) * (c->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
-  if (start == FROM_SLOPE && c->size != 0)
-    usual = c->size;
-  if (start == FROM_BOUND)
-    usual = (double)(info.upper - info.neutral);
-  if (take_up(base, c, usual, start == FROM_DECLARED || start == FROM_BOUND, a))
+  *c = *base;
+  c->quality.fitted = 0;
+  pneu_param_describe(score->param, &info);
+  if (start == FROM_DECLARED || start == FROM_BOUND)
+    undo_fit(&c->u);
+  if (lab_unknowns_add(&c->u, score->param, (double)info.neutral + size_at(score, start), &ignored) ||
+      (score->shape >= 0 && lab_unknowns_add(&c->u, score->shape, score->shape_value, &ignored)))
+    return; /* no room */
+  lab_unknowns_take(&c->u);
+  if (fit(c, lab_count(LAB_FIRST_STEPS), all))
     return;
-  if (lab_attempt_fit(a, FIRST, &error)) {
-    lab_fail_together(all, &error);
-    return;
-  }
-  found = lab_attempt_add_found(a);
-  found->effect = c->effect;
-  found->param = c->param;
-  found->shape = c->shape;
-  found->statistic = c->statistic;
-  found->p_value = c->p_value;
-}
-
-/* All that pass. */
-static int count_passing(const lab_trace_result *trace, double level)
-{
-  int n = 0;
-  while (n < trace->n && n < LAB_REFIT_MAX && trace->candidate[n].p_value < level)
-    n++;
-  return n;
+  found = add_found(c);
+  found->effect = score->effect;
+  found->param = score->param;
+  found->shape = score->shape;
+  found->statistic = score->statistic;
+  found->p_value = score->p_value;
 }
 
 /* Those of the first n whose statistic is not below a share of the best. */
-static int count_near(const lab_candidate *candidate, int n, double share)
+static int count_near(const lab_score *score, int n, enum lab_constant share)
 {
   int i = 0;
-  while (i < n && candidate[i].statistic >= share * candidate[0].statistic)
+  while (i < n && score[i].statistic >= lab_constant(share) * score[0].statistic)
     i++;
   return i;
 }
 
-static double least_chi2(const lab_attempt *a, int n)
+static double least_chi2(const lab_candidate *c, int n)
 {
   double least = INFINITY;
   int i;
   for (i = 0; i < n; i++)
-    if (a[i].fitted)
-      least = fmin(least, a[i].chi2);
+    if (c[i].quality.fitted)
+      least = fmin(least, c[i].quality.chi2);
   return least;
 }
 
 /* Fit those to the end that are in the running after a brief fit: whatever is nearly as good as the best, and the best
  * few; of these only rivals where one leaves nothing to explain. */
-static void fit_finalists(lab_attempt *a, int n, lab_error *all)
+static void fit_finalists(lab_candidate *c, int n, lab_error *all)
 {
   double bar, reach;
   int i;
-  qsort(a, (size_t)n, sizeof *a, lab_attempt_by_bic);
-  bar = n > 0 ? nearly * a[0].bic : 0;
-  reach = lab_any_is_clean(a, n) ? rival * least_chi2(a, n) : (double)INFINITY;
+  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  bar = n > 0 ? lab_constant(LAB_NEARLY) * c[0].quality.bic : 0;
+  reach = lab_any(c, n, lab_is_clean) ? lab_constant(LAB_RIVAL) * least_chi2(c, n) : (double)INFINITY;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
-    lab_error error;
-    if (a[i].fitted && (a[i].bic < bar || (i < FINALISTS && a[i].chi2 < reach)) &&
-        lab_attempt_fit(&a[i], LAB_FIT_WHOLE, &error))
-      lab_fail_together(all, &error);
+    const lab_quality *q = &c[i].quality;
+    if (q->fitted && (q->bic < bar || (i < lab_count(LAB_FINALISTS) && q->chi2 < reach)))
+      fit(&c[i], LAB_ROUNDS_ALL, all);
   }
 }
 
-/* Refit leaders from one start, in parallel: a few steps, and more for those that keep up with the best.
- * In/out:  a  the best attempt of each so far */
-static void refit_race(const lab_attempt *base, const lab_candidate *leader, int n, int start, lab_attempt *a,
-                       lab_error *all)
+/* Refit effects from one start, in parallel: a few steps, and more for those that keep up with the best.
+ * In/out:  c  the best candidate of each so far */
+static void race(const lab_candidate *base, const lab_score *score, int n, enum start start, lab_candidate *c,
+                 lab_error *all)
 {
-  lab_attempt *mine = malloc(((size_t)n + 1) * sizeof *mine);
-  double least;
+  lab_candidate *mine = malloc(((size_t)n + 1) * sizeof *mine);
+  double reach;
   int i;
   if (!mine) {
     lab_fail_memory(all, "refits");
@@ -126,111 +201,204 @@ static void refit_race(const lab_attempt *base, const lab_candidate *leader, int
   }
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)
-    refit_from(base, &leader[i], start, &mine[i], all);
-  least = least_chi2(mine, n);
+    begin_refit(base, &score[i], start, &mine[i], all);
+  reach = lab_constant(LAB_RIVAL) * least_chi2(mine, n);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
-    lab_error error;
-    if (mine[i].fitted && mine[i].chi2 < rival * least && lab_attempt_fit(&mine[i], BRIEF, &error))
-      lab_fail_together(all, &error);
-    lab_attempt_keep_better(&a[i], &mine[i]);
+    const lab_quality *q = &mine[i].quality;
+    if (q->fitted && q->chi2 < reach)
+      fit(&mine[i], lab_count(LAB_BRIEF_STEPS), all);
+    if (q->fitted && (!c[i].quality.fitted || q->chi2 < c[i].quality.chi2))
+      c[i] = mine[i];
   }
   free(mine);
 }
 
 /* Refit the leaders: the foremost from the first start, the rest unless one of these leaves nothing that they could
  * explain, and all from the other starts for as long as none leaves only noise. */
-static void refit_leaders(const lab_attempt *base, const lab_candidate *leader, int n, lab_attempt *a, lab_error *all)
+static void refit_leaders(const lab_candidate *base, const lab_score *leader, int n, lab_candidate *c, lab_error *all)
 {
-  const int starts = base->n_found == 0 ? STARTS : FROM_USUAL, first = count_near(leader, n, foremost);
-  int i, start;
-  for (i = 0; i < n; i++)
-    a[i].fitted = 0;
-  refit_race(base, leader, first, FROM_SLOPE, a, all);
-  if (!lab_any_is_clean(a, n))
-    refit_race(base, leader + first, n - first, FROM_SLOPE, a + first, all);
-  for (start = FROM_SLOPE + 1; start < starts && !lab_any_is_noise(a, n); start++)
-    refit_race(base, leader, n, start, a, all);
-  fit_finalists(a, n, all);
-}
-
-/* Whether none of them explains much of what the declared model leaves. */
-int lab_refit_all_poor(const lab_attempt *base, const lab_attempt *a, int n)
-{
-  const double excess = base->chi2 - (double)base->u.n_values;
-  int i, poor = 1;
-  for (i = 0; i < n; i++)
-    poor &= !a[i].fitted || a[i].chi2 - (double)a[i].u.n_values > much * excess;
-  return poor;
+  const int starts = base->n_found == 0 ? STARTS : FROM_USUAL, first = count_near(leader, n, LAB_FOREMOST_SHARE);
+  int start;
+  race(base, leader, first, FROM_SLOPE, c, all);
+  if (!lab_any(c, n, lab_is_clean))
+    race(base, leader + first, n - first, FROM_SLOPE, c + first, all);
+  for (start = FROM_SLOPE + 1; start < starts && !lab_any(c, n, lab_is_noise); start++)
+    race(base, leader, n, (enum start)start, c, all);
+  fit_finalists(c, n, all);
 }
 
 /* What was not refitted yet and may all the same be missing: what passes, though it explains little, and effects whose
  * slope asks for a sign that they cannot have as clearly as others pass. A fit that has bent so far that it overshoots
  * wants less of what is missing. Forces are not among them: p and x show them at once, where orifice and preload can
  * take up what the gas does.
- *
- * In:      n  foremost candidates that were refitted
+ * In:      n  foremost effects that were refitted
  * Returns: how many, at most `room` */
-static int list_bent(const lab_trace_result *trace, double level, int n, int room, lab_candidate *bent)
+static int list_bent(const lab_scores *scores, double level, int n, int room, lab_score *bent)
 {
   int i, count = 0;
-  for (i = n; i < trace->n && count < room; i++) {
-    const lab_candidate *c = &trace->candidate[i];
-    if (strcmp(pneu_effect_at(c->effect)->equation, "force") != 0 &&
-        (c->p_value < level || (c->statistic == 0 && lab_chi2_tail(c->against, 1) < level)))
-      bent[count++] = *c;
+  for (i = n; i < scores->n && count < room; i++) {
+    const lab_score *s = &scores->of[i];
+    if (strcmp(pneu_effect_at(s->effect)->equation, "force") != 0 &&
+        (s->p_value < level || (s->statistic == 0 && lab_chi2_tail(s->against, 1) < level)))
+      bent[count++] = *s;
   }
   return count;
 }
 
-/* What a refit took off chi-square stands in for the statistic of an effect whose slope had the wrong sign. */
-static void judge_bent(const lab_attempt *base, lab_attempt *a, int n)
+/* The last resort among single effects: those that the bent fit has hidden, from the values before any fit. What a
+ * refit took off chi-square stands in for the statistic where the slope had the wrong sign.
+ * In:      n  candidates so far
+ * Returns: how many there are then */
+static int refit_bent(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int n,
+                      lab_error *error)
 {
+  lab_score bent[LAB_REFIT_MAX] = {{0}};
+  const int all = n + list_bent(scores, level, n, LAB_REFIT_MAX - n, bent);
   int i;
-  for (i = 0; i < n; i++) {
-    lab_found *found = a[i].fitted ? &a[i].found[a[i].n_found - 1] : NULL;
+  race(base, bent, all - n, FROM_DECLARED, c + n, error);
+  race(base, bent, all - n, FROM_BOUND, c + n, error);
+  fit_finalists(c + n, all - n, error);
+  for (i = n; i < all; i++) {
+    lab_found *found = c[i].quality.fitted ? &c[i].found[c[i].n_found - 1] : NULL;
     if (found && found->statistic == 0) {
-      found->statistic = fmax(base->chi2 - a[i].chi2, 0);
+      found->statistic = fmax(base->quality.chi2 - c[i].quality.chi2, 0);
       found->p_value = lab_chi2_tail(found->statistic, 1);
     }
   }
+  return all;
 }
 
-/* The last resort among single effects: those that the bent fit has hidden, from the values before any fit.
- * In:      n  attempts so far
- * Returns: how many there are then */
-static int refit_bent(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int n,
-                      lab_error *error)
+/* Whether none of n candidates explains much of what the declared model leaves. */
+static int all_are_poor(const lab_candidate *declared, const lab_candidate *c, int n)
 {
-  lab_candidate bent[LAB_REFIT_MAX] = {{0}};
-  const int more = list_bent(trace, level, n, LAB_REFIT_MAX - n, bent);
-  int i;
-  for (i = 0; i < more; i++)
-    a[n + i].fitted = 0;
-  refit_race(base, bent, more, FROM_DECLARED, a + n, error);
-  refit_race(base, bent, more, FROM_BOUND, a + n, error);
-  fit_finalists(a + n, more, error);
-  judge_bent(base, a + n, more);
-  return n + more;
+  int i, poor = 1;
+  for (i = 0; i < n; i++)
+    poor &= lab_is_poor(&declared->quality, &c[i].quality);
+  return poor;
 }
 
-/* Refit the leaders; where none of them is any good beside the declared model, which what is missing may have bent
- * beyond the reach of slopes, all that pass; and while none leaves only noise, what the bent fit has hidden. */
-int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int *n,
+int lab_refit_effects(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
                       lab_error *error)
 {
-  const int all = count_passing(trace, level);
-  const int leaders = count_near(trace->candidate, all < LAB_LOOP_LEADERS ? all : LAB_LOOP_LEADERS, worth);
-  *n = leaders;
+  const lab_score *score = scores->of;
+  int i, all = 0;
+  for (i = 0; i < LAB_REFIT_MAX; i++)
+    c[i].quality.fitted = 0;
+  while (all < scores->n && all < LAB_REFIT_MAX && score[all].p_value < level)
+    all++;
+  *n = count_near(score, all < LAB_LEADERS_MAX ? all : LAB_LEADERS_MAX, LAB_LEADER_SHARE);
   error->status = LAB_OK;
-  refit_leaders(base, trace->candidate, leaders, a, error);
-  if (base->n_found > 0 || lab_any_is_noise(base, 1))
+  refit_leaders(base, score, *n, c, error);
+  if (base->n_found > 0 || lab_is_noise(&base->quality))
     return error->status;
-  if (error->status == LAB_OK && lab_refit_all_poor(base, a, leaders)) {
+  if (error->status == LAB_OK && all_are_poor(base, c, *n)) {
+    refit_leaders(base, score + *n, all - *n, c + *n, error);
     *n = all;
-    refit_leaders(base, trace->candidate + leaders, all - leaders, a + leaders, error);
   }
-  if (error->status == LAB_OK && !lab_any_is_noise(a, *n))
-    *n = refit_bent(base, trace, level, a, *n, error);
+  if (error->status == LAB_OK && !lab_any(c, *n, lab_is_noise))
+    *n = refit_bent(base, scores, level, c, *n, error);
+  return error->status;
+}
+
+/* ---- Refits of free terms ---- */
+
+static void begin_term(const lab_candidate *base, const lab_term_score *score, lab_candidate *c, lab_error *all)
+{
+  lab_error error;
+  lab_found *found;
+  *c = *base;
+  c->quality.fitted = 0;
+  if (lab_unknowns_add_term(&c->u, &score->term, score->scale, 0, &error)) {
+    lab_fail_together(all, &error);
+    return;
+  }
+  if (fit(c, lab_count(LAB_BRIEF_STEPS), all))
+    return;
+  found = add_found(c);
+  found->term = c->u.rig.n_terms - 1;
+  found->statistic = score->statistic;
+  found->degrees = score->degrees;
+  found->scale = score->scale;
+}
+
+/* Fit to the end, and on where the end is still moving: knots near which the log hardly ever is make a long valley. */
+static void end_term(lab_candidate *c, lab_error *all)
+{
+  const lab_quality *q = &c->quality;
+  double before = INFINITY;
+  int i;
+  for (i = 0; i < lab_count(LAB_TERM_REFITS) && q->fitted && !lab_is_noise(q) &&
+              q->chi2 < lab_constant(LAB_TERM_MOVING) * before;
+       i++) {
+    before = q->chi2;
+    fit(c, LAB_ROUNDS_ALL, all);
+  }
+}
+
+/* Values of one term, less a level, at the knots of another; 0 at its ends. */
+static void resample(const pneu_term *from, double level, pneu_term *to)
+{
+  int i;
+  for (i = 0; i < to->n; i++) {
+    const double at = (double)(to->from + (to->to - to->from) * (pneu_real)i / (pneu_real)(to->n - 1));
+    const double place = (at - (double)from->from) / (double)(from->to - from->from) * (from->n - 1);
+    const int k = place < from->n - 2 ? (int)fmax(place, 0) : from->n - 2;
+    const double share = fmin(fmax(place - k, 0), 1);
+    to->value[i] = (pneu_real)((1 - share) * (double)from->value[k] + share * (double)from->value[k + 1] - level);
+  }
+  to->value[0] = to->value[to->n - 1] = 0;
+}
+
+/* A free term that acts on a short stretch only: knots there, close together, and none elsewhere. */
+static void refine(lab_candidate *c, lab_candidate *fine, lab_error *all)
+{
+  const lab_found *found = &c->found[c->n_found - 1];
+  const pneu_term coarse = c->u.rig.term[found->term];
+  const double margin = lab_constant(LAB_TERM_MARGIN) * (double)(coarse.to - coarse.from) / (coarse.n - 1);
+  double from, to, level, peak;
+  pneu_term term = coarse;
+  lab_error error;
+  if (!lab_free_term_stretch(&coarse, &from, &to, &level, &peak))
+    return;
+  *fine = *c;
+  lab_unknowns_drop_term(&fine->u);
+  term.n = lab_count(LAB_TERM_FINE_KNOTS);
+  term.from = (pneu_real)fmax(from - margin, (double)coarse.from);
+  term.to = (pneu_real)fmin(to + margin, (double)coarse.to);
+  resample(&coarse, level, &term);
+  if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &error))
+    lab_fail_together(all, &error);
+  else if (fit(fine, LAB_ROUNDS_ALL, all) == LAB_OK && fine->quality.bic < c->quality.bic)
+    *c = *fine;
+}
+
+int lab_refit_free_terms(const lab_candidate *base, const lab_term_score *score, int n, lab_candidate *best,
+                         lab_error *error)
+{
+  const int most = lab_count(LAB_TERM_LEADERS), last = lab_count(LAB_FINALISTS);
+  lab_candidate *c = malloc((size_t)(most + 1) * sizeof *c);
+  int i;
+  best->quality.fitted = 0;
+  if (!c)
+    return lab_fail_memory(error, "refits");
+  error->status = LAB_OK;
+  n = n < most ? n : most;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    begin_term(base, &score[i], &c[i], error);
+  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  n = n < last ? n : last;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    end_term(&c[i], error);
+  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  if (n > 0)
+    *best = c[0];
+  if (best->quality.fitted) {
+    refine(best, &c[n], error);
+    lab_candidate_explain(best, base->quality.chi2);
+  }
+  free(c);
   return error->status;
 }

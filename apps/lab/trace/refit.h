@@ -1,22 +1,67 @@
-/* Refits of a model with one more effect: those that the trace puts first, from several starts.
+/* Candidates: models with what was added to them, fitted; and refits of a model with one addition more.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_REFIT_H
 #define LAB_REFIT_H
 
-#include "attempt.h"
+#include "decide.h"
+#include "freeterms.h"
+
+/* What was added: an effect, or a free term where nothing that has a name would do. */
+typedef struct lab_found {
+  int effect, param, shape; /* effect: -1 for a free term; shape: -1 if none */
+  int term;                 /* of the model's free terms; -1 for an effect */
+  double statistic, p_value, explained;
+  int degrees;  /* of freedom of the statistic */
+  double scale; /* free term: a value of it that matters */
+  int n_alike;  /* effects that the log cannot tell from it */
+  int alike[LAB_SCORES_MAX];
+  pneu_params alike_params[LAB_LEADERS_MAX]; /* models with the first of them in its place, fitted */
+} lab_found;
+
+typedef struct lab_candidate {
+  lab_unknowns u;
+  lab_quality quality;
+  int n_found;
+  lab_found found[LAB_EFFECTS_MAX];
+} lab_candidate;
+
+/* Fit from its present values.
+ * In:      steps  as for lab_unknowns_fit
+ * Returns: as lab_unknowns_fit; quality.fitted says whether it was LAB_OK. */
+int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
+
+/* Say what the last addition did to chi-square. */
+void lab_candidate_explain(lab_candidate *c, double chi2_before);
+
+/* "declared model", or what was found, joined by " + ".  Out: text */
+void lab_candidate_name(const lab_candidate *c, char *text, size_t size);
+
+/* Whether something holds of one of n candidates, such as lab_is_noise. */
+int lab_any(const lab_candidate *c, int n, int (*is)(const lab_quality *q));
+
+/* Order for qsort: fitted ones first, then by BIC. */
+int lab_candidate_by_bic(const void *x, const void *y);
 
 enum { LAB_REFIT_MAX = 40 };
 
-/* Refit the leaders of a trace, in parallel; where none of them is any good beside the declared model, all that pass.
+/* Refit the leaders by score, in parallel, from several starts; where none of them is any good beside the declared
+ * model, which what is missing may have bent beyond the reach of slopes, all that pass; and while none leaves only
+ * noise, what the bent fit has hidden.
  * In:      base   fitted
- *          level  p-value that a candidate has to pass
- * Out:     a      LAB_REFIT_MAX at most, each with one more effect, fitted or not
+ *          level  p-value that a score has to pass
+ * Out:     c      room for LAB_REFIT_MAX; each has one effect more, fitted or not
  *          n      their number
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_refit_effects(const lab_attempt *base, const lab_trace_result *trace, double level, lab_attempt *a, int *n,
+int lab_refit_effects(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
                       lab_error *error);
 
-/* Whether none of n attempts explains much of what the declared model leaves. */
-int lab_refit_all_poor(const lab_attempt *declared, const lab_attempt *a, int n);
+/* Refit the best free terms, in parallel: briefly, then the best few of them to the end; a term that acts on a short
+ * stretch gets its knots there.
+ * In:      base   fitted
+ *          score  n of them, best first
+ * Out:     best   fitted or not
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_free_terms(const lab_candidate *base, const lab_term_score *score, int n, lab_candidate *best,
+                         lab_error *error);
 
 #endif

@@ -29,3 +29,5 @@ const pneu_effect pneu_effect_record_relief_valve = {
     NULL,
     NULL,
     NULL};
+
+const char pneu_effect_sentence_relief_valve[] = "The chamber lets air go above a set pressure: {leak}.";

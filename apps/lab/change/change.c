@@ -1,0 +1,378 @@
+#include "change.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/clock.h"
+#include "../base/quantile.h"
+#include "../trace/decide.h"
+#include "course.h"
+#include "repeat.h"
+#include "sides.h"
+
+/* A change taken up, in a copy of the comparison. */
+typedef struct extension {
+  lab_unknowns u;
+  double chi2;
+  int fitted, param, shape;
+  int n_free; /* what it adds to the fit */
+  lab_onset begin, end;
+  int is_course;
+} extension;
+
+const char *lab_since_text(int condition)
+{
+  static const char *const text[] = {"cannot tell", "unchanged", "changed"};
+  return text[condition];
+}
+
+static int effect_of(int param)
+{
+  int e, count;
+  for (e = 0; e < PNEU_EFFECT_COUNT && param < PNEU_PARAM_COUNT; e++) {
+    const int first = pneu_effect_params(e, &count);
+    if (param >= first && param < first + count)
+      return e;
+  }
+  return -1;
+}
+
+const char *lab_change_name(int param, char name[LAB_PARAM_NAME_TEXT])
+{
+  const int e = effect_of(param);
+  return e < 0 ? lab_fit_name(param, name) : strcpy(name, pneu_effect_at(e)->name);
+}
+
+const char *lab_change_unit(const lab_change *change)
+{
+  pneu_param_info info;
+  if (change->param == LAB_PARAM_ORIFICE_AREA)
+    return "1";
+  pneu_param_describe(change->param, &info);
+  return info.unit;
+}
+
+/* ---- One after the other ---- */
+
+static int refit_from(const lab_sides *c, const lab_score *score, double size, double level, extension *x,
+                      lab_error *all)
+{
+  lab_error error = {LAB_OK, ""};
+  x->u = c->u;
+  x->param = score->param;
+  x->shape = score->shape;
+  x->fitted = 0;
+  if (lab_sides_release(&x->u, c->first, score, size, &error) == LAB_OK &&
+      (score->shape < 0 || lab_unknowns_add(&x->u, score->shape, score->shape_value, &error) == LAB_OK) &&
+      lab_sides_settle(&x->u, &x->chi2, &error) == LAB_OK &&
+      (score->onset == 0 ||
+       lab_onset_find(&x->u, lab_sides_find(&x->u, x->param), level, &x->chi2, &x->begin, &error) == LAB_OK))
+    x->fitted = 1;
+  x->n_free = 1 + (x->shape >= 0) + x->begin.known;
+  if (error.status == LAB_WORLD)
+    lab_fail_together(all, &error);
+  return x->fitted;
+}
+
+/* From what the slope says and, where that leads nowhere near what it promises, from the usual size. */
+static void refit(const lab_sides *c, const lab_score *score, double level, extension *x, lab_error *all)
+{
+  static const double kept = 0.5; /* of a promise */
+  extension *again;
+  if (refit_from(c, score, score->size, level, x, all) && c->chi2 - x->chi2 > kept * score->statistic)
+    return;
+  again = calloc(1, sizeof *again);
+  if (again && refit_from(c, score, copysign(lab_change_usual(&c->u, score->param), score->size), level, again, all) &&
+      (!x->fitted || again->chi2 < x->chi2))
+    *x = *again;
+  free(again);
+}
+
+/* Whether the supply drives the model through the new log, and nobody has measured it. */
+static int may_follow(const lab_sides *c)
+{
+  return c->first + 1 == c->u.n_runs && c->u.window == 0 && !c->u.rig.laws.pressure_input &&
+         !c->u.rig.input[LAB_CHANNEL_PS];
+}
+
+/* Follow the supply where much is left, from the model of the baseline, which a log with a failing supply would bend.
+ * White noise shows its course best; the other says what that is worth.
+ * Out:     x  fitted or not
+ *          c  chi2 of that model
+ * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD */
+static int follow(lab_sides *c, extension *x, lab_error *error)
+{
+  lab_course course;
+  lab_rest left;
+  int status = lab_sides_rest(c, &left, &c->chi2, error);
+  memset(x, 0, sizeof *x);
+  if (status != LAB_OK || !may_follow(c) || !lab_rest_is_more_than_noise(&left))
+    return status;
+  x->u = c->then;
+  x->param = lab_param_index("supply_pressure");
+  x->shape = -1;
+  x->is_course = 1;
+  x->u.run = c->white;
+  status = lab_course_follow(&x->u, c->first, &course, error);
+  x->u.run = c->run;
+  if (status == LAB_OK && course.n_free > 0)
+    status = lab_unknowns_fit(&x->u, LAB_ROUNDS_ALL, &x->chi2, error);
+  x->fitted = status == LAB_OK && course.n_free > 0;
+  x->n_free = course.n_free;
+  x->begin = course.begin;
+  x->end = course.end;
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* The order in which changes that are as good are named: orifices, parameters, effects. */
+static int order_of(int param)
+{
+  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param;
+}
+
+/* Schwarz's criterion. */
+static double bic_of(const extension *x)
+{
+  return x->chi2 + x->n_free * log((double)x->u.n_values);
+}
+
+/* The best of n: the first in order of those that the log hardly tells apart. */
+static extension *choose(extension *x, int n)
+{
+  extension *best = NULL, *first = NULL;
+  int i;
+  for (i = 0; i < n; i++)
+    if (x[i].fitted && (!best || bic_of(&x[i]) < bic_of(best)))
+      best = &x[i];
+  for (i = 0; i < n; i++)
+    if (x[i].fitted && bic_of(&x[i]) < bic_of(best) + lab_constant(LAB_ALIKE_BIC) / 2 &&
+        (!first || order_of(x[i].param) < order_of(first->param)))
+      first = &x[i];
+  return first;
+}
+
+static void take(lab_sides *c, const extension *best, const extension *x, int n)
+{
+  lab_change *change = &c->change[c->n];
+  int i;
+  change->param = best->param;
+  change->begin = best->begin;
+  change->end = best->end;
+  for (i = 0; i < n; i++)
+    if (&x[i] != best && x[i].fitted && bic_of(&x[i]) < bic_of(best) + lab_constant(LAB_ALIKE_BIC))
+      change->alike[change->n_alike++] = x[i].param;
+  c->shape[c->n++] = best->shape;
+  c->u = best->u;
+  c->chi2 = best->chi2;
+}
+
+/* Whether the old logs may have had it as well, because it acts where they have not been: then nothing has changed.
+ * In:      x  fitted */
+static int was_there(const lab_sides *c, const extension *x, lab_error *all)
+{
+  lab_error error = {LAB_OK, ""};
+  lab_unknowns *both = malloc(sizeof *both);
+  double chi2;
+  int there = 0;
+  if (!both)
+    lab_fail_memory(&error, "a model of both sides");
+  if (both && !x->is_course && effect_of(x->param) >= 0 && lab_unknowns_find(&c->u, x->param) < 0) {
+    *both = c->u;
+    if (!lab_unknowns_add(both, x->param, x->u.unknown[lab_sides_find(&x->u, x->param)].value, &error) &&
+        !lab_sides_settle(both, &chi2, &error))
+      there = chi2 < x->chi2 + lab_constant(LAB_ALIKE_BIC);
+  }
+  if (error.status == LAB_WORLD)
+    lab_fail_together(all, &error);
+  free(both);
+  return there;
+}
+
+/* Refit the leaders, and take up the best of them and of the course.
+ * In/out:  course  no longer fitted
+ * Out:     taken   0 if no score passes, or if the supply was followed, which hides everything else */
+static int take_best(lab_sides *c, const lab_scores *scores, double level, extension *course, int *taken,
+                     lab_error *error)
+{
+  extension *x = calloc(LAB_CHANGE_LEADERS + 1, sizeof *x), *best;
+  int i, n = 1;
+  *taken = 0;
+  if (!x)
+    return lab_fail_memory(error, "changes");
+  x[0] = *course;
+  course->fitted = 0;
+  error->status = LAB_OK;
+  while (n <= LAB_CHANGE_LEADERS && n <= scores->n && scores->of[n - 1].p_value < level)
+    n++;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 1; i < n; i++)
+    refit(c, &scores->of[i - 1], level, &x[i], error);
+  best = choose(x, n);
+  if (error->status == LAB_OK && best && lab_chi2_tail(fmax(c->chi2 - best->chi2, 0), best->n_free) < level &&
+      !was_there(c, best, error)) {
+    c->followed = best->is_course ? c->chi2 - best->chi2 : 0;
+    c->n_followed = best->n_free;
+    take(c, best, x, n);
+    *taken = !best->is_course;
+  }
+  free(x);
+  return error->status;
+}
+
+static int is_in_part(const lab_unknown *x)
+{
+  return isfinite(x->from) || isfinite(x->to);
+}
+
+/* Chi-square without one of the changes, which may differ from day to day all the same. */
+static int leave_out(const lab_sides *c, int which, lab_unknowns *u, double *chi2, lab_error *error)
+{
+  const int param = c->change[which].param, j = lab_sides_find(&c->u, param);
+  int i, k;
+  *u = c->u;
+  for (i = 0; i < lab_repeat_count; i++)
+    if (lab_param_index(lab_repeats[i].name) == param && !is_in_part(&u->unknown[j]))
+      u->unknown[j].spread = sqrt(2) * lab_repeat_spread(&lab_repeats[i], &u->rig);
+  u->unknown[j].value = 0;
+  for (i = k = 0; i < u->n; i++)
+    if (i != j || u->unknown[i].spread > 0)
+      u->unknown[k++] = u->unknown[i];
+  u->n = k;
+  if (c->shape[which] >= 0)
+    lab_unknowns_drop(u, c->shape[which]);
+  return lab_sides_approach(u, chi2, error);
+}
+
+/* ---- What is said ---- */
+
+static int by_statistic(const void *a, const void *b)
+{
+  const double x = ((const lab_change *)a)->statistic, y = ((const lab_change *)b)->statistic;
+  return x < y ? 1 : x > y ? -1 : 0;
+}
+
+/* The unknown whose value a change is told by: of a supply that was followed, the lowest step. */
+static int told_by(const lab_sides *c, const lab_change *change)
+{
+  int j, at = lab_sides_find(&c->u, change->param);
+  for (j = 0; j < c->u.n && c->followed > 0; j++)
+    if (c->u.unknown[j].kind == LAB_UNKNOWN_CHANGE && c->u.unknown[j].index == change->param &&
+        c->u.unknown[j].value < c->u.unknown[at].value)
+      at = j;
+  return at;
+}
+
+/* Value then and now, with the interval of now. */
+static void size_up(const lab_sides *c, const lab_fit_result *fit, lab_change *change)
+{
+  const int param = change->param;
+  const int d = told_by(c, change), b = lab_unknowns_find(&c->u, param);
+  const double by = c->u.unknown[d].value, half = lab_student_quantile(0.975, (double)INFINITY);
+  double variance = fit->covariance[d][d], unit = 1;
+  if (param == LAB_PARAM_ORIFICE_AREA) {
+    unit = change->then = b >= 0 ? c->u.unknown[b].value : 1;
+  } else {
+    change->then = b >= 0 ? c->u.unknown[b].value : (double)*pneu_param_at((pneu_params *)&c->u.rig.params, param);
+  }
+  if (b >= 0)
+    variance += fit->covariance[b][b] / (unit * unit) + 2 * fit->covariance[b][d] / unit;
+  change->now = change->then + unit * by;
+  change->low = change->now - half * unit * sqrt(fmax(variance, 0));
+  change->high = change->now + half * unit * sqrt(fmax(variance, 0));
+}
+
+static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
+{
+  lab_unknowns *without = malloc(sizeof *without);
+  lab_fit_result *fit = malloc(sizeof *fit);
+  double chi2;
+  int i, status = without && fit ? lab_unknowns_intervals(&c->u, fit, error) : lab_fail_memory(error, "changes");
+  for (i = 0; i < c->n && status == LAB_OK; i++) {
+    lab_change *change = &changes->change[changes->n];
+    *change = c->change[i];
+    const int followed = c->followed > 0 && i + 1 == c->n;
+    status = followed ? LAB_OK : leave_out(c, i, without, &chi2, error);
+    if (status != LAB_OK)
+      break;
+    change->statistic = followed ? c->followed : fmax(chi2 - c->chi2, 0);
+    change->p_value = lab_chi2_tail(change->statistic, followed ? c->n_followed : c->shape[i] >= 0 ? 2 : 1);
+    size_up(c, fit, change);
+    changes->n += change->p_value < changes->level;
+  }
+  qsort(changes->change, (size_t)changes->n, sizeof *changes->change, by_statistic);
+  free(without);
+  free(fit);
+  return status;
+}
+
+static int conclude(lab_sides *c, lab_changes *changes, lab_error *error)
+{
+  lab_rest left;
+  if (lab_sides_rest(c, &left, NULL, error))
+    return error->status;
+  changes->then = left.then;
+  changes->now = left.now;
+  changes->condition = changes->n ? LAB_SINCE_CHANGED : LAB_SINCE_UNCHANGED;
+  if (lab_rest_is_doubtful(&left)) {
+    if (!changes->n)
+      changes->condition = LAB_SINCE_CANNOT_TELL;
+    snprintf(changes->why, sizeof changes->why,
+             "what the model of the baseline leaves of the new log, %.2f times the noise, is more than it leaves of "
+             "the baseline, %.2f times, and no change in the list explains it",
+             changes->now, changes->then);
+  }
+  return LAB_OK;
+}
+
+/* Take up one change after the other. A supply that was followed is one even if there is no time to try others.
+ * In/out:  course  the followed supply, fitted or not */
+static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *changes, lab_error *error)
+{
+  int taken = 1;
+  while (taken && c->n < LAB_CHANGES_MAX) {
+    lab_scores scores;
+    const int status = lab_change_scores(c, &scores, error);
+    if (status != LAB_OK && !(status == LAB_NUMERIC && course->fitted))
+      return status;
+    if (!changes->tests) {
+      changes->tests = scores.tests;
+      changes->level = alpha / (scores.tests ? scores.tests : 1);
+    }
+    if (take_best(c, &scores, changes->level, course, &taken, error))
+      return error->status;
+  }
+  return LAB_OK;
+}
+
+static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *error)
+{
+  extension *course = malloc(sizeof *course);
+  int status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
+  if (status == LAB_OK)
+    status = lab_sides_approach(&c->u, &c->chi2, error);
+  if (status == LAB_OK || (status == LAB_NUMERIC && course->fitted))
+    status = take_all(c, alpha, course, changes, error);
+  free(course);
+  if (status != LAB_OK)
+    return status;
+  c->u.until = 0; /* what was found is sized in any case */
+  return describe(c, changes, error) ? error->status : conclude(c, changes, error);
+}
+
+int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, double alpha,
+                     lab_changes *changes, lab_error *error)
+{
+  lab_sides *c = calloc(1, sizeof *c);
+  int status = c ? lab_sides_join(then, decided, now, n_now, c, error) : lab_fail_memory(error, "a comparison");
+  memset(changes, 0, sizeof *changes);
+  if (status == LAB_OK)
+    status = compare(c, alpha, changes, error);
+  if (c && status == LAB_NUMERIC && lab_cpu_is_spent(c->u.until)) {
+    snprintf(changes->why, sizeof changes->why, "the comparison was ended by --budget");
+    status = LAB_OK;
+  }
+  free(c);
+  return status;
+}

@@ -1,0 +1,245 @@
+/* Which differences the new logs may have, and what speaks for each. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../trace/decide.h"
+#include "../base/array.h"
+#include "../base/quantile.h"
+#include "repeat.h"
+#include "sides.h"
+
+/* ---- Scores ---- */
+
+/* A difference that the new logs have, tried. */
+typedef struct tried {
+  lab_unknowns u; /* with the change as the last unknown */
+  double theta[LAB_FIT_MAX];
+  const lab_projection *p;
+  double *r; /* p->m, and that of the change's own prior */
+} tried;
+
+static int change_slope(void *context, double size, double *slope, lab_error *error)
+{
+  tried *t = context;
+  double *own = malloc(t->u.m * sizeof *own);
+  size_t i;
+  int status = own ? lab_unknowns_difference(&t->u, t->theta, t->r, t->u.n - 1, size, own, error)
+                   : lab_fail_memory(error, "a slope");
+  for (i = 0; i < t->p->m && status == LAB_OK; i++)
+    slope[i] = own[i] * size;
+  free(own);
+  return status;
+}
+
+/* Put the change into the unknowns.  Returns: LAB_OK, LAB_DATA without room, LAB_WORLD */
+static int begin_trial(const lab_projection *p, int first, int param, tried *t, lab_error *error)
+{
+  int j;
+  t->p = p;
+  t->u = *p->u;
+  if (lab_unknowns_add_change(&t->u, param, first, 0, error))
+    return error->status;
+  t->u.m++;
+  for (j = 0; j < t->u.n; j++)
+    t->theta[j] = t->u.unknown[j].value;
+  t->r = calloc(t->u.m, sizeof *t->r);
+  if (!t->r)
+    return lab_fail_memory(error, "residuals");
+  memcpy(t->r, p->r, p->m * sizeof *t->r);
+  return LAB_OK;
+}
+
+double lab_change_usual(const lab_unknowns *u, int param)
+{
+  pneu_param_info info;
+  double now;
+  if (param == LAB_PARAM_ORIFICE_AREA)
+    return 0.1;
+  pneu_param_describe(param, &info);
+  now = (double)*pneu_param_at((pneu_params *)&u->rig.params, param);
+  if (param >= PNEU_PARAM_BASE_COUNT)
+    return (double)info.value - (double)info.neutral;
+  return 0.1 * fabs(now != 0 ? now : (double)info.value);
+}
+
+/* Score what may differ from day to day: whether it differs by more. That is the slope of its prior alone, the rest of
+ * it being fitted.  Returns: as score_change */
+static int score_release(const lab_projection *p, int j, lab_score *score, lab_error *all)
+{
+  lab_error error;
+  double *slope = calloc(p->m, sizeof *slope);
+  const size_t prior = p->u->n_data + (size_t)j;
+  if (!slope) {
+    lab_fail_memory(&error, "a score");
+    lab_fail_together(all, &error);
+    return 0;
+  }
+  slope[prior] = 1;
+  score->visible = lab_projection_visible(p, slope);
+  if (score->visible > 0)
+    score->statistic = pow(lab_dot(slope, p->r, p->m) / score->visible, 2);
+  score->size = p->u->unknown[j].value;
+  free(slope);
+  return 1;
+}
+
+/* Score a change of one shape as if it acted from a row of the new log on.  Returns: the number of slopes judged */
+static int score_since(tried *t, const lab_trial *trial, size_t row, double *slope, lab_score *score, lab_error *all)
+{
+  static const double beyond = 15; /* chi-square with p = 1e-4: by what an onset must be better than none */
+  const lab_run *run = &t->u.run[t->u.unknown[t->u.n - 1].run];
+  lab_score since = *score;
+  int tests;
+  since.statistic = 0;
+  t->u.unknown[t->u.n - 1].from = run->log->value[LAB_CHANNEL_TIME][run->first + row];
+  tests = lab_score_try(t->p, trial, &since, slope, all);
+  if (since.statistic > score->statistic + (score->onset > 0 ? 0 : beyond)) {
+    *score = since;
+    score->onset = row;
+  }
+  return tests;
+}
+
+/* Score every shape throughout the new log, if that is wanted, and the first from some rows of it on.
+ * In:      within  whether to do so
+ * In/out:  parts   number of slopes that were judged there
+ * Returns: that of those throughout */
+static int score_shapes(tried *t, lab_trial *trial, int throughout, int within, lab_score *score, int *parts,
+                        lab_error *all)
+{
+  const int shapes = score->shape >= 0 ? LAB_SCORE_SHAPES : 1;
+  double *slope = malloc(t->p->m * sizeof *slope);
+  lab_error error;
+  int k, tests = 0;
+  if (!slope) {
+    lab_fail_memory(&error, "a slope");
+    lab_fail_together(all, &error);
+    return 0;
+  }
+  for (k = 0; k < shapes; k++) {
+    if (score->shape >= 0)
+      *pneu_param_at(&t->u.rig.params, score->shape) = (pneu_real)(trial->shape_value = lab_score_shape(score, k));
+    if (throughout)
+      tests += lab_score_try(t->p, trial, score, slope, all);
+  }
+  for (k = 1; k < LAB_ONSET_PLACES && within; k++)
+    *parts += score_since(t, trial, t->u.run[t->u.n_runs - 1].n * (size_t)k / LAB_ONSET_PLACES, slope, score, all);
+  free(slope);
+  return tests;
+}
+
+/* Returns: as score_shapes */
+static int score_new(const lab_projection *p, int first, int throughout, lab_score *score, int *parts, lab_error *all)
+{
+  const double noise = lab_constant(LAB_NOISE_DEVIATIONS) * sqrt(2 * (double)p->u->n_values);
+  const int within = first + 1 == p->u->n_runs && p->u->window == 0 && p->excess > noise;
+  lab_error error = {LAB_OK, ""};
+  tried *t = calloc(1, sizeof *t);
+  int tests = 0;
+  if (!t)
+    lab_fail_memory(&error, "a score");
+  else if (begin_trial(p, first, score->param, t, &error) == LAB_OK) {
+    const lab_unknown *x = &t->u.unknown[t->u.n - 1];
+    lab_trial trial = {lab_change_usual(&t->u, score->param), x->upper, -x->lower, 0, change_slope, t, 0};
+    if (trial.usual > trial.up)
+      trial.usual = -trial.usual;
+    tests = score_shapes(t, &trial, throughout, within, score, parts, all);
+  }
+  if (error.status == LAB_WORLD)
+    lab_fail_together(all, &error);
+  if (t)
+    free(t->r);
+  free(t);
+  return tests;
+}
+
+/* Half of the chance of a false one is for what acts throughout, half for its parts. */
+static int score_change(const lab_projection *p, int first, lab_score *score, lab_error *all)
+{
+  const int j = lab_sides_find(p->u, score->param);
+  int parts = 0, tests = j >= 0 ? score_release(p, j, score, all) : 0;
+  tests += score_new(p, first, j < 0, score, &parts, all);
+  score->p_value = 2 * lab_chi2_tail(score->statistic, 1) * (score->onset > 0 ? parts : 1);
+  return tests;
+}
+
+/* ---- What is tested ---- */
+
+static void list_one(const lab_sides *c, int param, int shape, lab_scores *scores)
+{
+  const int j = lab_sides_find(&c->u, param);
+  int i;
+  if (param < 0 || scores->n == LAB_SCORES_MAX || (j >= 0 && c->u.unknown[j].spread == 0))
+    return;
+  for (i = 0; i < scores->n; i++)
+    if (scores->of[i].param == param)
+      return;
+  scores->of[scores->n].param = param;
+  scores->of[scores->n++].shape = shape;
+}
+
+/* Whether an effect is off in the model: then its shape is open as well. */
+static int is_off(const lab_unknowns *u, int first, int count)
+{
+  int i, off = 1;
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    off = off && (info.shape ||
+                  (lab_unknowns_find(u, i) < 0 && *pneu_param_at((pneu_params *)&u->rig.params, i) == info.neutral));
+  }
+  return off;
+}
+
+static void list_effects(const lab_sides *c, lab_scores *scores)
+{
+  int e, i, count;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const int first = pneu_effect_params(e, &count);
+    const int off = is_off(&c->u, first, count);
+    if (!lab_score_can_be_missing(&c->u.rig, e))
+      continue;
+    int shape = -1;
+    pneu_param_info info;
+    for (i = first + count - 1; i >= first; i--)
+      if (!pneu_param_describe(i, &info) && info.shape && off)
+        shape = i;
+    for (i = first; i < first + count; i++)
+      if (!pneu_param_describe(i, &info) && !info.shape)
+        list_one(c, i, shape, scores);
+  }
+}
+
+/* What was fitted; what the table of repeats has, unless it is one of two names for the same; every effect. */
+static void list_changes(const lab_sides *c, lab_scores *scores)
+{
+  int i, j;
+  memset(scores, 0, sizeof *scores);
+  for (j = 0; j < c->u.n; j++)
+    if (c->u.unknown[j].kind == LAB_UNKNOWN_PARAM && c->u.unknown[j].run == LAB_ALL_RUNS)
+      list_one(c, c->u.unknown[j].index, -1, scores);
+  for (i = 0; i < lab_repeat_count; i++)
+    if (lab_repeats[i].tested)
+      list_one(c, lab_param_index(lab_repeats[i].name), -1, scores);
+  list_effects(c, scores);
+}
+
+int lab_change_scores(lab_sides *c, lab_scores *scores, lab_error *error)
+{
+  lab_projection p;
+  int i, tests = 0, status = lab_projection_open(&c->u, &p, error);
+  scores->n = scores->tests = 0;
+  if (status == LAB_OK) {
+    list_changes(c, scores);
+    error->status = LAB_OK;
+#pragma omp parallel for schedule(dynamic) reduction(+ : tests)
+    for (i = 0; i < scores->n; i++)
+      tests += score_change(&p, c->first, &scores->of[i], error);
+    scores->tests = tests;
+    qsort(scores->of, (size_t)scores->n, sizeof *scores->of, lab_score_by_statistic);
+    status = error->status;
+  }
+  lab_projection_close(&p);
+  return status;
+}

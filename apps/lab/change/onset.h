@@ -1,0 +1,40 @@
+/* When a change begins within a log.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_ONSET_H
+#define LAB_ONSET_H
+
+#include "../trace/score.h"
+
+/* An instant [s of the log], with its 95 % interval. */
+typedef struct lab_onset {
+  int known; /* 0: there is none, and it acts from the first row, or to the last */
+  double t, low, high;
+} lab_onset;
+
+enum { LAB_ONSET_PLACES = 8 }; /* stretches of a run between which a change may begin or end, at first sight */
+
+/* Find the row from which a change acts: that with the largest score, and the interval in which the score stays within
+ * what 95 % allow. Where that is no better than acting throughout, the change acts throughout.
+ * In:      change  place of a fitted LAB_UNKNOWN_CHANGE that the last run alone has, seen row by row
+ *          level   p-value that the improvement has to pass
+ * In/out:  u       fitted again
+ *          chi2    of it
+ * Out:     begin
+ * Returns: as lab_unknowns_fit. */
+int lab_onset_find(lab_unknowns *u, int change, double level, double *chi2, lab_onset *begin, lab_error *error);
+
+/* Chi-square over the row at which something begins or ends. */
+typedef struct lab_onset_profile {
+  /* Returns: LAB_OK; else no row is looked at any more */
+  int (*look)(void *context, size_t row, double *chi2, lab_error *error);
+  void *context;
+  size_t n; /* rows */
+} lab_onset_profile;
+
+/* How far from the best row chi-square stays within what 95 % allow, in one direction.  Out: end  Returns: as look */
+int lab_onset_reach(const lab_onset_profile *profile, size_t best, double least, int up, size_t *end, lab_error *error);
+
+/* An instant by its rows and those that it reaches to, each give or take one.  In: t  of n rows */
+void lab_onset_set(const double *t, size_t n, size_t low, size_t best, size_t high, lab_onset *onset);
+
+#endif

@@ -1,0 +1,46 @@
+#include "repeat.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Chosen by judgement; not calibrated: regulators and weather, zeros and gains of ordinary transmitters, and what
+ * friction does from day to day. Who knows better gives the measured supply as a channel. */
+const lab_repeat lab_repeats[] = {
+    {"supply_pressure", 0.02, NULL, 0, 1},
+    {"ambient_pressure", 0, NULL, 1500, 0},
+    {"ambient_temperature", 0, NULL, 5, 0},
+    {"supply_temperature", 0, NULL, 5, 0},
+    {"pressure_bias.pressure_bias", 0.0025, "supply_pressure", 0, 1},
+    {"position_bias.position_bias", 0.005, "stroke", 0, 1},
+    {"pressure_gain.pressure_gain", 0, NULL, 0.002, 1},
+    {"position_gain.position_gain", 0, NULL, 0.002, 1},
+    {"orifice_area", 0.01, NULL, 0, 1},
+    {"fill_area", 0, NULL, 0, 1},
+    {"dead_volume", 0.01, NULL, 0, 1},
+    {"dry_friction", 0.05, NULL, 0, 1},
+    {"viscous_friction", 0.1, NULL, 0, 1},
+    {"spring_rate", 0.005, NULL, 0, 1},
+    {"spring_preload", 0.005, NULL, 0, 1},
+};
+const int lab_repeat_count = sizeof lab_repeats / sizeof *lab_repeats;
+
+int lab_param_index(const char *name)
+{
+  char text[LAB_PARAM_NAME_TEXT];
+  int i;
+  for (i = 0; i < LAB_PARAM_COUNT; i++)
+    if (!strcmp(lab_fit_name(i, text), name))
+      return i;
+  return -1;
+}
+
+static double value_of(const lab_rig *rig, int param)
+{
+  return param == LAB_PARAM_ORIFICE_AREA ? 1 : fabs((double)*pneu_param_at((pneu_params *)&rig->params, param));
+}
+
+double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig)
+{
+  const int of = lab_param_index(repeat->of ? repeat->of : repeat->name);
+  return repeat->share > 0 && of >= 0 ? repeat->share * value_of(rig, of) : repeat->spread;
+}

@@ -1,0 +1,232 @@
+#include "sides.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/array.h"
+#include "../trace/decide.h"
+#include "repeat.h"
+
+/* ---- The unknowns ---- */
+
+int lab_sides_find(const lab_unknowns *u, int param)
+{
+  int j = u->n;
+  while (--j >= 0 && (u->unknown[j].kind != LAB_UNKNOWN_CHANGE || u->unknown[j].index != param))
+    ;
+  return j;
+}
+
+int lab_sides_release(lab_unknowns *u, int first, const lab_score *score, double value, lab_error *error)
+{
+  int j = score->onset > 0 ? -1 : lab_sides_find(u, score->param);
+  if (j < 0 && lab_unknowns_add_change(u, score->param, first, 0, error))
+    return error->status;
+  if (j < 0)
+    j = u->n - 1;
+  if (score->onset > 0)
+    u->unknown[j].from = u->run[first].log->value[LAB_CHANNEL_TIME][u->run[first].first + score->onset];
+  u->unknown[j].spread = 0;
+  u->unknown[j].value = fmin(fmax(value, u->unknown[j].lower), u->unknown[j].upper);
+  return LAB_OK;
+}
+
+/* What differs from day to day. */
+static int add_repeats(lab_sides *c, lab_error *error)
+{
+  int i;
+  for (i = 0; i < lab_repeat_count; i++) {
+    const int param = lab_param_index(lab_repeats[i].name);
+    const double spread = param < 0 ? 0 : sqrt(2) * lab_repeat_spread(&lab_repeats[i], &c->u.rig); /* two days */
+    if (spread > 0 && lab_unknowns_add_change(&c->u, param, c->first, spread, error))
+      return error->status;
+  }
+  return LAB_OK;
+}
+
+/* Noise of a channel in n runs, the largest; 0 if none has it. */
+static double noise_of(const lab_run *run, int n, int channel)
+{
+  double sigma = 0;
+  int e, k;
+  for (e = 0; e < n; e++)
+    for (k = 0; k < run[e].n_channels; k++)
+      if (run[e].channel[k] == channel)
+        sigma = fmax(sigma, run[e].sigma[k]);
+  return sigma;
+}
+
+/* The set positions of n runs.  Returns: 0 if there are none */
+static int set_range(const lab_run *run, int n, double *low, double *high)
+{
+  size_t i;
+  int e;
+  *low = HUGE_VAL;
+  *high = -HUGE_VAL;
+  for (e = 0; e < n; e++)
+    for (i = run[e].first; lab_log_command(run[e].log) == LAB_CHANNEL_SP && i < run[e].first + run[e].n; i++) {
+      *low = fmin(*low, run[e].log->value[LAB_CHANNEL_SP][i]);
+      *high = fmax(*high, run[e].log->value[LAB_CHANNEL_SP][i]);
+    }
+  return *low <= *high;
+}
+
+/* Whether the new logs go to set positions where the baseline has not been. The model, fitted elsewhere, is then off by
+ * what the plant's forces do there, which comes and goes with the position. */
+static int goes_beyond(const lab_sides *c)
+{
+  static const double margin = 0.1; /* of the range */
+  double then[2], now[2];
+  if (!set_range(c->run, c->first, &then[0], &then[1]) ||
+      !set_range(c->run + c->first, c->u.n_runs - c->first, &now[0], &now[1]))
+    return 0;
+  return now[0] < then[0] - margin * (then[1] - then[0]) || now[1] > then[1] + margin * (then[1] - then[0]);
+}
+
+/* What is left of one channel of the baseline counts as noise; where it is not white, with its memory from row to row.
+ * A new log, which may stand still, has no less noise than the baseline. */
+static void take_as_noise(const lab_unknowns *then, const double *z, int channel, int decided, lab_sides *c)
+{
+  static const double wanders = 0.95; /* memory from row to row of what a model leaves where it was not fitted */
+  const double least = noise_of(then->run, then->n_runs, channel);
+  const int beyond = goes_beyond(c);
+  double sum = 0, sum1 = 0, n = 0, scale, memory;
+  size_t i;
+  int e, k;
+  for (e = 0; e < then->n_runs; e++)
+    for (k = 0; k < then->run[e].n_channels; k++, z += then->run[e].n)
+      for (i = 0; i < then->run[e].n && then->run[e].channel[k] == channel; i++) {
+        n += z[i] != 0;
+        sum += z[i] * z[i];
+        sum1 += i > 0 ? z[i] * z[i - 1] : 0;
+      }
+  if (!(sum > 0))
+    return;
+  scale = sqrt(sum / n);
+  memory = fmin(fmax(sum1 / sum, 0), 0.98);
+  for (e = 0; e < c->u.n_runs; e++)
+    for (k = 0; k < c->run[e].n_channels; k++)
+      if (c->run[e].channel[k] == channel) {
+        if (e >= c->first)
+          c->run[e].sigma[k] = fmax(c->run[e].sigma[k], least);
+        c->run[e].sigma[k] *= decided ? fmax(scale, 1) : scale;
+        c->run[e].memory[k] = decided ? c->run[e].memory[k] : memory;
+        c->white[e].sigma[k] = c->run[e].sigma[k];
+        c->white[e].memory[k] = 0;
+        if (beyond && c->run[e].memory[k] < wanders) { /* white noise is still of size 1 */
+          c->run[e].sigma[k] *= sqrt((1 + wanders * wanders) / (1 - wanders * wanders));
+          c->run[e].memory[k] = wanders;
+        }
+      }
+}
+
+static int take_rest_as_noise(const lab_unknowns *then, int decided, lab_sides *c, lab_error *error)
+{
+  double *z = malloc((then->n_rows + 1) * sizeof *z);
+  int k, status = z ? lab_unknowns_errors(then, z, error) : lab_fail_memory(error, "residuals");
+  for (k = 0; k < LAB_CHANNEL_COUNT && status == LAB_OK; k++)
+    take_as_noise(then, z, k, decided, c);
+  free(z);
+  return status;
+}
+
+int lab_sides_settle(lab_unknowns *u, double *chi2, lab_error *error)
+{
+  static const double still = 0.5; /* of chi-square */
+  enum { FITS = 6 };
+  double before;
+  int i, status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error);
+  for (i = 1, before = HUGE_VAL; i < FITS && status == LAB_OK && before - *chi2 > still; i++) {
+    before = *chi2;
+    status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error);
+  }
+  return status;
+}
+
+int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error)
+{
+  static const double share[] = {0.1, 0.3, 1}; /* of the spreads */
+  double spread[LAB_FIT_MAX];
+  int i, j, status = LAB_OK;
+  for (j = 0; j < u->n; j++)
+    spread[j] = u->unknown[j].spread;
+  for (i = 0; i < 3 && status == LAB_OK; i++) {
+    for (j = 0; j < u->n; j++)
+      if (u->unknown[j].kind == LAB_UNKNOWN_CHANGE)
+        u->unknown[j].spread = share[i] * spread[j];
+    status = lab_sides_settle(u, chi2, error);
+  }
+  return status;
+}
+
+int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c, lab_error *error)
+{
+  if (then->n_runs + n_now > LAB_FIT_MAX)
+    return lab_fail(error, LAB_DATA, "more than %d runs to compare", (int)LAB_FIT_MAX);
+  memcpy(c->run, then->run, (size_t)then->n_runs * sizeof *c->run);
+  memcpy(c->run + then->n_runs, now, (size_t)n_now * sizeof *c->run);
+  memcpy(c->white, c->run, sizeof c->white);
+  c->u = *then;
+  c->first = then->n_runs;
+  if (lab_unknowns_join(&c->u, c->run, then->n_runs + n_now, error) || add_repeats(c, error))
+    return error->status;
+  if (take_rest_as_noise(then, decided, c, error))
+    return error->status;
+  c->u.m = c->u.n_data + (size_t)c->u.n;
+  c->then = c->u;
+  return LAB_OK;
+}
+
+/* ---- What is left ---- */
+
+/* What is left of runs first .. end - 1, over what counts as noise. */
+static double left_of(const lab_unknowns *u, const double *r, int first, int end)
+{
+  double sum = 0, n = 0;
+  int e, k;
+  size_t i;
+  for (e = 0; e < end; e++)
+    for (k = 0; k < u->run[e].n_channels; k++)
+      for (i = 0; i < u->run[e].n; i++, r++)
+        if (e >= first && *r != 0) {
+          sum += *r * *r;
+          n++;
+        }
+  return n > 0 ? sqrt(sum / n) : 0;
+}
+
+static size_t rows_of(const lab_unknowns *u, int first)
+{
+  size_t n = 0;
+  int e;
+  for (e = first; e < u->n_runs; e++)
+    n += u->run[e].n * (size_t)u->run[e].n_channels;
+  return n;
+}
+
+int lab_sides_rest(const lab_sides *c, lab_rest *left, double *chi2, lab_error *error)
+{
+  double *r = malloc((c->u.m + 1) * sizeof *r);
+  const int status = r ? lab_unknowns_residuals((void *)&c->u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK) {
+    left->then = left_of(&c->u, r, 0, c->first);
+    left->now = left_of(&c->u, r, c->first, c->u.n_runs);
+    left->n = rows_of(&c->u, c->first);
+    if (chi2)
+      *chi2 = lab_dot(r, r, c->u.m);
+  }
+  free(r);
+  return status;
+}
+
+int lab_rest_is_doubtful(const lab_rest *left)
+{
+  return left->now > sqrt(lab_constant(LAB_NOISE_DOUBTFUL)) * fmax(left->then, 1);
+}
+
+int lab_rest_is_more_than_noise(const lab_rest *left)
+{
+  const double deviations = lab_constant(LAB_NOISE_DEVIATIONS) * sqrt(2 / (double)left->n);
+  return left->now * left->now > fmax(1 + deviations, lab_constant(LAB_NOISE_SLIP));
+}

@@ -1,0 +1,65 @@
+/* The old and the new logs of a rig in one fit: what both have, what differs from day to day, and what has changed.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_SIDES_H
+#define LAB_SIDES_H
+
+#include "change.h"
+
+/* Both sides in one fit. */
+typedef struct lab_sides {
+  lab_unknowns u;
+  lab_unknowns then;          /* the same as the baseline alone has it */
+  lab_run run[LAB_FIT_MAX];   /* of both sides: views, whose noise may differ from that of the logs */
+  lab_run white[LAB_FIT_MAX]; /* the same with noise that has no memory */
+  int first;                  /* run of the new logs */
+  double chi2;
+  int n;
+  lab_change change[LAB_CHANGES_MAX]; /* what was taken up */
+  int shape[LAB_CHANGES_MAX];
+  double
+      followed; /* by how much chi-square fell when the supply was followed, which is the last change; 0: it was not */
+  int n_followed; /* what that fitted */
+} lab_sides;
+
+/* Put both together, from the model of the baseline, not yet fitted.  In: as lab_changes_find  Out: c */
+int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c,
+                   lab_error *error);
+
+/* Place of a change among the unknowns, the last one of a parameter; -1 if it is none of them. */
+int lab_sides_find(const lab_unknowns *u, int param);
+
+/* Let a parameter change as far as the fit wants, beside what it does from day to day if it acts from an onset on.
+ * Returns: LAB_OK, LAB_DATA without room */
+int lab_sides_release(lab_unknowns *u, int first, const lab_score *score, double value, lab_error *error);
+
+/* Fit until it stays where it is: what is known to a day only makes long valleys. */
+int lab_sides_settle(lab_unknowns *u, double *chi2, lab_error *error);
+
+/* Fit with what differs from day to day held close at first: from none, the first step of all together would lead far
+ * astray, where another valley may hold it. */
+int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error);
+
+/* What is left of either side, [1] over what counts as noise. */
+typedef struct lab_rest {
+  double then, now;
+  size_t n; /* values of the new logs */
+} lab_rest;
+
+/* Out:     chi2  may be NULL
+ * Returns: as lab_unknowns_residuals */
+int lab_sides_rest(const lab_sides *c, lab_rest *left, double *chi2, lab_error *error);
+
+/* Whether the new logs leave more than noise. */
+int lab_rest_is_more_than_noise(const lab_rest *left);
+
+/* Whether they leave so much more than the baseline that it is no matter of noise. */
+int lab_rest_is_doubtful(const lab_rest *left);
+
+/* Score each difference that the new logs may have, throughout and, where more than noise is left, from some rows on.
+ * Returns: LAB_OK; LAB_NUMERIC, also without time; LAB_WORLD */
+int lab_change_scores(lab_sides *c, lab_scores *scores, lab_error *error);
+
+/* Size of the first step: a tenth of a parameter, an effect's usual size. */
+double lab_change_usual(const lab_unknowns *u, int param);
+
+#endif

@@ -1,0 +1,44 @@
+#include "logs.h"
+
+#include "mend.h"
+
+static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error *error)
+{
+  lab_log *log = &b->log[b->n_logs];
+  if (b->n_logs == LAB_LOGS_MAX)
+    return lab_fail(error, LAB_DATA, "%s: more than %d logs", path, (int)LAB_LOGS_MAX);
+  if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
+    return error->status;
+  b->n_logs++;
+  lab_log_even_stamps(log, &b->limitations);
+  if (lab_log_remove_hum(log, &b->limitations, error))
+    return error->status;
+  if (!b->is_whole)
+    lab_log_thin(log, LAB_THIN_ROWS, &b->limitations);
+  if (lab_log_clean(rig, log, &b->limitations, error))
+    return error->status;
+  return lab_plausible(rig, log, &b->limitations, &b->content, error);
+}
+
+int lab_logs_add(lab_logs *b, const lab_rig *rig, const char *path, lab_error *error)
+{
+  lab_log *log = &b->log[b->n_logs];
+  size_t run;
+  if (read_log(rig, path, b, error))
+    return error->status;
+  for (run = 0; run < log->n_runs; run++) {
+    if (b->n == LAB_RUNS_MAX)
+      return lab_fail(error, LAB_DATA, "%s: more than %d runs in all", path, (int)LAB_RUNS_MAX);
+    if (lab_run_open(rig, log, run, &b->run[b->n++], error))
+      return error->status;
+  }
+  return LAB_OK;
+}
+
+void lab_logs_close(lab_logs *b)
+{
+  while (b->n > 0)
+    lab_run_close(&b->run[--b->n]);
+  while (b->n_logs > 0)
+    lab_log_free(&b->log[--b->n_logs]);
+}

@@ -1,0 +1,132 @@
+#include "mend.h"
+
+#include <math.h>
+
+#include "../base/format.h"
+#include "../base/text.h"
+
+enum { FEWEST = 20 };
+
+static const double on_grid = 1e-6; /* of a step */
+static const double coarse = 0.02;  /* of the distance of rows: a finer grid does no harm */
+static const double rounded = 0.55; /* of a step: the farthest from even stamps that rounding takes a stamp */
+
+/* Whether every stamp is a multiple of `step`. */
+static int lies_on(const double *t, size_t n, double step)
+{
+  size_t i;
+  for (i = 0; i < n; i++)
+    if (fabs((t[i] - t[0]) / step - nearbyint((t[i] - t[0]) / step)) > on_grid * fmax(1, fabs(t[i]) / step * 1e-6))
+      return 0;
+  return 1;
+}
+
+/* The coarsest of 1 s, 0.5, 0.2, 0.1 ... 0.1 ms of which every stamp is a multiple; 0 without one. */
+static double grid_of(const double *t, size_t n)
+{
+  static const double lead[] = {1, 0.5, 0.2};
+  double decade = 1;
+  int k;
+  for (k = 0; k < 12; k++) {
+    if (lies_on(t, n, decade * lead[k % 3]))
+      return decade * lead[k % 3];
+    decade *= k % 3 == 2 ? 0.1 : 1;
+  }
+  return 0;
+}
+
+/* A straight line through the stamps over the number of their row, rows that are missing counted. */
+typedef struct line {
+  double begin, step;
+} line;
+
+/* Rows from one stamp to the next, at a distance of `step`. */
+static double rows_between(const double *t, size_t i, double grid, double step)
+{
+  const double gap = t[i] - t[i - 1];
+  return gap < step + 1.5 * grid ? 1 : nearbyint(gap / step);
+}
+
+static line through(const double *t, size_t n, double grid, double step)
+{
+  double at = 0, sk = 0, skk = 0, st = 0, skt = 0;
+  line l;
+  size_t i;
+  for (i = 0; i < n; i++) {
+    at += i > 0 ? rows_between(t, i, grid, step) : 0;
+    sk += at;
+    skk += at * at;
+    st += t[i] - t[0];
+    skt += at * (t[i] - t[0]);
+  }
+  l.step = ((double)n * skt - sk * st) / ((double)n * skk - sk * sk);
+  l.begin = t[0] + (st - l.step * sk) / (double)n;
+  return l;
+}
+
+static double usual_step(const double *t, size_t n)
+{
+  double longest = HUGE_VAL, sum = 0, count = 0;
+  int pass;
+  size_t i;
+  for (pass = 0; pass < 2; pass++) { /* the second without the gaps */
+    for (sum = count = 0, i = 1; i < n; i++)
+      if (t[i] - t[i - 1] < longest) {
+        sum += t[i] - t[i - 1];
+        count++;
+      }
+    longest = 2.5 * sum / count;
+  }
+  return sum / count;
+}
+
+/* Farthest that a stamp is from the line; sets the stamps onto it if `set`. */
+static double farthest(double *t, size_t n, double grid, line l, int set)
+{
+  double at = 0, before = t[0], most = 0;
+  size_t i;
+  for (i = 0; i < n; i++) {
+    const double now = t[i], pair[2] = {before, now};
+    at += i > 0 ? rows_between(pair, 1, grid, l.step) : 0;
+    most = fmax(most, fabs(now - (l.begin + l.step * at)));
+    if (set)
+      t[i] = l.begin + l.step * at;
+    before = now;
+  }
+  return most;
+}
+
+/* Returns: the grid from which the stamps of a run were spread; 0 if they were not. */
+static double spread(double *t, size_t n, double grid)
+{
+  const double step = usual_step(t, n);
+  line l;
+  double most;
+  if (!(grid > coarse * step))
+    return 0;
+  l = through(t, n, grid, step);
+  most = farthest(t, n, grid, l, 0);
+  if (!(most > on_grid * grid && most < rounded * grid))
+    return 0;
+  farthest(t, n, grid, l, 1);
+  return grid;
+}
+
+void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
+{
+  double *t = log->value[LAB_CHANNEL_TIME];
+  size_t run;
+  double grid;
+  char text[LAB_FORMAT_TEXT];
+  if (log->n < FEWEST)
+    return;
+  grid = grid_of(t, log->n);
+  for (run = 0; run < log->n_runs && grid > 0; run++) {
+    const size_t first = log->run[run], n = log->run[run + 1] - first;
+    if (n >= FEWEST && spread(t + first, n, grid) > 0)
+      log->clock_step = grid;
+  }
+  if (log->clock_step > 0)
+    lab_limitation(limitations, "%s: the time is rounded to %s; the rows are taken to be at even distances.",
+                   lab_file_name(log->path), lab_format_quantity(grid, "s", 3, text));
+}

@@ -1,0 +1,296 @@
+#include "discriminate.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "discriminate_private.h"
+
+static const double clear = 5;      /* [sigma] separates */
+static const double decisive = 100; /* [sigma] clear, with room for noise that is 20 times less kind than white noise */
+static const double better = 2;     /* times what has been recorded gives, or it is hardly worth the trouble */
+
+/* ---- Two models ---- */
+
+/* Both models, and the one in the middle, of which all that either would fit counts. */
+typedef struct pair {
+  lab_forecast_model a, b, middle;
+} pair;
+
+/* Whether an effect acts in one model and has other parameters in the other. */
+static int is_own(int first, int count, pneu_params *mine, pneu_params *theirs)
+{
+  int i, acts = 0, differs = 0;
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    acts |= !info.shape && *pneu_param_at(mine, i) != info.neutral;
+    differs |= *pneu_param_at(mine, i) != *pneu_param_at(theirs, i);
+  }
+  return acts && differs;
+}
+
+static int make_side(const lab_advice_request *q, const pneu_params *mine, const pneu_params *theirs,
+                     lab_forecast_model *s, lab_error *error)
+{
+  pneu_params other = *theirs;
+  int e, i, count;
+  s->params = *mine;
+  s->n = 0;
+  for (i = 0; i < q->n_fit; i++)
+    if (lab_side_add(s, q->fit[i], error))
+      return error->status;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const int first = pneu_effect_params(e, &count);
+    if (!is_own(first, count, &s->params, &other))
+      continue;
+    for (i = first; i < first + count; i++)
+      if (lab_side_add(s, i, error))
+        return error->status;
+  }
+  return LAB_OK;
+}
+
+static void share_units(const lab_forecast_model *from, lab_forecast_model *to)
+{
+  int i, j;
+  for (i = 0; i < from->n; i++)
+    for (j = 0; j < to->n; j++)
+      if (from->param[i] == to->param[j])
+        to->scale[j] = from->scale[i];
+}
+
+static int make_pair(const lab_advice_request *q, const pneu_params *a, const pneu_params *b, pair *p, lab_error *error)
+{
+  pneu_params other = *b;
+  int i;
+  if (make_side(q, a, b, &p->a, error) || make_side(q, b, a, &p->b, error))
+    return error->status;
+  p->middle = p->a;
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_real *value = pneu_param_at(&p->middle.params, i);
+    *value = (*value + *pneu_param_at(&other, i)) / 2;
+  }
+  p->middle.n = 0;
+  for (i = 0; i < p->a.n + p->b.n; i++)
+    if (lab_side_add(&p->middle, i < p->a.n ? p->a.param[i] : p->b.param[i - p->a.n], error))
+      return error->status;
+  share_units(&p->middle, &p->a);
+  share_units(&p->middle, &p->b);
+  return LAB_OK;
+}
+
+/* ---- Separation of a trial ---- */
+
+/* Leave the columns that one side would fit, in its order.  In: sign  1 or -1, of the difference */
+static void take_side(const lab_normal *normal, const lab_forecast_model *middle, const lab_forecast_model *s,
+                      double sign, lab_normal *part)
+{
+  int keep[LAB_NORMAL_MAX], i, j;
+  for (j = 0; j < s->n; j++)
+    for (i = 0; i < middle->n; i++)
+      if (middle->param[i] == s->param[j])
+        keep[j] = i;
+  lab_normal_select(normal, s->n, keep, part);
+  for (j = 0; j < s->n; j++)
+    part->g[j][s->n] *= sign;
+}
+
+/* What has been recorded says about the difference a - b; nothing to a record that stands for itself. */
+static void known_before(const design *s, int i, lab_normal *known)
+{
+  const int last = s->n - 1;
+  if (i == last)
+    lab_normal_clear(known, s->bundle[last].channel[0].k);
+  else
+    lab_bundle_weigh(&s->bundle[last], &s->request, &s->forecast[last], known);
+}
+
+/* Estimate by the slopes of the model midway. */
+static double estimate(const design *s, const lab_advice_request *q, const pair *p, int i)
+{
+  lab_normal normal, known, a, b;
+  if (s->failed[i])
+    return (double)NAN;
+  lab_bundle_weigh(&s->bundle[i], q, &s->forecast[i], &normal);
+  known_before(s, i, &known);
+  lab_normal_add(&normal, 1, &known);
+  take_side(&normal, &p->middle, &p->a, 1, &a);
+  take_side(&normal, &p->middle, &p->b, 1, &b);
+  return fmin(lab_normal_rest(&a), lab_normal_rest(&b));
+}
+
+/* Fit each model to the other. Where motion is jerky the estimate has to do; a fit that fails leaves NaN. */
+static int settle(const design *s, const lab_advice_request *q, const pair *p, int i, double *separation,
+                  lab_error *error)
+{
+  double apart[2] = {(double)NAN, (double)NAN};
+  lab_normal known;
+  int way, status = LAB_OK;
+  *separation = estimate(s, q, p, i);
+  if (s->failed[i] || s->jerky[i])
+    return LAB_OK;
+  known_before(s, i, &known);
+#pragma omp parallel for
+  for (way = 0; way < 2; way++) {
+    const lab_forecast_model *model = way ? &p->a : &p->b, *goal = way ? &p->b : &p->a;
+    lab_normal mine;
+    lab_error own;
+    int at;
+    take_side(&known, &p->middle, model, way ? -1 : 1, &mine);
+    at = lab_discrepancy(q, &s->forecast[i], &goal->params, model, &mine, &apart[way], &own);
+    if (at == LAB_WORLD) {
+#pragma omp critical(separate_error)
+      *error = own, status = at;
+    } else if (at != LAB_OK) {
+      apart[way] = (double)NAN;
+    }
+  }
+  *separation = isnan(apart[0]) || isnan(apart[1]) ? (double)NAN : fmin(apart[0], apart[1]);
+  return status;
+}
+
+/* The best trial: the one that is estimated best, until that is settled as well.
+ * In:      enough      as in lab_trial_choose
+ * Out:     separation  of the trial; 0 without one
+ *          best        -1 without one */
+static int find_best(const design *s, const lab_advice_request *q, const pair *p, double enough, int *best,
+                     double *separation, lab_error *error)
+{
+  enum { TRIES = 6 };
+  double value[LAB_TEST_PLAN_MAX], settled[LAB_TEST_PLAN_MAX];
+  int i = -1, tries;
+  for (i = 0; i < s->plans.n; i++) {
+    value[i] = estimate(s, q, p, i);
+    settled[i] = (double)NAN;
+  }
+  for (tries = 0; tries < TRIES; tries++) {
+    i = lab_trial_choose(&s->plans, value, enough);
+    if (i < 0 || !isnan(settled[i]) || !(value[i] > clear))
+      break;
+    if (settle(s, q, p, i, &value[i], error))
+      return error->status;
+    settled[i] = value[i];
+  }
+  if (tries == TRIES)
+    i = lab_trial_choose(&s->plans, settled, enough);
+  *best = i;
+  *separation = i < 0 ? 0 : value[i];
+  return LAB_OK;
+}
+
+/* ---- Words ---- */
+
+/* "12 sigma"; beyond what is decisive a fit may end elsewhere, and the figure says no more than that. */
+static const char *sigmas(double value, char text[32])
+{
+  if (value > decisive)
+    snprintf(text, 32, "more than %g sigma", decisive);
+  else
+    snprintf(text, 32, value < 10 ? "%.1f sigma" : "%.0f sigma", value);
+  return text;
+}
+
+static void say_trial(const design *s, lab_advice *advice)
+{
+  char most[32], least[32];
+  advice->kind = LAB_ADVICE_TEST;
+  lab_advice_say(advice->text, "%s", advice->plan.text);
+  lab_advice_say(advice->why, "In %.0f s the two models would differ by %s after a refit; %s alone gives %s.",
+                 advice->plan.duration, sigmas(advice->separation, most),
+                 s->request.recorded ? "what has been recorded" : "a fill and vent", sigmas(advice->usual, least));
+}
+
+static void say_sensor(double noise, lab_advice *advice)
+{
+  const lab_channel_info *channel = &lab_channels[advice->channel];
+  char most[32], least[32];
+  advice->kind = LAB_ADVICE_SENSOR;
+  lab_advice_say(advice->text,
+                 "no schedule of the set separates them with these sensors; record %s (%s) as well, in this test: %s",
+                 channel->key, channel->meaning, advice->plan.text);
+  lab_advice_say(
+      advice->why,
+      "With a sensor of noise %.3g %s the two models would differ by %s after a refit; without it by about %s.", noise,
+      channel->unit, sigmas(advice->with_sensor, most), sigmas(advice->separation, least));
+}
+
+/* ---- A sensor more ---- */
+
+/* Noise of a sensor that is to be added: declared, or that of an ordinary one. */
+static double noise_of_new(const lab_rig *rig, int channel)
+{
+  const double share = 1e-3, kelvin = 0.5; /* class 0.1 of full scale; a fine thermocouple */
+  if (rig->noise[channel] > 0)
+    return rig->noise[channel];
+  return channel == LAB_CHANNEL_T   ? kelvin
+         : channel == LAB_CHANNEL_X ? share * (double)rig->params.stroke
+                                    : share * (double)rig->params.supply_pressure;
+}
+
+static int advise_sensor(const design *s, const pair *p, lab_advice *advice, lab_error *error)
+{
+  double noise = 0;
+  int c;
+  for (c = 0; c < LAB_FORECAST_CHANNELS; c++) {
+    lab_advice_request more = s->request;
+    double separation;
+    int best;
+    if (!isnan(more.noise[lab_forecast_channels[c]]))
+      continue;
+    more.noise[lab_forecast_channels[c]] = noise_of_new(more.rig, lab_forecast_channels[c]);
+    if (find_best(s, &more, p, decisive, &best, &separation, error))
+      return error->status;
+    if (best < 0 || !(separation > fmax(clear, advice->with_sensor)))
+      continue;
+    advice->plan = s->plans.plan[best];
+    advice->channel = lab_forecast_channels[c];
+    advice->with_sensor = separation;
+    noise = more.noise[lab_forecast_channels[c]];
+  }
+  if (advice->channel >= 0)
+    say_sensor(noise, advice);
+  return LAB_OK;
+}
+
+/* ---- Entry ---- */
+
+static int advise(const design *s, const pair *p, lab_advice *advice, lab_error *error)
+{
+  int best;
+  lab_advice_none(advice, "");
+  if (settle(s, &s->request, p, s->n - 1, &advice->usual, error) ||
+      find_best(s, &s->request, p, fmax(decisive, better * advice->usual), &best, &advice->separation, error))
+    return error->status;
+  if (best >= 0 && advice->separation > clear) {
+    advice->plan = s->plans.plan[best];
+    say_trial(s, advice);
+    return LAB_OK;
+  }
+  if (best < 0) {
+    lab_advice_none(advice, "no schedule of the set can be simulated with both models");
+    return LAB_OK;
+  }
+  lab_advice_say(
+      advice->text,
+      "no schedule of the set separates them with these sensors (about %.1f sigma), nor with one more for p, "
+      "x, T or ps",
+      advice->separation);
+  return advise_sensor(s, p, advice, error);
+}
+
+int lab_discriminate(const lab_advice_request *request, const pneu_params *a, const pneu_params *b, lab_advice *advice,
+                     lab_error *error)
+{
+  design *s;
+  pair p;
+  int status;
+  if (make_pair(request, a, b, &p, error))
+    return error->status;
+  status = lab_design_open(request, &s, advice, error);
+  if (status != LAB_OK || !s)
+    return status;
+  if ((status = lab_design_survey(s, &p.middle, a, b, error)) == LAB_OK)
+    status = advise(s, &p, advice, error);
+  lab_design_close(s);
+  return status;
+}

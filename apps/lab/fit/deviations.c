@@ -1,0 +1,161 @@
+#include "deviations.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/quantile.h"
+#include "../rig/tolerance.h"
+
+const char *lab_condition_text(int condition)
+{
+  static const char *const words[] = {"cannot tell", "as declared", "deviates"};
+  return words[condition];
+}
+
+/* Whether the unknown is a declared value, and not a part of what was added. */
+static int is_declared(const lab_rig *rig, const lab_unknown *x)
+{
+  int i, fitted = 0;
+  for (i = 0; i < rig->n_fit; i++)
+    fitted |= rig->fit[i] == x->index;
+  return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&
+         (fitted || lab_unknown_is_held(x));
+}
+
+/* How many values are compared. */
+static int count_compared(const lab_rig *rig, const lab_unknowns *u)
+{
+  int j, n = 0;
+  for (j = 0; j < u->n; j++)
+    n += is_declared(rig, &u->unknown[j]);
+  return n;
+}
+
+/* Whether a log tells a value from the declared one, of so many that are compared: one interval of 95 % in twenty
+ * leaves out the truth, so these are wider. */
+static int is_told(const lab_unknown *x, const lab_fit_result *fit, int j, double declared, int compared)
+{
+  const double half = declared < x->value ? x->value - fit->low[j] : fit->high[j] - x->value;
+  const double wider = sqrt(lab_chi2_threshold(0.05 / compared) / lab_chi2_threshold(0.05));
+  return fit->state[j] != LAB_STATE_UNDETERMINED && fabs(x->value - declared) > wider * half;
+}
+
+/* The deviation of unknown j.  Returns: its size over the tolerance */
+static double compare(const lab_rig *rig, const lab_unknown *x, const lab_fit_result *fit, int j, lab_deviation *d)
+{
+  const double tolerance = x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, x->index);
+  d->declared = x->index == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&rig->params, x->index);
+  snprintf(d->name, sizeof d->name, "%s", lab_tolerance_name(x->index));
+  snprintf(d->unit, sizeof d->unit, "%s", x->unit);
+  d->found = x->value;
+  d->lower = fit->low[j];
+  d->upper = fit->high[j];
+  d->ratio = d->declared != 0 ? d->found / d->declared : (double)NAN;
+  d->tolerance = d->declared != 0 ? tolerance / fabs(d->declared) : tolerance;
+  d->held = lab_unknown_is_held(x);
+  d->beyond = fabs(d->found - d->declared) > tolerance;
+  return tolerance > 0 ? fabs(d->found - d->declared) / tolerance : (double)INFINITY;
+}
+
+typedef struct sized {
+  double size;
+  lab_deviation deviation;
+} sized;
+
+static int largest_first(const void *a, const void *b)
+{
+  const double x = ((const sized *)a)->size, y = ((const sized *)b)->size;
+  return (x < y) - (x > y);
+}
+
+int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, lab_deviations *all,
+                        lab_error *error)
+{
+  sized *found = calloc((size_t)u->n + 1, sizeof *found);
+  const int compared = count_compared(rig, u);
+  int j, n = 0;
+  if (!found)
+    return lab_fail_memory(error, "deviations");
+  memset(all, 0, sizeof *all);
+  for (j = 0; j < u->n; j++) {
+    lab_deviation *d = &found[n].deviation;
+    if (!is_declared(rig, &u->unknown[j]))
+      continue;
+    all->condition = all->condition == LAB_CONDITION_DEVIATES ? all->condition : (int)LAB_CONDITION_AS_DECLARED;
+    found[n].size = compare(rig, &u->unknown[j], fit, j, d);
+    if (!is_told(&u->unknown[j], fit, j, d->declared, compared))
+      continue;
+    if (d->beyond)
+      all->condition = LAB_CONDITION_DEVIATES;
+    n++;
+  }
+  qsort(found, (size_t)n, sizeof *found, largest_first);
+  for (j = 0; j < n && j < LAB_DEVIATIONS_MAX; j++)
+    all->of[all->n++] = found[j].deviation;
+  free(found);
+  return LAB_OK;
+}
+
+/* ---- What is as declared, after all ---- */
+
+/* Which unknowns are held, and as declared as far as the log tells. */
+static void find_as_declared(const lab_unknowns *u, const lab_fit_result *fit, unsigned char is[LAB_FIT_MAX])
+{
+  const int compared = count_compared(&u->rig, u);
+  int j;
+  for (j = 0; j < u->n; j++)
+    is[j] = lab_unknown_is_held(&u->unknown[j]) && !is_told(&u->unknown[j], fit, j, u->unknown[j].prior, compared);
+}
+
+/* The unknowns with these at their declared values, and not to be fitted.  Returns: how many these are */
+static int leave_out(const lab_unknowns *u, const unsigned char *as_declared, lab_unknowns *less)
+{
+  int j;
+  *less = *u;
+  for (j = 0; j < u->n; j++)
+    if (as_declared[j])
+      less->unknown[j].value = u->unknown[j].prior;
+  lab_unknowns_take(less);
+  for (j = less->n = 0; j < u->n; j++)
+    if (!as_declared[j])
+      less->unknown[less->n++] = u->unknown[j];
+  lab_unknowns_count(less);
+  return u->n - less->n;
+}
+
+/* The values of fewer unknowns, and the declared ones, for all of them. */
+static void take_values(const lab_unknowns *less, const unsigned char *as_declared, lab_unknowns *u,
+                        lab_fit_result *fit)
+{
+  int j, k = 0;
+  for (j = 0; j < u->n; j++) {
+    lab_unknown *x = &u->unknown[j];
+    const double value = as_declared[j] ? x->prior : less->unknown[k++].value;
+    fit->low[j] += value - x->value;
+    fit->high[j] += value - x->value;
+    x->value = value;
+  }
+  lab_unknowns_take(u);
+}
+
+int lab_deviations_forget(lab_unknowns *u, double *chi2, lab_fit_result *fit, lab_error *error)
+{
+  static const double together = 0.05; /* p-value below which they are not as declared */
+  lab_unknowns *less = malloc(sizeof *less);
+  unsigned char as_declared[LAB_FIT_MAX];
+  double without;
+  int status, n;
+  if (!less)
+    return lab_fail_memory(error, "a fit");
+  find_as_declared(u, fit, as_declared);
+  n = leave_out(u, as_declared, less);
+  status = n > 0 ? lab_unknowns_fit(less, LAB_ROUNDS_ALL, &without, error) : (int)LAB_NUMERIC;
+  if (status == LAB_OK && lab_chi2_tail(fmax(without - *chi2, 0), n) > together) {
+    take_values(less, as_declared, u, fit);
+    *chi2 = without;
+  }
+  free(less);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}

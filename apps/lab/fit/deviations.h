@@ -1,0 +1,54 @@
+/* How far the values that logs ask for are from the declared ones, and what that says of the condition of a rig.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_DEVIATIONS_H
+#define LAB_DEVIATIONS_H
+
+#include "unknowns.h"
+
+enum { LAB_DEVIATIONS_MAX = 64 };
+
+/* CANNOT_TELL also stands where no value was compared. */
+enum lab_condition { LAB_CONDITION_CANNOT_TELL, LAB_CONDITION_AS_DECLARED, LAB_CONDITION_DEVIATES };
+
+/* "cannot tell", "as declared", "deviates" */
+const char *lab_condition_text(int condition);
+
+/* A declared value, of the model or of an instrument, beside the one that the logs ask for. */
+typedef struct lab_deviation {
+  char name[LAB_PARAM_NAME_TEXT]; /* "spring_rate", "pressure_gain": as in a rig file */
+  char unit[32];                  /* as in pneu_param_describe */
+  double declared, found;         /* [unit] */
+  double lower, upper;            /* [unit] 95 % interval of `found` */
+  double ratio;                   /* found over declared; NaN where declared is 0 */
+  double tolerance; /* standard deviation with which `declared` is known: a share of it, or, where it is 0, [unit];
+                       NaN: it was declared as a start only */
+  int beyond;       /* not 0: further off than the tolerance allows */
+  int held;         /* not 0: it was not in `fit` */
+} lab_deviation;
+
+/* The largest first. */
+typedef struct lab_deviations {
+  int condition; /* enum lab_condition */
+  int n;
+  lab_deviation of[LAB_DEVIATIONS_MAX];
+} lab_deviations;
+
+/* What a fit says of the declared values: those whose interval leaves out what was declared, all compared values being
+ * wrong together once in twenty (Bonferroni), and whether one of them is beyond its tolerance.
+ * In:      rig  as declared
+ *          u    fitted, with what is held
+ *          fit  its intervals
+ * Out:     all
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, lab_deviations *all,
+                        lab_error *error);
+
+/* What is held and not told apart from its declared value goes back to it, if all of these together may; the rest is
+ * fitted again about them, and the intervals move along.
+ * In/out:  u     fitted, with what is held
+ *          chi2  of it
+ *          fit   its intervals
+ * Returns: LAB_OK, LAB_WORLD; where no fit is found nothing changes. */
+int lab_deviations_forget(lab_unknowns *u, double *chi2, lab_fit_result *fit, lab_error *error);
+
+#endif

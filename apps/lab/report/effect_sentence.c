@@ -1,0 +1,221 @@
+#include "effect_sentence.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/format.h"
+
+/* ---- Sizes: each from a rig and the parameter of an effect, of which the amount counts ---- */
+
+typedef struct about {
+  lab_rig rig;
+  int param;
+  double value; /* of it, without its sign */
+} about;
+
+static double of_itself(const about *a)
+{
+  return a->value;
+}
+
+static double percent(const about *a)
+{
+  return 100 * a->value;
+}
+
+static double reciprocal(const about *a)
+{
+  return 1 / a->value;
+}
+
+static double of_fill(const about *a)
+{
+  return 100 * a->value / (double)a->rig.params.fill_area;
+}
+
+static double of_stroke(const about *a)
+{
+  return 100 * a->value / (double)a->rig.params.stroke;
+}
+
+static double of_supply(const about *a)
+{
+  return 100 * a->value / (double)a->rig.params.supply_pressure;
+}
+
+static double of_friction(const about *a)
+{
+  return 100 * a->value / (double)a->rig.params.dry_friction;
+}
+
+static double friction_rise(const about *a)
+{
+  return a->value * (double)a->rig.params.supply_pressure;
+}
+
+static double of_friction_rise(const about *a)
+{
+  return 100 * friction_rise(a) / (double)a->rig.params.dry_friction;
+}
+
+/* Of the straight spring's force at full stroke. */
+static double of_spring(const about *a)
+{
+  const pneu_params *p = &a->rig.params;
+  const double stroke = (double)p->stroke;
+  return 100 * a->value * pow(stroke, 3) / ((double)p->spring_rate * (stroke + (double)p->spring_preload));
+}
+
+/* Flow of an orifice between supply and ambient pressure [kg/s]. */
+static double full_flow(const about *a, double area)
+{
+  const pneu_params *p = &a->rig.params;
+  pneu_model model;
+  pneu_flow flow;
+  lab_error error;
+  if (lab_rig_model(&a->rig, &model, &error))
+    return (double)NAN;
+  pneu_orifice(&model, a->rig.laws.flow, (pneu_real)area, p->supply_pressure + p->ambient_pressure,
+               p->supply_temperature, p->ambient_pressure, &flow);
+  return (double)flow.q;
+}
+
+static double fill_drop(const about *a)
+{
+  return a->value * full_flow(a, (double)a->rig.params.fill_area);
+}
+
+static double vent_drop(const about *a)
+{
+  return a->value * full_flow(a, (double)a->rig.params.vent_area);
+}
+
+/* What leaves a chamber at supply pressure while both orifices are shut [kg/s]. */
+static double outflow(const lab_rig *rig)
+{
+  const pneu_params *p = &rig->params;
+  const pneu_input input = {.supply_pressure = p->supply_pressure};
+  const pneu_state state = {
+      .p = p->supply_pressure, .T = p->ambient_temperature, .x = p->stroke, .mode = PNEU_MODE_STUCK};
+  pneu_model model;
+  pneu_output out;
+  lab_error error;
+  if (lab_rig_model(rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
+    return (double)NAN;
+  return (double)out.mass_out;
+}
+
+/* How much more that is with the effect than without [kg/s]. */
+static double leak(const about *a)
+{
+  lab_rig without = a->rig;
+  *pneu_param_at(&without.params, a->param) = 0;
+  return outflow(&a->rig) - outflow(&without);
+}
+
+/* In litres at 0 degC and 101325 Pa (DIN 1343) an hour. */
+static double leak_normal(const about *a)
+{
+  const double density = 101325 / ((double)a->rig.params.gas_constant * 273.15);
+  return leak(a) / density * 1e3 * 3600;
+}
+
+static double leak_share(const about *a)
+{
+  return 100 * leak(a) / full_flow(a, (double)a->rig.params.fill_area);
+}
+
+/* ---- Words ---- */
+
+/* unit: as in lab_format_as; "": that of the parameter. */
+static const struct {
+  const char *name, *unit;
+  double (*size)(const about *a);
+} sizes[] = {
+    {"size", "", of_itself},
+    {"percent", "%", percent},
+    {"reciprocal", "J/K", reciprocal},
+    {"of_fill", "%", of_fill},
+    {"of_stroke", "%", of_stroke},
+    {"of_supply", "%", of_supply},
+    {"of_friction", "%", of_friction},
+    {"of_friction_rise", "%", of_friction_rise},
+    {"friction_rise", "N", friction_rise},
+    {"of_spring", "%", of_spring},
+    {"fill_drop", "Pa", fill_drop},
+    {"vent_drop", "Pa", vent_drop},
+    {"leak", "Nl/h", leak_normal},
+    {"leak_share", "%", leak_share},
+};
+
+static int find_size(const char *name, size_t length)
+{
+  int i;
+  for (i = 0; i < (int)(sizeof sizes / sizeof *sizes); i++)
+    if (strlen(sizes[i].name) == length && !strncmp(sizes[i].name, name, length))
+      return i;
+  return -1;
+}
+
+int lab_effect_size_is_known(const char *name, size_t length)
+{
+  return find_size(name, length) >= 0;
+}
+
+/* A size with its unit; "" for one that is not finite. */
+static void write_size(const about *a, const char *name, size_t length, char text[2 * LAB_FORMAT_TEXT])
+{
+  const int i = find_size(name, length);
+  const double size = i < 0 ? (double)NAN : sizes[i].size(a);
+  char number[LAB_FORMAT_TEXT];
+  pneu_param_info info;
+  *text = '\0';
+  if (!isfinite(size))
+    return;
+  pneu_param_describe(a->param, &info);
+  snprintf(text, 2 * LAB_FORMAT_TEXT, "%s",
+           lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
+  if (sizes[i].size == leak_normal)
+    snprintf(text + strlen(text), LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
+}
+
+/* One of the two words of {+more|less}. */
+static void write_word(const char *at, int negative, char text[2 * LAB_FORMAT_TEXT])
+{
+  const char *second = at + strcspn(at, "|") + 1;
+  if (negative)
+    snprintf(text, 2 * LAB_FORMAT_TEXT, "%.*s", (int)strcspn(second, "}"), second);
+  else
+    snprintf(text, 2 * LAB_FORMAT_TEXT, "%.*s", (int)(second - at) - 1, at);
+}
+
+const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char text[LAB_EFFECT_SENTENCE])
+{
+  about a = {*rig, param, 0};
+  const double value = (double)*pneu_param_at(&a.rig.params, param);
+  const char *at = pneu_effect_sentence(effect);
+  char part[2 * LAB_FORMAT_TEXT];
+  size_t used = 0, comma = 0;
+  a.value = fabs(value);
+  for (*text = '\0'; *at; used = strlen(text)) {
+    const char *close = strchr(at, '}');
+    if (*at == ',')
+      comma = used;
+    if (*at != '{') {
+      snprintf(text + used, LAB_EFFECT_SENTENCE - used, "%c", *at++);
+      continue;
+    }
+    if (at[1] == '+')
+      write_word(at + 2, value < 0, part);
+    else
+      write_size(&a, at + 1, (size_t)(close - at) - 1, part);
+    at = close + 1;
+    snprintf(text + used, LAB_EFFECT_SENTENCE - used, "%s", part);
+    if (!*part && comma) { /* drop what hangs on it */
+      text[comma] = '\0';
+      at += strcspn(at, ",.");
+    }
+  }
+  return text;
+}

@@ -1,0 +1,80 @@
+/* What closeloop writes: report.json, model.cfg, model.h, effects.def, residual.csv.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_REPORT_H
+#define LAB_REPORT_H
+
+#include <cjson/cJSON.h>
+
+#include "../fit/deviations.h"
+#include "../trace/search.h"
+#include "../change/change.h"
+#include "../metrics/metrics.h"
+#include "../base/outfile.h"
+#include "../base/limitations.h"
+#include "../discriminate/discriminate.h"
+
+enum { LAB_REPORT_HOLDOUTS = 32 };
+
+/* A log that was held out. */
+typedef struct lab_holdout_log {
+  const char *name;
+  lab_errors before, after; /* of the declared and of the completed model */
+} lab_holdout_log;
+
+/* Everything that there is to say about a run. */
+typedef struct lab_report {
+  const lab_rig *rig;            /* as declared */
+  const lab_unknowns *declared;  /* fitted, without added effects */
+  const lab_unknowns *completed; /* fitted, with them */
+  const lab_search_result *result;
+  const lab_changes *changes; /* since the baseline; NULL: there is none */
+  int has_holdout;
+  lab_errors holdout_before, holdout_after;
+  lab_errors fitted_path[LAB_SEARCH_PATH], holdout_path[LAB_SEARCH_PATH]; /* of result->path */
+  int n_held;                                                             /* logs held out */
+  lab_holdout_log held[LAB_REPORT_HOLDOUTS];                              /* each by itself */
+  lab_advice separate[LAB_EFFECTS_MAX]; /* of each found effect from the first that looks like it */
+  lab_metrics *measured, *predicted;    /* figures of merit of the runs fitted; NULL: not made */
+  lab_advice next;                      /* the test that would tell most, where no effects are alike */
+  double fit_s, trace_s, total_s;       /* [s] on the clock; trace_s: the scan of all effects */
+  const lab_limitations *limitations;   /* what limits the conclusions; NULL: nothing */
+  lab_deviations deviations;            /* of the declared values */
+  const lab_rig *baseline;              /* as the rig was; NULL: unknown */
+} lab_report;
+
+/* Open one file in a folder.  Returns: as lab_out_open */
+int lab_report_file_open(const char *folder, const char *name, lab_outfile *out, lab_error *error);
+
+/* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */
+int lab_report_json(const lab_report *report, const char *folder, lab_error *error);
+int lab_report_model(const lab_report *report, const char *folder, lab_error *error);
+int lab_report_header(const lab_report *report, const char *folder, lab_error *error);
+int lab_report_catalogue(const lab_report *report, const char *folder, lab_error *error);
+
+/* What the fit could not determine, in words; "" where all is well.  Out: text */
+void lab_report_undetermined(const lab_report *report, char text[LAB_FIT_UNDETERMINED_TEXT]);
+
+/* Add to a list of texts what the answer has to be read with: remarks on the logs, and what the fit could not
+ * determine. */
+void lab_report_limits(const lab_report *report, cJSON *list);
+
+/* Share of the excess over the noise that an effect explains by itself, as its refit beside the declared model found
+ * it; NaN where there was none, or none row by row. */
+double lab_report_refit_explains(const lab_search_result *result, const lab_score *score);
+
+/* The first line: what deviates from the declared values, and what is missing, in the words of a person, with the names
+ * of effects in brackets; the second: what that does to the error, "" where the log cannot carry an answer; and both.
+ */
+void lab_report_headline(const lab_report *report, char *text, size_t size);
+void lab_report_evidence(const lab_report *report, char *text, size_t size);
+void lab_report_sentence(const lab_report *report, char *text, size_t size);
+
+/* What has changed since the baseline: "condition" and "changes" of report.json; a sentence with a space behind it. */
+void lab_report_changes(const lab_changes *changes, cJSON *root);
+void lab_report_change_sentence(const lab_changes *changes, char *text, size_t size);
+
+/* What one thing that was found does, as in the first line but without its name.  Out: text */
+enum { LAB_FOUND_SENTENCE = 512 };
+void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE]);
+
+#endif

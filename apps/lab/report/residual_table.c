@@ -1,0 +1,193 @@
+#include "residual_table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../run/response.h"
+#include "../run/start.h"
+
+static const double space_between_runs = 0.02; /* of the first run's length */
+
+/* ---- Memory ---- */
+
+const lab_residual_channel *lab_residual_table_channel(const lab_residual_table *v, int channel)
+{
+  int c;
+  for (c = 0; c < v->n_channels; c++)
+    if (v->channel[c].channel == channel)
+      return &v->channel[c];
+  return NULL;
+}
+
+/* Rows, and every channel that any run measures. */
+static void survey(const lab_unknowns *u, lab_residual_table *v)
+{
+  int e, c;
+  for (e = 0; e < u->n_runs; e++) {
+    const lab_run *x = &u->run[e];
+    v->n += x->n;
+    for (c = 0; c < x->n_channels; c++)
+      if (!lab_residual_table_channel(v, x->channel[c])) {
+        v->channel[v->n_channels].channel = x->channel[c];
+        v->channel[v->n_channels++].sigma = x->sigma[c];
+      }
+  }
+  v->n_runs = u->n_runs;
+}
+
+static double *take(lab_residual_table *v, size_t *used)
+{
+  double *array = v->memory + *used;
+  size_t i;
+  for (i = 0; i < v->n; i++)
+    array[i] = (double)NAN;
+  *used += v->n;
+  return array;
+}
+
+static int allocate(lab_residual_table *v, lab_error *error)
+{
+  const size_t arrays = 2 + LAB_ARGUMENT_COUNT + (size_t)v->n_channels * (1 + 2 * LAB_STAGE_COUNT);
+  size_t used = 0;
+  int c, i;
+  v->memory = malloc(arrays * v->n * sizeof *v->memory);
+  v->first = calloc((size_t)v->n_runs + 1, sizeof *v->first);
+  if (!v->memory || !v->first)
+    return lab_fail_memory(error, "the report");
+  v->t = take(v, &used);
+  v->set_position = take(v, &used);
+  for (i = 0; i < LAB_ARGUMENT_COUNT; i++)
+    v->argument[i] = take(v, &used);
+  for (c = 0; c < v->n_channels; c++) {
+    v->channel[c].measured = take(v, &used);
+    for (i = 0; i < LAB_STAGE_COUNT; i++) {
+      v->channel[c].predicted[i] = take(v, &used);
+      v->channel[c].residual[i] = take(v, &used);
+    }
+  }
+  return LAB_OK;
+}
+
+void lab_residual_table_free(lab_residual_table *v)
+{
+  free(v->memory);
+  free(v->first);
+  memset(v, 0, sizeof *v);
+}
+
+/* ---- Time and arguments ---- */
+
+/* The first run keeps its clock; each later one begins where the one before has ended. */
+static void lay_out_time(const lab_unknowns *u, lab_residual_table *v)
+{
+  double end = 0, space = 0;
+  size_t i, row = 0;
+  int e;
+  for (e = 0; e < u->n_runs; e++) {
+    const lab_run *x = &u->run[e];
+    const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
+    const double shift = e == 0 ? 0 : end + space - t[0];
+    v->first[e] = row;
+    for (i = 0; i < x->n; i++)
+      v->t[row + i] = t[i] + shift;
+    row += x->n;
+    end = t[x->n - 1] + shift;
+    if (e == 0)
+      space = space_between_runs * (t[x->n - 1] - t[0]);
+  }
+  v->first[e] = row;
+}
+
+/* Arguments of one run: the model's response, with the commands at the rows that show them, which is near enough for
+ * sorting a residual into bins; gaps where the model cannot be followed with those. */
+static int respond(const lab_unknowns *u, const lab_run *x, lab_residual_table *v, size_t row, lab_error *error)
+{
+  const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
+  const double *column[LAB_ARGUMENT_COUNT];
+  pneu_model model;
+  pneu_state start;
+  lab_response response;
+  const lab_simulation task = {
+      .start = &start, .schedule = &x->inputs.schedule, .t = t, .n = x->n, .options = {.tol = u->tol}};
+  int i;
+  if (lab_rig_model(&u->rig, &model, error) ||
+      lab_run_initial_state(&model, x->inputs.input, x->log, x->run, &start, error))
+    return error->status;
+  if (lab_response_run(&model, &task, &response, error))
+    return error->status == LAB_NUMERIC ? LAB_OK : error->status;
+  column[LAB_ARGUMENT_P] = response.p;
+  column[LAB_ARGUMENT_X] = response.x;
+  column[LAB_ARGUMENT_V] = response.v;
+  column[LAB_ARGUMENT_U] = x->log->value[LAB_CHANNEL_U] ? x->log->value[LAB_CHANNEL_U] + x->first : response.opening;
+  for (i = 0; i < LAB_ARGUMENT_COUNT; i++)
+    memcpy(v->argument[i] + row, column[i], x->n * sizeof(double));
+  if (x->log->value[LAB_CHANNEL_SP])
+    memcpy(v->set_position + row, x->log->value[LAB_CHANNEL_SP] + x->first, x->n * sizeof(double));
+  lab_response_free(&response);
+  return LAB_OK;
+}
+
+/* ---- Residuals ---- */
+
+static void take_up(const lab_unknowns *u, const double *r, int stage, lab_residual_table *v)
+{
+  int e, c;
+  for (e = 0; e < u->n_runs; e++) {
+    const lab_run *x = &u->run[e];
+    for (c = 0; c < x->n_channels; c++) {
+      const lab_residual_channel *mine = lab_residual_table_channel(v, x->channel[c]);
+      size_t i, row = v->first[e];
+      for (i = 0; i < x->n; i++, row++, r++) {
+        const double measured = lab_run_measured(x, c, i);
+        if (isnan(measured))
+          continue;
+        mine->measured[row] = measured;
+        mine->residual[stage][row] = *r;
+        mine->predicted[stage][row] = measured - *r * x->sigma[c];
+      }
+    }
+  }
+}
+
+static int collect_residuals(const lab_unknowns *u, int stage, lab_residual_table *v, lab_error *error)
+{
+  double *r = malloc((u->n_rows + 1) * sizeof *r);
+  int status = r ? lab_unknowns_errors(u, r, error) : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK)
+    take_up(u, r, stage, v);
+  free(r);
+  return status;
+}
+
+int lab_residual_table_collect(const lab_report *report, lab_residual_table *v, lab_error *error)
+{
+  const lab_unknowns *u = report->completed;
+  int e;
+  memset(v, 0, sizeof *v);
+  survey(u, v);
+  if (allocate(v, error))
+    return error->status;
+  lay_out_time(u, v);
+  for (e = 0; e < u->n_runs; e++)
+    if (respond(u, &u->run[e], v, v->first[e], error))
+      return error->status;
+  return collect_residuals(report->declared, LAB_STAGE_BEFORE, v, error) ||
+                 collect_residuals(report->completed, LAB_STAGE_AFTER, v, error)
+             ? error->status
+             : LAB_OK;
+}
+
+/* ---- Names ---- */
+
+const char *lab_argument_key(int argument)
+{
+  static const char *const key[LAB_ARGUMENT_COUNT] = {"p", "x", "v", "u"};
+  return key[argument];
+}
+
+const char *lab_argument_unit(const lab_report *report, int argument)
+{
+  static const char *const unit[LAB_ARGUMENT_COUNT] = {"Pa", "m", "m/s", "1"};
+  return argument == LAB_ARGUMENT_U && report->rig->params.proportional_band > 0 ? "Pa" : unit[argument];
+}

@@ -1,0 +1,167 @@
+#include "tolerance.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../base/config.h"
+#include "../base/names.h"
+#include "../base/number.h"
+#include "rigkeys.h"
+
+/* What a share is one of. */
+enum span { OF_VALUE, OF_SUPPLY, OF_STROKE };
+
+/* Defaults: a share, or a quantity where that is not 0. An effect stands for its first parameter. */
+static const struct kind {
+  const char *name, *effect;
+  int param;
+  enum span span;
+  double share, quantity;
+} kinds[] = {
+#define BASE(name, share, quantity)                                                                                    \
+  {                                                                                                                    \
+#name, NULL, PNEU_PARAM_##name, OF_VALUE, share, quantity                                                          \
+  }
+    BASE(area, 0.02, 0),
+    BASE(dead_volume, 0.3, 0),
+    BASE(stroke, 0, 0),
+    BASE(spring_rate, 0.1, 0),
+    BASE(spring_preload, 0.1, 0),
+    BASE(moving_mass, 0.2, 0),
+    BASE(dry_friction, 0.5, 0),
+    BASE(viscous_friction, 0.5, 0),
+    BASE(damping, 0.5, 0),
+    BASE(external_force, 0, 0),
+    BASE(fill_area, 0.2, 0),
+    BASE(vent_area, 0.2, 0),
+    BASE(critical_ratio, 0, 0.1),
+    BASE(supply_pressure, 0.02, 0),
+    BASE(supply_temperature, 0, 0),
+    BASE(ambient_pressure, 0, 2000),
+    BASE(ambient_temperature, 0, 0),
+#undef BASE
+    {"orifice_area", NULL, LAB_PARAM_ORIFICE_AREA, OF_VALUE, 0.2, 0},
+    {"pressure_bias", "pressure_bias", 0, OF_SUPPLY, 0.0025, 0},
+    {"pressure_gain", "pressure_gain", 0, OF_VALUE, 0, 0.0025},
+    {"pressure_lag", "pressure_lag", 0, OF_VALUE, 0, 5e-3},
+    {"position_bias", "position_bias", 0, OF_STROKE, 0.0025, 0},
+    {"position_gain", "position_gain", 0, OF_VALUE, 0, 0.0025},
+    {"position_lag", "position_lag", 0, OF_VALUE, 0, 5e-3},
+    {"clock", "channel_skew", 0, OF_VALUE, 0, 5e-3},
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+/* The parameter of a kind; -1 where this build of the library does not have its effect. */
+static int param_of(const struct kind *k)
+{
+  const int effect = k->effect ? pneu_effect_find(k->effect) : 0;
+  if (!k->effect)
+    return k->param;
+  return effect < 0 ? -1 : pneu_effect_params(effect, NULL);
+}
+
+/* What a share of a kind's tolerance is a share of. */
+static double whole_of(const struct kind *k, const lab_rig *rig)
+{
+  if (k->span == OF_SUPPLY)
+    return fabs((double)rig->params.supply_pressure);
+  if (k->span == OF_STROKE)
+    return (double)rig->params.stroke;
+  if (k->effect || k->param == LAB_PARAM_ORIFICE_AREA)
+    return 1;
+  return fabs((double)*pneu_param_at((pneu_params *)&rig->params, k->param));
+}
+
+static double usual(const struct kind *k, const lab_rig *rig)
+{
+  return k->quantity > 0 ? k->quantity : k->share * whole_of(k, rig);
+}
+
+const char *lab_tolerance_name(int param)
+{
+  int i;
+  for (i = 0; i < KINDS; i++)
+    if (param_of(&kinds[i]) == param)
+      return kinds[i].name;
+  return NULL;
+}
+
+/* A text such as "5 %" of something that is not a share itself. */
+static int is_share(const config_setting_t *setting, const char *unit)
+{
+  const char *text = config_setting_get_string(setting);
+  return text && strchr(text, '%') && strcmp(unit, "1") != 0;
+}
+
+static int read_one(const config_setting_t *setting, const struct kind *k, lab_rig *rig, lab_error *error)
+{
+  const int param = param_of(k);
+  pneu_param_info info = {.unit = "1"};
+  double value;
+  int status;
+  if (param < 0)
+    return LAB_OK;
+  if (param < PNEU_PARAM_COUNT)
+    pneu_param_describe(param, &info);
+  if (is_share(setting, info.unit)) {
+    status = lab_config_quantity(setting, "1", 0, INFINITY, &value, error);
+    value *= whole_of(k, rig);
+  } else {
+    status = lab_config_difference(setting, info.unit, &value, error);
+    if (status == LAB_OK && !(value >= 0))
+      status = lab_config_expected(setting, "a standard deviation, 0 or more", error);
+  }
+  rig->tolerance[param] = value;
+  return status;
+}
+
+int lab_tolerance_read(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  const char *names[KINDS + 1] = {"others"};
+  int i, which, status = lab_config_is_group(group, error);
+  for (i = 0; i < KINDS; i++)
+    names[i + 1] = kinds[i].name;
+  if (status == LAB_OK)
+    status = lab_config_known(group, names, KINDS + 1, sizeof names[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
+    double value;
+    which = lab_name_index(config_setting_name(setting), names, KINDS + 1, sizeof names[0]);
+    if (which > 0)
+      status = read_one(setting, &kinds[which - 1], rig, error);
+    else if ((status = lab_config_quantity(setting, "1", 0, 0, &value, error)) == LAB_OK)
+      rig->others_are_exact = 1;
+  }
+  return status;
+}
+
+double lab_tolerance(const lab_rig *rig, int param)
+{
+  int i;
+  if (!isnan(rig->tolerance[param]))
+    return rig->tolerance[param];
+  for (i = 0; i < KINDS && !rig->others_are_exact; i++)
+    if (param_of(&kinds[i]) == param)
+      return usual(&kinds[i], rig);
+  return 0;
+}
+
+void lab_tolerance_write(FILE *file, const lab_rig *rig)
+{
+  char number[LAB_NUMBER_TEXT];
+  int i, any = rig->others_are_exact;
+  if (any)
+    fputs("tolerance = {\n  others = 0;\n", file);
+  for (i = 0; i < KINDS; i++) {
+    const int param = param_of(&kinds[i]);
+    pneu_param_info info = {.unit = "1"};
+    if (param < 0 || isnan(rig->tolerance[param]))
+      continue;
+    if (param < PNEU_PARAM_COUNT)
+      pneu_param_describe(param, &info);
+    fprintf(file, "%s  %s = \"%s %s\";\n", any++ ? "" : "tolerance = {\n", kinds[i].name,
+            lab_number_write(rig->tolerance[param], number), info.unit);
+  }
+  if (any)
+    fputs("};\n", file);
+}

@@ -1,0 +1,32 @@
+/* How well declared values and instruments are known: the group `tolerance` of a rig file.
+ *
+ *   tolerance = { spring_rate = "5 %"; dead_volume = "20 cm^3"; pressure_gain = "1 %"; clock = "5 ms"; others = 0; };
+ *
+ * A tolerance is a standard deviation: a share of the declared value, or a quantity. The names are those of parameters
+ * and of the instruments' errors: pressure_bias, pressure_gain, pressure_lag, position_bias, position_gain,
+ * position_lag and clock, which is the time by which the channels are apart. A share of a bias is one of the span, for
+ * which supply and stroke stand. 0 means exact; `others` stands for all that is not named. Without the group every
+ * value has the default of its kind (tolerance.c).
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_TOLERANCE_H
+#define LAB_TOLERANCE_H
+
+#include <libconfig.h>
+
+#include "rig.h"
+
+/* Read the group.  Out: rig->tolerance  Returns: LAB_OK, LAB_DATA with the nearest known key. */
+int lab_tolerance_read(const config_setting_t *group, lab_rig *rig, lab_error *error);
+
+/* The tolerance of a parameter, given or by default.  Returns: standard deviation, SI; 0: it is exact, or none is known
+ */
+double lab_tolerance(const lab_rig *rig, int param);
+
+/* Write the group, if the rig's file has one. */
+void lab_tolerance_write(FILE *file, const lab_rig *rig);
+
+/* Name of a parameter as the group has it: "spring_rate", "clock".  In: param  of the model  Returns: NULL: it has none
+ */
+const char *lab_tolerance_name(int param);
+
+#endif

@@ -1,0 +1,313 @@
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/noise.h"
+#include "response.h"
+#include "start.h"
+
+static const int most_steps = 20000; /* from one change of input to the next: a model that takes more chatters */
+static const double pi = 3.141592653589793;
+static const double off = 6; /* times the scatter at rest: a value so far off is no noise */
+
+static int is_predicted(int channel)
+{
+  return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T ||
+         channel == LAB_CHANNEL_FORCE;
+}
+
+/* Rows before the command first changes. */
+static size_t rows_at_rest(const lab_run *e)
+{
+  const int command = lab_log_command(e->log);
+  const double *u = command < 0 ? NULL : e->log->value[command];
+  size_t n = 1;
+  while (n < e->n && (!u || u[e->first + n] == u[e->first]))
+    n++;
+  return u ? n : 0;
+}
+
+/* Of these, those before the channel moves all the same: a sensor may be ahead of the command. Moving is what is far
+ * beyond the scatter of the first half.
+ * In:      n  rows before the command first changes */
+static size_t rows_still(const double *value, size_t n)
+{
+  double sum = 0, sum2 = 0, count = 0, mean, scatter;
+  size_t i;
+  for (i = 0; i < n / 2; i++)
+    if (!isnan(value[i])) {
+      const double v = value[i] - value[0];
+      sum += v;
+      sum2 += v * v;
+      count++;
+    }
+  if (!(count > 1))
+    return 0;
+  mean = sum / count;
+  scatter = sqrt(fmax(sum2 / count - mean * mean, 0));
+  for (i = 0; i < n && !(fabs(value[i] - value[0] - mean) > off * scatter); i++)
+    ;
+  return i;
+}
+
+/* Second differences of noise with memory r have the variance of white noise times 1 - 4 r/3 + r^2/3, and so has what
+ * was estimated from them. */
+static double for_memory(double sigma, double r)
+{
+  return sigma / sqrt(1 - 4 * r / 3 + r * r / 3);
+}
+
+/* Variance of the error that all values share which noise of deviation sigma is rounded to, as long as what is measured
+ * stays where it is; over all places, over q squared (the harmonics of the rounding error; Widrow 1961). */
+static double shared(double sigma, double q)
+{
+  double sum = 0;
+  int k;
+  for (k = 1; k <= 20; k++)
+    sum += exp(-pow(2 * pi * k * sigma / q, 2)) / (2 * pi * pi * k * k);
+  return sum;
+}
+
+/* Rows from i on that stay within one step q of each other. */
+static size_t rows_within(const double *value, size_t i, size_t n, double q)
+{
+  double low = value[i], high = value[i];
+  size_t k = i + 1;
+  for (; k < n && !(fmax(high, value[k]) - fmin(low, value[k]) > 1.01 * q); k++) {
+    low = fmin(low, value[k]);
+    high = fmax(high, value[k]);
+  }
+  return k - i;
+}
+
+/* Weights of rows that share their error of rounding.
+ * In:      inner  deviation of the noise before it is rounded */
+static void weigh_steps(const double *value, size_t n, double sigma, double inner, double q, double *weight)
+{
+  const double together = q > 0 ? shared(inner, q) * q * q : 0;
+  size_t i, k, rows;
+  for (i = 0; i < n; i += rows) {
+    rows = rows_within(value, i, n, q);
+    for (k = i; k < i + rows; k++)
+      weight[k] = sigma / sqrt(sigma * sigma + together * (double)(rows - 1));
+  }
+}
+
+static int add_channel(lab_run *e, int channel, lab_error *error)
+{
+  const double *value = e->log->value[channel] + e->first;
+  const double memory = lab_noise_memory(value, rows_still(value, rows_at_rest(e)));
+  const double q = lab_resolution(value, e->n), rounding = q * q / 12;
+  double sigma = e->rig->noise[channel], inner = sigma;
+  if (isnan(sigma)) {
+    if (lab_noise_estimate(value, e->n, &sigma, error))
+      return error->status;
+    sigma = fmax(for_memory(sigma, memory), sqrt(rounding));
+    inner = sqrt(fmax(sigma * sigma - rounding, 0));
+  } else if (sigma > 0)
+    sigma = sqrt(sigma * sigma + rounding);
+  if (!(sigma > 0))
+    return lab_fail(error, LAB_DATA,
+                    "%s: channel %s does not change, or has too few values to tell its noise; declare it in the group "
+                    "noise of the rig file",
+                    e->log->path, lab_channels[channel].key);
+  e->channel[e->n_channels] = channel;
+  e->memory[e->n_channels] = memory;
+  e->resolution[e->n_channels] = q;
+  weigh_steps(value, e->n, sigma, inner, q, e->weight + (size_t)e->n_channels * e->n);
+  e->sigma[e->n_channels++] = sigma;
+  return LAB_OK;
+}
+
+static int add_channels(lab_run *e, lab_error *error)
+{
+  int c;
+  e->weight = malloc((LAB_CHANNEL_COUNT * e->n + 1) * sizeof *e->weight);
+  if (!e->weight)
+    return lab_fail_memory(error, "a run");
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (is_predicted(c) && e->log->value[c] && !e->rig->input[c] &&
+        (c != LAB_CHANNEL_FORCE || e->rig->laws.position_input) && add_channel(e, c, error))
+      return error->status;
+  if (e->n_channels == 0)
+    return lab_fail(error, LAB_DATA, "%s: expected a measured channel that is no input: p, x or T", e->log->path);
+  return LAB_OK;
+}
+
+/* Whether the command is all that changes. */
+static int only_command_changes(const lab_schedule *s)
+{
+  size_t i;
+  for (i = 1; i < s->n; i++)
+    if (s->input[i].supply_pressure != s->input[0].supply_pressure || s->input[i].force != s->input[0].force ||
+        s->input[i].pressure_rate != 0 || s->input[i].position_rate != 0)
+      return 0;
+  return 1;
+}
+
+static size_t row_at(const double *t, size_t n, double at)
+{
+  size_t i = 0;
+  while (i + 1 < n && t[i] < at)
+    i++;
+  return i;
+}
+
+static int bracket_switches(lab_run *e, lab_error *error)
+{
+  const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
+  size_t k;
+  if (e->inputs.schedule.n < 2 || !only_command_changes(&e->inputs.schedule))
+    return LAB_OK;
+  e->n_instants = e->inputs.schedule.n - 1;
+  e->bracket = calloc(e->n_instants, sizeof *e->bracket);
+  if (!e->bracket)
+    return lab_fail_memory(error, "an experiment");
+  for (k = 0; k < e->n_instants; k++) {
+    const size_t row = row_at(t, e->n, e->inputs.t[k + 1]);
+    e->bracket[k] = row > 0 ? t[row] - t[row - 1] : 0;
+  }
+  return LAB_OK;
+}
+
+int lab_run_open(const lab_rig *rig, const lab_log *log, size_t run, lab_run *e, lab_error *error)
+{
+  pneu_model model;
+  memset(e, 0, sizeof *e);
+  e->rig = rig;
+  e->log = log;
+  e->run = run;
+  e->first = log->run[run];
+  e->n = log->run[run + 1] - e->first;
+  if (lab_rig_model(rig, &model, error) || lab_inputs_from_log(&model, rig, log, run, &e->inputs, error) ||
+      add_channels(e, error))
+    return error->status;
+  return bracket_switches(e, error);
+}
+
+void lab_run_close(lab_run *e)
+{
+  lab_inputs_free(&e->inputs);
+  free(e->bracket);
+  free(e->weight);
+  memset(e, 0, sizeof *e);
+}
+
+double lab_run_measured(const lab_run *e, int c, size_t i)
+{
+  return e->log->value[e->channel[c]][e->first + i];
+}
+
+static const double *column_of(const lab_response *response, int channel)
+{
+  return channel == LAB_CHANNEL_P   ? response->p
+         : channel == LAB_CHANNEL_X ? response->x
+         : channel == LAB_CHANNEL_T ? response->T
+                                    : response->force;
+}
+
+/* The schedule of a run with its changes at other instants, cut where another model begins, and its memory. */
+typedef struct staged {
+  lab_schedule schedule;
+  double *t;
+  pneu_input *input;
+  const pneu_model **of; /* each row */
+  pneu_model *model;     /* of each episode */
+} staged;
+
+static void staged_close(staged *s)
+{
+  free(s->t);
+  free(s->input);
+  free(s->of);
+  free(s->model);
+}
+
+static int staged_open(size_t rows, const lab_episode *episode, int n, staged *s, lab_error *error)
+{
+  int k;
+  memset(s, 0, sizeof *s);
+  s->t = malloc(rows * sizeof *s->t);
+  s->input = malloc(rows * sizeof *s->input);
+  s->of = malloc(rows * sizeof *s->of);
+  s->model = malloc((size_t)n * sizeof *s->model);
+  if (!s->t || !s->input || !s->of || !s->model)
+    return lab_fail_memory(error, "a schedule");
+  for (k = 0; k < n; k++)
+    if (lab_rig_model(episode[k].rig, &s->model[k], error))
+      return error->status;
+  return LAB_OK;
+}
+
+static void add_row(const lab_run *e, double t, const pneu_input *input, const lab_episode *episode, int which,
+                    staged *s)
+{
+  const size_t i = s->schedule.n++;
+  s->t[i] = t;
+  s->input[i] = *input;
+  s->of[i] = &s->model[which];
+  if (!(episode[which].rig->input[LAB_CHANNEL_PS] && e->log->value[LAB_CHANNEL_PS]))
+    s->input[i].supply_pressure = episode[which].rig->params.supply_pressure; /* of the rig where it is not measured */
+}
+
+static void stage(const lab_run *e, const lab_episode *episode, int n, const double *early, staged *s)
+{
+  const lab_schedule *logged = &e->inputs.schedule;
+  size_t i;
+  int k = 0;
+  while (k + 1 < n && episode[k + 1].from <= logged->t[0])
+    k++;
+  for (i = 0; i < logged->n; i++) {
+    const double t = logged->t[i] - (early && i > 0 && i <= e->n_instants ? early[i - 1] : 0);
+    for (; k + 1 < n && episode[k + 1].from < t; k++)
+      add_row(e, episode[k + 1].from, &logged->input[i - 1], episode, k + 1, s);
+    add_row(e, t, &logged->input[i], episode, k, s);
+  }
+  for (; k + 1 < n; k++)
+    add_row(e, episode[k + 1].from, &logged->input[logged->n - 1], episode, k + 1, s);
+  s->schedule.t = s->t;
+  s->schedule.input = s->input;
+}
+
+static int respond(const lab_run *e, const staged *s, double tol, lab_response *response, lab_error *error)
+{
+  pneu_state start;
+  const lab_simulation task = {.start = &start,
+                               .schedule = &s->schedule,
+                               .rows = s->of,
+                               .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
+                               .n = e->n,
+                               .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
+  if (lab_run_initial_state(s->of[0], s->input, e->log, e->run, &start, error))
+    return error->status == LAB_DATA ? (error->status = LAB_NUMERIC) : error->status;
+  return lab_response_run(s->of[0], &task, response, error);
+}
+
+int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
+                             double *y, lab_error *error)
+{
+  lab_response response;
+  staged s;
+  int c, status = staged_open(e->inputs.schedule.n + (size_t)n, episode, n, &s, error);
+  if (status == LAB_OK) {
+    stage(e, episode, n, early, &s);
+    status = respond(e, &s, tol, &response, error);
+  } else if (status == LAB_DATA) {
+    status = error->status = LAB_NUMERIC;
+  }
+  staged_close(&s);
+  if (status != LAB_OK)
+    return status;
+  for (c = 0; c < e->n_channels; c++)
+    memcpy(y + (size_t)c * e->n, column_of(&response, e->channel[c]), e->n * sizeof *y);
+  lab_response_free(&response);
+  return LAB_OK;
+}
+
+int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error)
+{
+  const lab_episode whole = {0, rig};
+  return lab_run_predict_episodes(e, &whole, 1, early, tol, y, error);
+}

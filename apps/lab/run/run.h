@@ -1,0 +1,59 @@
+/* An experiment: one run of a log beside what a model predicts for it.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_RUN_H
+#define LAB_RUN_H
+
+#include "../log/log.h"
+#include "../rig/rig.h"
+#include "schedule.h"
+
+typedef struct lab_run {
+  const lab_rig *rig;
+  const lab_log *log;
+  size_t run, first, n;                 /* run of the log, its first row, its rows */
+  int n_channels;                       /* measured channels that the model predicts */
+  int channel[LAB_CHANNEL_COUNT];       /* enum lab_channel of each */
+  double sigma[LAB_CHANNEL_COUNT];      /* their noise, SI */
+  double memory[LAB_CHANNEL_COUNT];     /* of the noise: its correlation from row to row, 0 where it is white */
+  double resolution[LAB_CHANNEL_COUNT]; /* smallest step between values, SI; its variance is part of sigma */
+  double level[LAB_CHANNEL_COUNT]; /* scatter at rest over the noise that was declared (weights.h); 0: not looked at */
+  double jitter;                   /* [s] deviation of the times of rows, where it shows (weights.h) */
+  double *weight;                  /* n_channels * n: noise over that of a row; at first 1 but for coarse steps */
+  lab_inputs inputs;               /* schedule of inputs, as the log shows them */
+  size_t n_instants;               /* changes of the command whose instant the log brackets; 0 if other inputs change */
+  double *bracket;                 /* [s] n_instants: time from the row before each change to the row that shows it */
+} lab_run;
+
+/* Prepare a run. Noise that the rig does not declare is estimated (noise.h).
+ * Out:     e  keeps rig and log; to be closed, also after an error
+ *             Rounding to the resolution q adds q^2/12 to the variance. Where the noise is smaller than q, values that
+ *             stay within a step share one error: the rows of such a stretch weigh no more than one.
+ * Returns: LAB_OK; LAB_DATA if nothing is measured that the model predicts; LAB_WORLD. */
+int lab_run_open(const lab_rig *rig, const lab_log *log, size_t run, lab_run *e, lab_error *error);
+void lab_run_close(lab_run *e);
+
+/* What a model predicts.
+ * In:      rig     its parameters and free terms, in the place of those of the experiment's
+ *          early   [s] n_instants: how much before its row each change of command happened; NULL: not at all
+ *          tol     local error of the stepper
+ * Out:     y       n_channels * n values, SI, channel by channel
+ * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
+int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error);
+
+/* A model, and the time of the log from which it acts [s]. */
+typedef struct lab_episode {
+  double from;
+  const lab_rig *rig;
+} lab_episode;
+
+enum { LAB_EPISODES_MAX = 9 };
+
+/* The same where the model changes on the way.
+ * In:      episode  n >= 1 of them, in the order of time; the first acts from the beginning, whatever its time */
+int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
+                             double *y, lab_error *error);
+
+/* Value measured at row i of channel c (place in e->channel); NaN in a gap. */
+double lab_run_measured(const lab_run *e, int c, size_t i);
+
+#endif

@@ -1,0 +1,210 @@
+#include "decide.h"
+
+#include <math.h>
+
+#define JUDGED "chosen by judgement; not calibrated"
+
+const lab_constant_row lab_constants[LAB_CONSTANT_COUNT] = {
+#define X(name, value, meaning, source) {#name, value, meaning, source},
+#include "constants.def"
+#undef X
+};
+
+double lab_constant(enum lab_constant which)
+{
+  return lab_constants[which].value;
+}
+
+int lab_count(enum lab_constant which)
+{
+  return (int)lab_constants[which].value;
+}
+
+/* ---- How good a model is ---- */
+
+static double excess(const lab_quality *q)
+{
+  return q->chi2 - q->values;
+}
+
+/* Chi-square so many standard deviations above its expectation. */
+static double beyond(const lab_quality *q, enum lab_constant deviations)
+{
+  return q->values + lab_constant(deviations) * sqrt(2 * q->values);
+}
+
+int lab_is_noise(const lab_quality *q)
+{
+  return q->fitted &&
+         (q->white || q->chi2 < beyond(q, LAB_NOISE_DEVIATIONS) || q->chi2 < lab_constant(LAB_NOISE_SLIP) * q->values);
+}
+
+int lab_is_clean(const lab_quality *q)
+{
+  return q->fitted && q->chi2 < beyond(q, LAB_CLEAN_DEVIATIONS) && !lab_is_strained(q);
+}
+
+int lab_is_strained(const lab_quality *q)
+{
+  return q->strain > lab_constant(LAB_STRAINED);
+}
+
+int lab_is_poor(const lab_quality *declared, const lab_quality *q)
+{
+  return !q->fitted || excess(q) > lab_constant(LAB_MUCH) * excess(declared);
+}
+
+/* A free term can bend to nearly anything, and says nothing beyond what it has seen: it must leave only noise, or at
+ * most a share of what another model leaves. */
+static int convinces(const lab_quality *with_term, const lab_quality *other, double share)
+{
+  return with_term->fitted && with_term->bic < other->bic &&
+         (lab_is_noise(with_term) || excess(with_term) < share * excess(other));
+}
+
+/* ---- Rules ---- */
+
+static int no_effect_explains_it(const lab_facts *f)
+{
+  return f->n_found == 0 && !lab_is_noise(&f->best) && lab_constant(LAB_TERM_ALONE) * f->effect < f->excess;
+}
+
+static int a_term_stands_out(const lab_facts *f)
+{
+  return f->term > lab_constant(LAB_TERM_MOSTLY) * f->excess && f->term > lab_constant(LAB_TERM_ALONE) * f->effect;
+}
+
+static int is_better_by_bic(const lab_facts *f)
+{
+  return f->extended.fitted && f->extended.bic < f->best.bic;
+}
+
+static int is_noise_coarsely(const lab_facts *f)
+{
+  return f->coarse && lab_is_noise(&f->best);
+}
+
+static int was_joined(const lab_facts *f)
+{
+  return f->added && f->n_found > 1;
+}
+
+static int may_be_exchanged(const lab_facts *f)
+{
+  return was_joined(f) && (f->n_found == 2 || lab_is_noise(&f->best));
+}
+
+static int leaves_more_than_noise(const lab_facts *f)
+{
+  return !lab_is_noise(&f->best);
+}
+
+static int wants_a_term(const lab_facts *f)
+{
+  return leaves_more_than_noise(f) && !f->free_term.fitted && (f->round > 0 || lab_is_poor(&f->declared, &f->best));
+}
+
+static int a_term_is_enough(const lab_facts *f)
+{
+  return leaves_more_than_noise(f) &&
+         (lab_is_noise(&f->free_term) ||
+          (f->n_found > 1 && convinces(&f->free_term, &f->best, lab_constant(LAB_TERM_COMPELLING))));
+}
+
+static int a_term_is_better(const lab_facts *f)
+{
+  return leaves_more_than_noise(f) &&
+         convinces(&f->free_term, &f->best, f->n_found > 1 ? 1 : lab_constant(LAB_TERM_CONVINCING));
+}
+
+static int has_room_for_a_term(const lab_facts *f)
+{
+  return f->n_terms == 0 && f->n_found < LAB_EFFECTS_MAX &&
+         (f->n_found == 0 || f->best.chi2 > beyond(&f->best, LAB_REST_DEVIATIONS));
+}
+
+static int a_term_beside_convinces(const lab_facts *f)
+{
+  return convinces(&f->extended, &f->best, lab_constant(LAB_TERM_CONVINCING));
+}
+
+static int has_found_a_term(const lab_facts *f)
+{
+  return f->found_term;
+}
+
+static int has_found(const lab_facts *f)
+{
+  return f->n_found > 0;
+}
+
+static int has_found_nothing(const lab_facts *f)
+{
+  return f->n_found == 0;
+}
+
+const lab_rule lab_rules[] = {
+    {LAB_PHASE_SCORED,
+     "The declared model leaves more than noise, and TERM_ALONE times the best score is below its excess.",
+     no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
+    {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
+     a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
+     LAB_DO_FIT_SCORED_TERM},
+
+    {LAB_PHASE_REFITTED, "The best extension has a lower BIC than the best model.", is_better_by_bic,
+     "Note the effects alike. If the error of some channel falls by MIN_GAIN, go on from the best BEAM extensions; "
+     "else "
+     "list the effects as small. Without an addition the round is the last.",
+     LAB_DO_ADD_EFFECT},
+
+    {LAB_PHASE_ROUND, "The log is seen coarsely, and the best model leaves only noise.", is_noise_coarsely,
+     "End: a coarse view does not see fine differences.", LAB_DO_END},
+    {LAB_PHASE_ROUND, "The round has added an effect to another.", was_joined,
+     "Take out each earlier effect without which BIC is no higher.", LAB_DO_REMOVE_NEEDLESS},
+    {LAB_PHASE_ROUND, "The same, and there are two effects, or only noise is left.", may_be_exchanged,
+     "Exchange each earlier effect for one that has a lower BIC beside the others.", LAB_DO_EXCHANGE},
+    {LAB_PHASE_ROUND,
+     "More than noise is left, no free term was refitted yet, and it was not the first round or the best model is poor "
+     "(MUCH).",
+     wants_a_term, "Refit the declared model with the best free term, if its score passes.", LAB_DO_FIT_TERM},
+    {LAB_PHASE_ROUND,
+     "More than noise is left. The declared model with a free term leaves only noise; or it has a lower BIC than two "
+     "effects and leaves less than TERM_COMPELLING of their excess.",
+     a_term_is_enough, "No more rounds.", LAB_DO_END_ROUNDS},
+
+    {LAB_PHASE_END,
+     "More than noise is left. The declared model with a free term has a lower BIC and leaves only noise, or less than "
+     "TERM_CONVINCING of the excess; less than the excess where two effects were added.",
+     a_term_is_better, "Take it in place of the best model.", LAB_DO_TAKE_TERM},
+    {LAB_PHASE_END,
+     "The best model has no free term and fewer than EFFECTS effects, and either none or an excess beyond "
+     "REST_DEVIATIONS.",
+     has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
+    {LAB_PHASE_END, "That has a lower BIC and leaves only noise, or less than TERM_CONVINCING of the excess.",
+     a_term_beside_convinces,
+     "If the error of some channel falls by MIN_GAIN, add the free term and take out each effect without which BIC is "
+     "no "
+     "higher; else list the term as small.",
+     LAB_DO_ADD_TERM},
+
+    {LAB_PHASE_VERDICT, "A free term was added.", has_found_a_term, "`unlisted`", LAB_VERDICT_UNLISTED},
+    {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
+    {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
+    {LAB_PHASE_VERDICT, "Nothing was added.", has_found_nothing, "`none`", LAB_VERDICT_NONE},
+};
+
+const int lab_rule_count = sizeof lab_rules / sizeof *lab_rules;
+
+int lab_decide_verdict(const lab_facts *f)
+{
+  int i = 0;
+  while (lab_rules[i].phase != LAB_PHASE_VERDICT || !lab_rules[i].holds(f))
+    i++;
+  return lab_rules[i].action;
+}
+
+const char *lab_verdict_text(int verdict)
+{
+  static const char *const text[] = {"none", "effect", "unlisted", "undecided"};
+  return text[verdict];
+}

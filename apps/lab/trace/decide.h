@@ -1,0 +1,111 @@
+/* What the search decides by: one table of constants (constants.def) and one table of rules (decide.c), which DESIGN.md
+ * prints.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_DECIDE_H
+#define LAB_DECIDE_H
+
+/* ---- Constants ---- */
+
+/* Those that are sizes of arrays as well. */
+enum { LAB_EFFECTS_MAX = 3, LAB_LEADERS_MAX = 7, LAB_BEAM_WIDTH = 2 };
+
+enum lab_constant {
+#define X(name, value, meaning, source) LAB_##name,
+#include "constants.def"
+#undef X
+  LAB_CONSTANT_COUNT
+};
+
+typedef struct lab_constant_row {
+  const char *name;
+  double value;
+  const char *meaning;
+  const char *source; /* how it was calibrated, as far as that is known */
+} lab_constant_row;
+
+extern const lab_constant_row lab_constants[LAB_CONSTANT_COUNT]; /* by enum lab_constant */
+
+/* The value of a constant; as an int for one that counts. */
+double lab_constant(enum lab_constant which);
+int lab_count(enum lab_constant which);
+
+/* ---- How good a model is ---- */
+
+typedef struct lab_quality {
+  int fitted;
+  double chi2;   /* of the residuals, with priors */
+  double values; /* measured values that are fitted */
+  double bic;    /* Schwarz 1978, over the measured values; a free term costs more than an effect */
+  int white;     /* not 0: more is left than the declared noise, but it is noise */
+  double strain; /* largest deviation of a declared value, over its tolerance */
+} lab_quality;
+
+/* Whether a fitted model leaves only noise: chi-square as expected of the declared noise, or white. */
+int lab_is_noise(const lab_quality *q);
+
+/* Whether a model fits only with a declared value far beyond its tolerance. */
+int lab_is_strained(const lab_quality *q);
+
+/* Whether a fitted model leaves nothing to explain, and strains nothing. */
+int lab_is_clean(const lab_quality *q);
+
+/* Whether a model could not be fitted, or explains little of what the declared one leaves. */
+int lab_is_poor(const lab_quality *declared, const lab_quality *q);
+
+/* ---- Rules ---- */
+
+/* What was concluded. */
+enum lab_verdict { LAB_VERDICT_NONE, LAB_VERDICT_EFFECT, LAB_VERDICT_UNLISTED, LAB_VERDICT_UNDECIDED };
+
+/* "none", "effect", "unlisted", "undecided" */
+const char *lab_verdict_text(int verdict);
+
+/* When a rule is asked. */
+enum lab_phase { LAB_PHASE_SCORED, LAB_PHASE_REFITTED, LAB_PHASE_ROUND, LAB_PHASE_END, LAB_PHASE_VERDICT };
+
+/* What the search does by a rule. */
+enum lab_rule_action {
+  LAB_DO_SCORE_TERMS,
+  LAB_DO_FIT_SCORED_TERM,
+  LAB_DO_ADD_EFFECT,
+  LAB_DO_END,
+  LAB_DO_REMOVE_NEEDLESS,
+  LAB_DO_EXCHANGE,
+  LAB_DO_FIT_TERM,
+  LAB_DO_END_ROUNDS,
+  LAB_DO_TAKE_TERM,
+  LAB_DO_FIT_TERM_BESIDE,
+  LAB_DO_ADD_TERM
+};
+
+/* What the rules ask about. */
+typedef struct lab_facts {
+  int round;             /* 0: the first */
+  int coarse;            /* the log is seen coarsely (coarse.h) */
+  int added;             /* this round has added an effect */
+  lab_quality declared;  /* the declared model */
+  lab_quality best;      /* the best model so far */
+  int n_found, n_terms;  /* what was added to it; free terms in it, declared ones among them */
+  int found_term;        /* a free term was added to it */
+  lab_quality free_term; /* the declared model with the best free term; not fitted: not tried yet, or none */
+  lab_quality extended;  /* the best extension of the best model; not fitted: none */
+  double excess;         /* of the best model's chi-square over the data, and */
+  double effect, term;   /* the largest scores there, of an effect and of a free term */
+} lab_facts;
+
+typedef struct lab_rule {
+  enum lab_phase phase;
+  const char *when; /* in words */
+  int (*holds)(const lab_facts *f);
+  const char *then; /* in words */
+  int action;       /* enum lab_rule_action; of the last phase enum lab_verdict */
+} lab_rule;
+
+/* In order. Of each phase all are followed that hold when it is their turn; of the last one the first that holds. */
+extern const lab_rule lab_rules[];
+extern const int lab_rule_count;
+
+/* The verdict on the best model.  Returns: enum lab_verdict */
+int lab_decide_verdict(const lab_facts *f);
+
+#endif

@@ -1,0 +1,266 @@
+#include "score.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/array.h"
+#include "../base/clock.h"
+#include "../base/quantile.h"
+#include "../fit/nuisance.h"
+#include "decide.h"
+
+/* ---- A fitted model, seen from its residual ---- */
+
+double lab_projection_visible(const lab_projection *p, double *v)
+{
+  const double whole = sqrt(lab_dot(v, v, p->m));
+  const double left = whole > 0 ? lab_project_out(p->basis, p->n_basis, p->m, p->m, v) : 0;
+  return left > lab_constant(LAB_INVISIBLE) * whole ? left : 0;
+}
+
+static int fail_spent(lab_error *error)
+{
+  return lab_fail(error, LAB_NUMERIC, "the CPU time that was given is spent");
+}
+
+/* Make the columns of slopes an orthonormal basis of their span. */
+static void orthonormalise(lab_projection *p, int columns)
+{
+  size_t i;
+  int j;
+  for (j = 0; j < columns; j++) {
+    double *to = p->basis + (size_t)p->n_basis * p->m, *column = p->basis + (size_t)j * p->m;
+    const double left = lab_projection_visible(p, column);
+    if (!(left > 0))
+      continue;
+    for (i = 0; i < p->m; i++)
+      to[i] = column[i] / left;
+    p->n_basis++;
+  }
+}
+
+int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error)
+{
+  double theta[LAB_FIT_MAX];
+  int j, status = LAB_OK;
+  memset(p, 0, sizeof *p);
+  p->u = u;
+  lab_unknowns_count(u);
+  p->m = u->m;
+  p->r = malloc(p->m * sizeof *p->r);
+  p->basis = malloc((size_t)(u->n + 1) * p->m * sizeof *p->basis);
+  if (!p->r || !p->basis)
+    return lab_fail_memory(error, "a projection");
+  for (j = 0; j < u->n; j++)
+    theta[j] = u->unknown[j].value;
+  if (lab_unknowns_residuals(u, theta, p->r, error))
+    return error->status;
+#pragma omp parallel for schedule(dynamic)
+  for (j = 0; j < u->n; j++) {
+    lab_error mine;
+    double *column = p->basis + (size_t)j * p->m;
+    const int at = lab_cpu_is_spent(u->until) ? LAB_NUMERIC : lab_unknowns_slope(u, theta, p->r, j, column, &mine);
+    if (at == LAB_NUMERIC)
+      memset(column, 0, p->m * sizeof *column);
+    else if (at != LAB_OK) {
+#pragma omp critical(projection_error)
+      *error = mine, status = at;
+    }
+  }
+  if (status == LAB_OK && lab_cpu_is_spent(u->until))
+    return fail_spent(error);
+  if (status == LAB_OK)
+    orthonormalise(p, u->n);
+  p->excess = lab_dot(p->r, p->r, u->n_data) - (double)u->n_values;
+  return status;
+}
+
+void lab_projection_close(lab_projection *p)
+{
+  free(p->r);
+  free(p->basis);
+  memset(p, 0, sizeof *p);
+}
+
+int lab_projection_slope(const lab_projection *p, const lab_rig *model, double *slope, lab_error *error)
+{
+  size_t i;
+  if (lab_cpu_is_spent(p->u->until))
+    return fail_spent(error);
+  if (lab_unknowns_residuals_with(p->u, model, slope, error))
+    return error->status;
+  for (i = 0; i < p->m; i++)
+    slope[i] -= p->r[i];
+  return LAB_OK;
+}
+
+/* ---- Scores of effects ---- */
+
+static const double shapes[LAB_SCORE_SHAPES] = {0.3, 1.0, 3.0}; /* over the usual shape */
+
+/* The statistic of a slope that was taken over a step; the score keeps it if it is larger than what it has. */
+static void judge(const lab_projection *p, const lab_trial *trial, double *slope, double step, lab_score *score)
+{
+  const double whole = sqrt(lab_dot(slope, slope, p->m)), left = lab_projection_visible(p, slope);
+  double along, size, statistic;
+  if (!(left > 0))
+    return;
+  along = lab_dot(slope, p->r, p->m) / left;
+  size = -along / left * step; /* r + (size/step) slope is least */
+  statistic = along * along;
+  if ((size > 0 && !(trial->up > 0)) || (size < 0 && !(trial->down > 0))) {
+    score->against = fmax(score->against, statistic);
+    statistic = 0;
+  }
+  if (score->visible > 0 && statistic <= score->statistic)
+    return;
+  score->statistic = statistic;
+  score->size = fmax(fmin(size, trial->up), -trial->down) + trial->offset;
+  score->shape_value = trial->shape_value;
+  score->visible = left / whole;
+}
+
+int lab_score_try(const lab_projection *p, const lab_trial *trial, lab_score *score, double *slope, lab_error *all)
+{
+  lab_error error;
+  double step = trial->usual, length;
+  int i, tests = 0;
+  for (i = 0; i < lab_count(LAB_SLOPE_SIZES); i++) {
+    if (trial->slope(trial->context, step, slope, &error)) {
+      lab_fail_together(all, &error);
+      step *= lab_constant(LAB_SLOPE_SMALL);
+      continue;
+    }
+    length = sqrt(lab_dot(slope, slope, p->m));
+    judge(p, trial, slope, step, score);
+    tests++;
+    if (!(length > lab_constant(LAB_SLOPE_LONG)))
+      break;
+    step *= lab_constant(LAB_SLOPE_SEEN) / length;
+  }
+  return tests;
+}
+
+/* An effect of one shape, tried in a model. */
+typedef struct shaped_effect {
+  const lab_projection *p;
+  lab_rig model;
+  int param;
+  double present;
+} shaped_effect;
+
+static int effect_slope(void *context, double size, double *slope, lab_error *error)
+{
+  shaped_effect *e = context;
+  *pneu_param_at(&e->model.params, e->param) = (pneu_real)(e->present + size);
+  return lab_projection_slope(e->p, &e->model, slope, error);
+}
+
+/* Score one shape of an effect.  Returns: the number of slopes that were judged */
+static int score_shape(const lab_projection *p, lab_score *score, double shape_value, double *slope, lab_error *all)
+{
+  shaped_effect effect = {.p = p, .model = p->u->rig, .param = score->param};
+  lab_trial trial = {.shape_value = shape_value, .slope = effect_slope, .context = &effect};
+  pneu_param_info info;
+  pneu_param_describe(score->param, &info);
+  effect.present = (double)*pneu_param_at(&effect.model.params, score->param); /* neutral, but for one that is held */
+  trial.usual = (double)info.value - (double)info.neutral;
+  trial.up = (double)info.upper - effect.present;
+  trial.down = effect.present - (double)info.lower;
+  trial.offset = effect.present - (double)info.neutral;
+  if (score->shape >= 0)
+    *pneu_param_at(&effect.model.params, score->shape) = (pneu_real)shape_value;
+  return lab_score_try(p, &trial, score, slope, all);
+}
+
+double lab_score_shape(const lab_score *score, int which)
+{
+  pneu_param_info info;
+  pneu_param_describe(score->shape, &info);
+  return fmin(fmax(shapes[which] * (double)info.value, (double)info.lower), (double)info.upper);
+}
+
+static int score_effect(const lab_projection *p, lab_score *score, lab_error *all)
+{
+  lab_error error;
+  double *slope = malloc(p->m * sizeof *slope);
+  int k, tests = 0;
+  if (!slope) {
+    lab_fail_memory(&error, "a slope");
+    lab_fail_together(all, &error);
+    return 0;
+  }
+  for (k = 0; k < (score->shape >= 0 ? LAB_SCORE_SHAPES : 1); k++)
+    tests += score_shape(p, score, score->shape >= 0 ? lab_score_shape(score, k) : 0, slope, all);
+  score->p_value = lab_chi2_tail(score->statistic, 1);
+  score->explained = p->excess > 0 ? score->statistic / p->excess : 0;
+  free(slope);
+  return tests;
+}
+
+/* Whether the model does not have an effect: all is neutral, and nothing of it is fitted.
+ * Out:     shape  its first parameter that is only a shape; -1 if none is */
+static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
+{
+  int i;
+  *shape = -1;
+  for (i = first + count - 1; i >= first; i--) {
+    const int j = lab_unknowns_find(u, i);
+    const int held = j >= 0 ? lab_unknown_is_held(&u->unknown[j]) : u->nuisance && lab_nuisance_holds(u->nuisance, i);
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    if (!held && (j >= 0 || (!info.shape && *pneu_param_at((pneu_params *)&u->rig.params, i) != info.neutral)))
+      return 0;
+    if (info.shape)
+      *shape = i;
+  }
+  return 1;
+}
+
+int lab_score_can_be_missing(const lab_rig *rig, int effect)
+{
+  return strncmp(pneu_effect_at(effect)->name, "positioner", strlen("positioner")) != 0 || lab_rig_has_positioner(rig);
+}
+
+/* Every parameter that switches on an effect which the model does not have. */
+static void list_effects(const lab_unknowns *u, lab_scores *scores)
+{
+  int e, i, count, shape;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const int first = pneu_effect_params(e, &count);
+    if (!is_absent(u, first, count, &shape) || !lab_score_can_be_missing(&u->rig, e))
+      continue;
+    for (i = first; i < first + count && scores->n < LAB_SCORES_MAX; i++) {
+      pneu_param_info info;
+      pneu_param_describe(i, &info);
+      if (info.shape)
+        continue;
+      scores->of[scores->n].effect = e;
+      scores->of[scores->n].param = i;
+      scores->of[scores->n++].shape = shape;
+    }
+  }
+}
+
+int lab_score_by_statistic(const void *a, const void *b)
+{
+  const lab_score *x = a, *y = b;
+  if (x->statistic != y->statistic)
+    return x->statistic < y->statistic ? 1 : -1;
+  return x->param - y->param;
+}
+
+int lab_score_effects(const lab_projection *p, lab_scores *scores, lab_error *error)
+{
+  int i, tests = 0;
+  error->status = LAB_OK;
+  memset(scores, 0, sizeof *scores);
+  list_effects(p->u, scores);
+#pragma omp parallel for schedule(dynamic) reduction(+ : tests)
+  for (i = 0; i < scores->n; i++)
+    tests += score_effect(p, &scores->of[i], error);
+  scores->tests = tests;
+  qsort(scores->of, (size_t)scores->n, sizeof *scores->of, lab_score_by_statistic);
+  return error->status;
+}

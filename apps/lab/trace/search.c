@@ -1,0 +1,851 @@
+#include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../base/clock.h"
+#include "../fit/deviations.h"
+#include "../fit/nuisance.h"
+#include "../fit/outliers.h"
+
+/* Where the search is and what it is to bring. */
+typedef struct search {
+  const lab_search_options *options;
+  lab_search_result *result;
+  lab_candidate declared;             /* the declared model, fitted */
+  lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */
+  lab_candidate without;              /* what is left when an effect is left out */
+  lab_candidate whole, unfolded;      /* an extension with all its values fitted, and the best of these */
+  lab_candidate beam[LAB_BEAM_WIDTH]; /* best candidates so far, best first */
+  int n_beam;
+  lab_candidate pool[LAB_BEAM_WIDTH * LAB_REFIT_MAX]; /* extensions of them */
+  int n_pool;
+  int round, added, rounds_over, over;
+  int has_extended;                 /* pool[0] is the best extension of the best candidate */
+  lab_nuisance nuisance;            /* what is declared, within its tolerances */
+  const lab_projection *projection; /* of the declared model, while it is open */
+  double best_effect;               /* largest score of an effect there */
+  lab_term_score term[LAB_TERM_SCORES_MAX];
+  int n_terms; /* scores of free terms there, best first */
+} search;
+
+/* Follow the rules of a phase that hold, in order. */
+static int follow_rules(search *s, enum lab_phase phase, lab_error *error);
+
+/* A model with what was missing is nearer to the truth: its values are what the others vary about from here on. */
+static int linearise_again(search *s, lab_error *error);
+
+static void on_progress(const search *s, const char *what)
+{
+  if (s->options->on_progress)
+    s->options->on_progress(s->options->context, what);
+}
+
+/* ---- What is noted for the result ---- */
+
+/* A model that was tried. */
+static void note_step(lab_search_result *result, const lab_candidate *c)
+{
+  lab_tried_model *step = result->n_steps < LAB_SEARCH_STEPS ? &result->step[result->n_steps++] : NULL;
+  if (!step)
+    return;
+  lab_candidate_name(c, step->name, sizeof step->name);
+  step->chi2 = c->quality.chi2;
+  step->bic = c->quality.bic;
+}
+
+/* A model that the search goes on from. */
+static void note_way(lab_search_result *result, const lab_candidate *c)
+{
+  lab_error ignored;
+  lab_unknowns u = c->u;
+  lab_path_model *way = result->n_path < LAB_SEARCH_PATH ? &result->path[result->n_path++] : NULL;
+  if (!way)
+    return;
+  lab_candidate_name(c, way->name, sizeof way->name);
+  way->chi2 = c->quality.chi2;
+  way->bic = c->quality.bic;
+  if (c->u.nuisance)
+    lab_nuisance_return(&u, &ignored);
+  way->rig = u.rig;
+}
+
+/* ---- Candidates side by side ---- */
+
+/* Whether two candidates have the same, whatever was added first, beside one addition of each; -1: beside nothing. */
+static int is_alike_but(const lab_candidate *a, int which_a, const lab_candidate *b, int which_b)
+{
+  int i, k, all = a->n_found == b->n_found;
+  for (i = 0; i < a->n_found; i++) {
+    int any = i == which_a;
+    for (k = 0; k < b->n_found; k++)
+      any |= k != which_b && a->found[i].param == b->found[k].param && a->found[i].term == b->found[k].term;
+    all &= any;
+  }
+  return all;
+}
+
+/* Whether the log cannot tell a candidate from a better one. */
+static int is_as_good(const lab_quality *better, const lab_quality *q)
+{
+  return !(fmin(q->bic - better->bic, q->chi2 - better->chi2) > lab_constant(LAB_ALIKE_BIC));
+}
+
+/* Effects of a pool, each added last, that are as good as one of a candidate's in its place: a better fit by one
+ * unknown more is no reason to choose it, but nor does the log speak against it. */
+static void note_alike(lab_candidate *c, int which, const lab_candidate *pool, int n)
+{
+  lab_found *found = &c->found[which];
+  int i, k;
+  found->n_alike = 0;
+  for (i = 0; found->effect >= 0 && i < n; i++) {
+    const int last = pool[i].n_found - 1, effect = pool[i].found[last].effect;
+    int known = effect < 0 || effect == found->effect;
+    for (k = 0; k < found->n_alike; k++)
+      known |= found->alike[k] == effect;
+    if (known || !is_as_good(&c->quality, &pool[i].quality) || !is_alike_but(c, which, &pool[i], last))
+      continue;
+    if (found->n_alike < LAB_LEADERS_MAX)
+      found->alike_params[found->n_alike] = pool[i].u.rig.params;
+    found->alike[found->n_alike++] = effect;
+  }
+}
+
+/* The same for what was added last to the best of the pool. */
+static void note_alike_best(search *s)
+{
+  note_alike(&s->pool[0], s->pool[0].n_found - 1, s->pool + 1, s->n_pool - 1);
+}
+
+/* Sort the pool, best first, without what could not be fitted, and each model once. */
+static void rank(search *s)
+{
+  int i, k, n = 0;
+  qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, lab_candidate_by_bic);
+  for (i = 0; i < s->n_pool && s->pool[i].quality.fitted; i++) {
+    int again = 0;
+    for (k = 0; k < n; k++)
+      again |= is_alike_but(&s->pool[k], -1, &s->pool[i], -1);
+    if (again)
+      continue;
+    if (n != i)
+      s->pool[n] = s->pool[i];
+    note_step(s->result, &s->pool[n++]);
+  }
+  s->n_pool = n;
+}
+
+/* ---- Extensions ---- */
+
+/* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
+static int extend_scored(search *s, const lab_candidate *base, const lab_projection *p, double start, lab_error *error)
+{
+  lab_search_result *r = s->result;
+  lab_scores scores;
+  double level;
+  int status = LAB_OK, n = 0;
+  const int first = r->scores.n == 0;
+  on_progress(s, "testing all effects");
+  if (lab_score_effects(p, &scores, error))
+    return error->status;
+  level = scores.tests > 0 ? s->options->alpha / scores.tests : 0;
+  if (first)
+    r->score_s = lab_clock() - start;
+  if (base->n_found == 0) {
+    s->projection = p;
+    s->best_effect = scores.of[0].statistic;
+    status = follow_rules(s, LAB_PHASE_SCORED, error);
+    s->projection = NULL;
+  }
+  if (status != LAB_OK)
+    return status;
+  on_progress(s, "refitting the best candidates");
+  if (!lab_is_noise(&s->free_term.quality) && lab_refit_effects(base, &scores, level, s->pool + s->n_pool, &n, error))
+    return error->status;
+  s->n_pool += n;
+  if (first) {
+    r->scores = scores;
+    r->level = level;
+  }
+  return LAB_OK;
+}
+
+static int extend(search *s, const lab_candidate *base, lab_error *error)
+{
+  const double start = lab_clock();
+  lab_unknowns u = base->u;
+  lab_projection p;
+  int status = lab_projection_open(&u, &p, error);
+  if (status == LAB_OK)
+    status = extend_scored(s, base, &p, start, error);
+  lab_projection_close(&p);
+  return status;
+}
+
+/* Whether the best extension lowers the error of some channel by as much as is asked for, or declared values need no
+ * longer be beyond their tolerances for it; where the log is seen coarsely, the error of all channels together counts.
+ */
+static int measure_gain(const search *s, int *enough, lab_error *error)
+{
+  const lab_candidate *a = &s->beam[0], *b = &s->pool[0];
+  lab_errors before, after;
+  double gain = a->u.window ? 1 - sqrt(b->quality.chi2 / a->quality.chi2) : 0;
+  int c;
+  if (lab_fitted_errors(&a->u, &before, error) || lab_fitted_errors(&b->u, &after, error))
+    return error->status;
+  for (c = 0; !a->u.window && c < LAB_CHANNEL_COUNT; c++)
+    if (before.rmse[c] > 0)
+      gain = fmax(gain, 1 - after.rmse[c] / before.rmse[c]);
+  *enough = !(gain < s->options->min_gain) || (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality));
+  return LAB_OK;
+}
+
+/* Significant, but not worth adding: the best one, and what cannot be told from it. */
+static void list_small(search *s)
+{
+  lab_search_result *r = s->result;
+  const lab_found *found = &s->pool[0].found[s->pool[0].n_found - 1];
+  int i;
+  r->listed[r->n_listed++] = found->effect;
+  for (i = 0; i < found->n_alike && r->n_listed < LAB_SCORES_MAX; i++)
+    r->listed[r->n_listed++] = found->alike[i];
+}
+
+/* The best extensions are what the next round begins with. */
+static int add_effect(search *s, lab_error *error)
+{
+  const double before = s->beam[0].quality.chi2;
+  int i;
+  if (measure_gain(s, &s->added, error))
+    return error->status;
+  note_alike_best(s);
+  if (!s->added) {
+    list_small(s);
+    return LAB_OK;
+  }
+  for (i = 0; i < s->n_pool && i < LAB_BEAM_WIDTH; i++) {
+    lab_candidate_explain(&s->pool[i], before);
+    s->beam[i] = s->pool[i];
+  }
+  s->n_beam = i;
+  note_way(s->result, &s->beam[0]);
+  return LAB_OK;
+}
+
+/* What follows a command bends too much for the instants that a straight line has about another model. */
+static void restart_instants(lab_unknowns *u)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_INSTANT)
+      u->unknown[j].value = u->unknown[j].prior;
+}
+
+/* Whether instants of commands are all that varies unseen. */
+static int holds_instants_alone(const lab_nuisance *h)
+{
+  int k, all = h->n > 0;
+  for (k = 0; k < h->n; k++)
+    all &= h->of[k].kind == LAB_UNKNOWN_INSTANT;
+  return all;
+}
+
+/* Fit the best extensions with all their values, and rank them by that: about another model what varies unseen bends
+ * otherwise. The best of them stays so. Where declared values vary as well, that takes too long. */
+static int rank_unfolded(search *s, lab_error *error)
+{
+  const int n = s->n_pool < lab_count(LAB_UNFOLDED) ? s->n_pool : lab_count(LAB_UNFOLDED);
+  const double reach = n > 0 ? lab_constant(LAB_RIVAL) * s->pool[0].quality.chi2 : 0;
+  lab_candidate *whole = &s->whole, *best = &s->unfolded;
+  int i;
+  best->quality.fitted = 0;
+  for (i = 0; holds_instants_alone(&s->nuisance) && i < n; i++) {
+    if (s->pool[i].quality.chi2 > reach || lab_cpu_is_spent(s->declared.u.until))
+      continue;
+    *whole = s->pool[i];
+    if (lab_nuisance_return(&whole->u, error))
+      return error->status;
+    restart_instants(&whole->u);
+    if (lab_candidate_fit(whole, LAB_ROUNDS_ALL, error) == LAB_WORLD)
+      return error->status;
+    if (!whole->quality.fitted)
+      continue;
+    s->pool[i].quality = whole->quality;
+    if (lab_candidate_by_bic(whole, best) < 0)
+      *best = *whole;
+  }
+  qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, lab_candidate_by_bic);
+  if (best->quality.fitted && s->pool[0].quality.bic == best->quality.bic)
+    s->pool[0] = *best;
+  return LAB_OK;
+}
+
+/* Whether some candidate at hand leaves only noise, so that poorer ones need not be extended. */
+static int is_settled(const search *s)
+{
+  return lab_is_noise(&s->beam[0].quality) || lab_any(s->pool, s->n_pool, lab_is_noise);
+}
+
+/* One round: extend the candidates of the beam, and take the best extensions if they are worth it. */
+static int advance(search *s, lab_error *error)
+{
+  const double reach = lab_constant(LAB_RIVAL) * s->beam[0].quality.chi2;
+  int i, status = LAB_OK;
+  s->added = s->n_pool = 0;
+  for (i = 0; status == LAB_OK && i < s->n_beam; i++)
+    if (i == 0 || (!is_settled(s) && s->beam[i].quality.chi2 < reach))
+      status = extend(s, &s->beam[i], error);
+  if (status != LAB_OK)
+    return status;
+  rank(s);
+  if (rank_unfolded(s, error))
+    return error->status;
+  s->has_extended = s->n_pool > 0;
+  status = follow_rules(s, LAB_PHASE_REFITTED, error);
+  s->has_extended = 0;
+  return status;
+}
+
+/* ---- What was found before, again ---- */
+
+static void drop_found(lab_candidate *c, int which)
+{
+  int k;
+  if (c->found[which].shape >= 0)
+    lab_unknowns_drop(&c->u, c->found[which].shape);
+  lab_unknowns_drop(&c->u, c->found[which].param);
+  c->n_found--;
+  for (k = which; k < c->n_found; k++)
+    c->found[k] = c->found[k + 1];
+}
+
+/* What the last fit has put to its neutral value is not there. */
+static void drop_neutral(lab_candidate *c)
+{
+  int i = c->n_found;
+  while (i-- > 0) {
+    pneu_param_info info;
+    if (c->found[i].effect < 0)
+      continue;
+    pneu_param_describe(c->found[i].param, &info);
+    if (*pneu_param_at(&c->u.rig.params, c->found[i].param) == info.neutral)
+      drop_found(c, i);
+  }
+}
+
+/* Without one of the found effects, fitted again, or not fitted where no fit is found.  Returns: LAB_OK, LAB_WORLD. */
+static int leave_out(const lab_candidate *c, int which, lab_candidate *without, lab_error *error)
+{
+  *without = *c;
+  drop_found(without, which);
+  return lab_candidate_fit(without, LAB_ROUNDS_ALL, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
+}
+
+/* Take out again what is not needed now that other effects have come. */
+static int remove_needless(search *s, lab_error *error)
+{
+  lab_candidate *best = &s->beam[0], *without = &s->without;
+  int i, status = LAB_OK;
+  for (i = 0; status == LAB_OK && best->n_found > 1 && i < best->n_found - 1; i++) {
+    if (best->found[i].term >= 0)
+      continue;
+    status = leave_out(best, i, without, error);
+    if (status == LAB_OK && without->quality.fitted && without->quality.bic <= best->quality.bic) {
+      *best = *without;
+      i = -1;
+    }
+  }
+  return status;
+}
+
+/* An effect that was the best one alone need not be the best one beside those that came after it: put each earlier one
+ * to the test again. */
+static int exchange(search *s, lab_error *error)
+{
+  lab_candidate *best = &s->beam[0], *without = &s->without;
+  int i, status = LAB_OK;
+  for (i = 0; status == LAB_OK && i < best->n_found - 1; i++) {
+    if (best->found[i].term >= 0)
+      continue;
+    status = leave_out(best, i, without, error);
+    if (status != LAB_OK || !without->quality.fitted)
+      continue;
+    s->n_pool = 0;
+    status = extend(s, without, error);
+    rank(s);
+    status = rank_unfolded(s, error);
+    if (status == LAB_OK && s->n_pool > 0 && s->pool[0].quality.bic < best->quality.bic) {
+      lab_candidate_explain(&s->pool[0], without->quality.chi2);
+      note_alike_best(s);
+      *best = s->pool[0];
+      if (s->nuisance.n > 0)
+        status = linearise_again(s, error);
+    } else
+      note_alike(best, i, s->pool, s->n_pool);
+  }
+  return status;
+}
+
+/* ---- Free terms ---- */
+
+static int refit_terms(search *s, const lab_candidate *base, lab_candidate *best, lab_error *error)
+{
+  on_progress(s, "trying free terms");
+  return lab_refit_free_terms(base, s->term, s->n_terms, best, error);
+}
+
+/* The best free term beside a candidate, if its score passes.  Out: best, fitted or not */
+static int find_term(search *s, const lab_candidate *base, lab_candidate *best, lab_error *error)
+{
+  const lab_term_score *t = s->term;
+  lab_unknowns u = base->u;
+  lab_projection p;
+  int status = lab_projection_open(&u, &p, error);
+  best->quality.fitted = 0;
+  if (status == LAB_OK)
+    status = lab_score_free_terms(&p, s->term, &s->n_terms, error);
+  if (status == LAB_OK && s->n_terms > 0 && t->degrees > 0 &&
+      lab_free_term_p_value(&t->term, t->statistic, t->degrees) < s->result->level)
+    status = refit_terms(s, base, best, error);
+  lab_projection_close(&p);
+  return status;
+}
+
+/* The declared model with a free term takes the place of what was found. */
+static void take_term(search *s)
+{
+  s->beam[0] = s->free_term;
+  note_step(s->result, &s->beam[0]);
+  s->result->n_path = 1;
+  note_way(s->result, &s->beam[0]);
+}
+
+/* The free term beside what was found joins it, which may then be needless. */
+static int add_term(search *s, lab_error *error)
+{
+  const lab_candidate *with = &s->pool[0];
+  int enough;
+  note_step(s->result, with);
+  if (measure_gain(s, &enough, error))
+    return error->status;
+  if (!enough) {
+    s->result->small = with->u.rig.term[with->u.rig.n_terms - 1];
+    s->result->has_small = 1;
+    return LAB_OK;
+  }
+  s->beam[0] = *with;
+  if (remove_needless(s, error))
+    return error->status;
+  note_way(s->result, &s->beam[0]);
+  return LAB_OK;
+}
+
+/* ---- Rules ---- */
+
+static lab_facts facts_of(const search *s)
+{
+  const lab_candidate *best = &s->beam[0];
+  lab_facts f = {0};
+  int i;
+  f.round = s->round;
+  f.coarse = best->u.window > 0;
+  f.added = s->added;
+  f.declared = s->declared.quality;
+  f.best = best->quality;
+  f.n_found = best->n_found;
+  f.n_terms = best->u.rig.n_terms;
+  for (i = 0; i < best->n_found; i++)
+    f.found_term |= best->found[i].term >= 0;
+  f.free_term = s->free_term.quality;
+  if (s->has_extended)
+    f.extended = s->pool[0].quality;
+  f.excess = s->projection ? s->projection->excess : 0;
+  f.effect = s->best_effect;
+  f.term = s->n_terms > 0 ? s->term[0].statistic : 0;
+  return f;
+}
+
+static int act(search *s, int action, lab_error *error)
+{
+  switch (action) {
+  case LAB_DO_SCORE_TERMS:
+    return lab_score_free_terms(s->projection, s->term, &s->n_terms, error);
+  case LAB_DO_FIT_SCORED_TERM:
+    return refit_terms(s, &s->declared, &s->free_term, error);
+  case LAB_DO_FIT_TERM:
+    return find_term(s, &s->declared, &s->free_term, error);
+  case LAB_DO_FIT_TERM_BESIDE:
+    s->has_extended = 1;
+    return find_term(s, &s->beam[0], &s->pool[0], error);
+  case LAB_DO_ADD_EFFECT:
+    return add_effect(s, error);
+  case LAB_DO_ADD_TERM:
+    return add_term(s, error);
+  case LAB_DO_REMOVE_NEEDLESS:
+    return remove_needless(s, error);
+  case LAB_DO_EXCHANGE:
+    return exchange(s, error);
+  case LAB_DO_TAKE_TERM:
+    take_term(s);
+    break;
+  case LAB_DO_END_ROUNDS:
+    s->rounds_over = 1;
+    break;
+  case LAB_DO_END:
+    s->over = 1;
+    break;
+  }
+  return LAB_OK;
+}
+
+static int follow_rules(search *s, enum lab_phase phase, lab_error *error)
+{
+  int i, status = LAB_OK;
+  for (i = 0; status == LAB_OK && i < lab_rule_count && !s->over; i++) {
+    const lab_facts f = facts_of(s);
+    if (lab_rules[i].phase == phase && lab_rules[i].holds(&f))
+      status = act(s, lab_rules[i].action, error);
+  }
+  return status;
+}
+
+/* ---- The search ---- */
+
+/* What has a prior varies unseen from here on. */
+static int linearise(search *s, lab_error *error)
+{
+  if (s->declared.u.window > 0) /* an instant moves whole slips */
+    return LAB_OK;
+  if (lab_nuisance_open(&s->declared.u, &s->nuisance, error))
+    return error->status;
+  return lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
+}
+
+/* The best model with all its values fitted; as it is where that fails. */
+static int unfold(search *s, lab_error *error)
+{
+  lab_candidate *best = &s->beam[0];
+  int status = LAB_OK;
+  if (!best->u.nuisance)
+    return status;
+  status = lab_nuisance_return(&best->u, error);
+  if (status != LAB_OK)
+    return status;
+  s->without = *best;
+  best->u.until = 0; /* this one fit belongs to the answer */
+  status = lab_candidate_fit(best, lab_cpu_is_spent(s->declared.u.until) ? 1 : LAB_ROUNDS_ALL, error);
+  if (status == LAB_NUMERIC) {
+    *best = s->without;
+    status = LAB_OK;
+  }
+  best->u.until = s->declared.u.until;
+  s->result->path[s->result->n_path - 1].rig = best->u.rig;
+  return status;
+}
+
+/* A model about the same values as another: what the nuisance holds is where it is there. */
+static int move_to(const lab_nuisance *h, lab_candidate *c, lab_error *error)
+{
+  int k, status;
+  if (!c->quality.fitted)
+    return LAB_OK;
+  c->u.nuisance = h;
+  for (k = 0; k < h->n; k++)
+    if (h->of[k].kind == LAB_UNKNOWN_PARAM && h->of[k].run == LAB_ALL_RUNS)
+      *pneu_param_at(&c->u.rig.params, h->of[k].index) = (pneu_real)h->of[k].value;
+  lab_unknowns_take(&c->u);
+  lab_unknowns_count(&c->u);
+  status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+static int linearise_again(search *s, lab_error *error)
+{
+  lab_nuisance h;
+  int i, status = unfold(s, error);
+  if (status != LAB_OK)
+    return status;
+  status = lab_nuisance_open(&s->beam[0].u, &h, error);
+  lab_nuisance_close(&s->nuisance);
+  s->nuisance = h;
+  s->beam[0].u.nuisance = &s->nuisance;
+  if (status == LAB_OK)
+    status = lab_candidate_fit(&s->beam[0], LAB_ROUNDS_ALL, error);
+  for (i = 1; status == LAB_OK && i < s->n_beam; i++)
+    status = move_to(&s->nuisance, &s->beam[i], error);
+  if (status == LAB_OK)
+    status = move_to(&s->nuisance, &s->free_term, error);
+  return status == LAB_OK ? move_to(&s->nuisance, &s->declared, error) : status;
+}
+
+static int search_all(search *s, lab_error *error)
+{
+  for (s->round = 0, s->added = 1; s->added && !s->rounds_over && s->round < s->options->max_effects; s->round++) {
+    double chi2;
+    if (advance(s, error))
+      return error->status;
+    if (s->added && s->nuisance.n > 0 && linearise_again(s, error))
+      return error->status;
+    chi2 = s->beam[0].quality.chi2;
+    if (follow_rules(s, LAB_PHASE_ROUND, error))
+      return error->status;
+    if (s->over)
+      return LAB_OK;
+    if (s->beam[0].quality.chi2 != chi2)
+      note_way(s->result, &s->beam[0]);
+  }
+  return follow_rules(s, LAB_PHASE_END, error);
+}
+
+/* The search from a declared model, fitted, in the view that the unknowns have.
+ * Out:     best    with what was added
+ *          result  all but the errors, the fit and what was found */
+static int search_from(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
+                       lab_candidate *best, lab_error *error)
+{
+  search *s = calloc(1, sizeof *s);
+  int status;
+  if (!s)
+    return lab_fail_memory(error, "the search");
+  s->options = options;
+  s->result = result;
+  s->declared.u = *u;
+  status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
+  if (status == LAB_OK) {
+    note_way(result, &s->declared);
+    status = linearise(s, error);
+  }
+  if (status == LAB_OK) {
+    s->beam[0] = s->declared;
+    s->n_beam = 1;
+    note_step(result, &s->declared);
+    status = search_all(s, error);
+  }
+  if (status == LAB_NUMERIC && lab_cpu_is_spent(u->until))
+    status = s->beam[0].quality.fitted ? LAB_OK : status;
+  if (status == LAB_OK)
+    status = unfold(s, error);
+  if (status == LAB_OK) {
+    lab_facts f;
+    drop_neutral(&s->beam[0]);
+    f = facts_of(s);
+    *best = s->beam[0];
+    result->verdict = lab_decide_verdict(&f);
+  }
+  lab_nuisance_close(&s->nuisance);
+  free(s);
+  return status;
+}
+
+/* What a search makes of the logs. */
+typedef struct finding {
+  lab_unknowns declared; /* fitted, with what is held */
+  lab_candidate best;
+  double gain; /* of chi-square, by tolerances after the search */
+  lab_search_result result;
+} finding;
+
+/* The search from the declared values as they stand; what it finds is then fitted with tolerances. */
+static int search_exactly(const lab_unknowns *u, const lab_search_options *options, finding *f, lab_error *error)
+{
+  if (search_from(u, options, &f->result, &f->best, error))
+    return error->status;
+  if (!lab_is_noise(&f->best.quality) || f->best.n_found == 0)
+    return LAB_OK;
+  f->gain = f->best.quality.chi2;
+  if (lab_unknowns_hold(&f->best.u, error) || lab_candidate_fit(&f->best, LAB_ROUNDS_ALL, error))
+    return error->status;
+  f->gain -= f->best.quality.chi2;
+  return LAB_OK;
+}
+
+/* Whether a search that explains the logs by effects needs no deviations beside. */
+static int is_enough(const finding *f)
+{
+  return f->result.verdict == LAB_VERDICT_EFFECT && f->gain < lab_constant(LAB_DEVIATIONS_GAIN);
+}
+
+/* Whether a search has explained the logs. */
+static int explains(const finding *f)
+{
+  return f->best.n_found > 0 && lab_is_noise(&f->best.quality);
+}
+
+/* When to stop where there is an answer already: after as long again, and a second. */
+static double enough(double until, double start)
+{
+  const double now = lab_cpu_time(), end = now + (now - start) + 1;
+  return until > 0 ? fmin(until, end) : end;
+}
+
+/* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
+ * something may be missing from a rig that is as declared: if an effect explains them and needs no deviations beside,
+ * none are looked for; else the better model of the two searches is the answer.
+ * In:      u      the declared model, fitted
+ * In/out:  whole  with the errors of that; then what is taken for the answer */
+static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, finding *whole, lab_error *error)
+{
+  const double start = lab_cpu_time();
+  finding *exact = malloc(sizeof *exact);
+  int status, is_exact = 0;
+  if (!exact)
+    return lab_fail_memory(error, "the search");
+  *exact = *whole;
+  whole->best.u = *u;
+  status = lab_unknowns_hold(&whole->best.u, error);
+  if (status == LAB_OK && lab_candidate_fit(&whole->best, LAB_ROUNDS_ALL, error) == LAB_WORLD)
+    status = LAB_WORLD;
+  whole->declared = whole->best.u;
+  if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
+    status = search_exactly(u, options, exact, error);
+    is_exact = status == LAB_OK && explains(exact);
+  }
+  if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
+    if (is_exact)
+      whole->declared.until = enough(u->until, start);
+    status = search_from(&whole->declared, options, &whole->result, &whole->best, error);
+    is_exact = is_exact && (status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic);
+  }
+  if (is_exact) {
+    *whole = *exact;
+    status = LAB_OK;
+  }
+  whole->best.u.until = u->until;
+  free(exact);
+  return status;
+}
+
+/* The search seen coarsely, if the log is rough.  Out: done, 1 if it left only noise */
+static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
+                           lab_candidate *best, int *done, lab_error *error)
+{
+  lab_unknowns coarse = *u;
+  *done = 0;
+  if (lab_unknowns_sticks_and_slips(u, &result->window, error))
+    return error->status;
+  if (result->window == 0)
+    return LAB_OK;
+  lab_unknowns_view(&coarse, result->window);
+  if (search_from(&coarse, options, result, best, error))
+    return error->status;
+  *done = best->n_found > 0 && lab_is_noise(&best->quality);
+  if (!*done) {
+    result->scores.n = 0;
+    result->n_steps = result->n_listed = result->n_path = 0;
+    result->window = 0;
+  }
+  return LAB_OK;
+}
+
+void lab_search_options_default(lab_search_options *options)
+{
+  memset(options, 0, sizeof *options);
+  options->alpha = lab_constant(LAB_ALPHA);
+  options->min_gain = lab_constant(LAB_MIN_GAIN);
+  options->max_effects = LAB_EFFECTS_MAX;
+}
+
+int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_result *result, lab_error *error)
+{
+  const int status = lab_loop_errors(u, stage == LAB_STAGE_BEFORE ? &result->before : &result->after, error);
+  return status == LAB_OK ? lab_unknowns_residual_stats(u, result->left[stage], error) : status;
+}
+
+int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_search_result *result, lab_error *error)
+{
+  finding *f = calloc(1, sizeof *f);
+  int done = 0, status;
+  if (!f)
+    return lab_fail_memory(error, "the search");
+  status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
+  if (status == LAB_OK)
+    status = search_coarsely(u, options, &f->result, &f->best, &done, error);
+  if (status == LAB_OK && !done)
+    status = search_tolerantly(u, options, f, error);
+  if (status == LAB_OK) {
+    *u = f->best.u;
+    *result = f->result;
+    result->n_found = f->best.n_found;
+    memcpy(result->found, f->best.found, sizeof result->found);
+    result->cut_short = lab_cpu_is_spent(u->until);
+    status = lab_unknowns_intervals(u, &result->fit, error);
+    if (status == LAB_OK)
+      status = lab_deviations_forget(u, &f->best.quality.chi2, &result->fit, error);
+    if (result->n_path > 0)
+      result->path[result->n_path - 1].rig = u->rig;
+    lab_unknowns_view(u, 0);
+  }
+  if (status == LAB_OK)
+    status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
+  free(f);
+  return status;
+}
+
+/* ---- Once more without the values that stand alone ---- */
+
+/* What a search makes of a bench. */
+typedef struct outcome {
+  lab_unknowns declared, completed;
+  lab_search_result result;
+} outcome;
+
+/* How much there is to explain or to doubt: each effect counts, a free term more than all of these, and not to know
+ * most. */
+static int doubt(const lab_search_result *result)
+{
+  static const int of_verdict[] = {
+      [LAB_VERDICT_UNLISTED] = LAB_EFFECTS_MAX, [LAB_VERDICT_UNDECIDED] = 2 * LAB_EFFECTS_MAX + 1};
+  return of_verdict[result->verdict] + result->n_found;
+}
+
+/* Whether the values can be accidents. What an effect does comes back with every change of the command, or with every
+ * other one, and may last a row where rows are far between. */
+static int can_be_accidents(const lab_outliers *out, const lab_logs *bench)
+{
+  size_t changes = 0;
+  int i;
+  for (i = 0; i < bench->n; i++)
+    changes += bench->run[i].n_instants;
+  return out->n > 0 && (out->n_soon == 0 || (double)out->n_soon < lab_constant(LAB_ACCIDENT_SHARE) * (double)changes);
+}
+
+static int run_again(const lab_search_options *options, outcome *o, lab_error *error)
+{
+  lab_unknowns_view(&o->declared, 0); /* counts the values that are left */
+  if (lab_unknowns_fit(&o->declared, LAB_ROUNDS_ALL, NULL, error))
+    return error->status;
+  o->completed = o->declared;
+  return lab_search_run(&o->completed, options, &o->result, error);
+}
+
+int lab_search_without_outliers(const lab_search_options *options, lab_logs *bench, lab_unknowns *declared,
+                                lab_unknowns *completed, lab_search_result *result, lab_error *error)
+{
+  lab_outliers out = {0};
+  outcome *o = NULL;
+  int status;
+  if (doubt(result) == 0 || result->window > 0 || result->cut_short)
+    return LAB_OK;
+  status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
+  if (status == LAB_OK && can_be_accidents(&out, bench)) {
+    o = malloc(sizeof *o);
+    status = o ? LAB_OK : lab_fail_memory(error, "a search without outliers");
+  }
+  if (o) {
+    o->declared = *declared;
+    status = run_again(options, o, error);
+  }
+  result->cut_short = o && o->result.cut_short;
+  if (o && status == LAB_OK && !result->cut_short && doubt(&o->result) < doubt(result)) {
+    *declared = o->declared;
+    *completed = o->completed;
+    *result = o->result;
+    lab_limitations_join(&bench->limitations, &out.limitations);
+  } else {
+    lab_outliers_put_back(&out);
+  }
+  free(o);
+  lab_outliers_free(&out);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}

@@ -1,0 +1,199 @@
+/* How the strokes of the models differ: Eq. (1) of the paper, what the spring and the air do without each other, and
+ * what makes a difference between the directions. */
+#include <math.h>
+#include <stdio.h>
+
+#include <unistd.h>
+
+#include "../lab/log/log.h"
+#include "products.h"
+#include "hypotheses.h"
+#include "speeds.h"
+#include "stroke.h"
+
+/* ---- Eq. (1): a first-order lag up, an integrator down ---- */
+
+static const double seen = 0.01; /* [1] of the travel: what a ramp may leave and still pass for the stroke */
+
+static const char edge_header[] = "actuator,gas,flow,stroke,lag_T_s,lag_rms,ramp_T_s,ramp_rms,shape";
+
+static void add_edge(table *t, const char *actuator, const char *gas, const char *flow, const char *stroke,
+                     const lab_edge *e)
+{
+  double lag_rms, ramp_rms;
+  const double lag = lab_asymmetry_lag_time(e, &lag_rms), ramp = lab_asymmetry_ramp_time(e, &ramp_rms);
+  table_row(t, "ssssggggs", actuator, gas, flow, stroke, lag, lag_rms, ramp, ramp_rms,
+            ramp_rms <= fmax(seen, lag_rms) ? "ramp" : "lag");
+}
+
+static int edge_rows(const study_cell *c, table *t, lab_error *error)
+{
+  stroke_pair pair;
+  const int status = stroke_sample(&c->rig->params, &c->rig->params, &c->laws, &pair, error);
+  if (status == LAB_OK) {
+    const lab_edge rise = stroke_edge(&pair.up), fall = stroke_edge(&pair.down);
+    add_edge(t, c->rig->name, c->gas, c->flow, "rise", &rise);
+    add_edge(t, c->rig->name, c->gas, c->flow, "fall", &fall);
+  }
+  stroke_pair_free(&pair);
+  return status;
+}
+
+const study_tables edges = {{STUDY_ALL, STUDY_EVERY_LAW}, edge_rows, {{.file = "eq1.csv", .header = edge_header}}};
+
+static const char folder_name[] = "damadics-servomotor-static-step";
+
+static const struct {
+  const char *file, *stroke;
+} steps[] = {{"step_up_fig6.csv", "rise"}, {"step_down_fig7.csv", "fall"}};
+
+/* The falling record goes on below 0, by an offset of the sensor or the smoothing of the chart: its travel ends there.
+ */
+static size_t rows_of_travel(const lab_log *log)
+{
+  const double *x = log->value[LAB_CHANNEL_X];
+  size_t n = 1;
+  while (n < log->n && !(x[n - 1] > 0 && x[n] <= 0))
+    n++;
+  return n;
+}
+
+static int add_measured(table *t, const lab_rig *rig, const char *path, const char *stroke, lab_error *error)
+{
+  lab_log log;
+  const int status = lab_log_read(path, &rig->log, rig->params.ambient_pressure, &log, error);
+  if (status == LAB_OK) {
+    const lab_edge edge = {rows_of_travel(&log), log.value[LAB_CHANNEL_TIME], log.value[LAB_CHANNEL_X]};
+    add_edge(t, rig->name, "", "", stroke, &edge);
+  }
+  lab_log_free(&log);
+  return status;
+}
+
+int edges_measured(const study *s, lab_error *error)
+{
+  char folder[STUDY_PATH_TEXT], rig_path[STUDY_PATH_TEXT + 64], path[2][STUDY_PATH_TEXT + 64];
+  lab_rig rig;
+  int i, status;
+  table t;
+  for (i = 0; i < 2; i++) {
+    snprintf(path[i], sizeof path[i], "%s/%s/%s", s->measured, folder_name, steps[i].file);
+    if (access(path[i], R_OK)) {
+      fprintf(stderr, "sweep: %s is absent from %s: eq1_measured.csv stays as it is\n", folder_name, s->measured);
+      return LAB_OK;
+    }
+  }
+  study_folder(s, folder);
+  snprintf(rig_path, sizeof rig_path, "%s/measured/damadics-steps.cfg", folder);
+  status = lab_rig_read(rig_path, &rig, error);
+  table_open(&t, edge_header);
+  for (i = 0; i < 2 && status == LAB_OK; i++)
+    status = add_measured(&t, &rig, path[i], steps[i].stroke, error);
+  if (status == LAB_OK)
+    status = study_save(s, "eq1_measured.csv", &t, error);
+  table_close(&t);
+  return status;
+}
+
+/* ---- Spring and air: each without the other ---- */
+
+static int spring_and_air_rows(const study_cell *c, table *t, lab_error *error)
+{
+  /* 1: there; with neither there a breath of air would do for the whole stroke */
+  static const struct {
+    int spring, air;
+  } rows[] = {{1, 1}, {0, 1}, {1, 0}};
+  size_t i;
+  for (i = 0; i < sizeof rows / sizeof *rows; i++) {
+    pneu_params p = c->rig->params;
+    pneu_laws laws = c->laws;
+    speed_pair pair;
+    if (!rows[i].spring)
+      hypotheses[H1_RATE].without(&p, &laws);
+    if (!rows[i].air)
+      hypotheses[H6_AIR_PROCESS].without(&p, &laws);
+    if (speeds_measure(&p, &laws, &pair, error))
+      return error->status;
+    table_row(t, "sssggggggg", c->rig->name, c->gas, c->flow, (double)rows[i].spring, (double)rows[i].air,
+              pair.shape.asymmetry, pair.shape.duration_ratio, speed_max(&pair.up) / speed_min(&pair.up),
+              speed_max(&pair.down) / speed_min(&pair.down), pair.shape.asymmetry_signed);
+  }
+  return LAB_OK;
+}
+
+const study_tables spring_and_air = {
+    {STUDY_ALL, STUDY_EVERY_LAW},
+    spring_and_air_rows,
+    {{.file = "spring_and_air.csv",
+      .header = "actuator,gas,flow,spring,air,asymmetry,duration_ratio,rise_speed_ratio,"
+                "fall_speed_ratio,asymmetry_signed"}}};
+
+/* ---- What differs between the directions ----
+ *
+ * Another spring rate on the way down than on the way up, as the paper varies it in Fig. 15 (hypothesis 1), and a vent
+ * unlike the fill (hypothesis 5). Table A1 has neither, so that there is nothing to take away; here each is added. */
+
+/* A parameter of the way down, changed by its ratio to that of the way up. */
+static void other_rate(pneu_params *p, double ratio)
+{
+  p->spring_preload /= ratio; /* the force at rest stays */
+  p->spring_rate *= ratio;
+}
+
+static void other_orifice(pneu_params *p, double ratio)
+{
+  p->vent_area *= ratio;
+}
+
+enum { RATIOS = 7 };
+
+static const struct {
+  const char *name;
+  void (*apply)(pneu_params *p, double ratio);
+  double ratio[RATIOS]; /* 0 ends; the spring must let the supply fill the chamber before it falls */
+} differences[] = {{"spring_rate", other_rate, {0.25, 0.5, 0.8, 1, 1.25}},
+                   {"orifice", other_orifice, {0.25, 0.5, 0.8, 1, 1.25, 2, 4}}};
+enum { ORIFICE = 1 };
+
+static int measure_difference(const study_cell *c, int which, double ratio, lab_asymmetry *r, lab_error *error)
+{
+  pneu_params down = c->rig->params;
+  differences[which].apply(&down, ratio);
+  return stroke_measure(&c->rig->params, &down, &c->laws, r, error);
+}
+
+static void add_difference(table *t, const study_cell *c, const char *what, double ratio, const lab_asymmetry *r)
+{
+  table_row(t, "ssssgggg", c->rig->name, c->gas, c->flow, what, ratio, r->duration_ratio, r->asymmetry,
+            r->asymmetry_signed);
+}
+
+/* The last row is that of the orifice that makes both strokes last equally long: the fall takes the longer the smaller
+ * the vent is, so that a few corrections do. */
+static int direction_rows(const study_cell *c, table *t, lab_error *error)
+{
+  double ratio = 1;
+  lab_asymmetry r = {.duration_ratio = 1};
+  int which, i;
+  for (which = 0; which < 2; which++)
+    for (i = 0; i < RATIOS && differences[which].ratio[i] > 0; i++) {
+      if (measure_difference(c, which, differences[which].ratio[i], &r, error))
+        return lab_fail_in(error, "%s", differences[which].name);
+      add_difference(t, c, differences[which].name, differences[which].ratio[i], &r);
+    }
+  for (i = 0; i < 20; i++) {
+    if (measure_difference(c, ORIFICE, ratio, &r, error))
+      return error->status;
+    if (fabs(r.duration_ratio - 1) < 1e-9)
+      break;
+    ratio *= r.duration_ratio;
+  }
+  add_difference(t, c, "orifice for equal times", ratio, &r);
+  return LAB_OK;
+}
+
+const study_tables directions = {
+    {STUDY_ALL, STUDY_EVERY_LAW},
+    direction_rows,
+    {{.file = "directions.csv",
+      .header = "actuator,gas,flow,what,down_over_up,duration_ratio,asymmetry,asymmetry_signed"}}};

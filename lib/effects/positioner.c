@@ -1,0 +1,87 @@
+/* A positioner in the loop: the command is a set position, and the opening follows from how far the stem is off it.
+ *
+ *   e = s - (x (1 + span) + zero)/stroke,   u = clip(gain (e + I + T_d e'), -1, 1),   I' = e/T_i,
+ *
+ * s the set position in shares of the stroke, which is pneu_input.u; span, zero and a wider dead band are effects of
+ * their own. u is 0 while |e| is within the dead band, -1 below cutoff_low and 1 above cutoff_high. What is 0 is not
+ * there. e' is that of the stem alone: s holds and then jumps.
+ * The state is I, 0 at rest. It stands still within the dead band, beyond the cut-offs and while u is clipped, lest it
+ * wind up. Without pneu_input.set_position the command is u itself, and I stands still.
+ * What would jump follows a straight line: u at the edge of the dead band, over EDGE of the stroke, and the rate of I
+ * where u is clipped, over CLIPPED of its opening. A stem that a leak pushes out of the band is then held by a steady
+ * opening in this width, where a jump would open and shut without end.
+ * Size: gain 10 to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
+#include "../internal.h"
+
+#ifdef PNEU_SINGLE
+#define EDGE PNEU_C(2e-4) /* of the stroke */
+#else
+#define EDGE 1e-5
+#endif
+#define CLIPPED PNEU_C(1e-3)
+
+enum { GAIN, INTEGRAL_TIME, DERIVATIVE_TIME, DEAD_BAND, CUTOFF_LOW, CUTOFF_HIGH };
+
+static const pneu_param_info params[] = {
+    {"gain", "1", 0, PNEU_C(1e4), 20, 0, 0, "opening over error in shares of the stroke; 0: there is no positioner"},
+    {"integral_time", "s", 0, PNEU_C(1e6), 0, 0, 1, "time in which the integral of an error adds as much; 0: none"},
+    {"derivative_time", "s", 0, PNEU_C(100.0), 0, 0, 1, "time by which the error is foreseen"},
+    {"dead_band", "1", 0, PNEU_C(0.5), 0, 0, 1,
+     "error, in shares of the stroke, either way, up to which both orifices are shut"},
+    {"cutoff_low", "1", 0, 1, 0, 0, 1, "set position, share of the stroke, below which it vents fully; 0: none"},
+    {"cutoff_high", "1", 0, PNEU_C(2.0), 0, 0, 1,
+     "set position, share of the stroke, above which it fills fully; 0: none"}};
+
+static pneu_real clip(pneu_real value, pneu_real low, pneu_real high)
+{
+  return value < low ? low : value > high ? high : value;
+}
+
+/* Share of the opening that the dead band lets through. */
+static pneu_real outside(pneu_real error, pneu_real band)
+{
+  return band > 0 ? clip((PNEU_M(fabs)(error) - band) / EDGE, 0, 1) : 1;
+}
+
+static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+{
+  const pneu_real stroke = t->model->p.stroke, set = t->asked, scale = (1 + t->span) / stroke;
+  const pneu_real error = set - t->x * scale - t->zero / stroke;
+  const pneu_real u = param[GAIN] * (error + state[0] - param[DERIVATIVE_TIME] * t->v * scale);
+  const pneu_real passes = outside(error, param[DEAD_BAND] + t->dead_band);
+  rate[0] = 0;
+  if (!t->input->set_position || t->model->law.pressure_input)
+    return;
+  if (param[CUTOFF_LOW] > 0 && set < param[CUTOFF_LOW])
+    t->asked = -1;
+  else if (param[CUTOFF_HIGH] > 0 && set > param[CUTOFF_HIGH])
+    t->asked = 1;
+  else {
+    t->asked = clip(u, -1, 1) * passes;
+    if (param[INTEGRAL_TIME] > 0)
+      rate[0] = error / param[INTEGRAL_TIME] * passes * clip((1 - PNEU_M(fabs)(u)) / CLIPPED, 0, 1);
+  }
+  t->opening = t->asked;
+}
+
+/* A vessel has no position; a set pressure is no set position. */
+static int acts(const pneu_model *model, const pneu_real *param)
+{
+  return param[GAIN] > 0 && model->p.stroke > 0 && !(model->p.proportional_band > 0);
+}
+
+const pneu_effect pneu_effect_record_positioner = {
+    "positioner",
+    "A positioner opens the transducer by how far the stem is off its set position.",
+    "PID action as in IEC 60050-351; dead band and tight shut-off as in IEC 61514",
+    "command",
+    "declared, never looked for: without it a set position says nothing",
+    PNEU_STAGE_POSITIONER,
+    params,
+    add,
+    NULL,
+    acts,
+    NULL};
+
+const char pneu_effect_sentence_positioner[] =
+    "A positioner opens the transducer by {size} of itself for each share of the stroke that the stem is off.";

@@ -1,0 +1,791 @@
+/* closeloop as a process on bad logs: a clear error or a stated limitation, never a confident wrong name.
+ * Run from the project's root, where the program is. */
+#include "../badlog.h"
+#include "../program.h"
+
+#include <sys/wait.h>
+
+#include <cjson/cJSON.h>
+
+static const char *const header = "t [s],u [1],p [kPa],x [mm]";
+static bad_log sound;
+
+static int open_all(void **state)
+{
+  sound = bad_log_of(0);
+  return scratch_open(state);
+}
+
+/* Run closeloop with DIR "out" in the scratch folder.
+ * Out:     text  its messages on both streams, to be freed
+ * Returns: exit status */
+static int run(const char *rig, const char *log, char **text)
+{
+  char command[2048];
+  int status;
+  snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --out '%s/out' >'%s/said.txt' 2>&1", rig, log,
+           scratch_folder, scratch_folder);
+  scratch_remove(scratch_path("out"));
+  status = system(command);
+  assert_true(WIFEXITED(status));
+  *text = scratch_read(scratch_path("said.txt"));
+  return WEXITSTATUS(status);
+}
+
+/* The log is refused with LAB_DATA and these words, and nothing is written. */
+static void assert_refused_by(const char *rig, const char *log, const char *place, const char *words)
+{
+  char *text;
+  check_note("%s", words);
+  assert_int_equal(run(rig, log, &text), 1);
+  assert_contains(text, place);
+  assert_contains(text, words);
+  assert_false(scratch_exists(scratch_path("out/report.json")));
+  free(text);
+}
+
+static void assert_refused(const char *log, const char *place, const char *words)
+{
+  assert_refused_by(bad_rig("rig.cfg", ""), log, place, words);
+}
+
+static void assert_spoiled_is_refused(const bad_log *b, const char *place, const char *words)
+{
+  assert_refused(bad_write("bad.csv", header, b), place, words);
+}
+
+/* The run ends with this verdict and a limitation with these words. */
+static void assert_limited(const char *rig, const bad_log *b, const char *verdict, const char *words)
+{
+  char *text, *report, all[4096] = "";
+  const cJSON *item;
+  cJSON *json;
+  check_note("%s", words);
+  if (run(rig, bad_write("bad.csv", header, b), &text))
+    fail_msg("%s", text);
+  report = scratch_read(scratch_path("out/report.json"));
+  json = cJSON_Parse(report);
+  assert_non_null(json);
+  assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(json, "verdict")), verdict);
+  cJSON_ArrayForEach(item, cJSON_GetObjectItem(json, "limitations"))
+  {
+    strncat(all, cJSON_GetStringValue(item), sizeof all - strlen(all) - 2);
+    strcat(all, "\n");
+  }
+  assert_contains(all, words);
+  if (!strcmp(verdict, "undecided"))
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(json, "found")), 0);
+  cJSON_Delete(json);
+  free(report);
+  free(text);
+}
+
+static void test_closeloop__of_this_build__is_sanitized_as_its_test(void **state)
+{
+  (void)state;
+  assert_sanitized_as_its_test(PROGRAMS "/closeloop");
+}
+
+/* ---- The sound log ---- */
+
+static void test_closeloop__sound_log__has_no_limitation(void **state)
+{
+  char *text, *report;
+  (void)state;
+  if (run(bad_rig("rig.cfg", ""), bad_write("good.csv", header, &sound), &text))
+    fail_msg("%s", text);
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_contains(report, "\"verdict\":\t\"none\"");
+  assert_contains(report, "\"limitations\":\t[]");
+  free(report);
+  free(text);
+}
+
+/* ---- Bytes ---- */
+
+static void test_closeloop__garbage__is_refused(void **state)
+{
+  unsigned char bytes[8192];
+  unsigned seed = 3;
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof bytes; i++) {
+    seed = seed * 1664525u + 1013904223u;
+    bytes[i] = (unsigned char)(seed >> 24);
+  }
+  assert_refused(scratch_bytes("bad.csv", bytes, sizeof bytes), "bad.csv", "found a 0 byte");
+  for (i = 0; i < sizeof bytes; i++)
+    bytes[i] |= 1;
+  assert_refused(scratch_bytes("bad.csv", bytes, sizeof bytes), "bad.csv:1", "expected");
+}
+
+static void test_closeloop__utf16__is_refused(void **state)
+{
+  static const char text[] = "\xFF\xFEt\0 \0[\0s\0]\0,\0u\0 \0[\0"
+                             "1\0]\0\n\0";
+  (void)state;
+  assert_refused(scratch_bytes("bad.csv", text, sizeof text - 1), "bad.csv:1", "UTF-16");
+}
+
+static void test_closeloop__zero_bytes_in_a_row__name_the_line(void **state)
+{
+  static const char text[] = "t [s],u [1],p [kPa],x [mm]\n0,0,0,0\n0.01,0,\0\0,0\n";
+  (void)state;
+  assert_refused(scratch_bytes("bad.csv", text, sizeof text - 1), "bad.csv:3", "0 byte");
+}
+
+static void test_closeloop__empty_missing_or_folder__is_refused(void **state)
+{
+  (void)state;
+  assert_refused(scratch_text("bad.csv", ""), "bad.csv", "empty");
+  assert_refused(scratch_text("bad.csv", "t [s],u [1],p [kPa]\n"), "bad.csv", "found none");
+  assert_refused(scratch_path("nothere.csv"), "nothere.csv", "no such file");
+  assert_refused(scratch_folder, scratch_folder, "folder");
+}
+
+static void test_closeloop__endless_line__is_refused(void **state)
+{
+  enum { SIZE = 1 << 22 };
+  char *text = malloc(SIZE);
+  (void)state;
+  assert_non_null(text);
+  memset(text, '7', SIZE);
+  assert_refused(scratch_bytes("bad.csv", text, SIZE), "bad.csv:1", "this is not a log");
+  free(text);
+}
+
+static void test_closeloop__dos_lines_and_mark__are_read(void **state)
+{
+  char *text, *crlf = calloc(1, 1 << 20), *said;
+  char *to = crlf;
+  const char *from;
+  (void)state;
+  text = scratch_read(bad_write("good.csv", header, &sound));
+  to += sprintf(to, "\xEF\xBB\xBF");
+  for (from = text; *from; from++) {
+    if (*from == '\n')
+      *to++ = '\r';
+    *to++ = *from;
+  }
+  if (run(bad_rig("rig.cfg", ""), scratch_text("dos.csv", crlf), &said))
+    fail_msg("%s", said);
+  assert_contains(said, "Nothing is missing");
+  free(said);
+  free(crlf);
+  free(text);
+}
+
+/* ---- Rows ---- */
+
+static void test_closeloop__cut_off_row__names_the_line(void **state)
+{
+  char *text;
+  (void)state;
+  text = scratch_read(bad_write("bad.csv", header, &sound));
+  *strrchr(text, ',') = '\0';
+  assert_refused(scratch_text("bad.csv", text), "bad.csv:1002", "expected 4 fields, found 3");
+  *strrchr(text, ',') = '\0';
+  strcat(text, ",-");
+  assert_refused(scratch_text("bad.csv", text), "bad.csv:1002", "expected a number, found \"-\"");
+  free(text);
+}
+
+static void test_closeloop__cut_off_header__is_refused(void **state)
+{
+  (void)state;
+  assert_refused(bad_write("bad.csv", "t [s],u [1],p [kP", &sound), "bad.csv:1", "p [kP");
+  assert_refused(bad_write("bad.csv", "t [s],u [1],p [kPa]", &sound), "bad.csv:2", "expected 3 fields, found 4");
+  assert_refused(bad_write("bad.csv", "t [s],u,p [kPa],x [mm]", &sound), "bad.csv:1", "column \"u\" has no unit");
+}
+
+static void test_closeloop__last_value_cut_short__is_left_out(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  b.n = 300;    /* in the middle of a hold at high pressure */
+  b.p[299] = 3; /* of 3.. hundred kPa */
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "the last value");
+}
+
+/* ---- Time ---- */
+
+static void swap(double *a, double *b)
+{
+  const double keep = *a;
+  *a = *b;
+  *b = keep;
+}
+
+static void test_closeloop__times_out_of_order__name_the_line(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  swap(&b.t[500], &b.t[700]);
+  assert_spoiled_is_refused(&b, "bad.csv:503", "channel t: expected more than");
+  b = sound;
+  b.t[500] = b.t[499];
+  assert_spoiled_is_refused(&b, "bad.csv:502", "channel t: expected more than");
+  b = sound;
+  b.t[500] = (double)NAN;
+  assert_spoiled_is_refused(&b, "bad.csv:502", "channel t: expected a number, found a gap");
+  for (b.n = 0; b.n < BAD_ROWS; b.n++)
+    b.t[b.n] = 1;
+  assert_spoiled_is_refused(&b, "bad.csv:3", "channel t: expected more than");
+}
+
+static void test_closeloop__shuffled_rows__are_refused(void **state)
+{
+  bad_log b = sound;
+  unsigned seed = 5;
+  size_t i;
+  (void)state;
+  for (i = b.n - 1; i > 0; i--) {
+    size_t k;
+    seed = seed * 1664525u + 1013904223u;
+    k = (seed >> 8) % (i + 1);
+    swap(&b.t[i], &b.t[k]);
+    swap(&b.u[i], &b.u[k]);
+    swap(&b.p[i], &b.p[k]);
+    swap(&b.x[i], &b.x[k]);
+  }
+  assert_spoiled_is_refused(&b, "bad.csv:", "channel t: expected more than");
+}
+
+/* Times renumbered over rows in disorder: nothing is left for the reader to see. */
+static void test_closeloop__shuffled_values__do_not_match_the_command(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++) {
+    b.p[i] = sound.p[(i * 389) % b.n];
+    b.x[i] = sound.x[(i * 389) % b.n];
+  }
+  {
+    char *text;
+    const int status = run(bad_rig("rig.cfg", ""), bad_write("bad.csv", header, &b), &text);
+    assert_true(status == 1 || strstr(text, "Undecided"));
+    free(text);
+  }
+}
+
+static void test_closeloop__jump_in_time__is_a_limitation(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 20; i < b.n; i++) /* before the first command */
+    b.t[i] += 60;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "no rows from t = 0.19 s to t = 60.2 s");
+}
+
+/* ---- Units ---- */
+
+static void test_closeloop__units_that_disagree__are_refused(void **state)
+{
+  static const struct slip {
+    const char *header, *words;
+  } slips[] = {
+      {"t [s],u [1],p [bar],x [mm]", "bar and kPa mixed up"},
+      {"t [s],u [1],p [psi],x [mm]", "psi and kPa mixed up"},
+      {"t [s],u [1],p [Pa],x [mm]", "Pa, kPa and MPa mixed up"},
+      {"t [s],u [1],p_abs [kPa],x [mm]", "gauge pressure in a column p_abs"},
+      {"t [s],u [1],p [kPa],x [m]", "m, mm and um mixed up"},
+      {"t [s],u [1],p [kPa],x [cm]", "mm and cm mixed up"},
+      {"t [s],u [1],p [kPa],x [um]", "m, mm and um mixed up"},
+      {"t [min],u [1],p [kPa],x [mm]", "slower"},
+      {"t [ms],u [1],p [kPa],x [mm]", "faster"},
+      {"t [s],u [1],x [kPa],p [mm]", "expected a unit like m"},
+      {"t [s],u [1],p [kg],x [mm]", "expected a unit like Pa"},
+  };
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof slips / sizeof slips[0]; i++)
+    assert_refused(bad_write("bad.csv", slips[i].header, &sound), "bad.csv", slips[i].words);
+}
+
+static void test_closeloop__pressure_in_bar_called_kPa__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = sound.p[i] / 100;
+  assert_spoiled_is_refused(&b, "bad.csv", "bar and kPa mixed up");
+}
+
+static void test_closeloop__position_in_cm_called_mm__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = sound.x[i] / 10;
+  assert_spoiled_is_refused(&b, "bad.csv", "mm and cm mixed up");
+}
+
+static void test_closeloop__absolute_called_gauge__is_undecided(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = sound.p[i] + 101.325;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "the column is p_abs");
+}
+
+static void test_closeloop__command_in_per_cent__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = 100 * sound.u[i];
+  assert_spoiled_is_refused(&b, "bad.csv:43", "is its unit %");
+}
+
+/* ---- Sensors ---- */
+
+static void test_closeloop__dead_pressure__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = 12.5;
+  assert_spoiled_is_refused(&b, "bad.csv", "channel p stays constant");
+}
+
+static void test_closeloop__dead_position__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = 0;
+  assert_spoiled_is_refused(&b, "bad.csv", "channel x stays constant");
+}
+
+static void test_closeloop__position_upside_down__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = 20 - sound.x[i];
+  assert_spoiled_is_refused(&b, "bad.csv", "x falls as p rises");
+}
+
+/* A clipped pressure stands still under an open orifice, as one does that leaks: it must not be called a leak. */
+static void test_closeloop__saturated_pressure__is_left_out_and_said(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = fmin(sound.p[i], 180);
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "stands at exactly 180 kPa, its largest value");
+}
+
+static void test_closeloop__saturated_position__is_left_out_and_said(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = fmin(sound.x[i], 9);
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "stands at exactly 9 mm, its largest value");
+}
+
+static void test_closeloop__spikes__are_left_out_and_said(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 57; i < b.n; i += 131)
+    b.p[i] += 150;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p are far from both neighbours");
+}
+
+static void test_closeloop__values_that_stand_alone__are_left_out_and_said(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 57; i < b.n; i += 131)
+    b.p[i] += 4;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p are isolated");
+}
+
+/* Beside a change of the command, where a table of the sensor's error, a flow or a gain would explain it. */
+static void test_closeloop__one_bad_value__brings_no_name(void **state)
+{
+  static const size_t row[] = {43, 44, 45};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++) {
+    bad_log b = sound;
+    b.p[row[i]] += 7;
+    assert_limited(bad_rig("rig.cfg", ""), &b, "none", "1 value of channel p is isolated");
+  }
+}
+
+/* Nothing is left out, and nothing decided. */
+static void assert_undecided_with_all(const bad_log *b)
+{
+  char *report;
+  assert_limited(bad_rig("rig.cfg", ""), b, "undecided", "More than noise is left");
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_null(strstr(report, "isolated"));
+  free(report);
+}
+
+/* What comes back with every command is no accident. */
+static void test_closeloop__bad_values_after_each_command__stay(void **state)
+{
+  static const size_t row[] = {44, 254, 404, 554, 724};
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof *row; i++)
+    b.p[row[i]] += 7;
+  assert_undecided_with_all(&b);
+}
+
+/* Where more than single values is beyond the model, what lasts a row may be real, too. */
+static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] += (i / 50) % 4 == 0 ? (i * 7919 % 13 < 6 ? 1.5 : -1.5) : 0;
+  for (i = 57; i < b.n; i += 131)
+    b.p[i] += 5;
+  assert_undecided_with_all(&b);
+}
+
+static void test_closeloop__coarse_steps__are_a_limitation(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = 4 * floor(sound.p[i] / 4 + 0.5);
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "p is recorded in steps of 4 kPa");
+}
+
+/* ---- Too little ---- */
+
+static void test_closeloop__too_few_rows__is_refused(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  b.n = 2;
+  assert_spoiled_is_refused(&b, "", "too short");
+}
+
+static void test_closeloop__short_log__is_undecided(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < 13; i++) { /* the first stroke, every 0.1 s */
+    b.t[i] = sound.t[35 + 10 * i];
+    b.u[i] = sound.u[35 + 10 * i];
+    b.p[i] = sound.p[35 + 10 * i];
+    b.x[i] = sound.x[35 + 10 * i];
+  }
+  b.n = 13;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "too few to name an effect");
+}
+
+static void test_closeloop__still_log__is_refused(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  b.n = 40; /* before the first command */
+  assert_spoiled_is_refused(&b, "", "nothing moves");
+}
+
+static void test_closeloop__part_of_a_stroke__is_a_limitation(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  while (b.n > 0 && b.x[b.n - 1] > 0.2 * 20)
+    b.n--;
+  for (b.n = 0; b.x[b.n] < 0.2 * 20; b.n++)
+    ;
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "of a stroke of 20 mm");
+}
+
+/* ---- Too much ---- */
+
+static void test_closeloop__measured_supply_that_is_no_input__is_said(void **state)
+{
+  const char *path = scratch_path("supply.csv");
+  FILE *file = fopen(path, "w");
+  char *said, *report;
+  size_t i;
+  (void)state;
+  assert_non_null(file);
+  fprintf(file, "%s,ps [kPa]\n", header);
+  for (i = 0; i < sound.n; i++)
+    fprintf(file, "%.3f,%g,%.7g,%.7g,%.7g\n", sound.t[i], sound.u[i], sound.p[i], sound.x[i],
+            400 + 5 * sin(sound.t[i]));
+  assert_int_equal(fclose(file), 0);
+  if (run(bad_rig("rig.cfg", ""), path, &said))
+    fail_msg("%s", said);
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_contains(report, "ps was measured and varies by 9.");
+  assert_contains(report, "inputs = ( \\\"ps\\\" )");
+  free(said);
+  free(report);
+}
+
+static void test_closeloop__many_rows__are_thinned_and_said(void **state)
+{
+  enum { MANY = 50001 };
+  static double t[MANY], u[MANY], p[MANY], x[MANY];
+  second_log log = {0};
+  char path[512], *text, *report;
+  FILE *file;
+  int i;
+  (void)state;
+  log.t = t;
+  log.u = u;
+  log.p = p;
+  log.x = x;
+  bad_run(0, 10.0 / (MANY - 1), &log);
+  snprintf(path, sizeof path, "%s", scratch_path("many.csv"));
+  file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < MANY; i++)
+    fprintf(file, "%.6f,%g,%.0f,%.7f\n", t[i], u[i], p[i], x[i]);
+  assert_int_equal(fclose(file), 0);
+  if (run(bad_rig("rig.cfg", ""), path, &text))
+    fail_msg("%s", text);
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_contains(report, "\"verdict\":\t\"none\"");
+  assert_contains(report, "16675 of 50001 rows are used, one in 3 and");
+  free(report);
+  free(text);
+}
+
+/* ---- Commands ---- */
+
+static void test_closeloop__command_of_wrong_sign__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = -sound.u[i];
+  assert_spoiled_is_refused(&b, "bad.csv:", "is its sign turned");
+}
+
+static void test_closeloop__no_command__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = 0;
+  assert_spoiled_is_refused(&b, "bad.csv:", "u never changes");
+}
+
+static void test_closeloop__command_of_another_test__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = sound.u[b.n - 1 - i];
+  assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
+}
+
+/* Rows of u moved by some seconds, either way. */
+static bad_log shifted(int rows)
+{
+  bad_log b = sound;
+  int i;
+  for (i = 0; i < (int)b.n; i++)
+    b.u[i] = i - rows < 0 ? 0 : sound.u[i - rows < (int)b.n ? i - rows : (int)b.n - 1];
+  return b;
+}
+
+static void test_closeloop__command_recorded_too_late__is_refused(void **state)
+{
+  bad_log b;
+  (void)state;
+  b = shifted(60);
+  assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
+  b = shifted(200);
+  assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
+}
+
+static void test_closeloop__one_stroke_before_its_command__is_refused(void **state)
+{
+  bad_log b = shifted(30);
+  (void)state;
+  b.n = 350;
+  assert_spoiled_is_refused(&b, "bad.csv", "before u says so");
+}
+
+/* The same changes at other instants, some before and some after those of the test. */
+static void test_closeloop__commands_at_other_instants__are_refused(void **state)
+{
+  static const double at[] = {0.402, 2.1, 4.4, 5.1, 7.6}, to[] = {1, 0, -1, 0.5, -0.5};
+  bad_log b = sound;
+  size_t i;
+  int k;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    for (k = 0; k < 5; k++)
+      if (b.t[i] >= at[k])
+        b.u[i] = to[k];
+  assert_spoiled_is_refused(&b, "bad.csv:", "p moves against it or before it");
+}
+
+static void test_closeloop__quick_commands_of_another_test__are_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = i / 5 % 2 ? 1 : -0.8;
+  assert_spoiled_is_refused(&b, "bad.csv", "is not what the declared model makes of u");
+}
+
+static void test_closeloop__command_seconds_too_early__is_no_dead_time(void **state)
+{
+  bad_log b = sound;
+  size_t i, k;
+  (void)state;
+  for (i = 0; i < b.n; i++) { /* the measured channels 1.6 s late, after a longer rest */
+    k = i < 160 ? i % 35 : i - 160;
+    b.p[i] = sound.p[k];
+    b.x[i] = sound.x[k];
+  }
+  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "different clocks");
+}
+
+static void test_closeloop__command_from_0_to_1__is_undecided(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = fmax(sound.u[i], 0);
+  assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "u is never negative");
+}
+
+static void test_closeloop__position_only_and_wrong_sign__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = -sound.u[i];
+  assert_refused(bad_write("bad.csv", "t [s],u [1],-,x [mm]", &b), "bad.csv:", "is its sign turned");
+}
+
+/* ---- Another rig ---- */
+
+static void test_closeloop__log_of_a_smaller_rig__is_refused(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = 2.5 * sound.x[i];
+  assert_spoiled_is_refused(&b, "bad.csv:", "whether the log is of this rig");
+}
+
+static void test_closeloop__supply_in_another_unit__is_refused(void **state)
+{
+  char *text = scratch_read(bad_rig("rig.cfg", "")), *pressure = strstr(text, "\"400 kPa\"");
+  (void)state;
+  memcpy(pressure, "4.0      ", 9);
+  assert_refused_by(scratch_text("bar.cfg", text), bad_write("bad.csv", "t [s],u [1],-,x [mm]", &sound),
+                    "bad.csv:", "did you mean \"4 bar\"?");
+  free(text);
+}
+
+static void test_closeloop__bad_holdout__is_refused_before_any_fit(void **state)
+{
+  char command[2048], good[512], *text;
+  bad_log b = sound;
+  size_t i;
+  int status;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.u[i] = -sound.u[i];
+  snprintf(good, sizeof good, "%s", bad_write("good.csv", header, &sound));
+  snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --holdout '%s' --out '%s/out' >'%s/said.txt' 2>&1",
+           bad_rig("rig.cfg", ""), good, bad_write("held.csv", header, &b), scratch_folder, scratch_folder);
+  status = system(command);
+  assert_int_equal(WEXITSTATUS(status), 1);
+  text = scratch_read(scratch_path("said.txt"));
+  assert_contains(text, "held.csv:");
+  assert_contains(text, "is its sign turned");
+  free(text);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_closeloop__of_this_build__is_sanitized_as_its_test),
+      cmocka_unit_test(test_closeloop__sound_log__has_no_limitation),
+      cmocka_unit_test(test_closeloop__garbage__is_refused),
+      cmocka_unit_test(test_closeloop__utf16__is_refused),
+      cmocka_unit_test(test_closeloop__zero_bytes_in_a_row__name_the_line),
+      cmocka_unit_test(test_closeloop__empty_missing_or_folder__is_refused),
+      cmocka_unit_test(test_closeloop__endless_line__is_refused),
+      cmocka_unit_test(test_closeloop__dos_lines_and_mark__are_read),
+      cmocka_unit_test(test_closeloop__cut_off_row__names_the_line),
+      cmocka_unit_test(test_closeloop__cut_off_header__is_refused),
+      cmocka_unit_test(test_closeloop__last_value_cut_short__is_left_out),
+      cmocka_unit_test(test_closeloop__times_out_of_order__name_the_line),
+      cmocka_unit_test(test_closeloop__shuffled_rows__are_refused),
+      cmocka_unit_test(test_closeloop__shuffled_values__do_not_match_the_command),
+      cmocka_unit_test(test_closeloop__jump_in_time__is_a_limitation),
+      cmocka_unit_test(test_closeloop__units_that_disagree__are_refused),
+      cmocka_unit_test(test_closeloop__pressure_in_bar_called_kPa__is_refused),
+      cmocka_unit_test(test_closeloop__position_in_cm_called_mm__is_refused),
+      cmocka_unit_test(test_closeloop__absolute_called_gauge__is_undecided),
+      cmocka_unit_test(test_closeloop__command_in_per_cent__is_refused),
+      cmocka_unit_test(test_closeloop__dead_pressure__is_refused),
+      cmocka_unit_test(test_closeloop__dead_position__is_refused),
+      cmocka_unit_test(test_closeloop__position_upside_down__is_refused),
+      cmocka_unit_test(test_closeloop__saturated_pressure__is_left_out_and_said),
+      cmocka_unit_test(test_closeloop__saturated_position__is_left_out_and_said),
+      cmocka_unit_test(test_closeloop__spikes__are_left_out_and_said),
+      cmocka_unit_test(test_closeloop__values_that_stand_alone__are_left_out_and_said),
+      cmocka_unit_test(test_closeloop__one_bad_value__brings_no_name),
+      cmocka_unit_test(test_closeloop__bad_values_after_each_command__stay),
+      cmocka_unit_test(test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay),
+      cmocka_unit_test(test_closeloop__coarse_steps__are_a_limitation),
+      cmocka_unit_test(test_closeloop__too_few_rows__is_refused),
+      cmocka_unit_test(test_closeloop__short_log__is_undecided),
+      cmocka_unit_test(test_closeloop__still_log__is_refused),
+      cmocka_unit_test(test_closeloop__part_of_a_stroke__is_a_limitation),
+      cmocka_unit_test(test_closeloop__measured_supply_that_is_no_input__is_said),
+      cmocka_unit_test(test_closeloop__many_rows__are_thinned_and_said),
+      cmocka_unit_test(test_closeloop__command_of_wrong_sign__is_refused),
+      cmocka_unit_test(test_closeloop__no_command__is_refused),
+      cmocka_unit_test(test_closeloop__command_of_another_test__is_refused),
+      cmocka_unit_test(test_closeloop__command_recorded_too_late__is_refused),
+      cmocka_unit_test(test_closeloop__one_stroke_before_its_command__is_refused),
+      cmocka_unit_test(test_closeloop__commands_at_other_instants__are_refused),
+      cmocka_unit_test(test_closeloop__quick_commands_of_another_test__are_refused),
+      cmocka_unit_test(test_closeloop__command_seconds_too_early__is_no_dead_time),
+      cmocka_unit_test(test_closeloop__command_from_0_to_1__is_undecided),
+      cmocka_unit_test(test_closeloop__position_only_and_wrong_sign__is_refused),
+      cmocka_unit_test(test_closeloop__log_of_a_smaller_rig__is_refused),
+      cmocka_unit_test(test_closeloop__supply_in_another_unit__is_refused),
+      cmocka_unit_test(test_closeloop__bad_holdout__is_refused_before_any_fit),
+  };
+  return cmocka_run_group_tests(tests, open_all, scratch_close);
+}

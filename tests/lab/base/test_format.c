@@ -1,0 +1,89 @@
+/* apps/lab/base/format: numbers made fit to look at. */
+#include "../../check.h"
+
+#include "../../../apps/lab/log/channel.h"
+#include "../../../apps/lab/base/format.h"
+#include "../../../apps/lab/base/units.h"
+#include "../../../lib/pneu.h"
+
+static char text[LAB_FORMAT_TEXT];
+
+static void test_lab_format_number__sizes__few_digits_and_powers_only_where_needed(void **state)
+{
+  (void)state;
+  assert_string_equal(lab_format_number(0, 3, text), "0");
+  assert_string_equal(lab_format_number(0.0136809, 4, text), "0.01368");
+  assert_string_equal(lab_format_number(389.8377, 4, text), "389.8");
+  assert_string_equal(lab_format_number(-9.9996, 4, text), "-10.00");
+  assert_string_equal(lab_format_number(89695.4, 3, text), "89700");
+  assert_string_equal(lab_format_number(1.5e9, 3, text), "1.5e9");
+  assert_string_equal(lab_format_number(3.21e-12, 2, text), "3.2e-12");
+  assert_string_equal(lab_format_number((double)NAN, 3, text), "-");
+  assert_string_equal(lab_format_number(HUGE_VAL, 3, text), "-");
+}
+
+static void test_lab_format_quantity__units__as_engineers_write_them(void **state)
+{
+  (void)state;
+  assert_string_equal(lab_format_quantity(5591.45, "Pa", 3, text), "5.59 kPa");
+  assert_string_equal(lab_format_quantity(1.98879e-5, "m", 3, text), "0.0199 mm");
+  assert_string_equal(lab_format_quantity(1.368e-8, "m2", 4, text), "0.01368 mm²");
+  assert_string_equal(lab_format_quantity(0.25, "1", 2, text), "0.25");
+  assert_string_equal(lab_format_quantity(298.15, "K", 4, text), "298.1 K");
+}
+
+/* What is shown must be what UDUNITS makes of it; the two are written differently where a unit has a dot or a square.
+ */
+static void assert_scale(const char *unit)
+{
+  const lab_format shown = lab_format_as(unit);
+  char plain[64] = "";
+  const char *c;
+  double scale, offset;
+  lab_error error;
+  for (c = shown.unit; *c; c++) {
+    const size_t used = strlen(plain);
+    if (!strncmp(c, "²", 2) || !strncmp(c, "³", 2) || !strncmp(c, "·", 2)) {
+      snprintf(plain + used, sizeof plain - used, "%s", !strncmp(c, "²", 2) ? "2" : !strncmp(c, "³", 2) ? "3" : ".");
+      c++;
+    } else {
+      snprintf(plain + used, sizeof plain - used, "%c", *c);
+    }
+  }
+  check_note("%s as %s", unit, plain);
+  assert_int_equal(lab_unit_factor(unit, *plain ? plain : "1", &scale, &offset, &error), LAB_OK);
+  assert_close(shown.scale, scale, 0, 1e-12);
+}
+
+static void test_lab_format_as__every_unit_of_the_library__has_the_right_scale(void **state)
+{
+  int i;
+  (void)state;
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    if (!strchr(info.unit, '^')) /* UDUNITS has no broken powers */
+      assert_scale(info.unit);
+  }
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    assert_scale(lab_channels[i].unit);
+}
+
+static void test_lab_format_p__small__is_said_to_be_small(void **state)
+{
+  (void)state;
+  assert_string_equal(lab_format_p(0, text), "below 1e-300");
+  assert_string_equal(lab_format_p(0.1449, text), "0.14");
+  assert_string_equal(lab_format_p(4.1e-188, text), "4.1e-188");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_format_number__sizes__few_digits_and_powers_only_where_needed),
+      cmocka_unit_test(test_lab_format_quantity__units__as_engineers_write_them),
+      cmocka_unit_test(test_lab_format_as__every_unit_of_the_library__has_the_right_scale),
+      cmocka_unit_test(test_lab_format_p__small__is_said_to_be_small),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

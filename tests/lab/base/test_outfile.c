@@ -1,0 +1,230 @@
+/* apps/lab/base/outfile */
+#include "../../scratch.h"
+
+#include "../../../apps/lab/base/outfile.h"
+
+static lab_error error;
+
+static void assert_content(const char *path, const char *want)
+{
+  char *got = scratch_read(path);
+  assert_string_equal(got, want);
+  free(got);
+}
+
+/* Write `text` to `path`.  Returns: the status of the whole. */
+static int write_text(const char *path, const char *text)
+{
+  lab_outfile out;
+  int status = lab_out_open(&out, path, &error);
+  if (status != LAB_OK)
+    return status;
+  fputs(text, out.file);
+  return lab_out_close(&out, &error);
+}
+
+static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
+{
+  char path[512], part[520];
+  (void)state;
+  strcpy(path, scratch_path("new.csv"));
+  snprintf(part, sizeof part, "%s.part", path);
+  assert_int_equal(write_text(path, "whole\n"), LAB_OK);
+  assert_content(path, "whole\n");
+  assert_false(scratch_exists(part));
+}
+
+static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
+{
+  lab_outfile out;
+  const char *path = scratch_text("old.csv", "old\n");
+  (void)state;
+  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  fputs("new\n", out.file);
+  fflush(out.file);
+  assert_content(path, "old\n");
+  assert_int_equal(lab_out_close(&out, &error), LAB_OK);
+  assert_content(path, "new\n");
+}
+
+static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void **state)
+{
+  lab_outfile out;
+  char path[512], part[520];
+  (void)state;
+  strcpy(path, scratch_text("kept.csv", "old\n"));
+  snprintf(part, sizeof part, "%s.part", path);
+  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  fputs("half", out.file);
+  assert_true(scratch_exists(part));
+  lab_out_abandon(&out);
+  assert_content(path, "old\n");
+  assert_false(scratch_exists(part));
+}
+
+static void test_lab_out_end__status_of_who_wrote__decides(void **state)
+{
+  lab_outfile out;
+  char path[512];
+  (void)state;
+  strcpy(path, scratch_text("ended.csv", "old\n"));
+  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  fputs("new\n", out.file);
+  assert_int_equal(lab_out_end(&out, LAB_NUMERIC, &error), LAB_NUMERIC);
+  assert_content(path, "old\n");
+  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  fputs("new\n", out.file);
+  assert_int_equal(lab_out_end(&out, LAB_OK, &error), LAB_OK);
+  assert_content(path, "new\n");
+}
+
+static void test_lab_out_open__missing_folders__are_made(void **state)
+{
+  char path[512];
+  (void)state;
+  strcpy(path, scratch_path("a/b/c.csv"));
+  assert_int_equal(write_text(path, "x"), LAB_OK);
+  assert_content(path, "x");
+}
+
+static void test_lab_out_open__name_without_folder__is_in_the_present_one(void **state)
+{
+  char before[1024];
+  (void)state;
+  assert_non_null(getcwd(before, sizeof before));
+  assert_int_equal(chdir(scratch_folder), 0);
+  assert_int_equal(write_text("bare.csv", "x"), LAB_OK);
+  assert_content("bare.csv", "x");
+  assert_int_equal(chdir(before), 0);
+}
+
+static void test_lab_out_open__file_on_the_way__is_the_worlds_fault(void **state)
+{
+  char path[512];
+  (void)state;
+  scratch_text("plain", "x");
+  strcpy(path, scratch_path("plain/out.csv"));
+  assert_int_equal(write_text(path, "x"), LAB_WORLD);
+  assert_contains(error.text, "plain");
+  strcpy(path, scratch_path("plain/deeper/out.csv"));
+  assert_int_equal(write_text(path, "x"), LAB_WORLD);
+  assert_contains(error.text, "cannot be made");
+}
+
+static void test_lab_out_open__folder_that_cannot_be_made__names_it(void **state)
+{
+  (void)state;
+  assert_int_equal(write_text("/proc/none/out.csv", "x"), LAB_WORLD);
+  assert_contains(error.text, "/proc/none: cannot be made");
+}
+
+static void test_lab_out_open__forbidden_folder__is_the_worlds_fault(void **state)
+{
+  char path[512];
+  (void)state;
+  if (geteuid() == 0)
+    skip();
+  assert_int_equal(mkdir(scratch_path("locked"), 0500), 0);
+  strcpy(path, scratch_path("locked/out.csv"));
+  assert_int_equal(write_text(path, "x"), LAB_WORLD);
+  assert_contains(error.text, "Permission denied");
+}
+
+static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state)
+{
+  char path[512], part[520];
+  (void)state;
+  strcpy(path, scratch_path("taken"));
+  snprintf(part, sizeof part, "%s.part", path);
+  assert_int_equal(mkdir(path, 0777), 0);
+  assert_int_equal(write_text(path, "x"), LAB_WORLD);
+  assert_contains(error.text, "cannot be put in place");
+  assert_false(scratch_exists(part));
+}
+
+static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
+{
+  char path[512], part[520];
+  (void)state;
+  strcpy(path, scratch_device("full", "/dev/full"));
+  snprintf(part, sizeof part, "%s.part", path);
+  assert_int_equal(write_text(path, "x"), LAB_WORLD);
+  assert_contains(error.text, "full: cannot be written: No space left on device");
+  assert_true(scratch_is_link(path)); /* not replaced by a file */
+  assert_false(scratch_exists(part));
+}
+
+static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(void **state)
+{
+  lab_outfile out;
+  int i;
+  (void)state;
+  assert_int_equal(lab_out_open(&out, scratch_device("full", "/dev/full"), &error), LAB_OK);
+  for (i = 0; i < 100000; i++)
+    fputs("0123456789\n", out.file);
+  assert_int_equal(lab_out_close(&out, &error), LAB_WORLD);
+  assert_contains(error.text, "full: cannot be written: No space left on device");
+}
+
+static void test_lab_out_close__device__is_written_in_place(void **state)
+{
+  char path[512], part[520];
+  (void)state;
+  strcpy(path, scratch_device("null", "/dev/null"));
+  snprintf(part, sizeof part, "%s.part", path);
+  assert_int_equal(write_text(path, "x"), LAB_OK);
+  assert_true(scratch_is_link(path));
+  assert_false(scratch_exists(part));
+}
+
+static void test_lab_out_open__no_path__is_standard_output(void **state)
+{
+  lab_outfile out;
+  (void)state;
+  assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
+  assert_ptr_equal(out.file, stdout);
+  assert_int_equal(lab_out_close(&out, &error), LAB_OK);
+  assert_true(printf("%s", "") == 0); /* still open */
+  assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
+  lab_out_abandon(&out);
+}
+
+static void test_lab_make_folder__nested_or_there__is_made(void **state)
+{
+  char path[512];
+  (void)state;
+  strcpy(path, scratch_path("x/y/z/"));
+  assert_int_equal(lab_make_folder(path, &error), LAB_OK);
+  assert_true(scratch_exists(path));
+  assert_int_equal(lab_make_folder(path, &error), LAB_OK);
+  assert_int_equal(lab_make_folder("/", &error), LAB_OK);
+}
+
+static void test_lab_make_folder__file_of_that_name__is_refused(void **state)
+{
+  (void)state;
+  assert_int_equal(lab_make_folder(scratch_text("a_file", "x"), &error), LAB_WORLD);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_out_close__good_disk__puts_the_file_in_place),
+      cmocka_unit_test(test_lab_out_open__while_writing__leaves_the_old_file),
+      cmocka_unit_test(test_lab_out_abandon__half_written__leaves_the_old_file_alone),
+      cmocka_unit_test(test_lab_out_end__status_of_who_wrote__decides),
+      cmocka_unit_test(test_lab_out_open__missing_folders__are_made),
+      cmocka_unit_test(test_lab_out_open__name_without_folder__is_in_the_present_one),
+      cmocka_unit_test(test_lab_out_open__file_on_the_way__is_the_worlds_fault),
+      cmocka_unit_test(test_lab_out_open__folder_that_cannot_be_made__names_it),
+      cmocka_unit_test(test_lab_out_open__forbidden_folder__is_the_worlds_fault),
+      cmocka_unit_test(test_lab_out_close__folder_in_its_place__leaves_no_part),
+      cmocka_unit_test(test_lab_out_close__full_disk__is_the_worlds_fault),
+      cmocka_unit_test(test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault),
+      cmocka_unit_test(test_lab_out_close__device__is_written_in_place),
+      cmocka_unit_test(test_lab_out_open__no_path__is_standard_output),
+      cmocka_unit_test(test_lab_make_folder__nested_or_there__is_made),
+      cmocka_unit_test(test_lab_make_folder__file_of_that_name__is_refused),
+  };
+  return cmocka_run_group_tests_name("outfile", tests, scratch_open, scratch_close);
+}

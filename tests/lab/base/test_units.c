@@ -1,0 +1,167 @@
+/* apps/lab/base/units */
+#include "../../words.h"
+
+#include "../../../apps/lab/base/units.h"
+
+static lab_error error;
+
+static void assert_quantity(const char *text, const char *unit, double want)
+{
+  double got = NAN;
+  if (lab_quantity(text, unit, &got, &error))
+    fail_msg("%s", error.text);
+  assert_close(got, want, 0, 1e-14);
+}
+
+static void assert_bad(const char *text, const char *unit, const char *part)
+{
+  double got;
+  if (lab_quantity(text, unit, &got, &error) == LAB_OK)
+    fail_msg("\"%s\" was read as %g %s", text, got, unit);
+  assert_int_equal(error.status, LAB_DATA);
+  assert_contains(error.text, part);
+}
+
+static void test_lab_quantity__units_of_rig_files__become_si(void **state)
+{
+  (void)state;
+  assert_quantity("400 cm^2", "m2", 0.04);
+  assert_quantity("500 N.s/m", "N.s/m", 500);
+  assert_quantity("4 kN/m", "N/m", 4000);
+  assert_quantity("101.325 kPa", "Pa", 101325);
+  assert_quantity("14.5 psi", "Pa", 14.5 * 6894.757293168361);
+  assert_quantity("0.893 mm^2", "m2", 0.893e-6);
+  assert_quantity("2 dm^3", "m3", 2e-3);
+  assert_quantity("-3 mm", "m", -3e-3);
+  assert_quantity("0 mm", "m", 0);
+  assert_quantity("1e-3 m", "m", 1e-3);
+  assert_quantity("+.5 mm", "m", 5e-4);
+}
+
+/* What a person has written comes back as they would write it in SI; a number in SI, bit for bit. */
+static void test_lab_quantity__change_of_unit__adds_no_digits(void **state)
+{
+  static const struct {
+    const char *text, *unit;
+    double value;
+  } cases[] = {{"40 cm^3", "m3", 4e-5},        {"0.1 mm", "m", 1e-4},
+               {"0.07 bar", "Pa", 7e3},        {"0.893 mm^2", "m2", 8.93e-7},
+               {"25 degC", "K", 298.15},       {"0.3 kPa", "Pa", 300},
+               {"400.7 kN/m", "N/m", 400.7e3}, {"4.000000000000001e-05", "m3", 4.000000000000001e-05}};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof cases / sizeof *cases; i++) {
+    double value;
+    check_note("%s", cases[i].text);
+    assert_int_equal(lab_quantity(cases[i].text, cases[i].unit, &value, &error), LAB_OK);
+    assert_true(value == cases[i].value);
+  }
+}
+
+static void test_lab_quantity__plain_number__is_si(void **state)
+{
+  (void)state;
+  assert_quantity("0.04", "m2", 0.04);
+  assert_quantity(" 12 ", "Pa", 12);
+}
+
+static void test_lab_quantity__percent_and_one__work(void **state)
+{
+  (void)state;
+  assert_quantity("5 %", "1", 0.05);
+  assert_quantity("5%", "1", 0.05);
+  assert_quantity("0.3 1", "1", 0.3);
+}
+
+static void test_lab_quantity__temperature__has_its_offset(void **state)
+{
+  (void)state;
+  assert_quantity("25 degC", "K", 298.15);
+  assert_quantity("298.15 K", "K", 298.15);
+  assert_quantity("77 degF", "K", 298.15);
+}
+
+static void test_lab_quantity_difference__temperature__has_no_offset(void **state)
+{
+  double got = NAN;
+  (void)state;
+  assert_int_equal(lab_quantity_difference("0.5 degC", "K", &got, &error), LAB_OK);
+  assert_close(got, 0.5, 1e-12, 0);
+}
+
+static void test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands(void **state)
+{
+  (void)state;
+  assert_quantity("3.5 W/K^(4/3)", "W/K^(4/3)", 3.5);
+  assert_quantity("3.5", "W/K^(4/3)", 3.5);
+  assert_quantity("3.5 W/K^1.333", "W/K^1.333", 3.5);
+  assert_bad("3.5 kW/K^1.333", "W/K^1.333", "expected the unit W/K^1.333");
+}
+
+static void test_lab_quantity__wrong_dimension__names_found_and_expected(void **state)
+{
+  (void)state;
+  assert_bad("5 kg", "m2", "expected a unit like m2 (m2), found \"kg\" (kg)");
+  assert_bad("4 kN/m", "Pa", "kg.s-2");
+}
+
+static void test_lab_quantity__unknown_unit__is_named(void **state)
+{
+  (void)state;
+  assert_bad("5 furlongs_per_fortnight", "m2", "furlongs_per_fortnight");
+  assert_bad("5 furlongs_per_fortnight", "m2", "expected a unit like m2, found the unknown unit");
+  assert_bad("5 m^0.5", "m", "m^0.5");
+  assert_bad("5 ,5 mm", "m", "unknown unit");
+}
+
+static void test_lab_quantity__no_finite_number__is_an_error(void **state)
+{
+  (void)state;
+  assert_bad("", "m", "expected a number");
+  assert_bad("mm", "m", "expected a number");
+  assert_bad("nan mm", "m", "expected a number");
+  assert_bad("inf", "m", "expected a number");
+  assert_bad("1e999 m", "m", "expected a number");
+  assert_bad("0x10 m", "m", "expected a number");
+  assert_bad("- 5 m", "m", "expected a number");
+}
+
+static void test_lab_quantity__logarithmic_unit__is_refused(void **state)
+{
+  (void)state;
+  assert_bad("3 lg(re 1 mW)", "W", "straight line");
+}
+
+static void test_lab_unit_factor__column_units__give_scale_and_offset(void **state)
+{
+  double scale, offset;
+  (void)state;
+  assert_int_equal(lab_unit_factor("degC", "K", &scale, &offset, &error), LAB_OK);
+  assert_close(scale, 1, 1e-15, 0);
+  assert_close(offset, 273.15, 1e-12, 0);
+  assert_int_equal(lab_unit_factor("%", "1", &scale, &offset, &error), LAB_OK);
+  assert_close(scale, 0.01, 1e-17, 0);
+  assert_int_equal(lab_unit_factor("1/4096", "1", &scale, &offset, &error), LAB_OK);
+  assert_close(scale, 1.0 / 4096, 0, 0);
+  assert_int_equal(lab_unit_factor("ms", "s", &scale, &offset, &error), LAB_OK);
+  assert_close(scale, 1e-3, 0, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_quantity__units_of_rig_files__become_si),
+      cmocka_unit_test(test_lab_quantity__change_of_unit__adds_no_digits),
+      cmocka_unit_test(test_lab_quantity__plain_number__is_si),
+      cmocka_unit_test(test_lab_quantity__percent_and_one__work),
+      cmocka_unit_test(test_lab_quantity__temperature__has_its_offset),
+      cmocka_unit_test(test_lab_quantity_difference__temperature__has_no_offset),
+      cmocka_unit_test(test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands),
+      cmocka_unit_test(test_lab_quantity__wrong_dimension__names_found_and_expected),
+      cmocka_unit_test(test_lab_quantity__unknown_unit__is_named),
+      cmocka_unit_test(test_lab_quantity__no_finite_number__is_an_error),
+      cmocka_unit_test(test_lab_quantity__logarithmic_unit__is_refused),
+      cmocka_unit_test(test_lab_unit_factor__column_units__give_scale_and_offset),
+  };
+  return cmocka_run_group_tests_name("units", tests, NULL, NULL);
+}

@@ -1,0 +1,382 @@
+/* From two logs of the independent rig to what has changed between them. */
+#include <math.h>
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../blind/logs.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/change/change.h"
+#include "../../../apps/lab/change/repeat.h"
+#include "../../../apps/lab/trace/decide.h"
+
+enum { ROWS = 1001, COMMANDS = 5 };
+static const double spacing = 0.01; /* [s] */
+static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
+static const double u_cmd[2][COMMANDS] = {{1, 0, -1, 0.5, -0.5}, {0.8, 0, -1, 1, -0.7}};
+
+/* The R1-400 with 40 cm3 of dead volume. */
+static second_rig true_rig(uint64_t seed)
+{
+  second_rig g = second_rig_default_r1_400();
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = seed;
+  return g;
+}
+
+static void write_log(const second_rig *g, const double *u_of, const char *path)
+{
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  const second_log log = {.t = t, .u = u, .p = p, .x = x};
+  FILE *file = fopen(path, "w");
+  int i;
+  assert_int_equal(second_samples(10, spacing), ROWS);
+  assert_int_equal(second_run(g, t_cmd, u_of, COMMANDS, 10, spacing, &log, NULL), 0);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+}
+
+static void declare(lab_rig *rig)
+{
+  static const char *const fitted[] = {"orifice_area", "dry_friction", "spring_rate", "spring_preload"};
+  int i;
+  lab_rig_default(rig);
+  rig->laws.flow = PNEU_FLOW_CHOKED;
+  rig->params.dead_volume = (pneu_real)4e-5;
+  rig->noise[LAB_CHANNEL_P] = 320;
+  rig->noise[LAB_CHANNEL_X] = 2e-5;
+  for (i = 0; i < 4; i++)
+    rig->fit[rig->n_fit++] = lab_param_index(fitted[i]);
+}
+
+/* Compare logs of a rig whose model is fitted to the first one and needs nothing more. */
+static lab_changes compare_logs(const lab_rig *rig, const char *const path[2])
+{
+  static lab_unknowns u;
+  lab_log log[2];
+  lab_run run[2];
+  lab_changes changes;
+  lab_error error = {0, ""};
+  int i;
+  for (i = 0; i < 2; i++) {
+    assert_int_equal(lab_log_read(path[i], &rig->log, (double)rig->params.ambient_pressure, &log[i], &error), LAB_OK);
+    assert_int_equal(lab_run_open(rig, &log[i], 0, &run[i], &error), LAB_OK);
+  }
+  assert_int_equal(lab_unknowns_open(rig, run, 1, &u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  assert_int_equal(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error), LAB_OK);
+  for (i = 0; i < 2; i++) {
+    lab_run_close(&run[i]);
+    lab_log_free(&log[i]);
+  }
+  return changes;
+}
+
+static lab_changes compare_files(const char *rig_name, const char *then, const char *now)
+{
+  static lab_rig rig;
+  const char *const path[2] = {scratch_path(then), scratch_path(now)};
+  lab_error error = {0, ""};
+  assert_int_equal(lab_rig_read(scratch_path(rig_name), &rig, &error), LAB_OK);
+  return compare_logs(&rig, path);
+}
+
+static lab_changes compare(const second_rig *then, const second_rig *now)
+{
+  static lab_rig rig;
+  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
+  declare(&rig);
+  write_log(then, u_cmd[0], path[0]);
+  write_log(now, u_cmd[1], path[1]);
+  return compare_logs(&rig, path);
+}
+
+/* One change of that name, whose interval holds the value now. */
+static void assert_change(const lab_changes *changes, const char *what, double now)
+{
+  char name[LAB_PARAM_NAME_TEXT];
+  assert_int_equal(changes->condition, LAB_SINCE_CHANGED);
+  assert_int_equal(changes->n, 1);
+  assert_string_equal(lab_change_name(changes->change[0].param, name), what);
+  assert_between(now, changes->change[0].low, changes->change[0].high);
+  assert_between(changes->change[0].p_value, 0, 1e-6);
+}
+
+static void test_lab_changes_find__another_day__is_unchanged(void **state)
+{
+  second_rig then = true_rig(7), now = true_rig(8);
+  lab_changes changes;
+  (void)state;
+  now.supply *= 1.02;
+  now.ambient -= 1200;
+  now.ambient_temperature += 6;
+  now.supply_temperature += 6;
+  now.pressure_bias = 800;
+  now.position_bias = 5e-5;
+  changes = compare(&then, &now);
+  assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
+  assert_int_equal(changes.n, 0);
+  assert_close(changes.now, 1, 0.05, 0);
+}
+
+static void write_blind(const blind_trial *trial, const second_rig *rig, const blind_schedule *schedule,
+                        const char *name)
+{
+  blind_rows rows;
+  lab_error error = {0, ""};
+  assert_int_equal(blind_simulate(rig, schedule, trial->spacing, &rows, &error), LAB_OK);
+  assert_int_equal(blind_write_rows(&rows, trial->channels, scratch_folder, name, &error), LAB_OK);
+  blind_rows_free(&rows);
+}
+
+/* What a day has done to a rig of the blind trials. */
+typedef struct day {
+  int trial;
+  double supply, ambient, temperature, pressure_bias, position_bias, friction; /* factors, and SI that is added */
+} day;
+
+/* What it does to supply, air and gains cancels but for a hundredth of each. A fit that loses its way there calls it a
+ * gain of the pressure sensor, a film or a back pressure. Such valleys need long logs. */
+static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void **state)
+{
+  static const day days[] = {{5, 0.9824069, 206.9, 0.21, 23.8, -9.617e-5, 0.98732},
+                             {29, 1.008735, 320.98, -4.1962, 630.97, -9.4745e-05, 1.037990}};
+  static blind_trial trial;
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof days / sizeof *days; i++) {
+    const day *d = &days[i];
+    second_rig then, now;
+    lab_changes changes;
+    lab_error error = {0, ""};
+    blind_draw(424242, d->trial, &trial);
+    trial.channels = BLIND_P | BLIND_X;
+    trial.tells_noise = 1;
+    then = now = blind_truth(&trial, 0);
+    now.seed += 77;
+    now.supply *= d->supply;
+    now.ambient += d->ambient;
+    now.ambient_temperature += d->temperature;
+    now.supply_temperature += d->temperature;
+    now.pressure_bias = d->pressure_bias;
+    now.position_bias = d->position_bias;
+    now.dry_friction *= d->friction;
+    assert_int_equal(blind_write_rig(&trial, scratch_folder, &error), LAB_OK);
+    write_blind(&trial, &then, &trial.holdout, "then.csv");
+    write_blind(&trial, &now, &trial.fit, "now.csv");
+    changes = compare_files("rig.cfg", "then.csv", "now.csv");
+    assert_int_equal(changes.n, 0);
+    assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
+  }
+}
+
+static void test_lab_changes_find__leak__is_the_change(void **state)
+{
+  second_rig then = true_rig(7), now = true_rig(8);
+  lab_changes changes;
+  (void)state;
+  now.leak_area = 1.5e-8;
+  changes = compare(&then, &now);
+  assert_change(&changes, "chamber_leak", 1.5e-8);
+  assert_close(changes.change[0].then, 0, 1e-15, 0);
+}
+
+static void test_lab_changes_find__more_friction__is_the_change(void **state)
+{
+  second_rig then = true_rig(7), now = true_rig(8);
+  lab_changes changes;
+  (void)state;
+  now.supply *= 0.99;
+  now.dry_friction *= 1.5;
+  changes = compare(&then, &now);
+  assert_change(&changes, "dry_friction", 720);
+  assert_close(changes.change[0].then, 480, 0, 0.02);
+}
+
+static void test_lab_changes_find__softer_spring__is_the_change(void **state)
+{
+  second_rig then = true_rig(7), now = true_rig(8);
+  lab_changes changes;
+  (void)state;
+  now.spring_rate *= 0.9;
+  changes = compare(&then, &now);
+  assert_change(&changes, "spring_rate", 3.6e5);
+}
+
+/* The log of a run in which something is done to the rig. */
+static void write_course(const second_rig *g, const second_course *course, double t_end, double dt, const char *path)
+{
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  const second_log log = {.t = t, .u = u, .p = p, .x = x};
+  const size_t n = second_samples(t_end, dt);
+  FILE *file = fopen(path, "w");
+  size_t i;
+  assert_true(n <= ROWS);
+  assert_non_null(file);
+  assert_int_equal(second_follow(g, course, t_end, dt, &log, NULL), 0);
+  fputs(course->positioner ? "t [s],sp [1],x [m]\n" : "t [s],u [1],p [Pa],x [m]\n", file);
+  for (i = 0; i < n && course->positioner; i++)
+    fprintf(file, "%.3f,%.5g,%.7f\n", t[i], u[i], x[i]);
+  for (i = 0; i < n && !course->positioner; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+}
+
+/* Compare with a log in which the rig is another one from a time on. */
+static lab_changes compare_on_the_way(const second_rig *early, const second_rig *late, double from)
+{
+  const second_rig then = true_rig(7);
+  const second_course course = {t_cmd, u_cmd[1], COMMANDS, NULL, late, from};
+  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
+  static lab_rig rig;
+  declare(&rig);
+  write_log(&then, u_cmd[0], path[0]);
+  write_course(early, &course, 10, spacing, path[1]);
+  return compare_logs(&rig, path);
+}
+
+static void assert_since(const lab_onset *onset, double t, double within)
+{
+  assert_true(onset->known);
+  assert_close(onset->t, t, within, 0);
+  assert_between(t, onset->low, onset->high);
+  assert_between(onset->high - onset->low, 0, 10 * within);
+}
+
+/* A sensor's error needs no time to set in. */
+static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(void **state)
+{
+  const second_rig now = true_rig(8);
+  second_rig failed = now;
+  lab_changes changes;
+  (void)state;
+  failed.pressure_bias = 8000;
+  changes = compare_on_the_way(&now, &failed, 6.13);
+  assert_change(&changes, "pressure_bias", 8000);
+  assert_since(&changes.change[0].begin, 6.13, 2 * spacing);
+  assert_false(changes.change[0].end.known);
+}
+
+static void test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset(void **state)
+{
+  const second_rig now = true_rig(8);
+  second_rig leaks = now;
+  lab_changes changes;
+  (void)state;
+  leaks.leak_area = 2e-8;
+  changes = compare_on_the_way(&now, &leaks, 4.71);
+  assert_change(&changes, "chamber_leak", 2e-8);
+  assert_since(&changes.change[0].begin, 4.71, 10 * spacing);
+}
+
+/* A valve of a plant, logged at 1 Hz: its positioner is told positions about the middle, which shift every few rows. */
+enum { PLANT_ROWS = 121, PLANT_COMMANDS = 30 };
+
+static second_rig plant_rig(uint64_t seed)
+{
+  second_rig g = true_rig(seed);
+  g.position_noise = 1e-4;
+  return g;
+}
+
+static void compare_plant(const second_rig *early, const second_rig *late, double from, lab_changes *changes)
+{
+  static const second_positioner positioner = {10, 0, 0, 0, 0, 2, 0};
+  static double t_set[PLANT_COMMANDS], set[PLANT_COMMANDS];
+  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
+  const second_rig then = plant_rig(7);
+  second_course course = {t_set, set, PLANT_COMMANDS, &positioner, NULL, 0};
+  static lab_rig rig;
+  int i;
+  for (i = 0; i < PLANT_COMMANDS; i++) {
+    t_set[i] = 4 * i + 0.5;
+    set[i] = 0.5 + 0.2 * sin(1.3 * i) + 0.1 * sin(0.31 * i);
+  }
+  declare(&rig);
+  rig.noise[LAB_CHANNEL_X] = 1e-4;
+  rig.n_fit = 0;
+  rig.fit[rig.n_fit++] = lab_param_index("orifice_area");
+  *pneu_param_at(&rig.params, lab_param_index("positioner.gain")) = 10;
+  write_course(&then, &course, PLANT_ROWS - 1, 1, path[0]);
+  course.later = late;
+  course.change = from;
+  write_course(early, &course, PLANT_ROWS - 1, 1, path[1]);
+  *changes = compare_logs(&rig, path);
+}
+
+/* ... comes back, and the positioner hides it as long as it suffices. */
+static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **state)
+{
+  second_rig now = plant_rig(8), fails = now;
+  lab_changes changes;
+  (void)state;
+  fails.supply = 30e3;
+  compare_plant(&fails, &now, 47.3, &changes);
+  assert_int_equal(changes.condition, LAB_SINCE_CHANGED);
+  assert_change(&changes, "supply_pressure", 30e3);
+  assert_false(changes.change[0].begin.known);
+  assert_since(&changes.change[0].end, 47.3, 2);
+}
+
+/* ... or fails on the way, and stays so. */
+static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(void **state)
+{
+  second_rig now = plant_rig(8), fails = now;
+  lab_changes changes;
+  (void)state;
+  fails.supply = 60e3;
+  compare_plant(&now, &fails, 80.6, &changes);
+  assert_change(&changes, "supply_pressure", 60e3);
+  assert_since(&changes.change[0].begin, 80.6, 3);
+  assert_false(changes.change[0].end.known);
+}
+
+static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
+{
+  second_rig now = plant_rig(8);
+  lab_changes changes;
+  (void)state;
+  now.supply *= 1.02;
+  now.position_bias = 5e-5;
+  compare_plant(&now, NULL, 0, &changes);
+  assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
+}
+
+/* Something that no parameter has: it can be told neither that all is well nor what is not. */
+static void test_lab_changes_find__no_parameter_has_it__cannot_tell(void **state)
+{
+  second_rig then = true_rig(7), now = true_rig(8);
+  lab_changes changes;
+  (void)state;
+  now.force = 900;
+  now.force_rate = 3.7;
+  changes = compare(&then, &now);
+  assert_true(changes.now > 1.5);
+  assert_true(*changes.why != '\0');
+  assert_true(changes.condition != LAB_SINCE_UNCHANGED);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_changes_find__another_day__is_unchanged),
+      cmocka_unit_test(test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged),
+      cmocka_unit_test(test_lab_changes_find__leak__is_the_change),
+      cmocka_unit_test(test_lab_changes_find__more_friction__is_the_change),
+      cmocka_unit_test(test_lab_changes_find__softer_spring__is_the_change),
+      cmocka_unit_test(test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset),
+      cmocka_unit_test(test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset),
+      cmocka_unit_test(test_lab_changes_find__supply_that_comes_back__has_the_time),
+      cmocka_unit_test(test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset),
+      cmocka_unit_test(test_lab_changes_find__plant_as_ever__is_unchanged),
+      cmocka_unit_test(test_lab_changes_find__no_parameter_has_it__cannot_tell),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}

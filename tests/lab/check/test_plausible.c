@@ -1,0 +1,665 @@
+/* apps/lab/check/plausible with view, and mend, thin, remarks, show. What closeloop makes of them is in
+ * tests/apps/test_closeloop.c.
+ */
+#include "../../badlog.h"
+
+#include "../../../apps/lab/check/standstill.h"
+#include "../../../apps/lab/check/mend.h"
+#include "../../../apps/lab/check/plausible.h"
+#include "../../../apps/lab/check/format_channel.h"
+
+static const char *const header = "t [s],u [1],p [kPa],x [mm]";
+static bad_log sound;
+static lab_rig rig;
+static lab_log log_read;
+static lab_limitations limitations;
+static lab_content content;
+static lab_error error;
+
+static int open_all(void **state)
+{
+  sound = bad_log_of(0);
+  return scratch_open(state);
+}
+
+static int done(void **state)
+{
+  (void)state;
+  lab_log_free(&log_read);
+  memset(&log_read, 0, sizeof log_read);
+  return 0;
+}
+
+static int fresh(void **state)
+{
+  memset(&limitations, 0, sizeof limitations);
+  memset(&content, 0, sizeof content);
+  memset(&error, 0, sizeof error);
+  return done(state);
+}
+
+static void read_files(const char *rig_path, const char *log_path)
+{
+  lab_log_free(&log_read);
+  if (lab_rig_read(rig_path, &rig, &error) ||
+      lab_log_read(log_path, &rig.log, (double)rig.params.ambient_pressure, &log_read, &error))
+    fail_msg("%s", error.text);
+}
+
+static void read_log(const bad_log *b)
+{
+  char path[512];
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", header, b));
+  read_files(bad_rig("rig.cfg", ""), path);
+}
+
+/* All that closeloop asks before a fit.  Returns: status */
+static int judge(void)
+{
+  lab_log_thin(&log_read, LAB_THIN_ROWS, &limitations);
+  if (lab_log_clean(&rig, &log_read, &limitations, &error) ||
+      lab_plausible(&rig, &log_read, &limitations, &content, &error))
+    return error.status;
+  return lab_plausible_content(&rig, &content, &limitations, &error);
+}
+
+/* A sound log: no error, no doubt, and no remark. */
+static void assert_quiet(void)
+{
+  if (judge() != LAB_OK)
+    fail_msg("%s", error.text);
+  if (limitations.n > 0)
+    fail_msg("%s", limitations.text[0]);
+  assert_int_equal(limitations.doubt, 0);
+}
+
+/* ---- Logs that must pass ---- */
+
+static void test_lab_plausible__sound_log__is_quiet(void **state)
+{
+  (void)state;
+  read_log(&sound);
+  assert_quiet();
+  assert_int_equal(content.runs, 1);
+  assert_int_equal(content.still, 0);
+  assert_int_equal(content.values, 2 * BAD_ROWS);
+}
+
+static void test_lab_plausible__leak__is_quiet(void **state)
+{
+  const bad_log b = bad_log_of(5e-8); /* a eighteenth of the orifice */
+  (void)state;
+  read_log(&b);
+  assert_quiet();
+}
+
+static void test_lab_plausible__position_only__is_quiet(void **state)
+{
+  char path[512];
+  (void)state;
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],-,x [mm]", &sound));
+  read_files(bad_rig("rig.cfg", ""), path);
+  assert_quiet();
+}
+
+static void test_lab_plausible__pressure_only__is_quiet(void **state)
+{
+  char path[512];
+  (void)state;
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],p [kPa],-", &sound));
+  read_files(bad_rig("rig.cfg", ""), path);
+  assert_quiet();
+}
+
+static void test_lab_plausible__pressure_as_input__is_quiet(void **state)
+{
+  char path[512];
+  (void)state;
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],-,p [kPa],x [mm]", &sound));
+  read_files(bad_rig("rig.cfg", "inputs = [\"p\"];\n"), path);
+  assert_quiet();
+}
+
+/* Closed and charged, 21 rows of a pressure that sinks: no command, no stem. */
+static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
+{
+  char text[2048] = "t [s],p [kPa]\n", path[512];
+  size_t used = strlen(text);
+  int i;
+  (void)state;
+  for (i = 0; i <= 20; i++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%d,%.4g\n", i, 300 * exp(-0.1 * i) + 0.3 * (i % 3 - 1));
+  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
+  read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
+                                     "supply = { pressure = \"400 kPa\"; };\nlog = { constants = { u = 0; }; };\n"
+                                     "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
+             path);
+  assert_quiet();
+}
+
+/* An area wrong by a factor of five is what fits are for. */
+static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **state)
+{
+  static const double factors[] = {0.2, 5};
+  int i;
+  (void)state;
+  for (i = 0; i < 2; i++) {
+    fresh(state);
+    read_log(&sound);
+    rig.params.fill_area *= (pneu_real)factors[i];
+    rig.params.vent_area *= (pneu_real)factors[i];
+    assert_quiet();
+    lab_log_free(&log_read);
+  }
+}
+
+/* The logs of the rig that come with the data, where they are on this machine: none may be refused or doubted. */
+static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
+{
+  static const char *const names[] = {"backpressure-a", "bias-a",         "choked-a",    "lag-a",
+                                      "leak-a",         "leak-b",         "null-a",      "null-b",
+                                      "spring-a",       "leak-thermal-a", "stickspot-a", "travel-a",
+                                      "stribeck-a",     "thermal-a",      "thermal-b",   "xonly-leak-a"};
+  static const char *const logs[] = {"fit", "holdout"};
+  const char *folder = getenv("MEASURED");
+  char cfg[512], csv[512];
+  size_t i, k;
+  (void)state;
+  snprintf(cfg, sizeof cfg, "%s/rig/null-a/rig.cfg", folder ? folder : "../shared/data");
+  if (!scratch_exists(cfg)) {
+    printf("absent: %s\n", cfg);
+    skip();
+  }
+  for (i = 0; i < sizeof names / sizeof names[0]; i++)
+    for (k = 0; k < 2; k++) {
+      fresh(state);
+      snprintf(cfg, sizeof cfg, "%s/rig/%s/rig.cfg", folder ? folder : "../shared/data", names[i]);
+      snprintf(csv, sizeof csv, "%s/rig/%s/%s.csv", folder ? folder : "../shared/data", names[i], logs[k]);
+      read_files(cfg, csv);
+      assert_quiet();
+      lab_log_free(&log_read);
+    }
+}
+
+/* ---- Content ---- */
+
+static void test_lab_plausible_content__one_still_run_of_two__passes(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  read_log(&sound);
+  assert_int_equal(judge(), LAB_OK);
+  lab_log_free(&log_read);
+  b.n = 40;
+  read_log(&b);
+  assert_int_equal(judge(), LAB_OK);
+  assert_int_equal(content.runs, 2);
+  assert_int_equal(content.still, 1);
+}
+
+static void test_lab_plausible_content__nothing_but_still_runs__is_refused(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  b.n = 40;
+  read_log(&b);
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, "nothing moves");
+}
+
+/* ---- Checks that the processes do not reach ---- */
+
+static void test_lab_plausible__temperature_in_other_degrees__is_refused(void **state)
+{
+  bad_log b = sound;
+  char path[512];
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = 25 + 0.1 * (double)(i % 7);
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],p [kPa],T [K]", &b));
+  read_files(bad_rig("rig.cfg", ""), path);
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, "degC and K");
+}
+
+static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(void **state)
+{
+  char text[8192] = "t [s],u [1],p [kPa]\n", path[512];
+  size_t used = strlen(text);
+  int i;
+  (void)state;
+  for (i = 0; i < 200; i++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%d,%.5g\n", 0.1 * i, i < 2 ? 0 : -1,
+                             i < 2 ? 390.0 : 101.3 + 288.7 * exp(-0.5 * 0.1 * (i - 1)) + 0.2 * (i % 3 - 1));
+  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
+  read_files(scratch_text("rig.cfg",
+                          "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
+                          "transducer = { vent_area = \"3 mm^2\"; };\nsupply = { pressure = \"400 kPa\"; };\n"
+                          "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
+             path);
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, "the column is p_abs");
+}
+
+static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **state)
+{
+  (void)state;
+  read_log(&sound);
+  rig.noise[LAB_CHANNEL_P] = 32;
+  assert_int_equal(judge(), LAB_OK);
+  assert_int_equal(limitations.n, 1);
+  assert_contains(limitations.text[0], "the noise of p is about 0.3");
+  assert_int_equal(limitations.doubt, 0);
+}
+
+/* A control system's output bar: 50 % is shut. */
+static void test_lab_plausible__half_that_is_shut__is_told(void **state)
+{
+  static const struct {
+    double sign;
+    const char *header, *channel, *remedy;
+  } cases[] = {
+      {0.5, "t [s],u [1],p [kPa],x [mm]", "the pressure does not follow the command from t = 0 s",
+       "u = 2.0; }; log.offset = { u = -1.0; }"},
+      {0.5, "t [s],u [1],-,x [mm]", "the position does not follow", "50 % shut"},
+      {-0.5, "t [s],u [1],p [kPa],x [mm]", "rises while u is below it", "u = -2.0; }; log.offset = { u = 1.0; }"}};
+  size_t k, i;
+  for (k = 0; k < sizeof cases / sizeof *cases; k++) {
+    bad_log b = sound;
+    char path[512];
+    check_note("%s", cases[k].header);
+    fresh(state);
+    for (i = 0; i < b.n; i++)
+      b.u[i] = 0.5 + cases[k].sign * sound.u[i];
+    snprintf(path, sizeof path, "%s", bad_write("log.csv", cases[k].header, &b));
+    read_files(bad_rig("rig.cfg", ""), path);
+    assert_int_equal(judge(), LAB_DATA);
+    assert_contains(error.text, cases[k].channel);
+    assert_contains(error.text, cases[k].remedy);
+  }
+}
+
+/* Filled for 2 s, then at a command of `after` it sinks: more than any orifice of the model would let it. */
+static void read_sinking_vessel(double after)
+{
+  char text[8192] = "t [s],u [1],p [kPa]\n", path[512];
+  size_t used = strlen(text);
+  int i;
+  for (i = 0; i < 200; i++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%g,%.5g\n", 0.1 * i, i < 20 ? 1 : after,
+                             (i < 20 ? 15.0 * i : 300 * exp(-0.005 * (i - 20))) + 0.3 * (i % 3 - 1));
+  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
+  read_files(scratch_text("rig.cfg",
+                          "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
+                          "transducer = { fill_area = \"1.5 mm^2\"; };\nsupply = { pressure = \"400 kPa\"; };\n"
+                          "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
+             path);
+}
+
+static void test_lab_plausible__pressure_lost_while_filling_or_shut__is_told(void **state)
+{
+  read_sinking_vessel(0);
+  assert_int_equal(judge(), LAB_OK);
+  assert_int_equal(limitations.doubt, 0);
+  assert_contains(limitations.text[0], "from t = 2 s to 19.9 s while u = 0 shuts both orifices: the chamber leaks");
+  fresh(state);
+  read_sinking_vessel(0.2);
+  assert_int_equal(judge(), LAB_OK);
+  assert_contains(limitations.text[0], "while u = 0.2 fills: the chamber leaks more than the orifice lets in");
+  fresh(state);
+  read_sinking_vessel(-0.1);
+  assert_int_equal(judge(), LAB_OK);
+  assert_true(limitations.n == 0 || !strstr(limitations.text[0], "leaks"));
+}
+
+/* ---- A declared stem that cannot move ---- */
+
+/* The declared rig with a plain number for its supply, nothing of it fitted. */
+static void declare_supply(double pressure)
+{
+  read_log(&sound);
+  rig.n_fit = 0;
+  rig.params.supply_pressure = (pneu_real)pressure;
+}
+
+static void test_lab_is_at_rest__supply_in_another_unit__is_named(void **state)
+{
+  static const struct meant {
+    double number;
+    const char *words;
+  } meant[] = {
+      {2.5, "did you mean \"2.5 bar\"?"}, {250, "did you mean \"250 kPa\"?"}, {36, "did you mean \"36 psi\"?"}};
+  char text[LAB_LIMITATION_TEXT];
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof meant / sizeof meant[0]; i++) {
+    declare_supply(meant[i].number);
+    assert_int_equal(lab_is_at_rest(&rig, 1, text), 1);
+    assert_contains(text, meant[i].words);
+  }
+  declare_supply(109e3);
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 1);
+  assert_null(strstr(text, "did you mean"));
+  declare_supply(111e3);
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+  assert_string_equal(text, "");
+}
+
+static void test_lab_is_at_rest__supply_that_does_not_count__is_quiet(void **state)
+{
+  static const int inputs[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_PS, LAB_CHANNEL_FORCE};
+  char text[LAB_LIMITATION_TEXT];
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof inputs / sizeof inputs[0]; i++) {
+    declare_supply(2.5);
+    rig.input[inputs[i]] = 1;
+    assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+  }
+  declare_supply(2.5);
+  rig.params.stroke = 0;
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+  declare_supply(2.5);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_supply_pressure;
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+  declare_supply(2.5);
+  rig.params.external_force = -5000; /* pulls the stem up */
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+  declare_supply(2.5);
+  rig.n_terms = 1;
+  rig.term[0].equation = PNEU_TERM_SUPPLY;
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+}
+
+static void test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less(void **state)
+{
+  char text[LAB_LIMITATION_TEXT];
+  (void)state;
+  declare_supply(12e3);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
+  rig.params.supply_pressure = 10e3;
+  assert_int_equal(lab_is_at_rest(&rig, 1, text), 1);
+}
+
+static void test_lab_plausible__stem_that_rises_without_supply__is_refused(void **state)
+{
+  char path[512];
+  (void)state;
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],-,x [mm]", &sound));
+  read_files(bad_rig("rig.cfg", ""), path);
+  rig.params.supply_pressure = (pneu_real)2.5;
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, "x rises, but the model's stem cannot leave its stop: supply.pressure is 2.5 Pa");
+}
+
+/* A decay of pressure below the bench set: the stem rests in the log as in the model. */
+static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(void **state)
+{
+  bad_log b = sound;
+  char path[512];
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++) {
+    b.u[i] = i < 50 ? 0 : i < 500 ? 1 : -1;
+    b.p[i] = 80 * (i < 50    ? 0
+                   : i < 500 ? 1 - exp(-0.05 * (double)(i - 50))
+                             : exp(-0.02 * (double)(i - 500))) +
+             0.3 * (double)(i % 3) - 0.3;
+    b.x[i] = 0.02 * (double)(i % 3) - 0.02;
+  }
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", header, &b));
+  read_files(bad_rig("rig.cfg", ""), path);
+  rig.n_fit = 0;
+  rig.params.supply_pressure = 80e3;
+  if (judge() != LAB_OK)
+    fail_msg("%s", error.text);
+  assert_int_equal(limitations.doubt, 0);
+  assert_contains(limitations.text[limitations.n - 1], "cannot leave its stop: supply.pressure is 80.00 kPa");
+}
+
+/* ---- Mending ---- */
+
+static void test_lab_log_clean__pressure_input_that_saturates__is_refused(void **state)
+{
+  bad_log b = sound;
+  char path[512];
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = fmin(sound.p[i], 180);
+  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],-,p [kPa],x [mm]", &b));
+  read_files(bad_rig("rig.cfg", "inputs = [\"p\"];\n"), path);
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, "drives the model");
+}
+
+/* Without noise a plateau that is reached at speed gives it away; one that follows a command does not. */
+static void test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt(void **state)
+{
+  bad_log b = sound;
+  size_t i, gaps = 0;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.p[i] = b.t[i] < 0.4 ? 0 : fmin(100 * (b.t[i] - 0.4), 210); /* shut from 2.5 s on: it stays at 210 */
+  read_log(&b);
+  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  assert_int_equal(limitations.n, 0);
+  lab_log_free(&log_read);
+  for (i = 0; i < b.n; i++)
+    b.p[i] = fmin(b.p[i], 120);
+  read_log(&b);
+  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  assert_contains(limitations.text[0], "120 kPa, its largest value");
+  for (i = 0; i < log_read.n; i++)
+    gaps += isnan(log_read.value[LAB_CHANNEL_P][i]) != 0;
+  assert_true(gaps > 800);
+}
+
+/* A log without any noise rests exactly on its stops and that is no saturation. */
+static void test_lab_log_clean__stop_without_noise__stays(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = fmin(fmax(20 * (b.t[i] - 1), 0), 20);
+  read_log(&b);
+  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  assert_int_equal(limitations.n, 0);
+}
+
+static void test_lab_log_clean__spike__becomes_a_gap(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  b.p[300] = 9999;
+  b.p[320] += 60;
+  read_log(&b);
+  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  assert_int_equal(limitations.n, 1);
+  assert_contains(limitations.text[0], "2 values of channel p are far from both neighbours, the first at line 302");
+  assert_true(isnan(log_read.value[LAB_CHANNEL_P][300]));
+  assert_true(isnan(log_read.value[LAB_CHANNEL_P][320]));
+  assert_false(isnan(log_read.value[LAB_CHANNEL_P][301]));
+}
+
+/* ---- Thinning ---- */
+
+/* A log of n rows 1 ms apart; the command changes where u_of says. */
+static lab_log make_log(size_t n, double (*u_of)(size_t))
+{
+  lab_log log;
+  size_t i;
+  memset(&log, 0, sizeof log);
+  log.path = calloc(1, 8);
+  strcpy(log.path, "l.csv");
+  log.n = n;
+  log.n_runs = 1;
+  log.run = calloc(2, sizeof *log.run);
+  log.run[1] = n;
+  log.line = calloc(n, sizeof *log.line);
+  log.value[LAB_CHANNEL_TIME] = calloc(n, sizeof(double));
+  log.value[LAB_CHANNEL_U] = calloc(n, sizeof(double));
+  log.value[LAB_CHANNEL_P] = calloc(n, sizeof(double));
+  for (i = 0; i < n; i++) {
+    log.line[i] = (int)i + 2;
+    log.value[LAB_CHANNEL_TIME][i] = 1e-3 * (double)i;
+    log.value[LAB_CHANNEL_U][i] = u_of(i);
+    log.value[LAB_CHANNEL_P][i] = 3 * (double)i;
+  }
+  return log;
+}
+
+static double seldom(size_t i)
+{
+  return i < 3333 ? 0 : i < 7777 ? 1 : -1;
+}
+
+static double always(size_t i)
+{
+  return (double)(i % 10) / 10;
+}
+
+static void test_lab_log_thin__few_changes__keeps_them_and_the_row_before(void **state)
+{
+  lab_log log = make_log(10001, seldom);
+  const double *t = log.value[LAB_CHANNEL_TIME], *u = log.value[LAB_CHANNEL_U];
+  size_t i, found = 0;
+  (void)state;
+  lab_log_thin(&log, 500, &limitations);
+  assert_true(log.n <= 500 && log.n > 450);
+  assert_int_equal(log.run[1], log.n);
+  assert_close(t[0], 0, 0, 0);
+  assert_close(t[log.n - 1], 10, 1e-12, 0);
+  for (i = 1; i < log.n; i++) {
+    assert_true(t[i] > t[i - 1]);
+    assert_close(log.value[LAB_CHANNEL_P][i], 3000 * t[i], 1e-6, 0);
+    assert_int_equal(log.line[i], (int)(1000 * t[i] + 0.5) + 2);
+    if (u[i] == u[i - 1])
+      continue;
+    found++;
+    assert_close(t[i] - t[i - 1], 1e-3, 1e-9, 0);
+  }
+  assert_int_equal(found, 2);
+  assert_int_equal(limitations.n, 1);
+  assert_contains(limitations.text[0], "of 10001 rows");
+  lab_log_free(&log);
+}
+
+static void test_lab_log_thin__busy_command__is_averaged(void **state)
+{
+  lab_log log = make_log(10000, always);
+  size_t i;
+  (void)state;
+  lab_log_thin(&log, 500, &limitations);
+  assert_true(log.n <= 501);
+  for (i = 0; i + 1 < log.n; i++)
+    assert_close(log.value[LAB_CHANNEL_U][i], 0.45, 1e-12, 0);
+  assert_contains(limitations.text[0], "averaged");
+  lab_log_free(&log);
+}
+
+static void test_lab_log_thin__short_log__stays(void **state)
+{
+  lab_log log = make_log(500, seldom);
+  (void)state;
+  lab_log_thin(&log, 500, &limitations);
+  assert_int_equal(log.n, 500);
+  assert_int_equal(limitations.n, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_thin__two_runs__keep_their_ends(void **state)
+{
+  lab_log log = make_log(10000, seldom);
+  size_t *run = calloc(3, sizeof *run);
+  (void)state;
+  run[1] = 6001;
+  run[2] = 10000;
+  free(log.run);
+  log.run = run;
+  log.n_runs = 2;
+  lab_log_thin(&log, 500, &limitations);
+  assert_close(log.value[LAB_CHANNEL_TIME][log.run[1]], 6.001, 1e-12, 0);
+  assert_close(log.value[LAB_CHANNEL_TIME][log.run[1] - 1], 6, 1e-12, 0);
+  assert_int_equal(log.run[2], log.n);
+  lab_log_free(&log);
+}
+
+/* ---- Remarks, values ---- */
+
+static void test_lab_limitation__too_many__says_so(void **state)
+{
+  int i;
+  (void)state;
+  lab_limitation(&limitations, "first");
+  lab_limitation_no_verdict(&limitations, "second %d", 2);
+  for (i = 0; i < 2 * LAB_LIMITATION_MAX; i++)
+    lab_limitation(&limitations, "more");
+  assert_int_equal(limitations.n, LAB_LIMITATION_MAX);
+  assert_int_equal(limitations.doubt, 2);
+  assert_string_equal(limitations.text[1], "second 2");
+  assert_contains(limitations.text[LAB_LIMITATION_MAX - 1], "more limitations");
+}
+
+static void test_lab_limitations_join__held_out_doubt__is_only_a_remark(void **state)
+{
+  static lab_limitations held;
+  (void)state;
+  memset(&held, 0, sizeof held);
+  lab_limitation_no_verdict(&held, "held");
+  lab_limitations_join(&limitations, &held);
+  assert_string_equal(limitations.text[0], "held");
+  assert_int_equal(limitations.doubt, 0);
+}
+
+static void test_lab_format_channel__channels__have_units_that_are_read(void **state)
+{
+  char text[LAB_FORMAT_CHANNEL_TEXT];
+  (void)state;
+  assert_string_equal(lab_format_channel(LAB_CHANNEL_P, 398200, text), "398.2 kPa");
+  assert_string_equal(lab_format_channel(LAB_CHANNEL_X, 0.0125, text), "12.5 mm");
+  assert_string_equal(lab_format_channel(LAB_CHANNEL_FORCE, 12, text), "12 N");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, fresh, done)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      TEST(test_lab_plausible__sound_log__is_quiet),
+      TEST(test_lab_plausible__leak__is_quiet),
+      TEST(test_lab_plausible__position_only__is_quiet),
+      TEST(test_lab_plausible__pressure_only__is_quiet),
+      TEST(test_lab_plausible__pressure_as_input__is_quiet),
+      TEST(test_lab_plausible__vessel_that_leaks__is_quiet),
+      TEST(test_lab_plausible__poor_guess_of_the_orifices__is_quiet),
+      TEST(test_lab_plausible__logs_of_the_rig__are_quiet),
+      TEST(test_lab_plausible_content__one_still_run_of_two__passes),
+      TEST(test_lab_plausible_content__nothing_but_still_runs__is_refused),
+      TEST(test_lab_plausible__temperature_in_other_degrees__is_refused),
+      TEST(test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused),
+      TEST(test_lab_plausible__half_that_is_shut__is_told),
+      TEST(test_lab_plausible__pressure_lost_while_filling_or_shut__is_told),
+      TEST(test_lab_plausible__declared_noise_too_small__is_a_remark),
+      TEST(test_lab_is_at_rest__supply_in_another_unit__is_named),
+      TEST(test_lab_is_at_rest__supply_that_does_not_count__is_quiet),
+      TEST(test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less),
+      TEST(test_lab_plausible__stem_that_rises_without_supply__is_refused),
+      TEST(test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark),
+      TEST(test_lab_log_clean__pressure_input_that_saturates__is_refused),
+      TEST(test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt),
+      TEST(test_lab_log_clean__stop_without_noise__stays),
+      TEST(test_lab_log_clean__spike__becomes_a_gap),
+      TEST(test_lab_log_thin__few_changes__keeps_them_and_the_row_before),
+      TEST(test_lab_log_thin__busy_command__is_averaged),
+      TEST(test_lab_log_thin__short_log__stays),
+      TEST(test_lab_log_thin__two_runs__keep_their_ends),
+      TEST(test_lab_limitation__too_many__says_so),
+      TEST(test_lab_limitations_join__held_out_doubt__is_only_a_remark),
+      TEST(test_lab_format_channel__channels__have_units_that_are_read),
+  };
+  return cmocka_run_group_tests(tests, open_all, scratch_close);
+}

@@ -1,0 +1,750 @@
+/* Which test to record next: the trials, what they separate, what they narrow. */
+#include <nlopt.h>
+
+#include "../../fixture.h"
+
+#include "../../../apps/lab/discriminate/discriminate_private.h"
+
+static const int fitted[] = {LAB_PARAM_ORIFICE_AREA, PNEU_PARAM_dry_friction, PNEU_PARAM_spring_rate,
+                             PNEU_PARAM_spring_preload, PNEU_PARAM_damping};
+
+/* The R1-400 with 40 cm3 of dead volume, ordinary sensors of pressure and position. */
+static lab_rig make_rig(void)
+{
+  lab_rig rig;
+  lab_rig_default(&rig);
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  rig.params.dead_volume = (pneu_real)4e-5;
+  return rig;
+}
+
+static lab_advice_request make_inquiry(const lab_rig *rig)
+{
+  lab_advice_request q = {rig, {0}, 0.005, COUNT(fitted), fitted, NULL, 0};
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    q.noise[c] = (double)NAN;
+  q.noise[LAB_CHANNEL_P] = 320;
+  q.noise[LAB_CHANNEL_X] = 2e-5;
+  return q;
+}
+
+/* Index of a parameter of an effect; the test is skipped where the effect was trimmed away. */
+static int param_of(const char *effect)
+{
+  const int e = pneu_effect_find(effect);
+  if (e < 0)
+    skip();
+  return pneu_effect_params(e, NULL);
+}
+
+static pneu_params with(const lab_rig *rig, int param, double value)
+{
+  pneu_params p = rig->params;
+  *pneu_param_at(&p, param) = (pneu_real)value;
+  return p;
+}
+
+/* ---- An independent refit: NLopt on whole predictions ---- */
+
+enum { FREE_MAX = 8 };
+
+typedef struct refit {
+  const lab_advice_request *request;
+  int n_records;
+  const lab_forecast *forecast[2];
+  pneu_params base;
+  int n, param[FREE_MAX];
+  double goal[2][LAB_FORECAST_CHANNELS * 1501];
+} refit;
+
+static void predict(const lab_forecast *forecast, const pneu_params *params, double *y)
+{
+  lab_error error;
+  assert_int_equal(lab_forecast_run(forecast, params, y, NULL, &error), LAB_OK);
+}
+
+static void shift(const refit *f, const double *z, pneu_params *params)
+{
+  int i;
+  for (i = 0; i < f->n; i++)
+    lab_forecast_shift(params, f->param[i], z[i], lab_forecast_scale(&f->base, f->param[i]));
+}
+
+/* Sum of squares of the errors over noise. */
+static double chi2(unsigned n, const double *z, double *gradient, void *context)
+{
+  static double y[LAB_FORECAST_CHANNELS * 1501];
+  const refit *f = context;
+  pneu_params params = f->base;
+  double sum = 0;
+  int record, i;
+  (void)n, (void)gradient;
+  shift(f, z, &params);
+  for (record = 0; record < f->n_records; record++) {
+    const lab_forecast *o = f->forecast[record];
+    const double weight = (o->t[1] - o->t[0]) / f->request->spacing;
+    predict(o, &params, y);
+    for (i = 0; i < 2 * o->n; i++) { /* pressure, then position */
+      const double r = (y[i] - f->goal[record][i]) / f->request->noise[i < o->n ? LAB_CHANNEL_P : LAB_CHANNEL_X];
+      sum += weight * r * r;
+    }
+  }
+  return sum;
+}
+
+/* Fit `from` to what `goal` predicts, parameter `own` and those fitted anyway.
+ * In/out: from   Returns: length of what is left [sigma] */
+static double fit_to(refit *f, const pneu_params *goal, pneu_params *from, int own)
+{
+  enum { ROUNDS = 2 };
+  double z[FREE_MAX] = {0}, least = 0;
+  int i;
+  f->base = *from;
+  for (f->n = 0; f->n < COUNT(fitted); f->n++)
+    f->param[f->n] = fitted[f->n];
+  f->param[f->n++] = own;
+  for (i = 0; i < f->n_records; i++)
+    predict(f->forecast[i], goal, f->goal[i]);
+  for (i = 0; i < ROUNDS; i++) { /* its quadratic model is new each time */
+    nlopt_opt opt = nlopt_create(NLOPT_LN_NEWUOA, (unsigned)f->n);
+    nlopt_set_min_objective(opt, chi2, f);
+    nlopt_set_initial_step1(opt, 0.02);
+    nlopt_set_ftol_rel(opt, 1e-8);
+    nlopt_set_maxeval(opt, 1000);
+    nlopt_optimize(opt, z, &least);
+    nlopt_destroy(opt);
+  }
+  shift(f, z, from);
+  return sqrt(least);
+}
+
+/* ---- A trial as an forecast ---- */
+
+typedef struct stage {
+  pneu_input input[LAB_TEST_PLAN_STEPS];
+  lab_schedule schedule;
+  lab_forecast forecast;
+} stage;
+
+static void stage_open(const lab_rig *rig, const lab_test_plan *plan, double settle, stage *s)
+{
+  const pneu_model model = fixture_model(&rig->params, rig->laws.gas, rig->laws.flow);
+  lab_error error;
+  int i;
+  for (i = 0; i < plan->n; i++)
+    s->input[i] = fixture_input(&model, plan->u[i]);
+  s->schedule = (lab_schedule){(size_t)plan->n, plan->t, s->input};
+  assert_int_equal(lab_forecast_open(rig, &s->schedule, settle, plan->duration, 0.005, &s->forecast, &error), LAB_OK);
+}
+
+/* A leak and a drooping supply of a size that a fill and vent cannot tell apart. */
+static void make_alike(const lab_rig *rig, const lab_advice_request *q, pneu_params *leaks, pneu_params *droops)
+{
+  static lab_test_plans plans;
+  static refit f;
+  static stage s;
+  const int leak = param_of("chamber_leak"), droop = param_of("supply_droop");
+  lab_error error;
+  *leaks = with(rig, leak, 3e-10);
+  *droops = with(rig, droop, 1e5);
+  assert_int_equal(lab_test_plans_build(rig, &plans, &error), LAB_OK);
+  stage_open(rig, &plans.usual, plans.settle, &s);
+  f = (refit){.request = q, .n_records = 1, .forecast = {&s.forecast, NULL}};
+  assert_between(fit_to(&f, leaks, droops, droop), 0.5, 2);
+  lab_forecast_close(&s.forecast);
+}
+
+static lab_advice advise(const lab_advice_request *q, const pneu_params *a, const pneu_params *b)
+{
+  lab_advice advice;
+  lab_error error = {0, ""};
+  assert_int_equal(lab_discriminate(q, a, b, &advice, &error), LAB_OK);
+  return advice;
+}
+
+/* ---- Separation ---- */
+
+static void test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orifices_shut(void **state)
+{
+  const lab_rig rig = make_rig();
+  const lab_advice_request q = make_inquiry(&rig);
+  pneu_params leaks, droops;
+  lab_advice advice;
+  int i, shut = 0;
+  (void)state;
+  make_alike(&rig, &q, &leaks, &droops);
+  advice = advise(&q, &leaks, &droops);
+  assert_int_equal(advice.kind, LAB_ADVICE_TEST);
+  assert_non_null(strstr(advice.text, "hold at"));
+  assert_string_equal(advice.text, advice.plan.text);
+  assert_true(advice.usual < 2);
+  assert_true(advice.separation > 5 && advice.separation > 4 * advice.usual);
+  for (i = 0; i + 1 < advice.plan.n; i++)
+    shut |= advice.plan.u[i] == 0 && advice.plan.t[i + 1] - advice.plan.t[i] >= 10;
+  assert_true(shut);
+}
+
+/* What has been recorded counts by its slopes: a tenth of the whole is what its curvature may take. */
+static void test_lab_discriminate__separation__is_what_an_independent_fit_to_both_records_leaves(void **state)
+{
+  static lab_test_plans plans;
+  static refit f;
+  static stage before, after;
+  const lab_rig rig = make_rig();
+  const lab_advice_request q = make_inquiry(&rig);
+  pneu_params leaks, droops, back;
+  lab_advice advice;
+  lab_error error;
+  double one, other;
+  (void)state;
+  make_alike(&rig, &q, &leaks, &droops);
+  advice = advise(&q, &leaks, &droops);
+  assert_int_equal(advice.kind, LAB_ADVICE_TEST);
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  stage_open(&rig, &plans.usual, plans.settle, &before);
+  stage_open(&rig, &advice.plan, plans.settle, &after);
+  f = (refit){.request = &q, .n_records = 2, .forecast = {&before.forecast, &after.forecast}};
+  back = leaks;
+  one = fit_to(&f, &droops, &back, param_of("chamber_leak"));
+  other = fit_to(&f, &leaks, &droops, param_of("supply_droop"));
+  assert_close(advice.separation, fmin(one, other), 0, 0.1);
+  lab_forecast_close(&before.forecast);
+  lab_forecast_close(&after.forecast);
+}
+
+/* A valley: what is left falls by a tenth a step for several steps. */
+static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_end_of_the_valley(void **state)
+{
+  static lab_test_plans plans;
+  static refit f;
+  static stage s;
+  const lab_rig rig = make_rig();
+  const lab_advice_request q = make_inquiry(&rig);
+  const int pressure = param_of("exhaust_back_pressure"), vent = param_of("vent_restriction");
+  pneu_param_info info;
+  pneu_params backs, narrow, other;
+  lab_advice advice;
+  lab_error error;
+  double one;
+  (void)state;
+  pneu_param_describe(pressure, &info);
+  backs = with(&rig, pressure, 0.95 * (double)info.neutral + 0.05 * (double)info.value);
+  pneu_param_describe(vent, &info);
+  narrow = with(&rig, vent, 0.95 * (double)info.neutral + 0.05 * (double)info.value);
+  advice = advise(&q, &backs, &narrow);
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  stage_open(&rig, &plans.usual, plans.settle, &s);
+  f = (refit){.request = &q, .n_records = 1, .forecast = {&s.forecast, NULL}};
+  other = narrow;
+  one = fit_to(&f, &backs, &other, vent);
+  other = backs;
+  assert_close(advice.usual, fmin(one, fit_to(&f, &narrow, &other, pressure)), 0.1, 0);
+  lab_forecast_close(&s.forecast);
+}
+
+/* With nothing but a moment of rest recorded, estimates are several times too large; the trial that is best after
+ * fitting again must win all the same. */
+static void test_lab_discriminate__estimates_too_large__best_of_the_settled_wins(void **state)
+{
+  static lab_test_plans plans;
+  static stage rest, s;
+  static const lab_test_plan still = {"rest", 1, {0}, {0}, 0.5};
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  lab_forecast_model leaks = {with(&rig, param_of("chamber_leak"), 1e-9), 0, {0}, {0}};
+  lab_forecast_model droops = {with(&rig, param_of("supply_droop"), 6e5), 0, {0}, {0}};
+  lab_advice advice;
+  lab_error error;
+  lab_normal nothing;
+  int i, k;
+  (void)state;
+  stage_open(&rig, &still, 0, &rest);
+  q.recorded = &rest.schedule;
+  q.recorded_duration = still.duration;
+  advice = advise(&q, &leaks.params, &droops.params);
+  for (k = 0; k < COUNT(fitted); k++) {
+    lab_side_add(&leaks, fitted[k], &error);
+    lab_side_add(&droops, fitted[k], &error);
+  }
+  lab_side_add(&leaks, param_of("chamber_leak"), &error);
+  lab_side_add(&droops, param_of("supply_droop"), &error);
+  lab_normal_clear(&nothing, leaks.n);
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  for (i = 0; i < 6; i++) { /* the holds */
+    double one, other;
+    stage_open(&rig, &plans.plan[i], plans.settle, &s);
+    assert_int_equal(lab_discrepancy(&q, &s.forecast, &droops.params, &leaks, &nothing, &one, &error), LAB_OK);
+    assert_int_equal(lab_discrepancy(&q, &s.forecast, &leaks.params, &droops, &nothing, &other, &error), LAB_OK);
+    check_note("%s", plans.plan[i].text);
+    assert_true(advice.separation >= 0.9 * fmin(one, other));
+    lab_forecast_close(&s.forecast);
+  }
+  lab_forecast_close(&rest.forecast);
+}
+
+static void test_lab_discriminate__models_exchanged__same_advice(void **state)
+{
+  const lab_rig rig = make_rig();
+  const lab_advice_request q = make_inquiry(&rig);
+  const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-9);
+  const pneu_params blocked = with(&rig, param_of("vent_restriction"), 2e-3);
+  const lab_advice one = advise(&q, &leaks, &blocked), other = advise(&q, &blocked, &leaks);
+  (void)state;
+  assert_string_equal(one.text, other.text);
+  assert_string_equal(one.why, other.why);
+  assert_true(one.separation > 0);
+  assert_true(one.separation == other.separation && one.usual == other.usual);
+}
+
+static void test_lab_discriminate__one_model_twice__nothing_separates_it(void **state)
+{
+  const lab_rig rig = make_rig();
+  const lab_advice_request q = make_inquiry(&rig);
+  const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-8);
+  const lab_advice advice = advise(&q, &leaks, &leaks);
+  (void)state;
+  assert_int_equal(advice.kind, LAB_ADVICE_NONE);
+  assert_true(advice.separation == 0 && advice.usual == 0);
+}
+
+static void test_lab_discriminate__one_thing_under_two_names__nothing_separates_it(void **state)
+{
+  const lab_rig rig = make_rig();
+  const lab_advice_request q = make_inquiry(&rig);
+  const pneu_params blocked = with(&rig, param_of("vent_restriction"), 0.1);
+  const pneu_params small = with(&rig, PNEU_PARAM_vent_area, 0.9 * (double)rig.params.vent_area);
+  const lab_advice advice = advise(&q, &blocked, &small);
+  (void)state;
+  assert_int_equal(advice.kind, LAB_ADVICE_NONE);
+  assert_true(advice.separation < 0.1);
+}
+
+/* A first-order lag and a delay of equal time differ in the second order of that time only. */
+static void test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedule_and_no_sensor_does(void **state)
+{
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  const pneu_params lags = with(&rig, param_of("position_lag"), 1e-3);
+  const pneu_params late = with(&rig, param_of("channel_skew"), 1e-3);
+  const double pressure_noise[] = {320, (double)NAN};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(pressure_noise); i++) {
+    lab_advice advice;
+    q.noise[LAB_CHANNEL_P] = pressure_noise[i];
+    advice = advise(&q, &lags, &late);
+    assert_int_equal(advice.kind, LAB_ADVICE_NONE);
+    assert_non_null(strstr(advice.text, "no schedule of the set separates them"));
+    assert_non_null(strstr(advice.text, "nor with one more"));
+  }
+}
+
+static void test_lab_discriminate__position_alone_too_little__names_the_sensor_to_add(void **state)
+{
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  pneu_params leaks, droops;
+  lab_advice advice;
+  (void)state;
+  make_alike(&rig, &q, &leaks, &droops);
+  q.noise[LAB_CHANNEL_P] = (double)NAN;
+  advice = advise(&q, &leaks, &droops);
+  assert_int_equal(advice.kind, LAB_ADVICE_SENSOR);
+  assert_true(advice.channel == LAB_CHANNEL_P || advice.channel == LAB_CHANNEL_PS);
+  assert_non_null(strstr(advice.text, "record p"));
+  assert_true(advice.separation < 5 && advice.with_sensor > 5);
+  assert_true(advice.plan.n > 2);
+}
+
+static void test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent(void **state)
+{
+  static lab_test_plans plans;
+  static stage s;
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-9);
+  const pneu_params blocked = with(&rig, param_of("vent_restriction"), 2e-3);
+  const double usual = advise(&q, &leaks, &blocked).usual;
+  lab_advice advice;
+  lab_error error;
+  (void)state;
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  stage_open(&rig, &plans.usual, plans.settle, &s);
+  q.recorded = &s.schedule;
+  q.recorded_duration = plans.usual.duration;
+  advice = advise(&q, &leaks, &blocked);
+  assert_close(advice.usual, usual, 0, 1e-9);
+  assert_non_null(strstr(advice.why, "what has been recorded"));
+  q.recorded_duration = plans.usual.t[2]; /* without the vent */
+  assert_true(advise(&q, &leaks, &blocked).usual < 0.5 * usual);
+  lab_forecast_close(&s.forecast);
+}
+
+/* ---- Where there is no advice ---- */
+
+static void expect_reason(const lab_rig *rig, const char *reason)
+{
+  const lab_advice_request q = make_inquiry(rig);
+  lab_advice advice = advise(&q, &rig->params, &rig->params);
+  lab_error error = {0, ""};
+  assert_int_equal(advice.kind, LAB_ADVICE_NONE);
+  assert_non_null(strstr(advice.text, reason));
+  memset(&advice, 0x55, sizeof advice);
+  assert_int_equal(lab_advise_precision(&q, &rig->params, &advice, &error), LAB_OK);
+  assert_int_equal(advice.kind, LAB_ADVICE_NONE);
+  assert_non_null(strstr(advice.text, reason));
+}
+
+static void test_lab_discriminate__no_command_moves_a_stem__says_why(void **state)
+{
+  lab_rig rig = make_rig();
+  (void)state;
+  rig.params.stroke = 0;
+  expect_reason(&rig, "vessel");
+  rig = make_rig();
+  rig.laws.pressure_input = 1;
+  expect_reason(&rig, "pressure drives the model");
+  rig = make_rig();
+  rig.laws.position_input = 1;
+  expect_reason(&rig, "position drives the model");
+  rig = make_rig();
+  rig.params.proportional_band = 1e4;
+  expect_reason(&rig, "set pressures");
+  rig = make_rig();
+  rig.params.supply_pressure = (pneu_real)1.2e5;
+  expect_reason(&rig, "does not move the stem");
+}
+
+static void test_lab_discriminate__inquiry_that_is_none__says_what_was_expected(void **state)
+{
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  lab_advice advice;
+  lab_error error;
+  (void)state;
+  q.spacing = 0;
+  assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
+  assert_non_null(strstr(error.text, "spacing"));
+  q = make_inquiry(&rig);
+  q.noise[LAB_CHANNEL_P] = 0;
+  assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
+  assert_non_null(strstr(error.text, "channel p"));
+  q.noise[LAB_CHANNEL_P] = q.noise[LAB_CHANNEL_X] = (double)NAN;
+  assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
+  assert_non_null(strstr(error.text, "recorded channel"));
+}
+
+/* ---- Intervals ---- */
+
+static void test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion(void **state)
+{
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  int fit[COUNT(fitted) + 1];
+  lab_advice advice;
+  lab_error error;
+  (void)state;
+  memcpy(fit, fitted, sizeof fitted);
+  fit[q.n_fit++] = param_of("stribeck_friction");
+  q.fit = fit;
+  assert_int_equal(lab_advise_precision(&q, &rig.params, &advice, &error), LAB_OK);
+  assert_int_equal(advice.kind, LAB_ADVICE_TEST);
+  assert_int_equal(advice.param, fit[COUNT(fitted)]);
+  assert_non_null(strstr(advice.text, "slow stroke"));
+  assert_non_null(strstr(advice.why, "stribeck_friction"));
+  assert_true(advice.after < 0.1 * advice.before);
+}
+
+/* One parameter: information adds up, and that of the trial alone is the sum of squared slopes. */
+static void test_lab_advise_precision__one_parameter__is_the_information_of_both_records(void **state)
+{
+  static lab_test_plans plans;
+  static double y[LAB_FORECAST_CHANNELS * 1501], slope[LAB_FORECAST_CHANNELS * 1501];
+  static stage s;
+  static const int only[] = {PNEU_PARAM_spring_rate};
+  const lab_rig rig = make_rig();
+  const lab_forecast_model model = {rig.params, 1, {only[0]}, {(double)rig.params.spring_rate}};
+  lab_advice_request q = make_inquiry(&rig);
+  double information[2];
+  lab_advice advice;
+  lab_error error;
+  int i, k;
+  (void)state;
+  q.n_fit = 1;
+  q.fit = only;
+  assert_int_equal(lab_advise_precision(&q, &rig.params, &advice, &error), LAB_OK);
+  assert_int_equal(advice.kind, LAB_ADVICE_TEST);
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  for (k = 0; k < 2; k++) {
+    int n;
+    stage_open(&rig, k ? &advice.plan : &plans.usual, plans.settle, &s);
+    n = s.forecast.n;
+    assert_int_equal(lab_forecast_run(&s.forecast, &rig.params, y, NULL, &error), LAB_OK);
+    assert_int_equal(lab_forecast_slopes(&s.forecast, &model, y, slope, &error), LAB_OK);
+    information[k] = 0;
+    for (i = 0; i < 2 * n; i++)
+      information[k] += pow(slope[i] / (i < n ? 320 : 2e-5), 2) * (s.forecast.t[1] - s.forecast.t[0]) / q.spacing;
+    lab_forecast_close(&s.forecast);
+  }
+  assert_close(advice.before, 1.959964 / sqrt(information[0]), 0, 1e-4);
+  assert_close(advice.after, 1.959964 / sqrt(information[0] + information[1]), 0, 1e-4);
+  assert_non_null(strstr(advice.why, "would narrow the interval of spring_rate from ±"));
+}
+
+/* ---- Trials ---- */
+
+static const lab_test_plan *find_trial(const lab_test_plans *plans, const char *text)
+{
+  int i;
+  for (i = 0; i < plans->n; i++)
+    if (strstr(plans->plan[i].text, text))
+      return &plans->plan[i];
+  fail();
+  return NULL;
+}
+
+static void test_lab_test_plans_build__hold_at_80_percent__stem_stands_there(void **state)
+{
+  static lab_test_plans plans;
+  static double y[LAB_FORECAST_CHANNELS * 1501];
+  static stage s;
+  const lab_rig rig = make_rig();
+  const lab_test_plan *hold;
+  lab_error error;
+  int i;
+  (void)state;
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  hold = find_trial(&plans, "hold at 80 % travel with both orifices shut for 10 s");
+  assert_int_equal(hold->n, 4);
+  assert_close(hold->t[3] - hold->t[2], 10, 1e-9, 0);
+  stage_open(&rig, hold, plans.settle, &s);
+  assert_int_equal(lab_forecast_run(&s.forecast, &rig.params, y, NULL, &error), LAB_OK);
+  for (i = 0; i < s.forecast.n && s.forecast.t[i] < hold->t[3]; i++)
+    if (s.forecast.t[i] > hold->t[2] + 0.5)
+      assert_close(y[s.forecast.n + i] / (double)rig.params.stroke, 0.8, 0.01, 0);
+  assert_close(y[2 * s.forecast.n - 1], 0, 1e-9, 0);
+  lab_forecast_close(&s.forecast);
+}
+
+static void test_lab_test_plans_build__both_actuators__every_template_in_order_of_time(void **state)
+{
+  int actuator, i, k;
+  (void)state;
+  for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++) {
+    static lab_test_plans plans;
+    lab_rig rig = make_rig();
+    lab_error error;
+    rig.params = fixture_params(actuator);
+    assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+    assert_int_equal(plans.n, 14);
+    for (i = 0; i < plans.n; i++) {
+      const lab_test_plan *plan = &plans.plan[i];
+      check_note("actuator %d: %s", actuator, plan->text);
+      assert_true(plan->n >= 2 && plan->t[0] == 0 && plan->duration > plan->t[plan->n - 1]);
+      for (k = 1; k < plan->n; k++)
+        assert_true(plan->t[k] > plan->t[k - 1] && fabs(plan->u[k]) <= 1);
+    }
+  }
+}
+
+/* A small trickle of command meets a leak that lets as much out: the slow strokes cannot be done. */
+static void test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out(void **state)
+{
+  static lab_test_plans plans;
+  lab_rig rig = make_rig();
+  lab_error error;
+  (void)state;
+  rig.params = with(&rig, param_of("chamber_leak"), 0.15 * (double)rig.params.fill_area);
+  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  assert_int_equal(plans.n, 12);
+  find_trial(&plans, "three full strokes");
+}
+
+static void test_trial_choose__ties__go_to_the_shortest(void **state)
+{
+  static lab_test_plans plans;
+  const double duration[] = {40, 10, 20, 5, 1};
+  const double value[] = {50, 47, 46, 44, (double)NAN};
+  int i;
+  (void)state;
+  plans.n = 5;
+  for (i = 0; i < plans.n; i++)
+    plans.plan[i].duration = duration[i];
+  assert_int_equal(lab_trial_choose(&plans, value, 100), 1);
+  assert_int_equal(lab_trial_choose(&plans, value, 48), 3);
+  plans.n = 1;
+  assert_int_equal(lab_trial_choose(&plans, value, 100), 0);
+  assert_int_equal(lab_trial_choose(&plans, value + 4, 100), -1);
+}
+
+/* ---- Normal equations ---- */
+
+enum { M = 40, K = 3 };
+
+/* Smooth columns with nothing in common, d last. */
+static void make_columns(double column[K + 1][M], const double *pointer[K + 1])
+{
+  int i, j;
+  for (j = 0; j <= K; j++) {
+    pointer[j] = column[j];
+    for (i = 0; i < M; i++)
+      column[j][i] = pow(10, j) * (cos(0.1 * (j + 1) * i) + 0.01 * i * j);
+  }
+}
+
+/* Gram-Schmidt, twice for good measure. */
+static double rest_by_gram_schmidt(double column[K + 1][M])
+{
+  double sum = 0;
+  int i, j, l, pass;
+  for (j = 0; j <= K; j++)
+    for (pass = 0; pass < 2; pass++)
+      for (l = 0; l < j; l++) {
+        double dot = 0, square = 0;
+        for (i = 0; i < M; i++) {
+          dot += column[j][i] * column[l][i];
+          square += column[l][i] * column[l][i];
+        }
+        for (i = 0; i < M; i++)
+          column[j][i] -= dot / square * column[l][i];
+      }
+  for (i = 0; i < M; i++)
+    sum += column[K][i] * column[K][i];
+  return sqrt(sum);
+}
+
+static void test_lab_normal_rest__is_what_gram_schmidt_leaves(void **state)
+{
+  static double column[K + 1][M];
+  const double *pointer[K + 1];
+  lab_normal normal;
+  double rest;
+  (void)state;
+  make_columns(column, pointer);
+  lab_normal_clear(&normal, K);
+  lab_normal_add_rows(&normal, pointer, M);
+  rest = lab_normal_rest(&normal);
+  assert_true(rest < 0.9 * sqrt(normal.g[K][K]) && rest > 0);
+  assert_close(rest, rest_by_gram_schmidt(column), 0, 1e-8);
+}
+
+/* What tells the last column from the first is d itself: were that counted, nothing of d would be left. */
+static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
+{
+  static double column[K + 1][M];
+  const double *pointer[K + 1];
+  const int two[] = {0, 1};
+  lab_normal normal, part;
+  int i;
+  (void)state;
+  make_columns(column, pointer);
+  for (i = 0; i < M; i++)
+    column[2][i] = column[0][i] + 1e-8 * column[K][i];
+  lab_normal_clear(&normal, K);
+  lab_normal_add_rows(&normal, pointer, M);
+  lab_normal_select(&normal, 2, two, &part);
+  assert_close(lab_normal_rest(&normal), lab_normal_rest(&part), 0, 1e-9);
+}
+
+static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
+{
+  static double column[K + 1][M];
+  const double *pointer[K + 1], *turned[3];
+  const int keep[] = {2, 0};
+  lab_normal normal, part, again;
+  int i, j;
+  (void)state;
+  make_columns(column, pointer);
+  lab_normal_clear(&normal, K);
+  lab_normal_add_rows(&normal, pointer, M);
+  lab_normal_select(&normal, 2, keep, &part);
+  turned[0] = column[2];
+  turned[1] = column[0];
+  turned[2] = column[K];
+  lab_normal_clear(&again, 2);
+  lab_normal_add_rows(&again, turned, M);
+  assert_int_equal(part.k, 2);
+  for (i = 0; i < 3; i++)
+    for (j = i; j < 3; j++)
+      assert_close(part.g[i][j], again.g[i][j], 0, 1e-12);
+}
+
+/* Squares of the rows, and of d once a combination of the columns is taken out, are those of the original ones. */
+static void test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_columns(void **state)
+{
+  static double column[K + 1][M], row[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1];
+  const double *pointer[K + 1], change[K] = {2, -0.3, 0.05};
+  lab_normal normal;
+  double by_rows = 0, by_columns = 0;
+  int i, j, twice;
+  (void)state;
+  for (twice = 0; twice < 2; twice++) {
+    make_columns(column, pointer);
+    for (i = 0; twice && i < M; i++)
+      column[2][i] = 3 * column[0][i] - column[1][i]; /* spanned by the others */
+    lab_normal_clear(&normal, K);
+    lab_normal_add_rows(&normal, pointer, M);
+    lab_normal_rows(&normal, row);
+    for (by_rows = 0, i = 0; i <= K; i++) {
+      double r = row[i][K];
+      for (j = 0; j < K; j++)
+        r -= row[i][j] * change[j];
+      by_rows += r * r;
+    }
+    for (by_columns = 0, i = 0; i < M; i++) {
+      double r = column[K][i];
+      for (j = 0; j < K; j++)
+        r -= column[j][i] * change[j];
+      by_columns += r * r;
+    }
+    check_note("%s", twice ? "a column spanned by the others" : "columns of their own");
+    assert_close(by_rows, by_columns, 0, 1e-10);
+  }
+}
+
+/* J'J + 1/prior^2 = [[5, 2], [2, 2]], whose inverse is [[1/3, -1/3], [-1/3, 5/6]]. */
+static void test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse(void **state)
+{
+  const double prior[] = {1, 1};
+  double deviation[2];
+  lab_normal normal;
+  (void)state;
+  lab_normal_clear(&normal, 2);
+  normal.g[0][0] = 4;
+  normal.g[0][1] = 2;
+  normal.g[1][1] = 1;
+  lab_normal_deviations(&normal, prior, deviation);
+  assert_close(deviation[0], sqrt(1.0 / 3), 1e-12, 0);
+  assert_close(deviation[1], sqrt(5.0 / 6), 1e-12, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orifices_shut),
+      cmocka_unit_test(test_lab_discriminate__separation__is_what_an_independent_fit_to_both_records_leaves),
+      cmocka_unit_test(test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_end_of_the_valley),
+      cmocka_unit_test(test_lab_discriminate__estimates_too_large__best_of_the_settled_wins),
+      cmocka_unit_test(test_lab_discriminate__models_exchanged__same_advice),
+      cmocka_unit_test(test_lab_discriminate__one_model_twice__nothing_separates_it),
+      cmocka_unit_test(test_lab_discriminate__one_thing_under_two_names__nothing_separates_it),
+      cmocka_unit_test(test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedule_and_no_sensor_does),
+      cmocka_unit_test(test_lab_discriminate__position_alone_too_little__names_the_sensor_to_add),
+      cmocka_unit_test(test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent),
+      cmocka_unit_test(test_lab_discriminate__no_command_moves_a_stem__says_why),
+      cmocka_unit_test(test_lab_discriminate__inquiry_that_is_none__says_what_was_expected),
+      cmocka_unit_test(test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion),
+      cmocka_unit_test(test_lab_advise_precision__one_parameter__is_the_information_of_both_records),
+      cmocka_unit_test(test_lab_test_plans_build__hold_at_80_percent__stem_stands_there),
+      cmocka_unit_test(test_lab_test_plans_build__both_actuators__every_template_in_order_of_time),
+      cmocka_unit_test(test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out),
+      cmocka_unit_test(test_trial_choose__ties__go_to_the_shortest),
+      cmocka_unit_test(test_lab_normal_rest__is_what_gram_schmidt_leaves),
+      cmocka_unit_test(test_lab_normal_rest__column_nearly_twice__counts_once),
+      cmocka_unit_test(test_lab_normal_select__any_order__takes_the_same_rows),
+      cmocka_unit_test(test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_columns),
+      cmocka_unit_test(test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,498 @@
+/* Least squares within bounds: closed forms, a curved valley, models that fail. */
+#include "../../check.h"
+
+#include <stdlib.h>
+
+#include "../../../apps/lab/fit/fit.h"
+#include "../../../apps/lab/fit/normal.h"
+
+enum { ROWS = 40, STEPS = 60 };
+
+static lab_error error;
+
+/* A problem, and how often its slopes were asked for. */
+typedef struct trial {
+  int n;
+  double t[ROWS], y[ROWS];
+  double (*model)(const double *theta, double t);
+  double weight;
+  int failing;  /* status where a model fails */
+  int no_slope; /* unknown whose slope is not to be had; -1: none */
+  int asked[4]; /* times that each slope was */
+} trial;
+
+static int residuals(void *context, const double *theta, double *r, lab_error *e)
+{
+  const trial *c = context;
+  int i;
+  for (i = 0; i < ROWS; i++) {
+    const double y = c->model(theta, c->t[i]);
+    if (isnan(y))
+      return lab_fail(e, c->failing, "no model here");
+    r[i] = c->weight * (c->y[i] - y);
+  }
+  return LAB_OK;
+}
+
+static int slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *e)
+{
+  trial *c = context;
+  double at[4];
+  const double step = 1e-6;
+  int i;
+  c->asked[j]++;
+  if (j == c->no_slope)
+    return lab_fail(e, c->failing, "no slope here");
+  memcpy(at, theta, (size_t)c->n * sizeof *at);
+  at[j] += step;
+  if (residuals(c, at, column, e))
+    return e->status;
+  for (i = 0; i < ROWS; i++)
+    column[i] = (column[i] - r[i]) / step;
+  return LAB_OK;
+}
+
+static const double low[] = {-100, -100, -100}, high[] = {100, 100, 100};
+
+static lab_fit_problem problem_of(trial *c)
+{
+  const lab_fit_problem p = {.n = c->n,
+                             .m = ROWS,
+                             .lower = low,
+                             .upper = high,
+                             .context = c,
+                             .residuals = residuals,
+                             .slope = slope,
+                             .steps = STEPS};
+  return p;
+}
+
+static double chi2_at(trial *c, const double *theta)
+{
+  double r[ROWS], sum = 0;
+  int i;
+  assert_int_equal(residuals(c, theta, r, &error), LAB_OK);
+  for (i = 0; i < ROWS; i++)
+    sum += r[i] * r[i];
+  return sum;
+}
+
+/* ---- A straight line ---- */
+
+static double line(const double *theta, double t)
+{
+  return theta[0] + theta[1] * t;
+}
+
+static trial make_line(void)
+{
+  trial c = {2, {0}, {0}, line, 100, LAB_NUMERIC, -1, {0}};
+  int i;
+  for (i = 0; i < ROWS; i++) {
+    c.t[i] = 0.1 * i;
+    c.y[i] = 3 - 0.5 * c.t[i] + (i % 3 - 1) * 0.1;
+  }
+  return c;
+}
+
+static double mean(const double *y)
+{
+  double sum = 0;
+  int i;
+  for (i = 0; i < ROWS; i++)
+    sum += y[i];
+  return sum / ROWS;
+}
+
+/* Slope of the regression line. */
+static double regression(const trial *c)
+{
+  const double t0 = mean(c->t), y0 = mean(c->y);
+  double tt = 0, ty = 0;
+  int i;
+  for (i = 0; i < ROWS; i++) {
+    tt += (c->t[i] - t0) * (c->t[i] - t0);
+    ty += (c->t[i] - t0) * (c->y[i] - y0);
+  }
+  return ty / tt;
+}
+
+static void test_lab_fit__line__is_the_regression_line(void **state)
+{
+  trial c = make_line();
+  const lab_fit_problem p = problem_of(&c);
+  double theta[] = {40, 7};
+  double chi2;
+  const double b = regression(&c), best[] = {mean(c.y) - b * mean(c.t), b};
+  (void)state;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], best[0], 1e-4, 0);
+  assert_close(theta[1], best[1], 1e-4, 0);
+  assert_close(chi2, chi2_at(&c, best), 0.02, 1e-6);
+}
+
+static void test_lab_fit__bound_in_the_way__is_the_best_line_on_it(void **state)
+{
+  static const double bounded[] = {100, -0.75};
+  trial c = make_line();
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {40, -2};
+  double chi2;
+  (void)state;
+  p.upper = bounded;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_true(theta[1] == bounded[1]);
+  assert_close(theta[0], mean(c.y) - bounded[1] * mean(c.t), 1e-4, 0);
+}
+
+static void test_lab_fit__bounds_on_all__ends_in_the_corner(void **state)
+{
+  static const double least[] = {3.5, -0.3};
+  trial c = make_line();
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {4, 0};
+  double chi2;
+  (void)state;
+  p.lower = least;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_true(theta[0] == least[0]);
+  assert_true(theta[1] == least[1]);
+  assert_close(chi2, chi2_at(&c, least), 0, 1e-12);
+}
+
+static void test_lab_fit__start_on_bounds__leaves_them(void **state)
+{
+  static const double above[] = {9, 100}, below[] = {-100, -4};
+  trial c = make_line();
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {9, -4};
+  double chi2;
+  (void)state;
+  p.upper = above;
+  p.lower = below;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[1], regression(&c), 1e-4, 0);
+  assert_close(theta[0], mean(c.y) - regression(&c) * mean(c.t), 1e-4, 0);
+}
+
+/* ---- A curved valley ---- */
+
+/* Rosenbrock's function in its two residuals, the other rows empty. */
+static double valley(const double *theta, double t)
+{
+  return t == 0 ? 10 * (theta[1] - theta[0] * theta[0]) : t == 1 ? 1 - theta[0] : 0;
+}
+
+static void test_lab_fit__rosenbrock__follows_the_valley(void **state)
+{
+  trial c = {2, {0}, {0}, valley, 1000, LAB_NUMERIC, -1, {0}};
+  const lab_fit_problem p = problem_of(&c);
+  double theta[] = {-1.2, 1};
+  double chi2;
+  int i;
+  (void)state;
+  for (i = 0; i < ROWS; i++)
+    c.t[i] = i;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], 1, 3e-4, 0);
+  assert_close(theta[1], 1, 6e-4, 0);
+  assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
+}
+
+static void test_lab_fit__one_step__is_on_the_way(void **state)
+{
+  trial c = {2, {0}, {0}, valley, 1000, LAB_NUMERIC, -1, {0}};
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {-1.2, 1};
+  const double before = 1e6 * (4.4 * 4.4 + 2.2 * 2.2);
+  double chi2;
+  int i;
+  (void)state;
+  for (i = 0; i < ROWS; i++)
+    c.t[i] = i;
+  p.steps = 1;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_true(chi2 < 0.5 * before && chi2 > 1e-3 * before);
+  assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
+  assert_int_equal(c.asked[0], 1);
+}
+
+/* ---- When it ends ---- */
+
+/* A thousandth off the regression line is 0.4 of chi-square. */
+static void test_lab_fit__near_enough__ends_at_once(void **state)
+{
+  trial c = make_line();
+  lab_fit_problem p = problem_of(&c);
+  const double b = regression(&c), off = mean(c.y) - b * mean(c.t) + 1e-3;
+  double theta[] = {off, b}, chi2;
+  (void)state;
+  p.enough = 1;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_true(theta[0] == off && theta[1] == b);
+  assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
+  p.enough = 0.1;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], off - 1e-3, 1e-6, 0);
+  theta[0] = off;
+  p.enough_share = 0.9;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_true(theta[0] == off);
+}
+
+/* ---- Models that fail ---- */
+
+/* Its first full step from 5 goes to where there is no logarithm. */
+static double logarithm(const double *theta, double t)
+{
+  return theta[0] > 0 ? log(theta[0]) + 0 * t : (double)NAN;
+}
+
+static void test_lab_fit__model_fails_beyond__stays_where_it_does_not(void **state)
+{
+  trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}};
+  const lab_fit_problem p = problem_of(&c);
+  double theta[] = {5};
+  double chi2;
+  (void)state;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], 1, 1e-3, 0);
+}
+
+static void test_lab_fit__model_fails_at_start__says_so(void **state)
+{
+  trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}};
+  const lab_fit_problem p = problem_of(&c);
+  double theta[] = {-1};
+  double chi2;
+  (void)state;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_NUMERIC);
+  assert_true(theta[0] == -1);
+}
+
+/* The residuals come without an error, but one of them is none. */
+static int hollow(void *context, const double *theta, double *r, lab_error *e)
+{
+  (void)context, (void)e;
+  memset(r, 0, ROWS * sizeof *r);
+  r[4] = sqrt(theta[0]);
+  return LAB_OK;
+}
+
+static void test_lab_fit__residual_not_finite__is_named(void **state)
+{
+  trial c = make_line();
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {-1, 0};
+  double chi2;
+  (void)state;
+  p.residuals = hollow;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_NUMERIC);
+  assert_string_equal(error.text, "residual 5 of 40 is not finite");
+}
+
+static void test_lab_fit__any_other_failure__ends_it(void **state)
+{
+  trial c = {1, {0}, {0}, logarithm, 100, LAB_WORLD, -1, {0}};
+  const lab_fit_problem p = problem_of(&c);
+  double theta[] = {5};
+  double chi2;
+  (void)state;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_WORLD);
+  assert_string_equal(error.text, "no model here");
+  theta[0] = 1.5;
+  c.no_slope = 0;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_WORLD);
+  assert_string_equal(error.text, "no slope here");
+}
+
+static void test_lab_fit__slope_fails__leaves_that_unknown_where_it_is(void **state)
+{
+  trial c = make_line();
+  const lab_fit_problem p = problem_of(&c);
+  double theta[] = {40, -0.2};
+  double chi2;
+  (void)state;
+  c.no_slope = 1;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_true(theta[1] == -0.2);
+  assert_close(theta[0], mean(c.y) + 0.2 * mean(c.t), 1e-4, 0);
+}
+
+/* ---- Slopes that last ---- */
+
+/* The third unknown bends the model hardly at all. */
+static double decay(const double *theta, double t)
+{
+  return theta[0] * exp(-theta[1] * t) + theta[2] * sin(9 * t);
+}
+
+static void test_lab_fit__lasting_slopes__are_kept_and_change_nothing(void **state)
+{
+  static const unsigned char lasting[] = {0, 0, 1};
+  trial c = {3, {0}, {0}, decay, 1000, LAB_NUMERIC, -1, {0}}, again;
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {1, 3, 0.5}, kept[] = {1, 3, 0.5};
+  double chi2, kept_chi2;
+  const double truth[] = {2, 0.7, -0.2};
+  int i;
+  (void)state;
+  for (i = 0; i < ROWS; i++) {
+    c.t[i] = 0.1 * i;
+    c.y[i] = decay(truth, c.t[i]) + (i % 3 - 1) * 0.01;
+  }
+  again = c;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_int_equal(c.asked[2], c.asked[0]);
+  p.lasting = lasting;
+  p.context = &again;
+  assert_int_equal(lab_fit(&p, kept, &kept_chi2, &error), LAB_OK);
+  assert_true(again.asked[2] < again.asked[0]);
+  assert_true(again.asked[2] >= 2); /* at the start, and once more before the end */
+  for (i = 0; i < 3; i++)
+    assert_close(kept[i], theta[i], 1e-4, 0);
+  assert_close(kept_chi2, chi2, 0.02, 1e-6);
+  assert_close(kept_chi2, chi2_at(&c, kept), 0, 1e-12);
+}
+
+/* ---- The search before the descent ---- */
+
+/* y = theta^2, of which -1 would do as well as 1, but for a second row that likes 1 better. */
+static double two_wells(const double *theta, double t)
+{
+  return t == 0 ? theta[0] * theta[0] - 1 : t == 1 ? 0.1 * (theta[0] - 1) : 0;
+}
+
+static trial make_wells(double (*model)(const double *, double))
+{
+  trial c = {1, {0}, {0}, model, 1000, LAB_NUMERIC, -1, {0}};
+  int i;
+  for (i = 0; i < ROWS; i++)
+    c.t[i] = i;
+  return c;
+}
+
+static const double well_low[] = {-3}, well_high[] = {3};
+
+static lab_fit_problem wells_of(trial *c, int search)
+{
+  lab_fit_problem p = problem_of(c);
+  p.lower = well_low;
+  p.upper = well_high;
+  p.search = search;
+  return p;
+}
+
+static void test_lab_fit__two_wells__search_finds_the_deeper(void **state)
+{
+  trial c = make_wells(two_wells);
+  int search;
+  (void)state;
+  for (search = 0; search <= 20; search += 20) {
+    const lab_fit_problem p = wells_of(&c, search);
+    double theta[] = {-1.1};
+    double chi2;
+    assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+    assert_close(theta[0], search ? 1 : -0.99, 0.02, 0);
+  }
+}
+
+/* Outside of -3 .. 3 there is no model, nor beyond 0.5; there the first well is the best. */
+static double one_well(const double *theta, double t)
+{
+  if (!(theta[0] >= -3 && theta[0] <= 3))
+    abort();
+  return theta[0] > 0.5 ? (double)NAN : two_wells(theta, t);
+}
+
+static void test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds(void **state)
+{
+  trial c = make_wells(one_well);
+  const lab_fit_problem p = wells_of(&c, 200);
+  double theta[] = {-3};
+  double chi2;
+  (void)state;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], -0.99, 0.02, 0);
+}
+
+/* The start is the best of all, and no point of the search is. */
+static void test_lab_fit__search_finds_nothing_better__goes_on_from_the_start(void **state)
+{
+  trial c = make_wells(two_wells);
+  lab_fit_problem p = wells_of(&c, 3);
+  double theta[] = {0.99};
+  (void)state;
+  assert_int_equal(lab_fit_search(&p, theta, &error), LAB_OK);
+  assert_true(theta[0] == 0.99);
+}
+
+static void test_lab_fit__any_other_failure_in_the_search__ends_it_at_once(void **state)
+{
+  trial c = make_wells(one_well);
+  const lab_fit_problem p = wells_of(&c, 200);
+  double theta[] = {-1.1};
+  double chi2;
+  (void)state;
+  c.failing = LAB_WORLD;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_WORLD);
+  assert_string_equal(error.text, "no model here");
+  assert_true(theta[0] == -1.1);
+  assert_int_equal(c.asked[0], 0);
+}
+
+/* ---- Linear equations ---- */
+
+static void test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse(void **state)
+{
+  static const double inverse[3][3] = {{9, -36, 30}, {-36, 192, -180}, {30, -180, 180}};
+  int i, j, k;
+  (void)state;
+  for (k = 0; k < 3; k++) {
+    double a[3][5] = {{0}}, b[3] = {0};
+    for (i = 0; i < 3; i++)
+      for (j = 0; j < 3; j++)
+        a[i][j] = 1.0 / (1 + i + j);
+    b[k] = 1;
+    assert_int_equal(lab_solve_positive(3, 5, &a[0][0], b), 0);
+    for (i = 0; i < 3; i++)
+      assert_close(b[i], inverse[i][k], 1e-10, 0);
+    assert_close(a[1][0], 0.5, 1e-15, 0); /* of the factor */
+    assert_close(a[1][1], sqrt(1.0 / 12), 1e-15, 0);
+  }
+}
+
+static void test_lab_solve_positive__not_positive__is_refused(void **state)
+{
+  double saddle[] = {1, 2, 2, 1}, flat[] = {1, 1, 1, 1}, none[] = {1, 0, 0, NAN}, b[] = {1, 1};
+  (void)state;
+  assert_int_equal(lab_solve_positive(2, 2, saddle, b), -1);
+  assert_int_equal(lab_solve_positive(2, 2, flat, b), -1);
+  assert_int_equal(lab_solve_positive(2, 2, none, b), -1);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_fit__line__is_the_regression_line),
+      cmocka_unit_test(test_lab_fit__bound_in_the_way__is_the_best_line_on_it),
+      cmocka_unit_test(test_lab_fit__bounds_on_all__ends_in_the_corner),
+      cmocka_unit_test(test_lab_fit__start_on_bounds__leaves_them),
+      cmocka_unit_test(test_lab_fit__one_step__is_on_the_way),
+      cmocka_unit_test(test_lab_fit__near_enough__ends_at_once),
+      cmocka_unit_test(test_lab_fit__rosenbrock__follows_the_valley),
+      cmocka_unit_test(test_lab_fit__model_fails_beyond__stays_where_it_does_not),
+      cmocka_unit_test(test_lab_fit__model_fails_at_start__says_so),
+      cmocka_unit_test(test_lab_fit__any_other_failure__ends_it),
+      cmocka_unit_test(test_lab_fit__slope_fails__leaves_that_unknown_where_it_is),
+      cmocka_unit_test(test_lab_fit__lasting_slopes__are_kept_and_change_nothing),
+      cmocka_unit_test(test_lab_fit__two_wells__search_finds_the_deeper),
+      cmocka_unit_test(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds),
+      cmocka_unit_test(test_lab_fit__search_finds_nothing_better__goes_on_from_the_start),
+      cmocka_unit_test(test_lab_fit__any_other_failure_in_the_search__ends_it_at_once),
+      cmocka_unit_test(test_lab_fit__residual_not_finite__is_named),
+      cmocka_unit_test(test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse),
+      cmocka_unit_test(test_lab_solve_positive__not_positive__is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

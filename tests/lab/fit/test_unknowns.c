@@ -1,0 +1,1038 @@
+/* What a fit looks for: two runs of a log that the model itself has made, with known values for all of it. */
+#include "../../fixture.h"
+
+#include "../../../apps/lab/fit/errors.h"
+#include "../../../apps/lab/fit/windowed.h"
+#include "../../../apps/lab/fit/unknowns.h"
+
+enum { ROWS = 81, RUNS = 2, SWITCHES = 2, FIRST_SWITCH = 8, DATA = RUNS * ROWS * 2 };
+static const double spacing = 0.05; /* [s] */
+static const double sigma_p = 300, sigma_x = 2e-5;
+
+static lab_error error;
+static lab_rig rig;
+static lab_unknowns u;
+static lab_run run[RUNS];
+static lab_log run_log;
+static double t[RUNS * ROWS], command[RUNS * ROWS], p[RUNS * ROWS], x[RUNS * ROWS];
+static double r[DATA + LAB_FIT_MAX], other[DATA + LAB_FIT_MAX], column[DATA + LAB_FIT_MAX];
+
+/* Index of a parameter, of what can be fitted, by its name; skips the test where an effect was trimmed away. */
+static int index_of(const char *name)
+{
+  const int i = strcmp(name, "orifice_area") ? pneu_param_find(name) : LAB_PARAM_ORIFICE_AREA;
+  if (i < 0)
+    skip();
+  return i;
+}
+
+static double param_of(const lab_rig *model, const char *name)
+{
+  pneu_params params = model->params;
+  return (double)*pneu_param_at(&params, index_of(name));
+}
+
+static void fit_list(const char *name, int per_log)
+{
+  rig.fit[rig.n_fit] = index_of(name);
+  rig.fit_per_log[rig.n_fit++] = (unsigned char)per_log;
+}
+
+/* The R1-400 with 40 cm3 of dead volume. */
+static void declare(void)
+{
+  lab_rig_default(&rig);
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  rig.params.dead_volume = (pneu_real)4e-5;
+  rig.noise[LAB_CHANNEL_P] = sigma_p;
+  rig.noise[LAB_CHANNEL_X] = sigma_x;
+}
+
+/* Two runs of 4 s, shut, then filled by a share, then vented by another; nothing measured yet. */
+static void write_commands(void)
+{
+  static size_t first[RUNS + 1] = {0, ROWS, RUNS * ROWS};
+  static char path[] = "log.csv";
+  static const double fill[RUNS] = {1, 0.7}, vent[RUNS] = {-1, -0.6};
+  int k, i;
+  memset(&run_log, 0, sizeof run_log);
+  run_log.path = path;
+  run_log.n = RUNS * ROWS;
+  run_log.value[LAB_CHANNEL_TIME] = t;
+  run_log.value[LAB_CHANNEL_U] = command;
+  run_log.value[LAB_CHANNEL_P] = p;
+  run_log.value[LAB_CHANNEL_X] = x;
+  run_log.n_runs = RUNS;
+  run_log.run = first;
+  for (k = 0; k < RUNS; k++)
+    for (i = 0; i < ROWS; i++) {
+      t[k * ROWS + i] = spacing * i;
+      command[k * ROWS + i] = i < FIRST_SWITCH ? 0 : i < ROWS / 2 ? fill[k] : vent[k];
+      p[k * ROWS + i] = x[k * ROWS + i] = 0;
+    }
+}
+
+static void close_all(void)
+{
+  int k;
+  for (k = 0; k < RUNS; k++)
+    lab_run_close(&run[k]);
+}
+
+/* Everything about `rig`, with a log of zeros. */
+static void open_empty(void)
+{
+  int k;
+  close_all();
+  write_commands();
+  for (k = 0; k < RUNS; k++)
+    assert_int_equal(lab_run_open(&rig, &run_log, (size_t)k, &run[k], &error), LAB_OK);
+  if (lab_unknowns_open(&rig, run, RUNS, &u, &error))
+    fail_msg("%s", error.text);
+}
+
+/* Let the model measure one run: its rig, and how early its commands were. */
+static void measure_run(const lab_rig *truth, int k, const double early[SWITCHES])
+{
+  double y[2 * ROWS];
+  assert_int_equal(lab_run_predict(&run[k], truth, early, u.tol, y, &error), LAB_OK);
+  memcpy(p + k * ROWS, y, ROWS * sizeof *y);
+  memcpy(x + k * ROWS, y + ROWS, ROWS * sizeof *y);
+}
+
+/* Both runs, with the switches in the middle of their brackets. */
+static void measure(const lab_rig *truth)
+{
+  const double early[SWITCHES] = {spacing / 2, spacing / 2};
+  int k;
+  for (k = 0; k < RUNS; k++)
+    measure_run(truth, k, early);
+}
+
+/* Two shared parameters, the orifices of each run, and the switches. */
+static void open_usual(void)
+{
+  declare();
+  fit_list("dry_friction", 0);
+  fit_list("orifice_area", 1);
+  fit_list("spring_rate", 0);
+  open_empty();
+}
+
+enum { FRICTION, AREA_1, AREA_2, SPRING, SWITCH_1, USUAL = SWITCH_1 + RUNS * SWITCHES };
+
+static void values(double *theta)
+{
+  int j;
+  for (j = 0; j < u.n; j++)
+    theta[j] = u.unknown[j].value;
+}
+
+static void assert_all_zero(const double *value, size_t n)
+{
+  size_t i;
+  for (i = 0; i < n; i++) {
+    check_note("entry %d", (int)i);
+    assert_close(value[i], 0, 0, 0);
+  }
+}
+
+static double size_of(const double *value, size_t n)
+{
+  double sum = 0;
+  size_t i;
+  for (i = 0; i < n; i++)
+    sum += value[i] * value[i];
+  return sqrt(sum / (double)n);
+}
+
+/* ---- What there is to find ---- */
+
+static void test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches(void **state)
+{
+  static const char *const name[USUAL] = {"dry_friction", "orifice_area.1", "orifice_area.2", "spring_rate",
+                                          "switch_1.1",   "switch_1.2",     "switch_2.1",     "switch_2.2"};
+  static const int whose[USUAL] = {LAB_ALL_RUNS, 0, 1, LAB_ALL_RUNS, 0, 0, 1, 1};
+  static const double value[USUAL] = {480, 1, 1, 4e5, 0.025, 0.025, 0.025, 0.025};
+  int j;
+  (void)state;
+  open_usual();
+  assert_int_equal(u.n, USUAL);
+  for (j = 0; j < USUAL; j++) {
+    check_note("%s", name[j]);
+    assert_string_equal(u.unknown[j].name, name[j]);
+    assert_int_equal(u.unknown[j].run, whose[j]);
+    assert_close(u.unknown[j].value, value[j], 0, 1e-12);
+    assert_close(u.unknown[j].first, value[j], 0, 1e-12);
+  }
+  assert_int_equal(u.n_rows, DATA);
+  assert_int_equal(u.n_data, DATA);
+  assert_int_equal(u.m, DATA + USUAL);
+}
+
+static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **state)
+{
+  int j;
+  (void)state;
+  open_usual();
+  for (j = SWITCH_1; j < USUAL; j++) {
+    const lab_unknown *s = &u.unknown[j];
+    assert_int_equal(s->kind, LAB_UNKNOWN_INSTANT);
+    assert_int_equal(s->index, (j - SWITCH_1) % SWITCHES);
+    assert_close(s->lower, 0, 0, 0);
+    assert_close(s->upper, spacing, 1e-12, 0);
+    assert_close(s->prior, spacing / 2, 1e-12, 0);
+    assert_close(s->spread, spacing / sqrt(12), 1e-12, 0); /* of a uniform distribution */
+    assert_string_equal(s->unit, "s");
+  }
+  for (j = 0; j < SWITCH_1; j++)
+    assert_close(u.unknown[j].spread, 0, 0, 0); /* nothing is known of the others */
+}
+
+static void test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone(void **state)
+{
+  (void)state;
+  declare();
+  open_empty();
+  assert_int_equal(u.n, RUNS * SWITCHES);
+  assert_int_equal(u.unknown[0].kind, LAB_UNKNOWN_INSTANT);
+}
+
+/* The second run again, its command on and off by turns for so many rows, and the unknowns. */
+static void open_alternating(int rows)
+{
+  int i;
+  for (i = 0; i < ROWS; i++)
+    command[ROWS + i] = (i / rows) % 2;
+  lab_run_close(&run[1]);
+  assert_int_equal(lab_run_open(&rig, &run_log, 1, &run[1], &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, run, RUNS, &u, &error), LAB_OK);
+}
+
+/* An instant for each change where there are ten rows for each, and else one share of a row for all of them. */
+static void test_lab_unknowns_open__command_that_changes_often__has_one_timing(void **state)
+{
+  const lab_unknown *all = &u.unknown[SWITCHES];
+  (void)state;
+  declare();
+  open_empty();
+  open_alternating(10);
+  assert_int_equal(u.n, SWITCHES + 8);
+  open_alternating(9);
+  assert_int_equal(u.n, SWITCHES + 8);
+  open_alternating(8);
+  assert_int_equal(u.n, SWITCHES + 1);
+  assert_int_equal(all->kind, LAB_UNKNOWN_INSTANT);
+  assert_int_equal(all->index, LAB_ALL_INSTANTS);
+  assert_int_equal(all->run, 1);
+  assert_close(all->upper, 1, 0, 0);
+  assert_close(all->prior, 0.5, 0, 0);
+  assert_close(all->spread, 1 / sqrt(12), 1e-12, 0);
+}
+
+/* ... and that share brings all changes forward by as much of the row before each. */
+static void test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing(void **state)
+{
+  double early[20], y[2 * ROWS], theta[LAB_FIT_MAX];
+  size_t k;
+  (void)state;
+  declare();
+  open_empty();
+  open_alternating(8);
+  for (k = 0; k < run[1].n_instants; k++)
+    early[k] = 0.3 * spacing;
+  assert_int_equal(lab_run_predict(&run[1], &rig, early, u.tol, y, &error), LAB_OK);
+  memcpy(p + ROWS, y, ROWS * sizeof *y);
+  memcpy(x + ROWS, y + ROWS, ROWS * sizeof *y);
+  values(theta);
+  theta[SWITCHES] = 0.3;
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_close(size_of(r + 2 * ROWS, 2 * ROWS), 0, 1e-9, 0);
+  theta[SWITCHES] = 0;
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_true(size_of(r + 2 * ROWS, 2 * ROWS) > 1);
+}
+
+/* Nothing fitted: commands at the rows that show them, the fit list as declared. */
+static void test_lab_unknowns_none__commands_at_their_rows__leave_nothing(void **state)
+{
+  static const double prompt[SWITCHES] = {0, 0};
+  int k;
+  (void)state;
+  open_usual();
+  lab_unknowns_none(&rig, run, RUNS, &u);
+  for (k = 0; k < RUNS; k++)
+    measure_run(&rig, k, prompt);
+  assert_int_equal(u.n, 0);
+  assert_int_equal(u.n_rows, DATA);
+  assert_int_equal(u.m, DATA);
+  assert_int_equal(lab_unknowns_errors(&u, r, &error), LAB_OK);
+  assert_all_zero(r, DATA);
+}
+
+static void test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale(void **state)
+{
+  const lab_unknown *added = &u.unknown[USUAL];
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(u.n, USUAL + 1);
+  assert_string_equal(added->name, "moving_mass");
+  assert_string_equal(added->unit, "kg");
+  assert_int_equal(added->run, LAB_ALL_RUNS);
+  assert_close(added->scale, 3, 0, 0);
+  assert_close(u.rig.params.moving_mass, 3, 0, 0);
+  assert_close(u.declared.moving_mass, 2, 0, 0);
+  assert_int_equal(lab_unknowns_find(&u, index_of("moving_mass")), USUAL);
+}
+
+static void test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size(void **state)
+{
+  const int param = index_of("pressure_bias.pressure_bias");
+  pneu_param_info info;
+  (void)state;
+  pneu_param_describe(param, &info);
+  open_usual();
+  assert_int_equal(lab_unknowns_add(&u, param, 0, &error), LAB_OK);
+  assert_close(u.unknown[USUAL].scale, fabs((double)info.value), 0, 0);
+  assert_close(u.unknown[USUAL].lower, info.lower, 0, 0);
+  assert_close(u.unknown[USUAL].upper, info.upper, 0, 0);
+}
+
+static void test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them(void **state)
+{
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 1e9, &error), LAB_OK);
+  assert_close(u.unknown[USUAL].value, 1e4, 0, 0);
+  assert_close(u.rig.params.moving_mass, 1e4, 0, 0);
+  assert_int_equal(lab_unknowns_add(&u, index_of("critical_ratio"), -1, &error), LAB_OK);
+  assert_close(u.unknown[USUAL + 1].value, 0, 0, 0);
+}
+
+static void test_lab_unknowns_add__no_room__is_refused(void **state)
+{
+  int j;
+  (void)state;
+  open_usual();
+  for (j = USUAL; j < LAB_FIT_MAX; j++)
+    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_DATA);
+  assert_non_null(strstr(error.text, "more than 128 things"));
+  assert_int_equal(u.n, LAB_FIT_MAX);
+}
+
+static void test_lab_unknowns_drop__one_between_others__leaves_these_in_order(void **state)
+{
+  const int bias = index_of("pressure_bias.pressure_bias"), excess = index_of("stribeck_friction.stribeck_excess"),
+            velocity = index_of("stribeck_friction.stribeck_velocity");
+  pneu_param_info info;
+  (void)state;
+  pneu_param_describe(velocity, &info);
+  open_usual();
+  assert_int_equal(lab_unknowns_add(&u, bias, 500, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, excess, 0.3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, velocity, 0.9 * (double)info.value, &error), LAB_OK);
+  lab_unknowns_drop(&u, bias);
+  assert_int_equal(u.n, USUAL + 2);
+  assert_int_equal(lab_unknowns_find(&u, bias), -1);
+  assert_int_equal(lab_unknowns_find(&u, excess), USUAL);
+  assert_int_equal(lab_unknowns_find(&u, velocity), USUAL + 1);
+  assert_close(param_of(&u.rig, "pressure_bias.pressure_bias"), 0, 0, 0);
+  lab_unknowns_drop(&u, velocity); /* a shape goes back to its usual value */
+  assert_close(param_of(&u.rig, "stribeck_friction.stribeck_velocity"), info.value, 0, 0);
+  assert_close(param_of(&u.rig, "stribeck_friction.stribeck_excess"), 0.3, 0, 1e-12);
+}
+
+static void test_lab_unknowns_find__what_is_not_there__is_not_found(void **state)
+{
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_find(&u, index_of("dry_friction")), FRICTION);
+  assert_int_equal(lab_unknowns_find(&u, LAB_PARAM_ORIFICE_AREA), AREA_1); /* the first of its own */
+  assert_int_equal(lab_unknowns_find(&u, index_of("spring_rate")), SPRING);
+  assert_int_equal(lab_unknowns_find(&u, index_of("area")), -1);
+  assert_int_equal(lab_unknowns_find(&u, 0), -1);
+  assert_int_equal(lab_unknowns_find(&u, 1), -1); /* index of a switch, and of nothing else */
+}
+
+/* ---- Free terms ---- */
+
+static const pneu_term bump = {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 5, 0, (pneu_real)0.02, {0, 10, 40, 10, 0}};
+
+static void test_lab_unknowns_add_term__free_ends__has_all_its_knots(void **state)
+{
+  char name[32];
+  int i;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
+  assert_int_equal(u.n, USUAL + 5);
+  assert_int_equal(u.rig.n_terms, 1);
+  assert_memory_equal(&u.rig.term[0], &bump, sizeof bump);
+  for (i = 0; i < 5; i++) {
+    const lab_unknown *k = &u.unknown[USUAL + i];
+    snprintf(name, sizeof name, "unlisted_1.%d", i + 1);
+    assert_string_equal(k->name, name);
+    assert_int_equal(k->kind, LAB_UNKNOWN_KNOT);
+    assert_int_equal(k->index, i);
+    assert_int_equal(k->term, 0);
+    assert_int_equal(k->run, LAB_ALL_RUNS);
+    assert_close(k->value, bump.value[i], 0, 0);
+    assert_close(k->scale, 50, 0, 0);
+    assert_close(k->lower, -5e4, 0, 0);
+    assert_close(k->upper, 5e4, 0, 0);
+  }
+}
+
+static void test_lab_unknowns_add_term__held_ends__keep_their_values(void **state)
+{
+  double theta[LAB_FIT_MAX];
+  lab_rig model;
+  int i;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 1, &error), LAB_OK);
+  assert_int_equal(u.n, USUAL + 5 + 3);
+  assert_string_equal(u.unknown[USUAL + 5].name, "unlisted_2.2");
+  assert_string_equal(u.unknown[USUAL + 7].name, "unlisted_2.4");
+  values(theta);
+  for (i = 0; i < 8; i++)
+    theta[USUAL + i] = 100 + i;
+  model = u.rig;
+  lab_unknowns_apply(&u, theta, LAB_ALL_RUNS, &model);
+  for (i = 0; i < 5; i++) {
+    assert_close(model.term[0].value[i], 100 + i, 0, 0);
+    assert_close(model.term[1].value[i], i == 0 || i == 4 ? 0 : 104 + i, 0, 0);
+  }
+}
+
+static void test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone(void **state)
+{
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  lab_unknowns_drop_term(&u);
+  assert_int_equal(u.rig.n_terms, 1);
+  assert_int_equal(u.n, USUAL + 5 + 1);
+  assert_string_equal(u.unknown[USUAL + 4].name, "unlisted_1.5");
+  assert_string_equal(u.unknown[USUAL + 5].name, "moving_mass");
+}
+
+static void test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is(void **state)
+{
+  int k;
+  (void)state;
+  open_usual();
+  for (k = 0; k < LAB_TERM_MAX; k++)
+    assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_DATA);
+  assert_int_equal(u.rig.n_terms, LAB_TERM_MAX);
+  open_usual();
+  while (u.n < LAB_FIT_MAX - 4)
+    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_DATA);
+  assert_int_equal(u.rig.n_terms, 0);
+  assert_int_equal(u.n, LAB_FIT_MAX - 4);
+}
+
+/* ---- Free terms over cycles ---- */
+
+/* Begins at 0.25 s, which means nothing, and comes every 0.5 s. */
+static const pneu_term wave = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 4,
+                               (pneu_real)0.25, (pneu_real)0.75,      {80, -60, 10, 5}};
+
+/* Of the period matters what turns the phase at the end, after 4 s, by a radian. */
+static void test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period(void **state)
+{
+  const lab_unknown *period = &u.unknown[USUAL + 4];
+  int i;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(u.n, USUAL + 5);
+  assert_int_equal(u.rig.n_terms, 1);
+  for (i = 0; i < 4; i++) {
+    assert_int_equal(u.unknown[USUAL + i].kind, LAB_UNKNOWN_KNOT);
+    assert_close(u.unknown[USUAL + i].value, wave.value[i], 0, 0);
+  }
+  assert_int_equal(period->kind, LAB_UNKNOWN_PERIOD);
+  assert_int_equal(period->term, 0);
+  assert_int_equal(period->run, LAB_ALL_RUNS);
+  assert_string_equal(period->name, "unlisted_1.period");
+  assert_string_equal(period->unit, "s");
+  assert_close(period->value, 0.5, 0, 1e-12);
+  assert_close(period->first, 0.5, 0, 1e-12);
+  assert_close(period->lower, 0.25, 0, 1e-12);
+  assert_close(period->upper, 1, 0, 1e-12);
+  assert_close(period->scale, 0.25 / (6.283185307179586 * 4), 0, 1e-12);
+  assert_close(period->spread, 0, 0, 0);
+}
+
+static void test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone(void **state)
+{
+  double theta[LAB_FIT_MAX];
+  lab_rig model;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  values(theta);
+  theta[USUAL + 9] = 0.6;
+  model = u.rig;
+  lab_unknowns_apply(&u, theta, LAB_ALL_RUNS, &model);
+  assert_memory_equal(&model.term[0], &wave, sizeof wave);
+  assert_close(model.term[1].from, 0.25, 0, 0);
+  assert_close(model.term[1].to, 0.85, 0, 1e-12);
+  assert_memory_equal(model.term[1].value, wave.value, sizeof wave.value);
+}
+
+static void test_lab_unknowns_drop_term__cycle__takes_its_period_along(void **state)
+{
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  lab_unknowns_drop_term(&u);
+  assert_int_equal(u.rig.n_terms, 1);
+  assert_int_equal(u.n, USUAL + 5 + 1);
+  assert_string_equal(u.unknown[USUAL + 4].name, "unlisted_1.period");
+  assert_string_equal(u.unknown[USUAL + 5].name, "moving_mass");
+  assert_int_equal(lab_unknowns_find(&u, index_of("moving_mass")), USUAL + 5);
+}
+
+/* Four amplitudes would have room, their period has not. */
+static void test_lab_unknowns_add_term__no_room_for_the_period__is_refused(void **state)
+{
+  (void)state;
+  open_usual();
+  while (u.n < LAB_FIT_MAX - 4)
+    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_DATA);
+  assert_int_equal(u.rig.n_terms, 0);
+  assert_int_equal(u.n, LAB_FIT_MAX - 4);
+  lab_unknowns_drop(&u, index_of("moving_mass"));
+  while (u.n < LAB_FIT_MAX - 5)
+    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  assert_int_equal(u.n, LAB_FIT_MAX);
+}
+
+/* ---- Into a model ---- */
+
+static void test_lab_unknowns_apply__all_experiments__has_shared_values_only(void **state)
+{
+  const double theta[USUAL] = {600, 1.5, 0.5, 3e5, 0, 0, 0, 0};
+  lab_rig model;
+  (void)state;
+  open_usual();
+  model = u.rig;
+  lab_unknowns_apply(&u, theta, LAB_ALL_RUNS, &model);
+  assert_close(model.params.dry_friction, 600, 0, 0);
+  assert_close(model.params.spring_rate, 3e5, 0, 0);
+  assert_memory_equal(&model.params.fill_area, &rig.params.fill_area, sizeof rig.params.fill_area);
+}
+
+/* However often: a factor is one of the declared area, not of the latest. */
+static void test_lab_unknowns_apply__one_experiment__has_its_own_values_too(void **state)
+{
+  const double theta[USUAL] = {600, 1.5, 0.5, 3e5, 0, 0, 0, 0};
+  lab_rig model;
+  int e, again;
+  (void)state;
+  open_usual();
+  u.declared.vent_area = rig.params.vent_area *= 3;
+  model = u.rig;
+  for (again = 0; again < 2; again++)
+    for (e = 0; e < RUNS; e++) {
+      lab_unknowns_apply(&u, theta, e, &model);
+      assert_close(model.params.dry_friction, 600, 0, 0);
+      assert_close(model.params.fill_area, theta[AREA_1 + e] * (double)rig.params.fill_area, 0, 1e-14);
+      assert_close(model.params.vent_area, theta[AREA_1 + e] * (double)rig.params.vent_area, 0, 1e-14);
+    }
+}
+
+/* ---- Residuals ---- */
+
+static void test_lab_unknowns_residuals__log_of_the_model_itself__are_zero(void **state)
+{
+  size_t window;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  assert_true(p[ROWS / 2] > 1e5 && x[ROWS / 2] > 0.01); /* it fills, and the stem moves */
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  assert_all_zero(r, u.m);
+  assert_int_equal(lab_unknowns_errors(&u, r, &error), LAB_OK);
+  assert_all_zero(r, u.n_rows);
+  assert_int_equal(lab_unknowns_sticks_and_slips(&u, &window, &error), LAB_OK);
+  assert_int_equal(window, 0);
+}
+
+/* Measured less predicted, over noise, channel by channel, run after run. */
+static void test_lab_unknowns_residuals__known_errors__are_over_the_noise(void **state)
+{
+  const int at[] = {5, 50, 7};
+  (void)state;
+  open_usual();
+  measure(&rig);
+  p[at[0] + FIRST_SWITCH] += 600;
+  x[at[1]] -= 1e-5;
+  x[ROWS + at[2] + FIRST_SWITCH] += 4e-5;
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  assert_close(r[at[0] + FIRST_SWITCH], 2, 1e-9, 0);
+  assert_close(r[ROWS + at[1]], -0.5, 1e-9, 0);
+  assert_close(r[3 * ROWS + at[2] + FIRST_SWITCH], 2, 1e-9, 0);
+  assert_close(size_of(r, u.m) * sqrt((double)u.m), sqrt(8.25), 1e-9, 0); /* and nothing else */
+}
+
+static void test_lab_unknowns_residuals__gap__counts_nothing(void **state)
+{
+  (void)state;
+  open_usual();
+  measure(&rig);
+  p[30] = x[ROWS + 40] = NAN;
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  assert_all_zero(r, u.m);
+}
+
+/* Nine values of each channel of a run 2 and 3 standard deviations off, and a gap in each, which is no value. */
+static void test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_there(void **state)
+{
+  const double n = RUNS * ROWS - 1;
+  lab_errors errors;
+  int i;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  for (i = 20; i < 29; i++) {
+    p[i] += 2 * sigma_p;
+    x[ROWS + i] -= 3 * sigma_x;
+  }
+  p[30] = x[ROWS + 40] = NAN;
+  assert_int_equal(lab_loop_errors(&u, &errors, &error), LAB_OK);
+  assert_close(errors.in_noise[LAB_CHANNEL_P], sqrt(9 * 4 / n), 0, 1e-9);
+  assert_close(errors.in_noise[LAB_CHANNEL_X], sqrt(9 * 9 / n), 0, 1e-9);
+  assert_close(errors.rmse[LAB_CHANNEL_P], sigma_p * sqrt(9 * 4 / n), 0, 1e-9);
+  assert_close(errors.rmse[LAB_CHANNEL_X], sigma_x * sqrt(9 * 9 / n), 0, 1e-9);
+  assert_true(isnan(errors.rmse[LAB_CHANNEL_T]));
+  assert_close(errors.chi2, 9 * (4 + 9), 0, 1e-9);
+  assert_int_equal(errors.n, 2 * n);
+}
+
+/* A run is measured with each its orifices; in each other's place they fit neither. */
+static void test_lab_unknowns_residuals__own_values__belong_to_their_log(void **state)
+{
+  static const double factor[RUNS] = {1.2, 0.9}, early[SWITCHES] = {0.025, 0.025};
+  double theta[LAB_FIT_MAX];
+  int k;
+  (void)state;
+  open_usual();
+  for (k = 0; k < RUNS; k++) {
+    lab_rig truth = rig;
+    truth.params.fill_area *= (pneu_real)factor[k];
+    truth.params.vent_area *= (pneu_real)factor[k];
+    measure_run(&truth, k, early);
+  }
+  values(theta);
+  theta[AREA_1] = factor[0];
+  theta[AREA_2] = factor[1];
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_all_zero(r, u.m);
+  theta[AREA_2] = factor[0];
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_all_zero(r, 2 * ROWS);
+  assert_true(size_of(r + 2 * ROWS, 2 * ROWS) > 10);
+}
+
+static void test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for(void **state)
+{
+  double theta[LAB_FIT_MAX];
+  (void)state;
+  open_usual();
+  measure(&rig);
+  values(theta);
+  theta[SWITCH_1 + 2] = 0.04; /* of the second run */
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_close(r[DATA + SWITCH_1 + 2], (0.025 - 0.04) / (0.05 / sqrt(12)), 1e-12, 0);
+  r[DATA + SWITCH_1 + 2] = 0;
+  assert_all_zero(r + DATA, (size_t)u.n);
+  assert_all_zero(r, 2 * ROWS);
+  assert_true(size_of(r + 2 * ROWS, 2 * ROWS) > 1);
+}
+
+/* Instants that are known to have been at their rows or before. */
+static void test_lab_unknowns_residuals__commands_that_were_early__are_matched_by_their_switches(void **state)
+{
+  static const double early[RUNS][SWITCHES] = {{0, 0.05}, {0.031, 0.007}};
+  double theta[LAB_FIT_MAX];
+  int k;
+  (void)state;
+  open_usual();
+  values(theta);
+  for (k = 0; k < RUNS; k++) {
+    measure_run(&rig, k, early[k]);
+    theta[SWITCH_1 + 2 * k] = early[k][0];
+    theta[SWITCH_1 + 2 * k + 1] = early[k][1];
+  }
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_all_zero(r, DATA);
+}
+
+/* The second channel of the second run remembers 0.6: r_i = (e_i - 0.6 e_(i-1))/0.8, but not over a gap. */
+static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **state)
+{
+  enum { GAP = 33 };
+  double *white = r + 3 * ROWS, *error_of = other + 3 * ROWS;
+  uint64_t seed = 1;
+  int i;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  for (i = FIRST_SWITCH; i < ROWS; i++) {
+    x[i] += fixture_random(&seed, -sigma_x, sigma_x);
+    x[ROWS + i] += fixture_random(&seed, -sigma_x, sigma_x);
+  }
+  x[ROWS + GAP] = NAN;
+  run[1].memory[1] = 0.6;
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_errors(&u, other, &error), LAB_OK);
+  assert_memory_equal(r, other, 3 * ROWS * sizeof *r);
+  for (i = 1; i < ROWS; i++) {
+    const int alone = i <= FIRST_SWITCH || i == GAP || i == GAP + 1;
+    check_note("row %d", i);
+    assert_close(white[i], alone ? error_of[i] : (error_of[i] - 0.6 * error_of[i - 1]) / 0.8, 1e-9, 0);
+  }
+}
+
+/* A model in the place of the present one; what each run has for itself still applies. */
+static void test_lab_unknowns_residuals_with__another_model__takes_its_shared_values(void **state)
+{
+  double theta[LAB_FIT_MAX];
+  lab_rig model;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  u.unknown[AREA_2].value = 1.1;
+  values(theta);
+  theta[FRICTION] = 700;
+  model = u.rig;
+  model.params.dry_friction = 700;
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_residuals_with(&u, &model, other, &error), LAB_OK);
+  assert_true(size_of(r, 2 * ROWS) > 1);
+  assert_memory_equal(r, other, u.m * sizeof *r);
+}
+
+/* Channel by channel, run after run, what coarse.h makes of a channel and its prediction. */
+static void test_lab_unknowns_view__windows__has_the_coarse_residuals(void **state)
+{
+  enum { WINDOW = 20 };
+  const size_t n = 2 * lab_windowed_count(ROWS, WINDOW);
+  static double predicted_p[RUNS * ROWS], predicted_x[RUNS * ROWS];
+  int k, i;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  memcpy(predicted_p, p, sizeof p);
+  memcpy(predicted_x, x, sizeof x);
+  for (i = FIRST_SWITCH; i < ROWS; i++) /* the start stays known */
+    x[ROWS + i] += i % 2 ? 1e-3 : 5e-4;
+  lab_unknowns_view(&u, WINDOW);
+  assert_int_equal(u.n_data, 2 * RUNS * n);
+  assert_int_equal(u.m, u.n_data + USUAL);
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  for (k = 0; k < RUNS; k++) {
+    const size_t at = (size_t)k * 2 * n, row = (size_t)k * ROWS;
+    lab_windowed_residuals(p + row, predicted_p + row, ROWS, WINDOW, sigma_p, other + at);
+    lab_windowed_residuals(x + row, predicted_x + row, ROWS, WINDOW, sigma_x, other + at + n);
+  }
+  assert_memory_equal(r, other, 4 * n * sizeof *r);
+  assert_true(size_of(r + 3 * n, n) > 1);
+  assert_all_zero(r + u.n_data, USUAL);
+  lab_unknowns_view(&u, 0);
+  assert_int_equal(u.n_data, DATA);
+  assert_int_equal(u.m, DATA + USUAL);
+}
+
+/* ---- Slopes ---- */
+
+/* A gain adds its share of every pressure: -p/sigma there, up to 1300, 0 elsewhere; but for what the stepper leaves,
+ * 1e-9 of full scale over the noise and a step of 2e-5. */
+static void test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise(void **state)
+{
+  const int gain = index_of("pressure_gain.pressure_gain");
+  double theta[LAB_FIT_MAX];
+  int i;
+  (void)state;
+  open_usual();
+  u.tol = 1e-9;
+  measure(&rig);
+  assert_int_equal(lab_unknowns_add(&u, gain, 0, &error), LAB_OK);
+  u.m = u.n_data + (size_t)u.n;
+  values(theta);
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_slope(&u, theta, r, USUAL, column, &error), LAB_OK);
+  for (i = 0; i < ROWS; i++) {
+    check_note("row %d", i);
+    assert_close(column[i], -p[i] / sigma_p, 0.1, 0);
+    assert_close(column[ROWS + i], 0, 0.1, 0);
+    assert_close(column[2 * ROWS + i], -p[ROWS + i] / sigma_p, 0.1, 0);
+    assert_close(column[3 * ROWS + i], 0, 0.1, 0);
+  }
+  assert_all_zero(column + DATA, (size_t)u.n);
+}
+
+/* What is known of a switch beforehand: -1/spread in its own row. */
+static void test_lab_unknowns_slope__switch__has_its_prior(void **state)
+{
+  double theta[LAB_FIT_MAX];
+  int j;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  values(theta);
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_slope(&u, theta, r, SWITCH_1 + 1, column, &error), LAB_OK);
+  for (j = 0; j < u.n; j++)
+    assert_close(column[DATA + j], j == SWITCH_1 + 1 ? -sqrt(12) / spacing : 0, 0, 1e-9);
+  assert_all_zero(column + 2 * ROWS, 2 * ROWS); /* the other run */
+}
+
+/* Root mean square distance between two columns, over the size of the first. */
+static double distance(const double *a, const double *b, size_t n)
+{
+  double sum = 0;
+  size_t i;
+  for (i = 0; i < n; i++)
+    sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sqrt(sum / (double)n) / size_of(a, n);
+}
+
+/* Beside a central difference over ten times the step. */
+static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference(void **state)
+{
+  static double below[DATA + LAB_FIT_MAX];
+  double theta[LAB_FIT_MAX], at[LAB_FIT_MAX];
+  int j;
+  size_t i;
+  (void)state;
+  open_usual();
+  u.tol = 1e-9;
+  measure(&rig);
+  values(theta);
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  for (j = 0; j < USUAL; j++) {
+    const double step = 1e-2 * u.unknown[j].scale;
+    check_note("%s", u.unknown[j].name);
+    assert_int_equal(lab_unknowns_slope(&u, theta, r, j, column, &error), LAB_OK);
+    memcpy(at, theta, sizeof at);
+    at[j] = theta[j] + step;
+    assert_int_equal(lab_unknowns_residuals(&u, at, other, &error), LAB_OK);
+    at[j] = theta[j] - step;
+    assert_int_equal(lab_unknowns_residuals(&u, at, below, &error), LAB_OK);
+    for (i = 0; i < u.m; i++)
+      other[i] = (other[i] - below[i]) / (2 * step);
+    assert_true(size_of(column, u.m) > 0);
+    assert_close(distance(column, other, u.m), 0, 0.05, 0);
+  }
+}
+
+/* No room upwards: the difference is taken downwards, and is the same. */
+static void test_lab_unknowns_slope__at_its_upper_bound__stays_inside(void **state)
+{
+  double theta[LAB_FIT_MAX], seen[DATA + LAB_FIT_MAX];
+  (void)state;
+  open_usual();
+  u.tol = 1e-9;
+  measure(&rig);
+  values(theta);
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_slope(&u, theta, r, SPRING, seen, &error), LAB_OK);
+  u.unknown[SPRING].upper = theta[SPRING];
+  assert_int_equal(lab_unknowns_slope(&u, theta, r, SPRING, column, &error), LAB_OK);
+  assert_true(distance(seen, column, u.m) > 0);
+  assert_close(distance(seen, column, u.m), 0, 0.05, 0);
+}
+
+/* ---- Fits ---- */
+
+/* A log of a stiffer spring and wider orifices, and the declared model as the start. */
+static const double true_factor[RUNS] = {1.05, 0.97}, true_early[SWITCHES] = {0.01, 0.03};
+static const double truth_of[USUAL] = {510, 1.05, 0.97, 4.1e5, 0.01, 0.03, 0.01, 0.03};
+
+static void open_to_fit(void)
+{
+  int k;
+  open_usual();
+  for (k = 0; k < RUNS; k++) {
+    lab_rig truth = rig;
+    truth.params.dry_friction = (pneu_real)truth_of[FRICTION];
+    truth.params.spring_rate = (pneu_real)truth_of[SPRING];
+    truth.params.fill_area *= (pneu_real)true_factor[k];
+    truth.params.vent_area *= (pneu_real)true_factor[k];
+    measure_run(&truth, k, true_early);
+  }
+}
+
+static void test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals(void **state)
+{
+  static lab_fit_result fit;
+  double chi2, before;
+  int j;
+  (void)state;
+  open_to_fit();
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  before = size_of(r, u.m);
+  assert_true(before > 10);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  assert_close(chi2, size_of(r, u.m) * size_of(r, u.m) * (double)u.m, 0, 1e-9);
+  assert_between(chi2, 0, 4); /* priors: (0.015^2 + 0.005^2) 12/0.05^2 each run */
+  assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+  for (j = 0; j < USUAL; j++) {
+    check_note("%s", u.unknown[j].name);
+    assert_between(truth_of[j], fit.low[j], fit.high[j]);
+    assert_close(u.unknown[j].value, truth_of[j], 0.05 * u.unknown[j].scale, 0);
+    assert_true(fit.deviation[j] > 0 && fit.deviation[j] < 0.1 * u.unknown[j].scale);
+  }
+  assert_close(u.unknown[SPRING].value, truth_of[SPRING], 0, 2e-3);
+  assert_close(u.rig.params.spring_rate, u.unknown[SPRING].value, 0, 0);
+  assert_close(u.unknown[SPRING].first, 4e5, 0, 0);
+}
+
+static void test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says(void **state)
+{
+  static lab_fit_result fit;
+  double chi2;
+  uint64_t seed = 3;
+  int i, k, j;
+  (void)state;
+  open_to_fit();
+  for (i = 0; i < RUNS * ROWS; i++) {
+    double a = -6, b = -6;
+    for (k = 0; k < 12; k++) { /* twelve uniform numbers: variance 1 */
+      a += fixture_random(&seed, 0, 1);
+      b += fixture_random(&seed, 0, 1);
+    }
+    if (i % ROWS >= FIRST_SWITCH) { /* the start stays known */
+      p[i] += sigma_p * a;
+      x[i] += sigma_x * b;
+    }
+  }
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+  assert_between(chi2 / (RUNS * 2.0 * (ROWS - FIRST_SWITCH)), 0.7, 1.3); /* four standard deviations */
+  for (j = 0; j < USUAL; j++) {
+    check_note("%s", u.unknown[j].name);
+    assert_close(u.unknown[j].value, truth_of[j], 4 * fit.deviation[j], 0);
+    if (fit.state[j] == LAB_STATE_FREE && j < SWITCH_1)
+      assert_close((fit.high[j] - fit.low[j]) / 2, 1.959963984540054 * fit.deviation[j], 0, 1e-3);
+  }
+}
+
+/* Friction of a place that the declared model lacks, found as knots between held ends. */
+static void test_lab_unknowns_fit__knots__find_the_term_that_made_the_log(void **state)
+{
+  static const pneu_term flat = {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 5, 0, (pneu_real)0.02, {0}};
+  static const double want[] = {60, 240, 100};
+  lab_rig truth;
+  double chi2;
+  int i;
+  (void)state;
+  declare();
+  open_empty();
+  truth = rig;
+  truth.n_terms = 1;
+  truth.term[0] = flat;
+  for (i = 0; i < 3; i++)
+    truth.term[0].value[i + 1] = (pneu_real)want[i];
+  measure(&truth);
+  assert_int_equal(lab_unknowns_add_term(&u, &flat, 100, 1, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  assert_between(chi2, 0, 0.1);
+  for (i = 0; i < 3; i++) {
+    assert_close(u.unknown[RUNS * SWITCHES + i].value, want[i], 3, 0);
+    assert_close(u.rig.term[0].value[i + 1], u.unknown[RUNS * SWITCHES + i].value, 0, 0);
+  }
+  assert_close(u.rig.term[0].value[0], 0, 0, 0);
+  assert_close(u.rig.term[0].value[4], 0, 0, 0);
+}
+
+/* A force that comes every 0.7 s, from a start that is off by 3 % in the period, a sixth of a turn after 4 s, and by a
+ * third or more in size and phase. */
+static void test_lab_unknowns_fit__cycle__finds_period_and_amplitudes(void **state)
+{
+  const pneu_term truth_term = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2, 0, (pneu_real)0.7, {80, -60}},
+                  start = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2, 0, (pneu_real)0.721, {50, -10}};
+  const int first = RUNS * SWITCHES;
+  lab_rig truth;
+  double chi2;
+  (void)state;
+  declare();
+  open_empty();
+  truth = rig;
+  truth.n_terms = 1;
+  truth.term[0] = truth_term;
+  measure(&truth);
+  assert_int_equal(lab_unknowns_add_term(&u, &start, 100, 0, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  assert_between(chi2, 0, 0.1);
+  assert_close(u.unknown[first].value, 80, 1, 0);
+  assert_close(u.unknown[first + 1].value, -60, 1, 0);
+  assert_close(u.unknown[first + 2].value, 0.7, 1e-3, 0);
+  assert_close(u.rig.term[0].to, u.unknown[first + 2].value, 0, 1e-12);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
+      cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
+      cmocka_unit_test(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone),
+      cmocka_unit_test(test_lab_unknowns_open__command_that_changes_often__has_one_timing),
+      cmocka_unit_test(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing),
+      cmocka_unit_test(test_lab_unknowns_none__commands_at_their_rows__leave_nothing),
+      cmocka_unit_test(test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale),
+      cmocka_unit_test(test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size),
+      cmocka_unit_test(test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them),
+      cmocka_unit_test(test_lab_unknowns_add__no_room__is_refused),
+      cmocka_unit_test(test_lab_unknowns_drop__one_between_others__leaves_these_in_order),
+      cmocka_unit_test(test_lab_unknowns_find__what_is_not_there__is_not_found),
+      cmocka_unit_test(test_lab_unknowns_add_term__free_ends__has_all_its_knots),
+      cmocka_unit_test(test_lab_unknowns_add_term__held_ends__keep_their_values),
+      cmocka_unit_test(test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone),
+      cmocka_unit_test(test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is),
+      cmocka_unit_test(test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period),
+      cmocka_unit_test(test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone),
+      cmocka_unit_test(test_lab_unknowns_drop_term__cycle__takes_its_period_along),
+      cmocka_unit_test(test_lab_unknowns_add_term__no_room_for_the_period__is_refused),
+      cmocka_unit_test(test_lab_unknowns_apply__all_experiments__has_shared_values_only),
+      cmocka_unit_test(test_lab_unknowns_apply__one_experiment__has_its_own_values_too),
+      cmocka_unit_test(test_lab_unknowns_residuals__log_of_the_model_itself__are_zero),
+      cmocka_unit_test(test_lab_unknowns_residuals__known_errors__are_over_the_noise),
+      cmocka_unit_test(test_lab_unknowns_residuals__gap__counts_nothing),
+      cmocka_unit_test(test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_there),
+      cmocka_unit_test(test_lab_unknowns_residuals__own_values__belong_to_their_log),
+      cmocka_unit_test(test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for),
+      cmocka_unit_test(test_lab_unknowns_residuals__commands_that_were_early__are_matched_by_their_switches),
+      cmocka_unit_test(test_lab_unknowns_residuals__noise_with_memory__are_whitened),
+      cmocka_unit_test(test_lab_unknowns_residuals_with__another_model__takes_its_shared_values),
+      cmocka_unit_test(test_lab_unknowns_view__windows__has_the_coarse_residuals),
+      cmocka_unit_test(test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise),
+      cmocka_unit_test(test_lab_unknowns_slope__switch__has_its_prior),
+      cmocka_unit_test(test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference),
+      cmocka_unit_test(test_lab_unknowns_slope__at_its_upper_bound__stays_inside),
+      cmocka_unit_test(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals),
+      cmocka_unit_test(test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says),
+      cmocka_unit_test(test_lab_unknowns_fit__knots__find_the_term_that_made_the_log),
+      cmocka_unit_test(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes),
+  };
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  close_all();
+  return failed;
+}

@@ -1,0 +1,998 @@
+/* apps/lab/log/log, and through it logformat, logheader, logcolumn, loglong, csv and text */
+#include "../../scratch.h"
+
+#include "../../../apps/lab/log/log.h"
+#include "../../../apps/lab/log/logheader.h"
+
+static lab_error error;
+static lab_log_format format;
+static const double ambient = 100000; /* [Pa] */
+
+static int fresh_format(void **state)
+{
+  (void)state;
+  lab_log_format_default(&format);
+  memset(&error, 0, sizeof error);
+  return 0;
+}
+
+/* Read a log that must be good. */
+static lab_log read_log(const char *text)
+{
+  lab_log log;
+  if (lab_log_read(scratch_text("log.csv", text), &format, ambient, &log, &error))
+    fail_msg("%s", error.text);
+  return log;
+}
+
+/* Read a log that must be refused, with LAB_DATA, the file's name and some words. */
+static void assert_refused(const char *text, const char *place, const char *words)
+{
+  lab_log log;
+  if (lab_log_read(scratch_text("log.csv", text), &format, ambient, &log, &error) == LAB_OK)
+    fail_msg("a log was read that should say \"%s\"", words);
+  assert_int_equal(error.status, LAB_DATA);
+  assert_contains(error.text, place);
+  assert_contains(error.text, words);
+  assert_null(log.line);
+  assert_null(log.value[LAB_CHANNEL_TIME]);
+}
+
+static void set_columns(const char *a, const char *b, const char *c)
+{
+  const char *text[3] = {a, b, c};
+  for (format.n_columns = 0; format.n_columns < 3 && text[format.n_columns]; format.n_columns++)
+    strcpy(format.column[format.n_columns], text[format.n_columns]);
+}
+
+#define CHANNEL(log, name) ((log).value[LAB_CHANNEL_##name])
+
+/* ---- Good logs ---- */
+
+static void test_lab_log_read__documented_format__gives_si(void **state)
+{
+  lab_log log = read_log("# a remark\nt [ms],u [%],p [bar],x [mm],T [degC],force [kN]\n"
+                         "0,0,0,0,25,0\n# another\n10,50,1.5,2.5,26,-0.25\n");
+  (void)state;
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[1], 0.01, 1e-15, 0);
+  assert_close(CHANNEL(log, U)[1], 0.5, 1e-15, 0);
+  assert_close(CHANNEL(log, P)[1], 150000, 1e-9, 0);
+  assert_close(CHANNEL(log, X)[1], 0.0025, 1e-15, 0);
+  assert_close(CHANNEL(log, T)[1], 299.15, 1e-12, 0);
+  assert_close(CHANNEL(log, FORCE)[1], -250, 1e-12, 0);
+  assert_null(CHANNEL(log, PS));
+  assert_int_equal(log.line[0], 3);
+  assert_int_equal(log.line[1], 5);
+  assert_int_equal(log.n_runs, 1);
+  assert_int_equal(log.run[0], 0);
+  assert_int_equal(log.run[1], 2);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__absolute_pressures__become_gauge(void **state)
+{
+  lab_log log = read_log("t [s],p_abs [kPa],ps_abs [bar],p2_abs [Pa]\n0,120,5,100000\n");
+  (void)state;
+  assert_close(CHANNEL(log, P)[0], 20000, 1e-9, 0);
+  assert_close(CHANNEL(log, PS)[0], 400000, 1e-9, 0);
+  assert_close(CHANNEL(log, P2)[0], 0, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted(void **state)
+{
+  lab_log log = read_log("\xEF\xBB\xBF\"t [s]\", \"u [1]\"\r\n0, 1\r\n1, 0\r\n\r\n \r\n");
+  (void)state;
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, U)[0], 1, 0, 0);
+  lab_log_free(&log);
+}
+
+/* A mark in quotes is text, and a number in quotes is a number. */
+static void test_lab_log_read__cells_in_quotes__are_cells(void **state)
+{
+  lab_log log = read_log("\"t [s]\",u [1],\"-\"\n\"0\",\"1\",\"hall 2, \"\"east\"\"\"\n1,0,west\n");
+  (void)state;
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, U)[0], 1, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_command_changes__between_two_rows__counts(void **state)
+{
+  lab_log log = read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n"), none = log;
+  (void)state;
+  none.value[LAB_CHANNEL_U] = NULL;
+  assert_true(lab_log_command_changes(&log, 1, 2));
+  assert_true(lab_log_command_changes(&log, 0, 3));
+  assert_false(lab_log_command_changes(&log, 0, 1));
+  assert_false(lab_log_command_changes(&log, 2, 3));
+  assert_false(lab_log_command_changes(&log, 2, 2));
+  assert_false(lab_log_command_changes(&none, 0, 3));
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__last_line_without_end__counts(void **state)
+{
+  lab_log log = read_log("\xEF\xBB\xBFt [s],u [1]\n0,0\n1,0.5");
+  (void)state;
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, U)[1], 0.5, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__empty_field_or_nan__is_a_gap(void **state)
+{
+  lab_log log = read_log("t [s],u [1],p [kPa],x [mm]\n0,0,,1\n1,0,nan,NaN\n2,0,3,\n");
+  (void)state;
+  assert_true(isnan(CHANNEL(log, P)[0]));
+  assert_true(isnan(CHANNEL(log, P)[1]));
+  assert_true(isnan(CHANNEL(log, X)[1]));
+  assert_true(isnan(CHANNEL(log, X)[2]));
+  assert_close(CHANNEL(log, P)[2], 3000, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__column_named_minus__is_ignored(void **state)
+{
+  lab_log log = read_log("t [s],-,p [kPa]\n0,what,1\n1,ever,2\n");
+  (void)state;
+  assert_close(CHANNEL(log, P)[1], 2000, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__uneven_times__are_kept(void **state)
+{
+  lab_log log = read_log("t [s],u [1]\n-1,0\n0.001,0\n7.25,0\n");
+  (void)state;
+  assert_close(CHANNEL(log, TIME)[0], -1, 0, 0);
+  assert_close(CHANNEL(log, TIME)[2], 7.25, 0, 0);
+  lab_log_free(&log);
+}
+
+/* ---- Raw logger files ---- */
+
+static void test_lab_log_read__semicolons_and_decimal_comma__are_read(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.delimiter = ';';
+  format.decimal = ',';
+  log = read_log("t [s];p [bar]\n0,5;1,25\n");
+  assert_close(CHANNEL(log, TIME)[0], 0.5, 0, 0);
+  assert_close(CHANNEL(log, P)[0], 125000, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.delimiter = ';';
+  format.thousands = '.';
+  set_columns("t [ms]", "-", "p [bar]");
+  log = read_log("902.000;3.658;7.315\r\n1.003.000;3.658;7.316\r\n");
+  assert_close(CHANNEL(log, TIME)[0], 0.902, 1e-15, 0);
+  assert_close(CHANNEL(log, TIME)[1], 1.003, 1e-15, 0);
+  assert_close(CHANNEL(log, P)[1], 731600, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.delimiter = '\t';
+  format.skip_lines = 2;
+  set_columns("t [ms]", "x [mm]", "force [N]");
+  log = read_log("Logger 7\nTime\tLaser\tForce\n0.000\t-0.018\t50.178\n11.000\t0.004\t50.193\n");
+  assert_int_equal(log.line[0], 3);
+  assert_close(CHANNEL(log, X)[0], -18e-6, 1e-18, 0);
+  assert_close(CHANNEL(log, FORCE)[1], 50.193, 0, 1e-15);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.delimiter = ';';
+  set_columns("t [s]", "p_abs [hPa]", "u [1/4096]");
+  log = read_log("0;1029.27;0\n0.01;1029.4;2048\n");
+  assert_close(CHANNEL(log, U)[1], 0.5, 0, 0);
+  assert_close(CHANNEL(log, P)[0], 2927, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.scale[LAB_CHANNEL_X] = -1;
+  format.offset[LAB_CHANNEL_X] = 0.070;
+  format.scale[LAB_CHANNEL_P] = 2;
+  log = read_log("t [s],x [mm],p_abs [kPa]\n0,65,110\n");
+  assert_close(CHANNEL(log, X)[0], 0.005, 1e-15, 0);
+  assert_close(CHANNEL(log, P)[0], 20000, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__constants__fill_a_channel(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.constant[LAB_CHANNEL_U] = -1;
+  log = read_log("t [s],p [kPa]\n0,1\n1,2\n");
+  assert_close(CHANNEL(log, U)[0], -1, 0, 0);
+  assert_close(CHANNEL(log, U)[1], -1, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__time_step__makes_time(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.time_step = 0.5;
+  log = read_log("p [kPa],x [mm]\n0,1\n1,2\n2,3\n");
+  assert_close(CHANNEL(log, TIME)[0], 0, 0, 0);
+  assert_close(CHANNEL(log, TIME)[2], 1, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.time_step = 0.5;
+  format.damaged = LAB_DAMAGED_DROP;
+  format.from = 0.5;
+  log = read_log("p [kPa],x [mm]\n0,1\n1,2\nbad,2\n3,3\n");
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[0], 0.5, 0, 0);
+  assert_close(CHANNEL(log, TIME)[1], 1.5, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__falling_time__starts_a_run(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.new_run = LAB_RUN_T_DROPS;
+  log = read_log("t [ms],p [bar]\n13,0\n20,1\n1,0\n21,1\n30,2\n0,0\n");
+  assert_int_equal(log.n_runs, 3);
+  assert_int_equal(log.run[0], 0);
+  assert_int_equal(log.run[1], 2);
+  assert_int_equal(log.run[2], 5);
+  assert_int_equal(log.run[3], 6);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__many_runs__are_all_listed(void **state)
+{
+  char text[20000] = "t [s],p [bar]\n";
+  size_t i;
+  lab_log log;
+  (void)state;
+  for (i = 0; i < 700; i++)
+    strcat(text, "0,1\n1,2\n");
+  format.new_run = LAB_RUN_T_DROPS;
+  log = read_log(text);
+  assert_int_equal(log.n_runs, 700);
+  for (i = 0; i <= 700; i++)
+    assert_int_equal(log.run[i], 2 * i);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__window__keeps_rows_inside_and_counts_the_others(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.from = 1;
+  format.to = 2;
+  log = read_log("t [s],p [bar]\n0,0\n1,1\n2,2\n3,3\n");
+  assert_int_equal(log.n, 2);
+  assert_int_equal(log.outside, 2);
+  assert_close(CHANNEL(log, TIME)[0], 1, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__damaged_rows_to_drop__are_counted(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.damaged = LAB_DAMAGED_DROP;
+  format.new_run = LAB_RUN_T_DROPS;
+  log = read_log("t [ms],p [bar]\n0,1\n127136, 904, 306\n5,0.5\n7,x\n5,1\n9\n8,0.25\n0,1\n");
+  assert_int_equal(log.dropped, 4);
+  assert_int_equal(log.n, 4);
+  assert_int_equal(log.n_runs, 2);
+  assert_int_equal(log.line[1], 4);
+  lab_log_free(&log);
+}
+
+static void set_long_format(void)
+{
+  set_columns("quantity", "t [s]", "value");
+  format.skip_lines = 1;
+  format.n_quantities = 3;
+  strcpy(format.quantity[0].word, "p_bar_abs");
+  strcpy(format.quantity[0].column, "p_abs [bar]");
+  strcpy(format.quantity[1].word, "T_K");
+  strcpy(format.quantity[1].column, "T [K]");
+  strcpy(format.quantity[2].word, "wall");
+  strcpy(format.quantity[2].column, "-");
+}
+
+static void test_lab_log_read__long_format__joins_rows_of_one_time(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_long_format();
+  format.constant[LAB_CHANNEL_U] = -1;
+  log = read_log("quantity,t_s,value\np_bar_abs,0,8\np_bar_abs,2,7\nT_K,1,290\nT_K,2,280\nwall,2,300\nT_K,0,298\n");
+  assert_int_equal(log.n, 3);
+  assert_close(CHANNEL(log, TIME)[1], 1, 0, 0);
+  assert_close(CHANNEL(log, P)[0], 700000, 1e-9, 0);
+  assert_true(isnan(CHANNEL(log, P)[1]));
+  assert_close(CHANNEL(log, P)[2], 600000, 1e-9, 0);
+  assert_close(CHANNEL(log, T)[0], 298, 0, 0);
+  assert_close(CHANNEL(log, T)[2], 280, 0, 0);
+  assert_close(CHANNEL(log, U)[2], -1, 0, 0);
+  assert_int_equal(log.line[0], 2);
+  assert_int_equal(log.line[1], 4);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__long_format_with_command__holds_it(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_long_format();
+  strcpy(format.quantity[1].word, "valve");
+  strcpy(format.quantity[1].column, "u [1]");
+  log = read_log("quantity,t_s,value\nvalve,0,1\nvalve,2,-1\np_bar_abs,1,2\np_bar_abs,3,2\n");
+  assert_int_equal(log.n, 4);
+  assert_close(CHANNEL(log, U)[1], 1, 0, 0);
+  assert_close(CHANNEL(log, U)[3], -1, 0, 0);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__position_in_percent__is_of_the_stroke(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.stroke = 0.02;
+  log = read_log("t [s],x [%]\n0,50\n1,100\n");
+  assert_close(CHANNEL(log, X)[0], 0.01, 0, 1e-15);
+  assert_close(CHANNEL(log, X)[1], 0.02, 0, 1e-15);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **state)
+{
+  static const char *const units[] = {"%", "mm", "1", "cm"};
+  static const double half[] = {50, 10, 0.5, 1};
+  int i;
+  (void)state;
+  format.stroke = 0.02;
+  for (i = 0; i < 4; i++) {
+    char text[80];
+    lab_log log;
+    snprintf(text, sizeof text, "t [s],sp [%s],x [mm]\n0,0,0\n1,%g,1\n", units[i], half[i]);
+    log = read_log(text);
+    check_note("[%s]", units[i]);
+    assert_close(log.value[LAB_CHANNEL_SP][1], 0.5, 1e-15, 0);
+    assert_int_equal(lab_log_command(&log), LAB_CHANNEL_SP);
+    assert_int_equal(lab_log_command_changes(&log, 0, 1), 1);
+    lab_log_free(&log);
+  }
+  assert_refused("t [s],sp [bar]\n0,1\n", "sp [bar]", "bar");
+  assert_refused("t [s],sp [1],x [mm]\n0,0.1,1\n1,,1\n", ":3", "sp: expected a number, found a gap");
+  assert_refused("t [s],sp [1],x [mm]\n0,50,1\n", ":2", "is its unit %");
+  format.stroke = 0;
+  assert_refused("t [s],sp [mm]\n0,1\n", "sp [mm]", "mm");
+}
+
+static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void **state)
+{
+  lab_log log = read_log("t [s],sp [%],u [1],x [mm]\n0,10,0,0\n1,,1,0\n2,20,1,0\n");
+  (void)state;
+  assert_int_equal(lab_log_command(&log), LAB_CHANNEL_U);
+  assert_true(isnan(log.value[LAB_CHANNEL_SP][1]));
+  assert_int_equal(lab_log_command_changes(&log, 1, 2), 0);
+  lab_log_free(&log);
+  log = read_log("t [s],x [mm]\n0,1\n1,2\n");
+  assert_int_equal(lab_log_command(&log), -1);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void **state)
+{
+  lab_log log;
+  (void)state;
+  format.command_is_pressure = 1;
+  log = read_log("t [s],u [kPa]\n0,80\n");
+  assert_close(CHANNEL(log, U)[0], 80000, 1e-9, 0);
+  lab_log_free(&log);
+}
+
+/* ---- Rows put into shape ---- */
+
+static void test_lab_log_read__weights__add_columns_up(void **state)
+{
+  static const double weight[] = {1, 0.5, -0.5, 0.5, -0.5};
+  static const char *const column[] = {"t [s]", "p [hPa]", "p [hPa]", "p [hPa]", "p [hPa]"};
+  lab_log log;
+  (void)state;
+  for (format.n_columns = 0; format.n_columns < 5; format.n_columns++)
+    strcpy(format.column[format.n_columns], column[format.n_columns]);
+  format.weighted = 5;
+  memcpy(format.weight, weight, sizeof weight);
+  format.offset[LAB_CHANNEL_P] = 7;
+  log = read_log("0,1012,1010,1007,1006\n1,1050,1010,1026,1006\n2,1050,,1026,1006\n");
+  assert_close(CHANNEL(log, TIME)[1], 1, 0, 0);
+  assert_close(CHANNEL(log, P)[0], 150 + 7, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[1], 3000 + 7, 1e-9, 0);
+  assert_true(isnan(CHANNEL(log, P)[2]));
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__way_back__is_reversed(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("-", "p [kPa]", "x [mm]");
+  format.time_step = 10;
+  format.way_back = LAB_CHANNEL_P;
+  log = read_log("up,0,0\nup,5,0\nup,10,1\ndown,0,0\ndown,4,2\ndown,10,3\n");
+  assert_int_equal(log.n, 6);
+  assert_close(CHANNEL(log, P)[2], 10000, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[3], 10000, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[4], 4000, 1e-9, 0);
+  assert_close(CHANNEL(log, P)[5], 0, 1e-9, 0);
+  assert_close(CHANNEL(log, X)[3], 3e-3, 1e-12, 0);
+  assert_close(CHANNEL(log, TIME)[4], 40, 0, 0);
+  assert_int_equal(log.line[3], 6);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state)
+{
+  (void)state;
+  set_columns("p [kPa]", NULL, NULL);
+  format.time_step = 10;
+  format.way_back = LAB_CHANNEL_P;
+  assert_refused("0\n5\n10\n", "log.csv:1", "fall once");
+  format.way_back = LAB_CHANNEL_X;
+  assert_refused("0\n5\n3\n", "log.csv", "a column x");
+}
+
+static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  format.every = 2;
+  log = read_log("0,1\n1,2\n2,3\n0,4\n1,5\n2,6\n3,7\n");
+  assert_int_equal(log.n, 4);
+  assert_int_equal(log.n_runs, 2);
+  assert_int_equal(log.run[1], 2);
+  assert_int_equal(log.run[2], 4);
+  assert_close(CHANNEL(log, P)[1], 3e5, 1e-6, 0);
+  assert_close(CHANNEL(log, TIME)[2], 0, 0, 0);
+  assert_close(CHANNEL(log, P)[3], 6e5, 1e-6, 0);
+  assert_int_equal(log.line[3], 6);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__held_out__takes_other_rows_and_another_window(void **state)
+{
+  static const char text[] = "0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n";
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  format.every = 2;
+  format.to = 3;
+  format.holdout_from = 2;
+  format.holdout_to = 5;
+  format.holdout_first = 1;
+  log = read_log(text);
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[1], 2, 0, 0);
+  lab_log_free(&log);
+  lab_log_format_hold_out(&format);
+  log = read_log(text);
+  assert_int_equal(log.n, 2);
+  assert_close(CHANNEL(log, TIME)[0], 3, 0, 0);
+  assert_close(CHANNEL(log, P)[1], 6e5, 1e-6, 0);
+  lab_log_free(&log);
+  format.first = 4;
+  assert_refused(text, "log.csv:3", "before log.first");
+}
+
+static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [bar]", NULL);
+  strcpy(format.name[LAB_CHANNEL_X], "_l [dm]");
+  strcpy(format.name[LAB_CHANNEL_PS], "_p [bar]");
+  assert_int_equal(lab_log_read(scratch_text("tube_l3_p4.5_start.csv", "0,1\n1,2\n"), &format, ambient, &log, &error),
+                   LAB_OK);
+  assert_close(CHANNEL(log, X)[1], 0.3, 1e-15, 0);
+  assert_close(CHANNEL(log, PS)[0], 4.5e5, 1e-9, 0);
+  lab_log_free(&log);
+  assert_refused("0,1\n1,2\n", "log.csv", "\"_l\" and a number in the file's name");
+}
+
+static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", "p2 [bar]");
+  format.new_run = LAB_RUN_T_DROPS;
+  format.runs = LAB_RUNS_MEAN;
+  log = read_log("5,1,0\n20,2,1\n5,3,nan\n18,7,5\n4,9,9\n");
+  assert_int_equal(log.n, 4);
+  assert_int_equal(log.n_runs, 1);
+  assert_int_equal(log.run[1], 4);
+  assert_close(CHANNEL(log, TIME)[1], 5e-3, 1e-12, 0);
+  assert_close(CHANNEL(log, P)[0], 9e5, 1e-6, 0);
+  assert_close(CHANNEL(log, P)[1], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, P2)[1], 0, 1e-6, 0);
+  assert_close(CHANNEL(log, P)[2], 7e5, 1e-6, 0);
+  assert_close(CHANNEL(log, P)[3], 2e5, 1e-6, 0);
+  assert_int_equal(log.line[0], 5);
+  lab_log_free(&log);
+}
+
+static void set_lead(void)
+{
+  int k, c;
+  for (k = 0; k < 2; k++)
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      format.lead[k][c] = NAN;
+  format.n_lead = 2;
+  format.lead[0][LAB_CHANNEL_TIME] = -1e-3;
+  format.lead[0][LAB_CHANNEL_U] = 0;
+  format.lead[0][LAB_CHANNEL_P] = 5;
+  format.lead[1][LAB_CHANNEL_TIME] = 0;
+  format.lead[1][LAB_CHANNEL_U] = 1;
+}
+
+static void test_lab_log_read__lead__comes_before_each_run(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  set_lead();
+  log = read_log("5,1\n20,2\n5,3\n");
+  assert_int_equal(log.n, 7);
+  assert_int_equal(log.n_runs, 2);
+  assert_int_equal(log.run[1], 4);
+  assert_int_equal(log.run[2], 7);
+  assert_close(CHANNEL(log, TIME)[0], -1e-3, 0, 0);
+  assert_close(CHANNEL(log, TIME)[4], -1e-3, 0, 0);
+  assert_close(CHANNEL(log, TIME)[6], 5e-3, 1e-12, 0);
+  assert_close(CHANNEL(log, P)[0], 5, 0, 0);
+  assert_true(isnan(CHANNEL(log, P)[1]));
+  assert_close(CHANNEL(log, P)[3], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, U)[0], 0, 0, 0);
+  assert_close(CHANNEL(log, U)[1], 1, 0, 0);
+  assert_close(CHANNEL(log, U)[3], 1, 0, 0);
+  assert_close(CHANNEL(log, U)[4], 0, 0, 0);
+  assert_int_equal(log.line[4], 3);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  format.new_run = LAB_RUN_T_DROPS;
+  set_lead();
+  format.lead[0][LAB_CHANNEL_P] = NAN;
+  format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_P + 1;
+  format.lead_last[0][LAB_CHANNEL_PS] = LAB_CHANNEL_P + 1;
+  log = read_log("5,nan\n20,2\n21,4\n5,3\n6,5\n");
+  assert_int_equal(log.n, 9);
+  assert_close(CHANNEL(log, P)[0], 2e5, 1e-6, 0);
+  assert_close(CHANNEL(log, PS)[0], 4e5, 1e-6, 0);
+  assert_true(isnan(CHANNEL(log, PS)[1]));
+  assert_close(CHANNEL(log, P)[5], 3e5, 1e-6, 0);
+  assert_close(CHANNEL(log, PS)[5], 5e5, 1e-6, 0);
+  lab_log_free(&log);
+}
+
+/* A command that the lead does not give is that of the first row, which it is in effect before. */
+static void test_lab_log_read__lead_without_command__has_that_of_the_first_row(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "u [1]", "p [Pa]");
+  set_lead();
+  format.lead[0][LAB_CHANNEL_U] = NAN;
+  log = read_log("1,0.25,5\n2,0.75,6\n");
+  assert_int_equal(log.n, 4);
+  assert_close(CHANNEL(log, U)[0], 0.25, 0, 0);
+  assert_close(CHANNEL(log, U)[1], 1, 0, 0);
+  lab_log_free(&log);
+}
+
+/* A lead may name a channel that has only gaps in the run. */
+static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("t [s]", "p [Pa]", "x [m]");
+  set_lead();
+  format.lead[0][LAB_CHANNEL_P] = NAN;
+  format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_X + 1;
+  log = read_log("1,5,\n2,6,\n");
+  assert_int_equal(log.n, 4);
+  assert_true(isnan(CHANNEL(log, P)[0]));
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(void **state)
+{
+  (void)state;
+  set_columns("t [s]", "pressure [Pa]", NULL);
+  assert_refused("0,1\n", "log.columns", "unknown channel \"pressure\"");
+  set_columns("quantity", "t [s]", "value");
+  format.n_quantities = 1;
+  strcpy(format.quantity[0].word, "a");
+  strcpy(format.quantity[0].column, "p");
+  assert_refused("a,0,1\n", "log.quantities", "has no unit");
+}
+
+static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines(void **state)
+{
+  lab_log log;
+  (void)state;
+  set_columns("quantity", "t [s]", "value");
+  format.n_quantities = 2;
+  strcpy(format.quantity[0].word, "a");
+  strcpy(format.quantity[0].column, "p [Pa]");
+  strcpy(format.quantity[1].word, "b");
+  strcpy(format.quantity[1].column, "x [m]");
+  log = read_log("a,0,1\nb,0,2\na,1,3\n");
+  assert_int_equal(log.n, 2);
+  assert_int_equal(log.line[0], 1);
+  assert_int_equal(log.line[1], 3);
+  lab_log_free(&log);
+}
+
+static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
+{
+  (void)state;
+  set_columns("t [ms]", "p [bar]", NULL);
+  set_lead();
+  assert_refused("0,1\n20,2\n", "log.csv:1", "begins after its lead");
+}
+
+/* ---- Bad files ---- */
+
+static void test_lab_log_read__missing_file__says_so(void **state)
+{
+  lab_log log;
+  (void)state;
+  assert_int_equal(lab_log_read(scratch_path("none.csv"), &format, ambient, &log, &error), LAB_DATA);
+  assert_contains(error.text, "none.csv: there is no such file");
+}
+
+static void test_lab_log_read__folder__says_so(void **state)
+{
+  lab_log log;
+  (void)state;
+  assert_int_equal(lab_log_read(scratch_folder, &format, ambient, &log, &error), LAB_DATA);
+  assert_contains(error.text, "this is a folder");
+}
+
+static void test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault(void **state)
+{
+  lab_log log;
+  (void)state;
+  if (access("/proc/self/mem", R_OK) != 0)
+    skip();
+  assert_int_equal(lab_log_read("/proc/self/mem", &format, ambient, &log, &error), LAB_WORLD);
+  assert_contains(error.text, "cannot be read");
+}
+
+static void test_lab_log_read__forbidden_file__is_the_worlds_fault(void **state)
+{
+  lab_log log;
+  const char *path = scratch_text("secret.csv", "t [s]\n0\n");
+  (void)state;
+  if (geteuid() == 0)
+    skip();
+  assert_int_equal(chmod(path, 0), 0);
+  assert_int_equal(lab_log_read(path, &format, ambient, &log, &error), LAB_WORLD);
+}
+
+static void test_lab_log_read__empty_file__says_so(void **state)
+{
+  (void)state;
+  assert_refused("", "log.csv", "empty");
+}
+
+static void test_lab_log_read__only_remarks__has_no_header(void **state)
+{
+  (void)state;
+  assert_refused("# a\n# b\n", "log.csv", "expected a header");
+}
+
+static void test_lab_log_read__zero_bytes__are_not_text(void **state)
+{
+  const char bytes[] = "t [s],u [1]\n0,0\n1\0,0\n";
+  lab_log log;
+  (void)state;
+  assert_int_equal(lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &log, &error),
+                   LAB_DATA);
+  assert_contains(error.text, "log.csv:3:");
+  assert_contains(error.text, "0 byte");
+}
+
+static void test_lab_log_read__garbage_without_zeros__is_shown_printable(void **state)
+{
+  (void)state;
+  assert_refused("\x89PNG\r\x1a\x01\x02\n\x07\n", "log.csv:1: column 1", "?PNG");
+  assert_null(strpbrk(error.text, "\x1a\x01\x02\x07\r\n"));
+}
+
+static void test_lab_log_read__endless_line__is_refused(void **state)
+{
+  char *text = malloc(LAB_CSV_LINE + 100);
+  (void)state;
+  memset(text, '1', LAB_CSV_LINE + 99);
+  memcpy(text, "t [s]\n", 6);
+  text[LAB_CSV_LINE + 99] = '\0';
+  assert_refused(text, "log.csv:2:", "at most 65536 bytes");
+  free(text);
+}
+
+/* ---- Bad headers ---- */
+
+static void test_lab_log_read__numbers_first__asks_for_a_header(void **state)
+{
+  (void)state;
+  assert_refused("0,1,2\n1,1,2\n", "log.csv:1:", "log.columns");
+}
+
+static void test_lab_log_read__unknown_channel__names_the_nearest(void **state)
+{
+  (void)state;
+  assert_refused("t [s],forse [N]\n0,0\n", "log.csv:1: column 2",
+                 "unknown channel \"forse\"; the nearest known one is \"force\"");
+}
+
+static void test_lab_log_read__no_unit__asks_for_one(void **state)
+{
+  (void)state;
+  assert_refused("t [s],p\n0,0\n", "log.csv:1: column 2", "\"p\" has no unit: write \"p [Pa]\"");
+}
+
+static void test_lab_log_read__unit_of_other_dimension__names_both(void **state)
+{
+  (void)state;
+  assert_refused("t [s],p [mm]\n0,0\n", "log.csv:1: column 2", "expected a unit like Pa");
+  assert_refused("t [s],u [kPa]\n0,0\n", "log.csv:1: column 2", "expected a unit like 1");
+}
+
+static void test_lab_log_read__unknown_unit__is_named(void **state)
+{
+  (void)state;
+  assert_refused("t [s],p [kPaa]\n0,0\n", "log.csv:1: column 2", "kPaa");
+}
+
+static void test_lab_log_read__broken_brackets__are_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s,p [kPa]\n0,0\n", "log.csv:1: column 1", "name [unit]");
+  assert_refused("t [s] x,p [kPa]\n0,0\n", "log.csv:1: column 1", "name [unit]");
+  assert_refused("t [s],\n0,0\n", "log.csv:1: column 2", "name [unit]");
+}
+
+static void test_lab_log_read__channel_twice__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s],p [kPa],p_abs [bar]\n0,0,1\n", "log.csv:1:", "channel p once, found 2");
+}
+
+static void test_lab_log_read__no_time__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("u [1],p [kPa]\n0,0\n", "log.csv:1:", "expected a column t");
+}
+
+static void test_lab_log_read__time_and_time_step__is_refused(void **state)
+{
+  (void)state;
+  format.time_step = 1;
+  assert_refused("t [s],p [kPa]\n0,0\n", "log.csv:1:", "found both");
+}
+
+static void test_lab_log_read__column_and_constant__is_refused(void **state)
+{
+  (void)state;
+  format.constant[LAB_CHANNEL_U] = 1;
+  assert_refused("t [s],u [1]\n0,0\n", "log.csv:1:", "log.constants");
+}
+
+static void test_lab_log_read__too_many_columns__is_refused(void **state)
+{
+  char text[1000] = "t [s]";
+  int i;
+  (void)state;
+  for (i = 0; i < LAB_COLUMN_MAX; i++)
+    strcat(text, ",-");
+  strcat(text, "\n");
+  assert_refused(text, "log.csv:1:", "at most 64 columns");
+}
+
+static void test_lab_log_read__too_few_lines_to_skip__is_refused(void **state)
+{
+  (void)state;
+  format.skip_lines = 5;
+  assert_refused("t [s]\n0\n", "log.csv", "more than the 5 lines");
+}
+
+static void test_lab_log_read__value_without_quantity__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s],value\n0,1\n", "log.csv:1:", "log.quantities");
+}
+
+/* ---- Bad rows ---- */
+
+static void test_lab_log_read__no_rows__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s],u [1]\n", "log.csv", "found none");
+}
+
+static void test_lab_log_read__nothing_in_the_window__is_refused(void **state)
+{
+  (void)state;
+  format.from = 10;
+  assert_refused("t [s],u [1]\n0,0\n1,0\n", "log.csv", "2 outside the window");
+}
+
+static void test_lab_log_read__ragged_row__counts_fields(void **state)
+{
+  (void)state;
+  assert_refused("t [s],u [1],p [kPa]\n0,0,1\n1,0\n", "log.csv:3:", "expected 3 fields, found 2");
+  assert_refused("t [s],u [1],p [kPa]\n0,0,1,9\n", "log.csv:2:", "expected 3 fields, found 4");
+  assert_refused("t [s],u [1],p [kPa]\n0,0,1,\n", "log.csv:2:", "expected 3 fields, found 4");
+  assert_refused("t [s],u [1]\n0,0\n\n1,0\n", "log.csv:3:", "found");
+}
+
+static void test_lab_log_read__word_for_a_number__names_the_column(void **state)
+{
+  (void)state;
+  assert_refused("t [s],u [1],p [kPa]\n0,0,1\n1,0,high\n", "log.csv:3: column 3 \"p [kPa]\"",
+                 "expected a number, found \"high\"");
+  assert_refused("t [s],p [kPa]\n0,inf\n", "log.csv:2: column 2", "found \"inf\"");
+}
+
+static void test_lab_log_read__time_that_does_not_grow__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s],u [1]\n0,0\n1,0\n1,0\n", "log.csv:4:", "channel t");
+  assert_refused("t [s],u [1]\n0,0\n1,0\n0.5,0\n", "log.csv:4:", "log.new_run");
+}
+
+static void test_lab_log_read__repeated_time_with_runs__is_still_refused(void **state)
+{
+  (void)state;
+  format.new_run = LAB_RUN_T_DROPS;
+  assert_refused("t [s],u [1]\n0,0\n0,0\n", "log.csv:3:", "channel t");
+}
+
+static void test_lab_log_read__gap_in_time_or_command__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s],u [1]\n0,0\n,0\n", "log.csv:3:", "channel t: expected a number, found a gap");
+  assert_refused("t [s],u [1]\n0,0\n1,nan\n", "log.csv:3:", "channel u: expected a number, found a gap");
+}
+
+static void test_lab_log_read__command_beyond_one__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("t [s],u [1]\n0,0\n1,100\n", "log.csv:3:", "expected -1..1, found 100");
+}
+
+static void test_lab_log_read__long_format_faults__are_refused(void **state)
+{
+  (void)state;
+  set_long_format();
+  assert_refused("h\nT_C,0,8\n", "log.csv:2:", "unknown quantity \"T_C\"");
+  assert_refused("h\nT_K,0,290\nT_K,0,291\n", "log.csv:3:", "expected one value of T at t = 0 s");
+  strcpy(format.quantity[1].column, "u [1]");
+  assert_refused("h\np_bar_abs,0,8\nT_K,1,1\n", "log.csv:2:", "command u at the first instant");
+}
+
+#define CASE(name) cmocka_unit_test_setup(name, fresh_format)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(test_lab_log_read__documented_format__gives_si),
+      CASE(test_lab_log_read__absolute_pressures__become_gauge),
+      CASE(test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted),
+      CASE(test_lab_log_read__cells_in_quotes__are_cells),
+      CASE(test_lab_log_command_changes__between_two_rows__counts),
+      CASE(test_lab_log_read__last_line_without_end__counts),
+      CASE(test_lab_log_read__empty_field_or_nan__is_a_gap),
+      CASE(test_lab_log_read__column_named_minus__is_ignored),
+      CASE(test_lab_log_read__uneven_times__are_kept),
+      CASE(test_lab_log_read__semicolons_and_decimal_comma__are_read),
+      CASE(test_lab_log_read__thousands_dots_in_time__are_left_out),
+      CASE(test_lab_log_read__tabs_and_skipped_lines__are_read),
+      CASE(test_lab_log_read__raw_counts__take_a_unit_of_their_own),
+      CASE(test_lab_log_read__scale_and_offset__act_on_si),
+      CASE(test_lab_log_read__constants__fill_a_channel),
+      CASE(test_lab_log_read__time_step__makes_time),
+      CASE(test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken),
+      CASE(test_lab_log_read__falling_time__starts_a_run),
+      CASE(test_lab_log_read__many_runs__are_all_listed),
+      CASE(test_lab_log_read__window__keeps_rows_inside_and_counts_the_others),
+      CASE(test_lab_log_read__damaged_rows_to_drop__are_counted),
+      CASE(test_lab_log_read__long_format__joins_rows_of_one_time),
+      CASE(test_lab_log_read__long_format_with_command__holds_it),
+      CASE(test_lab_log_read__position_in_percent__is_of_the_stroke),
+      CASE(test_lab_log_read__set_position__is_a_share_of_the_stroke),
+      CASE(test_lab_log_read__set_position_beside_a_command__is_only_shown),
+      CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one),
+      CASE(test_lab_log_read__weights__add_columns_up),
+      CASE(test_lab_log_read__way_back__is_reversed),
+      CASE(test_lab_log_read__way_back_that_is_missing__is_refused),
+      CASE(test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run),
+      CASE(test_lab_log_read__held_out__takes_other_rows_and_another_window),
+      CASE(test_lab_log_read__name_of_the_file__tells_a_channel),
+      CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
+      CASE(test_lab_log_read__lead__comes_before_each_run),
+      CASE(test_lab_log_read__lead_of_gaps__is_a_gap),
+      CASE(test_lab_log_read__lead_without_command__has_that_of_the_first_row),
+      CASE(test_lab_log_read__columns_of_the_rig_that_are_none__are_refused),
+      CASE(test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines),
+      CASE(test_lab_log_read__lead_of_ends__takes_first_and_last_values),
+      CASE(test_lab_log_read__lead_after_the_first_row__is_refused),
+      CASE(test_lab_log_read__missing_file__says_so),
+      CASE(test_lab_log_read__folder__says_so),
+      CASE(test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault),
+      CASE(test_lab_log_read__forbidden_file__is_the_worlds_fault),
+      CASE(test_lab_log_read__empty_file__says_so),
+      CASE(test_lab_log_read__only_remarks__has_no_header),
+      CASE(test_lab_log_read__zero_bytes__are_not_text),
+      CASE(test_lab_log_read__garbage_without_zeros__is_shown_printable),
+      CASE(test_lab_log_read__endless_line__is_refused),
+      CASE(test_lab_log_read__numbers_first__asks_for_a_header),
+      CASE(test_lab_log_read__unknown_channel__names_the_nearest),
+      CASE(test_lab_log_read__no_unit__asks_for_one),
+      CASE(test_lab_log_read__unit_of_other_dimension__names_both),
+      CASE(test_lab_log_read__unknown_unit__is_named),
+      CASE(test_lab_log_read__broken_brackets__are_refused),
+      CASE(test_lab_log_read__channel_twice__is_refused),
+      CASE(test_lab_log_read__no_time__is_refused),
+      CASE(test_lab_log_read__time_and_time_step__is_refused),
+      CASE(test_lab_log_read__column_and_constant__is_refused),
+      CASE(test_lab_log_read__too_many_columns__is_refused),
+      CASE(test_lab_log_read__too_few_lines_to_skip__is_refused),
+      CASE(test_lab_log_read__value_without_quantity__is_refused),
+      CASE(test_lab_log_read__no_rows__is_refused),
+      CASE(test_lab_log_read__nothing_in_the_window__is_refused),
+      CASE(test_lab_log_read__ragged_row__counts_fields),
+      CASE(test_lab_log_read__word_for_a_number__names_the_column),
+      CASE(test_lab_log_read__time_that_does_not_grow__is_refused),
+      CASE(test_lab_log_read__repeated_time_with_runs__is_still_refused),
+      CASE(test_lab_log_read__gap_in_time_or_command__is_refused),
+      CASE(test_lab_log_read__command_beyond_one__is_refused),
+      CASE(test_lab_log_read__long_format_faults__are_refused),
+  };
+  return cmocka_run_group_tests_name("log", tests, scratch_open, scratch_close);
+}

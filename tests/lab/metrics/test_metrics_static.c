@@ -1,0 +1,289 @@
+/* Dead band, resolution, hysteresis and linearity, against elements whose characteristic is known. */
+#include "../../record.h"
+
+/* An element with play: position follows signal off by half the play, either way. */
+typedef struct element {
+  double play;    /* [Pa] */
+  double bow;     /* [1] height of a parabola over the straight line, share of the stroke */
+  double stick;   /* [Pa] change of signal that it takes to move on */
+  double lasting; /* [Pa] further distance of the branches in the middle of the range */
+  double x;       /* [m] */
+} element;
+
+static double follow(element *e, double s)
+{
+  const double share = (s - record_low) / record_span;
+  const double target = record_stroke * (share + 4 * e->bow * share * (1 - share));
+  const double half = record_stroke / record_span * (e->play + 4 * e->lasting * share * (1 - share)) / 2;
+  const double pushed = fmin(fmax(e->x, target - half), target + half);
+  if (fabs(pushed - e->x) >= e->stick * record_stroke / record_span * (1 - 1e-9))
+    e->x = fmin(fmax(pushed, 0), record_stroke);
+  return e->x;
+}
+
+/* Hold a set pressure for `rows` rows, 0.1 s apart. */
+static void hold(element *e, double percent, int rows)
+{
+  const double s = record_low + record_span * percent / 100;
+  const double x = follow(e, s);
+  int i;
+  for (i = 0; i < rows; i++)
+    record_add(0.1 * (double)record.n, s, 0, x);
+}
+
+/* Steps of `step` percent from one level to another, the last one included. */
+static void stair(element *e, double from, double to, double step)
+{
+  const int n = (int)(fabs(to - from) / step + 0.5);
+  int i;
+  for (i = 1; i <= n; i++)
+    hold(e, from + (to - from) * i / n, 12);
+}
+
+/* Chamber pressure that ramps, rows 0.05 s apart, `rate` percent of the span a second. */
+static void ramp(element *e, double from, double to, double rate)
+{
+  const int n = (int)(fabs(to - from) / rate / 0.05 + 0.5);
+  int i;
+  for (i = 1; i <= n; i++) {
+    const double s = record_low + record_span * (from + (to - from) * i / n) / 100;
+    record_add(0.05 * (double)record.n, 0, s, follow(e, s));
+  }
+}
+
+/* ---- Play ---- */
+
+static void test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, -10, 110, 2);
+  stair(&e, 110, -10, 2);
+  stair(&e, -10, 50, 2);
+  stair(&e, 50, 30, 0.5);
+  stair(&e, 30, 50, 0.5);
+  record_measure();
+  assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.5);
+  assert_covers(LAB_METRIC_HYSTERESIS_DEAD_BAND, 10, 0.2);
+  assert_covers(LAB_METRIC_HYSTERESIS, 0, 0.6);
+  assert_covers(LAB_METRIC_LINEARITY, 0, 0.2);
+  assert_metric(LAB_METRIC_RESOLUTION, 0.5, 0.01, 0);
+  assert_true(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
+}
+
+static void test_metrics__play_by_a_slow_ramp_with_noise__the_same(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_PRESSURE);
+  ramp(&e, -10, 110, 1);
+  ramp(&e, 110, -10, 1);
+  ramp(&e, -10, 50, 1);
+  ramp(&e, 50, 30, 1);
+  ramp(&e, 30, 50, 1);
+  record.noise_p = 300;
+  record.noise_x = 2e-5;
+  record_noise(record_p, 300);
+  record_noise(record_x, 2e-5);
+  record_p[500] = (double)NAN;
+  record_x[700] = (double)NAN;
+  record_measure();
+  assert_covers(LAB_METRIC_DEAD_BAND, 10, 1.5);
+  assert_covers(LAB_METRIC_HYSTERESIS_DEAD_BAND, 10, 1.5);
+  assert_covers(LAB_METRIC_HYSTERESIS, 0, 3);
+  assert_covers(LAB_METRIC_LINEARITY, 0, 1.5);
+}
+
+/* Branches that part further in the middle than a turn needs. */
+static void test_metrics__hysteresis_beside_play__both_apart(void **state)
+{
+  element e = {10e3, 0, 0, 16e3, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, -10, 110, 1);
+  stair(&e, 110, -10, 1);
+  stair(&e, -10, 10, 1);
+  stair(&e, 10, -5, 0.5);
+  record_measure();
+  assert_metric(LAB_METRIC_HYSTERESIS_DEAD_BAND, 100 * 26e3 / record_span, 0.1, 0);
+  assert_between(metric_of(LAB_METRIC_DEAD_BAND)->value, 5, 9);
+  assert_close(metric_of(LAB_METRIC_HYSTERESIS)->value, 13 - metrics.metric[LAB_METRIC_DEAD_BAND].value, 0.2, 0);
+}
+
+static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
+{
+  element e = {0, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, 0, 60, 2);
+  stair(&e, 60, 30, 2);
+  record_measure();
+  assert_true(metric_of(LAB_METRIC_DEAD_BAND)->at_most);
+  assert_between(metrics.metric[LAB_METRIC_DEAD_BAND].value, 1, 2.5);
+}
+
+/* ---- Resolution ---- */
+
+static void test_metrics__stem_that_slips__its_step(void **state)
+{
+  element e = {0, 0, 3e3, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, 0, 60, 0.25);
+  record_measure();
+  assert_covers(LAB_METRIC_RESOLUTION, 1.5, 0.15);
+  assert_false(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
+}
+
+static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
+{
+  element e = {0, 0, 6e3, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_PRESSURE);
+  ramp(&e, 0, 60, 1);
+  record.noise_p = 100;
+  record.noise_x = 5e-6;
+  record_noise(record_p, 100);
+  record_noise(record_x, 5e-6);
+  record_measure();
+  assert_covers(LAB_METRIC_RESOLUTION, 3, 0.3);
+}
+
+/* ---- Linearity ---- */
+
+/* Of a parabola over its chord, the line that suits best takes half the height, which shrinks with the square of the
+ * range. Off the stops are both branches from 3 % to 96 %, and the grid has 0.6 %. */
+static void test_metrics__bowed_characteristic__half_the_bow(void **state)
+{
+  element e = {4e3, 0.06, 0, 0, 0};
+  const double most = 0.96 - 0.03, least = most - 2 * 0.006;
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, -10, 110, 1);
+  stair(&e, 110, -10, 1);
+  record_measure();
+  assert_between(metric_of(LAB_METRIC_LINEARITY)->value, 100 * 0.06 / 2 * least * least, 100 * 0.06 / 2 * most * most);
+  assert_denied(LAB_METRIC_HYSTERESIS, "it takes the dead band");
+}
+
+/* ---- Reasons ---- */
+
+static void test_metrics__fast_loop__says_so(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_PRESSURE);
+  ramp(&e, -10, 110, 30);
+  ramp(&e, 110, -10, 30);
+  ramp(&e, -10, 50, 30);
+  ramp(&e, 50, 20, 30);
+  record_measure();
+  assert_denied(LAB_METRIC_DEAD_BAND, "the stem passes all 1 turns of the chamber pressure faster than 5 %");
+  assert_denied(LAB_METRIC_RESOLUTION, "changes slowly nowhere");
+  assert_denied(LAB_METRIC_HYSTERESIS_DEAD_BAND, "no slow loop");
+  assert_denied(LAB_METRIC_LINEARITY, "no slow loop");
+}
+
+static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, -10, 110, 5);
+  stair(&e, 110, -10, 5);
+  record_measure();
+  assert_denied(LAB_METRIC_DEAD_BAND, "on a stop it does");
+  assert_denied(LAB_METRIC_HYSTERESIS, "on a stop it does");
+  assert_covers(LAB_METRIC_HYSTERESIS_DEAD_BAND, 10, 0.2);
+}
+
+static void test_metrics__small_loop__says_how_small(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, 0, 50, 1);
+  stair(&e, 50, 20, 1);
+  record_measure();
+  assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.6);
+  assert_denied(LAB_METRIC_HYSTERESIS_DEAD_BAND, "the largest slow one covers 20 %");
+}
+
+static void test_metrics__turn_between_rows__not_known(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, 0, 60, 5);
+  hold(&e, 10, 12);
+  hold(&e, 9, 12);
+  hold(&e, 8, 12);
+  record_measure();
+  assert_denied(LAB_METRIC_DEAD_BAND, "between rows");
+}
+
+static void test_metrics__one_movement__no_resolution(void **state)
+{
+  element e = {0, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  for (e.x = 0; record.n < 480;) {
+    hold(&e, 30, 60);
+    hold(&e, 60, 60);
+  }
+  record_measure();
+  assert_denied(LAB_METRIC_RESOLUTION, "twice in the same direction");
+}
+
+static void test_metrics__valve_that_snaps__no_line(void **state)
+{
+  element e = {20e3, 0, 190e3, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stair(&e, -10, 110, 2);
+  stair(&e, 110, -10, 2);
+  record_measure();
+  assert_denied(LAB_METRIC_LINEARITY, "too little of the loop");
+}
+
+static void test_metrics__no_signal_to_set_it_against__says_so(void **state)
+{
+  element e = {20e3, 0, 0, 0, 0};
+  (void)state;
+  record_new(LAB_COMMAND_OPENING);
+  ramp(&e, -10, 110, 1);
+  record.p = NULL;
+  record_measure();
+  assert_denied(LAB_METRIC_DEAD_BAND, "no chamber pressure, which is the signal of a bare actuator");
+  assert_denied(LAB_METRIC_LINEARITY, "no chamber pressure");
+  record.p = record_p;
+  record.signal_high = record.signal_low;
+  record_measure();
+  assert_denied(LAB_METRIC_RESOLUTION, "the bench set, the span of the signal, is not known");
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  hold(&e, 10, 100);
+  record_measure();
+  assert_denied(LAB_METRIC_DEAD_BAND, "no staircase");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis),
+      cmocka_unit_test(test_metrics__play_by_a_slow_ramp_with_noise__the_same),
+      cmocka_unit_test(test_metrics__hysteresis_beside_play__both_apart),
+      cmocka_unit_test(test_metrics__no_play__at_most_what_a_step_shows),
+      cmocka_unit_test(test_metrics__stem_that_slips__its_step),
+      cmocka_unit_test(test_metrics__slips_in_a_noisy_ramp__their_step),
+      cmocka_unit_test(test_metrics__bowed_characteristic__half_the_bow),
+      cmocka_unit_test(test_metrics__fast_loop__says_so),
+      cmocka_unit_test(test_metrics__turns_on_stops_only__no_dead_band),
+      cmocka_unit_test(test_metrics__small_loop__says_how_small),
+      cmocka_unit_test(test_metrics__turn_between_rows__not_known),
+      cmocka_unit_test(test_metrics__one_movement__no_resolution),
+      cmocka_unit_test(test_metrics__valve_that_snaps__no_line),
+      cmocka_unit_test(test_metrics__no_signal_to_set_it_against__says_so),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,220 @@
+/* Logs as people's recorders write them: what clock, converters and mains do to a log is recognised, and changes no
+ * verdict. The rig is that of tests/second, which shares nothing with the library. */
+#include "../../fixture.h"
+#include "../../scratch.h"
+
+#include "../../../apps/lab/report/answer.h"
+#include "../../second/rig.h"
+
+enum { FINE = 52001 };
+static const double fine = 5e-4, t_end = 26, noise_p = 350, noise_x = 2.5e-5;
+
+static struct {
+  double t[FINE], u[FINE], p[FINE], x[FINE];
+} truth;
+
+static second_rig rig;
+static lab_error error;
+static uint64_t seed;
+
+/* How a log is recorded. */
+typedef struct recorder {
+  const char *name;
+  double spacing;          /* [s] */
+  double jitter, rounding; /* [s] of the times: deviation; step */
+  int stamped;             /* the jitter is in the stamps; else in the rows */
+  int bits;                /* of the converters; 0: fine ones */
+  double quiet;            /* times the usual noise */
+  double memory;           /* of the noise from row to row */
+  double hum;              /* amplitude over noise, 50 Hz */
+  double declared;         /* noise over what it is */
+} recorder;
+
+static const recorder as_declared = {"as declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1};
+static const recorder rounded = {"time rounded to 10 ms", 0.012, 0, 0.01, 0, 0, 1, 0, 0, 1};
+static const recorder late = {"rows at uncertain times", 0.007, 0.003, 0, 0, 0, 1, 0, 0, 1};
+static const recorder stamped = {"stamps that jitter", 0.007, 0.003, 0, 1, 0, 1, 0, 0, 1};
+static const recorder ten_bits = {"10 bits, noise of a step", 0.007, 0, 0, 0, 10, 1, 0, 0, 1};
+static const recorder plain_steps = {"10 bits, hardly any noise", 0.007, 0, 0, 0, 10, 0.2, 0, 0, 1};
+static const recorder humming = {"hum of three times the noise", 0.005, 0, 0, 0, 0, 1, 0, 3, 1};
+static const recorder coloured = {"coloured noise", 0.007, 0, 0, 0, 0, 1, 0.7, 0, 1};
+static const recorder noisier = {"a third of the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1. / 3};
+static const recorder quieter = {"three times the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 3};
+
+/* ---- Recording ---- */
+
+static double normal(void)
+{
+  double sum = -6;
+  int k;
+  for (k = 0; k < 12; k++)
+    sum += fixture_random(&seed, 0, 1);
+  return sum;
+}
+
+static double at(const double *value, double t)
+{
+  const int i = (int)fmin(fmax(t / fine, 0), FINE - 2);
+  return value[i] + (value[i + 1] - value[i]) * fmin(fmax(t / fine - i, 0), 1);
+}
+
+static double converted(double value, double span, int bits)
+{
+  const double step = 1.25 * span / (1 << (bits ? bits : 16));
+  return step * nearbyint(value / step);
+}
+
+static void run_truth(double leak)
+{
+  static const double t_cmd[] = {0.9, 6.1, 7.7, 9.6, 10.9, 17.2, 19.1, 21.3},
+                      u_cmd[] = {0.9, -0.8, 0, 0.6, 0, 1, -0.5, -1};
+  const second_log log = {.t = truth.t, .u = truth.u, .p = truth.p, .x = truth.x};
+  rig = second_rig_default_r1_400();
+  rig.flow = SECOND_CHOKED;
+  rig.dead_volume = 1e-4;
+  rig.dry_friction = 420;
+  rig.leak_area = leak * rig.fill_area;
+  assert_int_equal(second_samples(t_end, fine), FINE);
+  assert_int_equal(second_run(&rig, t_cmd, u_cmd, COUNT(t_cmd), t_end, fine, &log, NULL), 0);
+}
+
+static void write_log(const recorder *r)
+{
+  FILE *file = fopen(scratch_path("log.csv"), "w");
+  double coloured_p = normal(), coloured_x = normal();
+  int k;
+  assert_non_null(file);
+  fputs("t [s],u [1],p [kPa],x [mm]\n", file);
+  for (k = 0; k * r->spacing < t_end; k++) {
+    const double even = k * r->spacing, most = 0.49 * r->spacing, off = fmin(fmax(r->jitter * normal(), -most), most);
+    const double t = r->stamped ? even : fmax(even + off, 0), shown = r->stamped ? fmax(even + off, 0) : even;
+    const double swing = r->hum * sin(314.1592653589793 * t), fresh = sqrt(1 - r->memory * r->memory);
+    double p = at(truth.p, t), x = at(truth.x, t);
+    coloured_p = r->memory * coloured_p + fresh * normal();
+    coloured_x = r->memory * coloured_x + fresh * normal();
+    p = converted(p + noise_p * (r->quiet * coloured_p + swing), rig.supply, r->bits);
+    x = converted(x + noise_x * (r->quiet * coloured_x + swing), rig.stroke, r->bits);
+    fprintf(file, "%.5f,%g,%.5f,%.6f\n", r->rounding > 0 ? r->rounding * nearbyint(shown / r->rounding) : shown,
+            truth.u[(int)(t / fine)], p * 1e-3, x * 1e3);
+  }
+  fclose(file);
+}
+
+static void write_rig(const recorder *r)
+{
+  char text[1200];
+  snprintf(text, sizeof text,
+           "actuator = { area = \"%g m^2\"; dead_volume = \"%g m^3\"; stroke = \"%g m\"; spring_rate = \"%g N/m\";\n"
+           "  spring_preload = \"%g m\"; moving_mass = \"%g kg\"; dry_friction = \"480 N\";\n"
+           "  viscous_friction = \"%g N.s/m\"; damping = \"0 N.s/m\"; };\n"
+           "transducer = { fill_area = \"%g m^2\"; vent_area = \"%g m^2\"; };\n"
+           "supply = { pressure = \"%g Pa\"; temperature = \"%g K\"; };\n"
+           "ambient = { pressure = \"%g Pa\"; temperature = \"%g K\"; };\n"
+           "laws = { gas = \"isothermal\"; flow = \"choked\"; };\n"
+           "fit = (\"orifice_area\", \"dry_friction\", \"spring_rate\", \"spring_preload\");\n"
+           "noise = { pressure = \"%g Pa\"; position = \"%g m\"; };\n",
+           rig.area, rig.dead_volume, rig.stroke, rig.spring_rate, rig.spring_preload, rig.mass, rig.viscous,
+           rig.fill_area, rig.vent_area, rig.supply, rig.supply_temperature, rig.ambient, rig.ambient_temperature,
+           r->declared * r->quiet * noise_p, r->declared * r->quiet * noise_x);
+  scratch_text("rig.cfg", text);
+}
+
+/* The answer to a log of the present truth, to be freed. */
+static lab_answer *answer_to(const recorder *r)
+{
+  char path[512], rig_path[512];
+  const char *log[] = {path};
+  lab_request q = {.rig = rig_path, .log = log, .n_logs = 1, .alpha = 0.01, .min_gain = 0.02};
+  lab_answer *answer;
+  check_note("%s", r->name);
+  seed = 20;
+  write_rig(r);
+  write_log(r);
+  strcpy(path, scratch_path("log.csv"));
+  strcpy(rig_path, scratch_path("rig.cfg"));
+  if (lab_answer_find(&q, &answer, &error))
+    fail_msg("%s: %s", r->name, error.text);
+  return answer;
+}
+
+static const recorder *const recorders[] = {&as_declared, &rounded, &late,     &stamped, &ten_bits,
+                                            &plain_steps, &humming, &coloured, &noisier, &quieter};
+
+/* ---- Verdicts ---- */
+
+static void test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded(void **state)
+{
+  int k;
+  (void)state;
+  run_truth(0);
+  for (k = 0; k < COUNT(recorders); k++) {
+    lab_answer *a = answer_to(recorders[k]);
+    if (a->now.result.verdict != LAB_VERDICT_NONE)
+      fail_msg("%s: %s", recorders[k]->name, lab_verdict_text(a->now.result.verdict));
+    lab_answer_free(a);
+  }
+}
+
+static void test_lab_answer_find__leak__is_named_however_it_was_recorded(void **state)
+{
+  int k;
+  (void)state;
+  if (pneu_effect_find("chamber_leak") < 0)
+    skip();
+  run_truth(0.02);
+  for (k = 0; k < COUNT(recorders); k++) {
+    lab_answer *a = answer_to(recorders[k]);
+    if (a->now.result.verdict != LAB_VERDICT_EFFECT || a->now.result.n_found != 1 ||
+        a->now.result.found[0].effect != pneu_effect_find("chamber_leak"))
+      fail_msg("%s: %s, %d found", recorders[k]->name, lab_verdict_text(a->now.result.verdict), a->now.result.n_found);
+    lab_answer_free(a);
+  }
+}
+
+/* ---- What is recognised ---- */
+
+enum { P, X };
+
+static void test_lab_answer_find__each_recorder__is_recognised(void **state)
+{
+  const double step = 1.25 * 0.02 / 1024;
+  lab_answer *a;
+  (void)state;
+  run_truth(0);
+  a = answer_to(&as_declared);
+  assert_int_equal(a->now.logs.limitations.n, 0);
+  assert_close(a->now.logs.run[0].level[P], 1, 0, 0.1);
+  assert_close(a->now.logs.run[0].jitter, 0, 0, 0);
+  assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_P].amplitude, 0, 0, 0);
+  lab_answer_free(a);
+  a = answer_to(&rounded);
+  assert_close(a->now.logs.log[0].clock_step, 0.01, 0, 1e-9);
+  assert_close(a->now.logs.log[0].value[LAB_CHANNEL_TIME][1000], 12, 1e-4, 0);
+  lab_answer_free(a);
+  a = answer_to(&late);
+  assert_close(a->now.logs.run[0].jitter, 0.003, 0, 0.3);
+  lab_answer_free(a);
+  a = answer_to(&plain_steps);
+  assert_close(a->now.logs.run[0].resolution[X], step, 0, 1e-3);
+  assert_close(a->now.logs.run[0].sigma[X], hypot(0.2 * noise_x, step / sqrt(12)), 0, 1e-3);
+  lab_answer_free(a);
+  a = answer_to(&humming);
+  assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_P].frequency, 50, 0.01, 0);
+  assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_P].amplitude, 3 * noise_p, 0, 0.05);
+  assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_X].amplitude, 3 * noise_x, 0, 0.05);
+  lab_answer_free(a);
+  a = answer_to(&noisier);
+  assert_close(a->now.logs.run[0].level[P], 3, 0, 0.1);
+  assert_close(a->now.logs.run[0].sigma[P], noise_p, 0, 0.1);
+  lab_answer_free(a);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded),
+      cmocka_unit_test(test_lab_answer_find__leak__is_named_however_it_was_recorded),
+      cmocka_unit_test(test_lab_answer_find__each_recorder__is_recognised),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}

@@ -1,0 +1,687 @@
+/* From a log of the independent rig to report.html and its figures. */
+#include "../../fixture.h"
+#include "../../scratch.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/metrics/recording.h"
+#include "../../../apps/lab/report/pagetext.h"
+#include "../../../apps/lab/report/report_html.h"
+#include "../../../apps/lab/report/signature.h"
+
+enum { ROWS = 1001 };
+static const double spacing = 0.01; /* [s] */
+
+static lab_error error;
+static lab_rig rig;
+static lab_log logged;
+static lab_run run[2];
+static lab_unknowns declared, completed;
+static lab_search_result result;
+static lab_report report;
+static lab_metrics measured, predicted;
+static char *page;
+
+/* ---- A report: the R1-400 with a leak that the rig file does not know of ---- */
+
+static const char *write_log(const char *name)
+{
+  static const double t_cmd[] = {0.402, 2.503, 4.001, 5.507, 7.204}, u_cmd[] = {1, 0, -1, 0.5, -0.5};
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  const char *path = scratch_path(name);
+  second_rig g = second_rig_default_r1_400();
+  second_log samples = {0};
+  FILE *file = fopen(path, "w");
+  int i;
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.leak_area = 1.5e-8;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = 7;
+  samples.t = t;
+  samples.u = u;
+  samples.p = p;
+  samples.x = x;
+  assert_int_equal(second_run(&g, t_cmd, u_cmd, 5, 10, spacing, &samples, NULL), 0);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    if (i >= 300 && i < 310) /* a gap */
+      fprintf(file, "%.3f,%g,,%.7f\n", t[i], u[i], x[i]);
+    else
+      fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+  return path;
+}
+
+static void declare(void)
+{
+  lab_rig_default(&rig);
+  strcpy(rig.name, "R1 <script>alert(\"1\")</script> & co");
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  rig.params.dead_volume = (pneu_real)4e-5;
+  rig.params.spring_rate = (pneu_real)3.9e5;
+  rig.noise[LAB_CHANNEL_P] = 320;
+  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_rate;
+}
+
+/* Once for all tests, in a folder for all of them. */
+static int begin_report(void **state)
+{
+  lab_search_options options;
+  if (scratch_open(state))
+    return -1;
+  declare();
+  lab_search_options_default(&options);
+  options.max_effects = 1;
+  assert_int_equal(lab_log_read(write_log("a&b.csv"), &rig.log, 101325, &logged, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &logged, 0, &run[0], &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, run, 1, &declared, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  completed = declared;
+  assert_int_equal(lab_search_run(&completed, &options, &result, &error), LAB_OK);
+  report.rig = &rig;
+  report.declared = &declared;
+  report.completed = &completed;
+  report.result = &result;
+  report.measured = &measured;
+  report.predicted = &predicted;
+  assert_int_equal(lab_metrics_compare(&completed, &measured, &predicted, &error), LAB_OK);
+  return 0;
+}
+
+static int forget_report(void **state)
+{
+  free(page);
+  lab_run_close(&run[0]);
+  lab_log_free(&logged);
+  return scratch_close(state);
+}
+
+/* Write the report into a folder. */
+static void write_report(const lab_report *told, const char *folder)
+{
+  lab_residual_table table;
+  lab_figures *figures;
+  mkdir(folder, 0777);
+  assert_int_equal(lab_residual_table_collect(told, &table, &error), LAB_OK);
+  assert_int_equal(lab_figures_make(told, &table, &figures, &error), LAB_OK);
+  assert_int_equal(lab_figures_draw(figures, folder, 1, &error), LAB_OK);
+  assert_int_equal(lab_report_html(told, &table, figures, folder, &error), LAB_OK);
+  lab_figures_free(figures);
+  lab_residual_table_free(&table);
+}
+
+/* The page of the report; kept. */
+static const char *the_page(void)
+{
+  if (!page) {
+    write_report(&report, scratch_path("report"));
+    page = scratch_read(scratch_path("report/report.html"));
+  }
+  return page;
+}
+
+/* ---- Form ---- */
+
+/* Where a tag begins, outside what a script has between <![CDATA[ and ]]>. */
+static const char *next_tag(const char *at)
+{
+  static const char begin[] = "<![CDATA[", end[] = "]]>";
+  while ((at = strchr(at, '<')) && !strncmp(at, begin, sizeof begin - 1)) {
+    at = strstr(at, end);
+    if (!at)
+      return NULL;
+  }
+  return at;
+}
+
+/* Tags are opened and closed in order, as in XML; returns what is wrong. */
+static const char *fault_of(const char *text)
+{
+  static char stack[64][24];
+  static char fault[96];
+  int depth = 0;
+  const char *at = text;
+  while ((at = next_tag(at))) {
+    const char *end = strchr(at, '>');
+    char name[24];
+    const int closing = at[1] == '/';
+    if (!end)
+      return "a tag is not ended";
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(at + 1 + closing, " \n\t/>"), at + 1 + closing);
+    snprintf(fault, sizeof fault, "<%s%.20s> within <%.20s>", closing ? "/" : "", name, depth ? stack[depth - 1] : "");
+    at = end;
+    if (*name == '!' || end[-1] == '/')
+      continue;
+    if (closing && (depth == 0 || strcmp(stack[--depth], name) != 0))
+      return fault;
+    if (!closing && depth == 64)
+      return "tags are too deep";
+    if (!closing)
+      strcpy(stack[depth++], name);
+  }
+  return depth ? "a tag is left open" : "";
+}
+
+static void test_fault_of__bad_pages__are_seen(void **state)
+{
+  (void)state;
+  assert_string_equal(fault_of("<!DOCTYPE html><p>a<br/><b>c</b></p>"), "");
+  assert_string_not_equal(fault_of("<p>a<b>c</p></b>"), "");
+  assert_string_not_equal(fault_of("<p>a"), "");
+  assert_string_not_equal(fault_of("a</p>"), "");
+  assert_string_equal(fault_of("<script><![CDATA[ if (a<b) c(); ]]></script>"), "");
+}
+
+static void test_lab_report_html__leak__page_is_well_formed(void **state)
+{
+  (void)state;
+  assert_string_equal(fault_of(the_page()), "");
+  assert_null(strstr(the_page(), "{{"));
+}
+
+static int count(const char *text, const char *part)
+{
+  int n = 0;
+  for (; (text = strstr(text, part)); text++)
+    n++;
+  return n;
+}
+
+/* The one address is where the library of the curves is from, in its heading. */
+static void test_lab_report_html__leak__needs_nothing_from_outside(void **state)
+{
+  static const char *const links[] = {"http:", "src=", "url(", "@import", "<link", "fetch(", "import(", "XMLHttp"};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof links / sizeof *links; i++) {
+    check_note("%s", links[i]);
+    assert_null(strstr(the_page(), links[i]));
+  }
+  assert_int_equal(count(the_page(), "https:"), 1);
+  assert_contains(the_page(), "/*! https://github.com/leeoniya/uPlot (v1.6.32) */");
+  assert_contains(the_page(), "Copyright (c) 2022 Leon Sorokin");
+}
+
+/* What is carried inside arrives as it is, long lines and all. */
+static void test_lab_page_text__library__is_the_file(void **state)
+{
+  char *carried = lab_page_text(LAB_PAGE_PLOT), *file = scratch_read("apps/lab/report/page/uplot/uPlot.iife.min.js");
+  (void)state;
+  assert_non_null(carried);
+  assert_string_equal(carried, file);
+  free(carried);
+  free(file);
+}
+
+static void test_lab_report_html__five_figures__ids_are_single_and_all_have_words(void **state)
+{
+  const char *at = the_page();
+  (void)state;
+  assert_int_equal(count(at, "role=\"img\" aria-label=\""), 5);
+  assert_int_equal(count(at, "aria-label=\"\""), 0);
+  assert_int_equal(count(at, "<figure "), 5);
+  assert_int_equal(count(at, "<noscript>"), 5);
+  while ((at = strstr(at, " id="))) {
+    char id[96];
+    snprintf(id, sizeof id, " id=%.*s%c", (int)strcspn(at + 5, "'\"") + 1, at + 4, at[4]);
+    check_note("%s", id);
+    assert_int_equal(count(the_page(), id), 1);
+    at++;
+  }
+}
+
+/* What the script reads curves from; to be deleted. */
+static cJSON *curves_of(const char *text)
+{
+  static const char begin[] = "<script type=\"application/json\" id=\"curves\">";
+  const char *from = strstr(text, begin);
+  cJSON *all;
+  assert_non_null(from);
+  all = cJSON_ParseWithOpts(from + strlen(begin), NULL, 0);
+  assert_non_null(all);
+  return all;
+}
+
+/* A column of it as numbers, NaN for a gap.  Returns: how many */
+static int column_of(const cJSON *all, int number, double value[ROWS])
+{
+  const cJSON *column = cJSON_GetArrayItem(cJSON_GetObjectItem(all, "columns"), number);
+  const char *at = cJSON_GetObjectItem(column, "d")->valuestring;
+  const double unit = pow(10, -cJSON_GetObjectItem(column, "k")->valueint);
+  long long sum = 0;
+  int n = 0, more = 1;
+  while (more) {
+    char *end;
+    const long long step = strtoll(at, &end, 10);
+    assert_true(n < ROWS);
+    value[n++] = end > at ? (double)(sum += step) * unit : (double)NAN;
+    more = *end == ',';
+    at = end + 1;
+  }
+  return n;
+}
+
+/* Every value that is drawn is that of its row, as far as its digits go. */
+static void test_lab_report_html__curves__are_the_rows(void **state)
+{
+  static const char *const key[] = {"measured", "before", "after"};
+  static double t[ROWS], value[ROWS];
+  cJSON *all = curves_of(the_page()), *panel;
+  lab_residual_table v;
+  int c, k, i, n, gaps = 0;
+  (void)state;
+  assert_int_equal(lab_residual_table_collect(&report, &v, &error), LAB_OK);
+  for (c = 0; c < 2; c++) {
+    const double *const rows[] = {v.channel[c].measured, v.channel[c].predicted[LAB_STAGE_BEFORE],
+                                  v.channel[c].predicted[LAB_STAGE_AFTER]};
+    const double scale = c ? 1e3 : 1e-3;
+    panel = cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(all, "panels"), "response"), 1 + c);
+    assert_string_equal(cJSON_GetObjectItem(panel, "unit")->valuestring, c ? "mm" : "kPa");
+    n = column_of(all, cJSON_GetObjectItem(panel, "x")->valueint, t);
+    assert_true(n > 500);
+    for (k = 0; k < 3; k++) {
+      const cJSON *curve = cJSON_GetArrayItem(cJSON_GetObjectItem(panel, "curves"), k);
+      assert_string_equal(cJSON_GetObjectItem(curve, "key")->valuestring, key[k]);
+      assert_int_equal(column_of(all, cJSON_GetObjectItem(curve, "y")->valueint, value), n);
+      for (i = 0; i < n; i++) {
+        const int row = (int)lround(t[i] / spacing);
+        check_note("%s in row %d", key[k], row);
+        assert_close(t[i], v.t[row], 1e-9, 0);
+        assert_int_equal(isnan(value[i]), isnan(rows[k][row]));
+        gaps += isnan(value[i]);
+        if (!isnan(value[i]))
+          assert_close(value[i], scale * rows[k][row], c ? 0.5001e-2 : 0.5001e-1, 0);
+      }
+    }
+  }
+  assert_true(gaps > 0);
+  lab_residual_table_free(&v);
+  cJSON_Delete(all);
+}
+
+/* ---- Valve signature ---- */
+
+static void set_effect(lab_rig *r, int param, double value)
+{
+  *pneu_param_at(&r->params, param) = (pneu_real)value;
+}
+
+/* Balance of forces by hand: p A(x) = k (x + x0) +- (F + f p). */
+static void test_lab_signature_make__effects_of_forces__balance_by_hand(void **state)
+{
+  const double stroke = 0.02, k = 4e5, x0 = 0.01, F = 480, area = 0.04, f = 1e-3, a = 0.2;
+  lab_rig r;
+  lab_signature s;
+  int i;
+  (void)state;
+  lab_rig_default(&r);
+  set_effect(&r, PNEU_PARAM_external_force, 100);
+  assert_int_equal(lab_signature_make(&r, &s, &error), LAB_OK);
+  assert_close(s.bench_lower, (k * x0 + 100) / area, 0, 1e-9);
+  assert_close(s.bench_upper, (k * (stroke + x0) + 100) / area, 0, 1e-9);
+  assert_close(s.spring_rate, k, 0, 1e-9);
+  assert_close(s.band, 2 * F / area, 0, 1e-9);
+  set_effect(&r, PNEU_PARAM_BASE_COUNT + PNEU_AT_friction_pressure, f);
+  set_effect(&r, PNEU_PARAM_BASE_COUNT + PNEU_AT_area_variation, a);
+  assert_int_equal(lab_signature_make(&r, &s, &error), LAB_OK);
+  for (i = 0; i < LAB_SIGNATURE_POINTS; i += 10) {
+    const double x = stroke * i / (LAB_SIGNATURE_POINTS - 1), acts = area * (1 - a * x / stroke);
+    const double spring = k * (x + x0) + 100;
+    assert_close(s.x[i], x, 1e-12, 0);
+    assert_close(s.p[LAB_SIGNATURE_UP][i], (spring + F) / (acts - f), 0, 1e-9);
+    assert_close(s.p[LAB_SIGNATURE_SPRING][i], spring / acts, 0, 1e-9);
+    assert_close(s.p[LAB_SIGNATURE_DOWN][i], (spring - F) / (acts + f), 0, 1e-9);
+  }
+  set_effect(&r, PNEU_PARAM_stroke, 0);
+  assert_int_equal(lab_signature_make(&r, &s, &error), LAB_DATA);
+}
+
+/* Every curve lies where the physics of the rig that made the log puts it; lines and table tell both models. */
+static void test_lab_report_html__signature__measured_found_and_declared(void **state)
+{
+  static const char *const key[] = {"measured", "measured", "after", "after", "found",
+                                    "found",    "found",    "sheet", "sheet", "sheet"};
+  static const double sense[] = {1, -1, 1, -1, 1, 0, -1, 1, 0, -1},
+                      rate[] = {400, 400, 400, 400, 400, 400, 400, 390, 390, 390};
+  static double x[ROWS], p[ROWS];
+  cJSON *all = curves_of(the_page()), *panel;
+  lab_report told = report;
+  char *text;
+  int c, i, n;
+  (void)state;
+  panel = cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(all, "panels"), "signature"), 0);
+  assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(panel, "curves")), 10);
+  n = column_of(all, cJSON_GetObjectItem(panel, "x")->valueint, x);
+  for (c = 0; c < 10; c++) {
+    const cJSON *curve = cJSON_GetArrayItem(cJSON_GetObjectItem(panel, "curves"), c);
+    int there = 0;
+    assert_string_equal(cJSON_GetObjectItem(curve, "key")->valuestring, key[c]);
+    assert_int_equal(column_of(all, cJSON_GetObjectItem(curve, "y")->valueint, p), n);
+    for (i = 0; i < n; i++) {
+      const double line = (rate[c] * (x[i] + 10) + 480 * sense[c]) / 40;
+      there += !isnan(p[i]);
+      check_note("curve %d at %g mm", c, x[i]);
+      if (!isnan(p[i]))
+        assert_close(p[i], line, c < 4 ? 4 : 0.5, 0); /* measured: inertia and viscous friction beside */
+    }
+    assert_true(there > (c < 4 ? 5 : n - 1));
+  }
+  cJSON_Delete(all);
+  assert_contains(the_page(), "<tr><th scope=\"row\">bench set, lower</th><td>97.50 kPa</td><td>");
+  assert_contains(the_page(),
+                  "declared: bench set 97.50 kPa to 292.5 kPa, spring rate 390.0 N/mm, friction band 24.00 kPa.");
+  assert_null(strstr(the_page(), "as it was"));
+  told.baseline = &rig;
+  write_report(&told, scratch_path("baseline"));
+  text = scratch_read(scratch_path("baseline/report.html"));
+  assert_contains(text, "as it was");
+  assert_contains(text, "\"key\":\"baseline\"");
+  free(text);
+}
+
+/* ---- Content ---- */
+
+static void test_lab_report_html__leak__says_what_was_found(void **state)
+{
+  (void)state;
+  assert_contains(the_page(), "<h1>The chamber leaks: 0.015");
+  assert_contains(the_page(), " bar supply <code>chamber_leak</code>.</h1>\n<p>With it the error falls from ");
+  assert_contains(the_page(), "chamber_leak");
+  assert_contains(the_page(), pneu_effect_at(result.found[0].effect)->footprint);
+  assert_contains(the_page(), " kPa");
+  assert_contains(the_page(), " mm²");
+  assert_contains(the_page(), "<td data-label=\"declared\">absent</td>");
+  assert_contains(the_page(), "<th scope=\"col\">fitted without the effect</th>");
+  assert_contains(the_page(), "<span class=\"bar passes\"");
+  assert_contains(the_page(), "<span class=\"bar fails\"");
+  assert_contains(the_page(), "<span class=\"large\">");
+  assert_contains(the_page(), "chamber_leak is significant: p-value");
+}
+
+/* The log has no full stroke, so that its figures are reasons. */
+static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
+{
+  lab_report without = report;
+  char *text;
+  (void)state;
+  assert_contains(the_page(), "<h2>Figures of merit</h2>");
+  assert_contains(the_page(), "<code>air_mass</code>: the record has no mass flow");
+  assert_contains(the_page(), "Steps are steps of the opening of the transducer");
+  without.measured = NULL;
+  write_report(&without, scratch_path("without"));
+  text = scratch_read(scratch_path("without/report.html"));
+  assert_null(strstr(text, "Figures of merit"));
+  free(text);
+}
+
+static void test_lab_report_html__names_of_files_and_rigs__are_escaped(void **state)
+{
+  (void)state;
+  assert_contains(the_page(), "R1 &lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; co");
+  assert_contains(the_page(), "a&amp;b.csv");
+}
+
+static void test_lab_report_html__twice__same_bytes(void **state)
+{
+  static const char *const names[] = {"report.html", "response.svg", "residual.svg", "arguments.svg",
+                                      "autocorrelation.svg"};
+  size_t i;
+  (void)state;
+  (void)the_page();
+  write_report(&report, scratch_path("again"));
+  for (i = 0; i < sizeof names / sizeof *names; i++) {
+    char one[64], two[64];
+    char *a, *b;
+    snprintf(one, sizeof one, "report/%s", names[i]);
+    snprintf(two, sizeof two, "again/%s", names[i]);
+    check_note("%s", names[i]);
+    a = scratch_read(scratch_path(one));
+    b = scratch_read(scratch_path(two));
+    assert_true(strlen(a) > 1000);
+    assert_string_equal(a, b);
+    assert_true(i == 0 || !strstr(a, "alert")); /* no name of a user's reaches gnuplot */
+    free(a);
+    free(b);
+  }
+}
+
+static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void **state)
+{
+  static lab_unknowns both;
+  static lab_search_result nothing;
+  lab_report told = report;
+  char *text;
+  (void)state;
+  run[1] = run[0];
+  assert_int_equal(lab_unknowns_open(&rig, run, 2, &both, &error), LAB_OK);
+  assert_int_equal(lab_search_measure(&both, LAB_STAGE_BEFORE, &nothing, &error), LAB_OK);
+  assert_int_equal(lab_search_measure(&both, LAB_STAGE_AFTER, &nothing, &error), LAB_OK);
+  nothing.fit.n = both.n;
+  nothing.verdict = LAB_VERDICT_UNDECIDED;
+  told.declared = told.completed = &both;
+  told.result = &nothing;
+  write_report(&told, scratch_path("nothing"));
+  text = scratch_read(scratch_path("nothing/report.html"));
+  assert_string_equal(fault_of(text), "");
+  assert_contains(text, "2002 rows in 2 runs");
+  assert_contains(text, "The runs follow one after the other");
+  assert_contains(text, "\"runs\":[{\"entry\":0,\"shift\":0},{\"entry\":");
+  assert_contains(text, "Something is missing, but the log does not say what.");
+  assert_null(strstr(text, "completed model"));
+  free(text);
+}
+
+/* The log without its pressure: set point and travel are all that many plants record. */
+static void test_lab_report_html__pressure_not_measured__is_said(void **state)
+{
+  static lab_unknowns one;
+  static lab_search_result nothing;
+  const char *path = scratch_path("travel.csv");
+  lab_report told = report;
+  lab_run travel;
+  lab_log log;
+  FILE *from = fopen(scratch_path("a&b.csv"), "r"), *to = fopen(path, "w");
+  char line[128], *text;
+  (void)state;
+  while (fgets(line, sizeof line, from)) {
+    const char *u = strchr(line, ','), *p = strchr(u + 1, ',');
+    fprintf(to, "%.*s%s", (int)(p - line), line, strchr(p + 1, ','));
+  }
+  fclose(from);
+  fclose(to);
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &log, 0, &travel, &error), LAB_OK);
+  lab_unknowns_none(&rig, &travel, 1, &one);
+  assert_int_equal(lab_search_measure(&one, LAB_STAGE_BEFORE, &nothing, &error), LAB_OK);
+  assert_int_equal(lab_search_measure(&one, LAB_STAGE_AFTER, &nothing, &error), LAB_OK);
+  told.declared = told.completed = &one;
+  told.result = &nothing;
+  told.measured = NULL;
+  write_report(&told, scratch_path("travel"));
+  text = scratch_read(scratch_path("travel/report.html"));
+  assert_contains(text, "The model&#39;s pressure, for it was not measured");
+  assert_contains(text, "\"signature\":[{\"name\":\"Pressure p\"");
+  free(text);
+  lab_run_close(&travel);
+  lab_log_free(&log);
+}
+
+/* ---- Noise with memory ---- */
+
+/* Add noise of which each value remembers 0.6 of the one before. */
+static void add_noise(double *value, double sigma, uint64_t *seed)
+{
+  double noise = 0;
+  int i;
+  for (i = 0; i < ROWS; i++) {
+    const double a = fixture_random(seed, 1e-12, 1), b = fixture_random(seed, 0, 1);
+    noise = (i ? 0.6 : 0) * noise + (i ? 0.8 : 1) * sqrt(-2 * log(a)) * cos(2 * 3.14159265358979323846 * b);
+    value[i] += sigma * noise;
+  }
+}
+
+/* The R1-400 as declared, at rest for 3.5 s. */
+static const char *write_log_with_memory(const char *name)
+{
+  static const double t_cmd[] = {3.502, 5.501, 6.507}, u_cmd[] = {1, 0, -1};
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  const char *path = scratch_path(name);
+  second_rig g = second_rig_default_r1_400();
+  second_log samples = {0};
+  uint64_t seed = 3;
+  FILE *file = fopen(path, "w");
+  int i;
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.step = 5e-5;
+  samples.t = t;
+  samples.u = u;
+  samples.p = p;
+  samples.x = x;
+  assert_int_equal(second_run(&g, t_cmd, u_cmd, 3, 10, spacing, &samples, NULL), 0);
+  add_noise(p, 320, &seed);
+  add_noise(x, 2e-5, &seed);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+  return path;
+}
+
+static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it(void **state)
+{
+  static lab_unknowns fitted;
+  static lab_search_result outcome;
+  lab_run own;
+  lab_search_options options;
+  lab_report told = {0};
+  lab_log log;
+  lab_unknowns after;
+  char *text;
+  (void)state;
+  lab_search_options_default(&options);
+  assert_int_equal(lab_log_read(write_log_with_memory("memory.csv"), &rig.log, 101325, &log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &log, 0, &own, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &own, 1, &fitted, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  after = fitted;
+  assert_int_equal(lab_search_run(&after, &options, &outcome, &error), LAB_OK);
+  assert_int_equal(outcome.verdict, LAB_VERDICT_NONE);
+  told.rig = &rig;
+  told.declared = &fitted;
+  told.completed = &after;
+  told.result = &outcome;
+  write_report(&told, scratch_path("memory"));
+  text = scratch_read(scratch_path("memory/report.html"));
+  assert_contains(text, ">white<");
+  assert_null(strstr(text, ">not white<"));
+  free(text);
+  assert_int_equal(lab_report_json(&told, scratch_path("memory"), &error), LAB_OK);
+  text = scratch_read(scratch_path("memory/report.json"));
+  assert_contains(text, "\"whiteness\":");
+  assert_null(strstr(text, "\"white\":\tfalse"));
+  free(text);
+  lab_run_close(&own);
+  lab_log_free(&log);
+}
+
+/* One key, one meaning: what the refit of a candidate explains, found or not. */
+static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
+{
+  cJSON *root, *candidate;
+  char *text;
+  int refitted = 0, not_refitted = 0;
+  double found;
+  (void)state;
+  mkdir(scratch_path("json"), 0777);
+  assert_int_equal(lab_report_json(&report, scratch_path("json"), &error), LAB_OK);
+  text = scratch_read(scratch_path("json/report.json"));
+  root = cJSON_Parse(text);
+  found =
+      cJSON_GetNumberValue(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "found"), 0), "explained"));
+  assert_true(found > 0.9);
+  cJSON_ArrayForEach(candidate, cJSON_GetObjectItem(root, "candidates"))
+  {
+    const double share = cJSON_GetNumberValue(cJSON_GetObjectItem(candidate, "explained"));
+    const int is_leak = !strcmp(cJSON_GetObjectItem(candidate, "effect")->valuestring, "chamber_leak");
+    assert_true(cJSON_IsNumber(cJSON_GetObjectItem(candidate, "explained_by_slope")));
+    refitted += !isnan(share);
+    not_refitted += cJSON_IsNull(cJSON_GetObjectItem(candidate, "explained"));
+    if (is_leak)
+      assert_close(share, found, 1e-3, 0);
+  }
+  assert_true(refitted > 1 && not_refitted > 1);
+  cJSON_Delete(root);
+  free(text);
+}
+
+/* ---- Evidence ---- */
+
+static void test_lab_residual_table_collect__leak__white_only_when_completed(void **state)
+{
+  lab_residual_table v;
+  int c;
+  (void)state;
+  assert_int_equal(lab_residual_table_collect(&report, &v, &error), LAB_OK);
+  assert_int_equal(v.n, ROWS);
+  assert_int_equal(v.n_channels, 2);
+  for (c = 0; c < 2; c++) {
+    assert_true(result.left[LAB_STAGE_BEFORE][v.channel[c].channel].whiteness.p_value < 1e-6);
+    assert_true(result.left[LAB_STAGE_AFTER][v.channel[c].channel].whiteness.p_value > 0.001);
+  }
+  assert_true(isnan(v.channel[0].residual[LAB_STAGE_AFTER][305]));
+  assert_false(isnan(v.channel[1].residual[LAB_STAGE_AFTER][305]));
+  assert_close(v.channel[0].measured[500] - v.channel[0].predicted[LAB_STAGE_AFTER][500],
+               320 * v.channel[0].residual[LAB_STAGE_AFTER][500], 1e-6, 0);
+  assert_close(v.argument[LAB_ARGUMENT_P][500], v.channel[0].measured[500], 2e3, 0);
+  assert_close(v.argument[LAB_ARGUMENT_U][600], 0.5, 0, 0);
+  lab_residual_table_free(&v);
+}
+
+static void test_lab_report_undetermined__clauses_on_instants__are_left_out(void **state)
+{
+  static lab_search_result outcome;
+  lab_report s = {0};
+  char text[LAB_FIT_UNDETERMINED_TEXT];
+  (void)state;
+  s.result = &outcome;
+  strcpy(outcome.fit.undetermined,
+         "switch_3 is at its upper bound; dead_volume is at its lower bound; switch_4 and damping are hard "
+         "to tell apart; damping has no effect on the data");
+  lab_report_undetermined(&s, text);
+  assert_string_equal(text, "dead_volume is at its lower bound; damping has no effect on the data");
+  strcpy(outcome.fit.undetermined, "switch_3 is at its upper bound");
+  lab_report_undetermined(&s, text);
+  assert_string_equal(text, "");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_fault_of__bad_pages__are_seen),
+      cmocka_unit_test(test_lab_report_html__leak__page_is_well_formed),
+      cmocka_unit_test(test_lab_report_html__leak__needs_nothing_from_outside),
+      cmocka_unit_test(test_lab_page_text__library__is_the_file),
+      cmocka_unit_test(test_lab_report_html__five_figures__ids_are_single_and_all_have_words),
+      cmocka_unit_test(test_lab_report_html__curves__are_the_rows),
+      cmocka_unit_test(test_lab_signature_make__effects_of_forces__balance_by_hand),
+      cmocka_unit_test(test_lab_report_html__signature__measured_found_and_declared),
+      cmocka_unit_test(test_lab_report_html__pressure_not_measured__is_said),
+      cmocka_unit_test(test_lab_report_html__leak__says_what_was_found),
+      cmocka_unit_test(test_lab_report_html__figures_of_merit__or_why_not),
+      cmocka_unit_test(test_lab_report_html__names_of_files_and_rigs__are_escaped),
+      cmocka_unit_test(test_lab_report_html__twice__same_bytes),
+      cmocka_unit_test(test_lab_report_html__nothing_found_two_runs__is_told_as_well),
+      cmocka_unit_test(test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it),
+      cmocka_unit_test(test_lab_report_json__explained__is_that_of_the_refit),
+      cmocka_unit_test(test_lab_residual_table_collect__leak__white_only_when_completed),
+      cmocka_unit_test(test_lab_report_undetermined__clauses_on_instants__are_left_out),
+  };
+  return cmocka_run_group_tests(tests, begin_report, forget_report);
+}

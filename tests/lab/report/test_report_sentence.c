@@ -1,0 +1,203 @@
+/* The answer in words. */
+#include <ctype.h>
+
+#include "../../check.h"
+
+#include "../../../apps/lab/report/effect_sentence.h"
+#include "../../../apps/lab/report/report.h"
+
+static char text[LAB_SENTENCE_TEXT];
+
+/* ---- Effects ---- */
+
+/* The R1-400 with one parameter of an effect, in words. */
+static const char *say(int effect, int which, double value)
+{
+  static char sentence[LAB_EFFECT_SENTENCE];
+  lab_rig rig;
+  int count;
+  const int param = pneu_effect_params(effect, &count) + which;
+  lab_rig_default(&rig);
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  *pneu_param_at(&rig.params, param) = (pneu_real)value;
+  return lab_effect_sentence(&rig, effect, param, sentence);
+}
+
+static void test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence(void **state)
+{
+  int e, k, count;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const char *at = pneu_effect_sentence(e);
+    check_note("%s", pneu_effect_at(e)->name);
+    while ((at = strchr(at, '{')) && at++)
+      assert_true(*at == '+' || lab_effect_size_is_known(at, strcspn(at, "}")));
+    pneu_effect_params(e, &count);
+    for (k = 0; k < count; k++) {
+      const pneu_param_info *info = &pneu_effect_at(e)->param[k];
+      const char *said = info->shape ? "A 1." : say(e, k, (double)info->value);
+      check_note("%s: %s", info->name, said);
+      assert_true(isupper((unsigned char)*said) && said[strlen(said) - 1] == '.');
+      assert_int_equal(strcspn(said, "{|}"), strlen(said));
+      assert_true(said[strcspn(said, "0123456789")]);
+    }
+  }
+  assert_null(pneu_effect_sentence(PNEU_EFFECT_COUNT));
+}
+
+/* Supply 4 bar, 25 degC, fill orifice 0.893 mm2, stroke 20 mm, spring 400 N/mm, 480 N of friction. Choked flow is
+ * 0.0404 sqrt(K s2/m2) p/sqrt(T) per area: 0.013 mm2 x 501.3 kPa x 0.0404/sqrt(298.15 K) is 15.2 mg/s, 42.5 Nl/h. */
+static void test_lab_effect_sentence__sizes__by_hand(void **state)
+{
+  static const struct {
+    int effect;
+    double value;
+    const char *said;
+  } cases[] = {
+      {PNEU_EFFECT_chamber_leak, 1.3e-8,
+       "The chamber leaks: 0.0130 mm², 1.5 % of the fill orifice, 42 Nl/h at 4 bar supply."},
+      {PNEU_EFFECT_dead_time, 0.012, "Every command acts 12.0 ms late."},
+      {PNEU_EFFECT_vent_restriction, 0.12, "The vent passes 12 % less than declared."},
+      {PNEU_EFFECT_vent_restriction, -0.12, "The vent passes 12 % more than declared."},
+      {PNEU_EFFECT_position_bias, -3e-4, "The position sensor shows 0.300 mm too little, 1.5 % of the stroke."},
+      {PNEU_EFFECT_friction_pressure, 4e-4,
+       "Seals rub harder under pressure: 160 N more at the supply pressure, 33 % of the dry friction."},
+      {PNEU_EFFECT_spring_hardening, 5e7,
+       "The spring stiffens with travel: at full stroke its force is 3.3 % off the straight line."},
+      {PNEU_EFFECT_supply_droop, 1e7, "The supply gives way: it loses 10 kPa at the full flow of the fill orifice."},
+      {PNEU_EFFECT_laminar_leak, 1e-16,
+       "The chamber leaks through a narrow gap: 67 Nl/h at 4 bar supply, 2.3 % of what the fill orifice passes."},
+      {PNEU_EFFECT_wall_temperature, 0.01, "The wall warms and cools with the gas: its heat capacity is 100 J/K."},
+  };
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof cases / sizeof *cases; i++)
+    assert_string_equal(say(cases[i].effect, 0, cases[i].value), cases[i].said);
+}
+
+static void test_lab_effect_sentence__size_without_a_number__is_left_out(void **state)
+{
+  char sentence[LAB_EFFECT_SENTENCE];
+  lab_rig rig;
+  const int param = pneu_effect_params(PNEU_EFFECT_spring_hysteresis, NULL);
+  (void)state;
+  lab_rig_default(&rig);
+  rig.params.dry_friction = 0;
+  *pneu_param_at(&rig.params, param) = 200;
+  assert_string_equal(lab_effect_sentence(&rig, PNEU_EFFECT_spring_hysteresis, param, sentence),
+                      "Spring and diaphragm give back less force than they took: 200 N either way.");
+}
+
+/* ---- The answer ---- */
+
+static lab_unknowns declared, completed;
+static lab_search_result result;
+static lab_limitations limitations;
+static lab_rig rig;
+
+/* An answer with so many effects found. */
+static lab_report answer(int verdict, int n_found)
+{
+  static const int effects[] = {PNEU_EFFECT_dead_time, PNEU_EFFECT_pressure_gain, PNEU_EFFECT_position_lag};
+  lab_report report = {.rig = &rig, .declared = &declared, .completed = &completed, .result = &result};
+  int i;
+  lab_rig_default(&rig);
+  completed.rig = rig;
+  memset(&result, 0, sizeof result);
+  memset(&limitations, 0, sizeof limitations);
+  report.limitations = &limitations;
+  result.verdict = verdict;
+  result.before.n = result.after.n = 1;
+  result.before.chi2 = 9;
+  result.after.chi2 = 1;
+  result.n_found = n_found;
+  for (i = 0; i < n_found; i++) {
+    result.found[i].effect = effects[i];
+    result.found[i].param = pneu_effect_params(effects[i], NULL);
+    *pneu_param_at(&completed.rig.params, result.found[i].param) = (pneu_real)0.02;
+  }
+  return report;
+}
+
+static const char *sentence_of(const lab_report *report)
+{
+  lab_report_sentence(report, text, sizeof text);
+  return text;
+}
+
+static lab_deviation deviation(const char *name, double ratio, int beyond)
+{
+  lab_deviation d = {.unit = "N", .declared = 100, .found = 100 * ratio, .ratio = ratio, .beyond = beyond};
+  snprintf(d.name, sizeof d.name, "%s", name);
+  return d;
+}
+
+static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_EFFECT, 2);
+  (void)state;
+  assert_string_equal(sentence_of(&report),
+                      "Every command acts 20.0 ms late (dead_time). The pressure sensor shows 2.0 % of the reading too "
+                      "much (pressure_gain). With them the error falls from 3.00 to 1.00 times the noise.");
+  report = answer(LAB_VERDICT_UNDECIDED, 3);
+  assert_string_equal(sentence_of(&report),
+                      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
+                      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, but what is "
+                      "left is not noise.");
+  report = answer(LAB_VERDICT_UNDECIDED, 0);
+  assert_string_equal(sentence_of(&report),
+                      "Something is missing, but the log does not say what. The residual is 1.00 times the noise, and "
+                      "no effect of the catalogue explains it.");
+  report = answer(LAB_VERDICT_NONE, 0);
+  assert_string_equal(sentence_of(&report), "Nothing is missing. The declared model leaves 1.00 times the noise.");
+  result.n_listed = 2;
+  result.listed[0] = PNEU_EFFECT_dead_time;
+  assert_string_equal(sentence_of(&report),
+                      "Nothing is missing that is worth adding. The declared model leaves 1.00 times the noise. "
+                      "Significant, but lowering the error by less than --min-gain: dead_time and 1 more.");
+  lab_limitation_no_verdict(&limitations, "The log is short.");
+  assert_string_equal(sentence_of(&report), "Undecided: The log is short.");
+}
+
+static void test_lab_report_headline__deviations__come_first_in_the_same_line(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_NONE, 0);
+  lab_deviations *d = &report.deviations;
+  (void)state;
+  d->condition = LAB_CONDITION_AS_DECLARED;
+  d->of[d->n++] = deviation("dead_volume", 1.2, 0);
+  lab_report_headline(&report, text, sizeof text);
+  assert_string_equal(text, "Nothing is missing, and every declared value is within its tolerance.");
+  d->condition = LAB_CONDITION_DEVIATES;
+  d->of[0] = deviation("dry_friction", 3.7, 1);
+  d->of[d->n++] = deviation("spring_rate", 0.75, 1);
+  d->of[d->n++] = deviation("dead_volume", 1.2, 0);
+  lab_report_headline(&report, text, sizeof text);
+  assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft; nothing else is missing.");
+  d->of[2].beyond = 1;
+  d->of[d->n++] = deviation("area", 0.4, 1);
+  d->of[d->n++] = deviation("stroke", 0.95, 1);
+  lab_report_headline(&report, text, sizeof text);
+  assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft, the dead volume 20 % above its "
+                            "sheet, and 2 more; nothing else is missing.");
+  report = answer(LAB_VERDICT_EFFECT, 1);
+  report.deviations.n = 1;
+  report.deviations.of[0] = deviation("external_force", (double)NAN, 1);
+  report.deviations.of[0].declared = 0;
+  report.deviations.of[0].found = 12;
+  lab_report_headline(&report, text, sizeof text);
+  assert_string_equal(text, "The external force is 12.0 N in place of 0 N. Every command acts 20.0 ms late "
+                            "(dead_time).");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence),
+      cmocka_unit_test(test_lab_effect_sentence__sizes__by_hand),
+      cmocka_unit_test(test_lab_effect_sentence__size_without_a_number__is_left_out),
+      cmocka_unit_test(test_lab_report_sentence__verdicts__what_is_missing_then_the_error),
+      cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,858 @@
+/* apps/lab/rig/rig, and through it rigkeys, rigwrite, config, and the log group of logformat */
+#include "../../scratch.h"
+
+#include "../../../apps/lab/rig/rig.h"
+#include "../../../apps/lab/rig/rigkeys.h"
+
+static lab_error error;
+
+static const char declared[] =
+    "// A rig as it may be declared.\n"
+    "actuator = {\n"
+    "  name = \"37-13\";  action = \"reverse\";\n"
+    "  area = \"677 cm^2\";  dead_volume = \"120 cm^3\";  stroke = \"38.1 mm\";\n"
+    "  spring_rate = \"120 kN/m\";  spring_preload = \"7.62 mm\";\n"
+    "  moving_mass = \"2.5 kg\";  dry_friction = \"481 N\";\n"
+    "  viscous_friction = \"501 N.s/m\";  damping = 1001;\n"
+    "  external_force = \"-12 N\";  swept_ratio = 0.9;\n"
+    "};\n"
+    "transducer = { fill_area = \"2.177 mm^2\";  vent_area = \"2.2 mm^2\";\n"
+    "  critical_ratio = 0.4; subsonic_index = 0.6; };\n"
+    "supply = { pressure = \"140 kPa\";  temperature = \"20 degC\"; };\n"
+    "ambient = { pressure = \"1 bar\";  temperature = \"297 K\"; };\n"
+    "gas = { gas_constant = \"296.8 J/kg/K\"; heat_ratio = 1.39;\n"
+    "  polytropic_index = 1.2; };\n"
+    "laws = { gas = \"energy\";  flow = \"iso6358\";  friction = \"coulomb\"; };\n"
+    "fit = ( \"orifice_area\", \"dry_friction\", \"damping\" );\n"
+    "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; };\n";
+
+static lab_rig read_rig(const char *text)
+{
+  lab_rig rig;
+  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error))
+    fail_msg("%s", error.text);
+  return rig;
+}
+
+/* Skip a test that needs an effect which this build has trimmed away. */
+static void need_effect(const char *name)
+{
+  if (pneu_effect_find(name) < 0)
+    skip();
+}
+
+/* A file that must be refused, with LAB_DATA, its place and some words. */
+static void assert_refused(const char *text, const char *place, const char *words)
+{
+  lab_rig rig;
+  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error) == LAB_OK)
+    fail_msg("\"%s\" was read; it should say \"%s\"", text, words);
+  assert_int_equal(error.status, LAB_DATA);
+  assert_contains(error.text, place);
+  assert_contains(error.text, words);
+}
+
+static double param(const lab_rig *rig, const char *effect, const char *name)
+{
+  pneu_params p = rig->params;
+  char full[LAB_PARAM_NAME_TEXT];
+  snprintf(full, sizeof full, "%s.%s", effect, name);
+  if (pneu_param_find(full) < 0)
+    fail_msg("no parameter %s", full);
+  return (double)*pneu_param_at(&p, pneu_param_find(full));
+}
+
+/* ---- Reading ---- */
+
+static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  (void)state;
+  assert_close(rig.params.area, 0.0677, 0, 1e-14);
+  assert_close(rig.params.dead_volume, 120e-6, 0, 1e-14);
+  assert_close(rig.params.swept_ratio, 0.9, 0, 1e-14);
+  assert_close(rig.params.stroke, 0.0381, 0, 1e-14);
+  assert_close(rig.params.spring_rate, 120e3, 0, 1e-14);
+  assert_close(rig.params.spring_preload, 7.62e-3, 0, 1e-14);
+  assert_close(rig.params.moving_mass, 2.5, 0, 1e-14);
+  assert_close(rig.params.dry_friction, 481, 0, 1e-14);
+  assert_close(rig.params.viscous_friction, 501, 0, 1e-14);
+  assert_close(rig.params.damping, 1001, 0, 1e-14);
+  assert_close(rig.params.external_force, -12, 0, 1e-14);
+  assert_close(rig.params.fill_area, 2.177e-6, 0, 1e-14);
+  assert_close(rig.params.vent_area, 2.2e-6, 0, 1e-14);
+  assert_close(rig.params.critical_ratio, 0.4, 0, 1e-14);
+  assert_close(rig.params.subsonic_index, 0.6, 0, 1e-14);
+  assert_close(rig.params.supply_pressure, 140e3, 0, 1e-14);
+  assert_close(rig.params.supply_temperature, 293.15, 0, 1e-14);
+  assert_close(rig.params.ambient_pressure, 1e5, 0, 1e-14);
+  assert_close(rig.params.ambient_temperature, 297, 0, 1e-14);
+  assert_close(rig.params.gas_constant, 296.8, 0, 1e-14);
+  assert_close(rig.params.heat_ratio, 1.39, 0, 1e-14);
+  assert_close(rig.params.polytropic_index, 1.2, 0, 1e-14);
+}
+
+static void test_lab_rig_read__words__become_laws(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  (void)state;
+  assert_string_equal(rig.name, "37-13");
+  assert_int_equal(rig.action, LAB_ACTION_REVERSE);
+  assert_int_equal(rig.laws.gas, PNEU_GAS_ENERGY);
+  assert_int_equal(rig.laws.flow, PNEU_FLOW_ISO6358);
+  assert_int_equal(rig.friction, LAB_FRICTION_COULOMB);
+  assert_int_equal(rig.laws.pressure_input, 0);
+  assert_int_equal(rig.laws.position_input, 0);
+}
+
+static void test_lab_rig_read__fit_and_noise__are_listed(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  char name[LAB_PARAM_NAME_TEXT];
+  (void)state;
+  assert_int_equal(rig.n_fit, 3);
+  assert_int_equal(rig.fit[0], LAB_PARAM_ORIFICE_AREA);
+  assert_int_equal(rig.fit[1], PNEU_PARAM_dry_friction);
+  assert_string_equal(lab_fit_name(rig.fit[2], name), "damping");
+  assert_close(rig.noise[LAB_CHANNEL_P], 112, 0, 1e-14);
+  assert_close(rig.noise[LAB_CHANNEL_X], 38.1e-6, 0, 1e-14);
+  assert_close(rig.noise[LAB_CHANNEL_T], 0.5, 0, 1e-12);
+  assert_true(isnan(rig.noise[LAB_CHANNEL_FORCE]));
+}
+
+/* Shared ones first, in whatever order the lists stand. */
+static void test_lab_rig_read__fit_per_log__is_marked(void **state)
+{
+  const lab_rig rig = read_rig("fit_per_log = ( \"damping\", \"orifice_area\" );\n"
+                               "fit = ( \"moving_mass\", \"dry_friction\" );\n");
+  static const int want[] = {PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction, PNEU_PARAM_damping,
+                             LAB_PARAM_ORIFICE_AREA};
+  int i;
+  (void)state;
+  assert_int_equal(rig.n_fit, 4);
+  for (i = 0; i < 4; i++) {
+    assert_int_equal(rig.fit[i], want[i]);
+    assert_int_equal(rig.fit_per_log[i], i >= 2);
+  }
+}
+
+static void test_lab_rig_read__nothing_declared__takes_the_defaults(void **state)
+{
+  lab_rig rig = read_rig("// all by default\n");
+  pneu_params dflt;
+  (void)state;
+  pneu_params_default(&dflt);
+  assert_memory_equal(&rig.params, &dflt, sizeof dflt);
+  assert_string_equal(rig.name, "rig");
+  assert_int_equal(rig.laws.gas, PNEU_GAS_ISOTHERMAL);
+  assert_int_equal(rig.laws.flow, PNEU_FLOW_PAPER);
+  assert_int_equal(rig.n_fit, 0);
+  assert_true(isnan(rig.noise[LAB_CHANNEL_P]));
+  assert_int_equal(rig.input[LAB_CHANNEL_U], 1);
+  assert_int_equal(rig.input[LAB_CHANNEL_P], 0);
+  assert_int_equal(rig.log.delimiter, ',');
+}
+
+static void test_lab_rig_read__inputs__set_the_roles(void **state)
+{
+  lab_rig rig = read_rig("inputs = [ \"x\", \"p\" ];");
+  (void)state;
+  assert_int_equal(rig.laws.pressure_input, 1);
+  assert_int_equal(rig.laws.position_input, 1);
+  assert_int_equal(rig.input[LAB_CHANNEL_FORCE], 0);
+  rig = read_rig("inputs = ( \"u\", \"ps\", \"force\" );");
+  assert_int_equal(rig.laws.pressure_input, 0);
+  assert_int_equal(rig.input[LAB_CHANNEL_PS], 1);
+  assert_int_equal(rig.input[LAB_CHANNEL_FORCE], 1);
+}
+
+static void test_lab_rig_read__zero_stroke__is_a_vessel(void **state)
+{
+  lab_rig rig = read_rig("actuator = { stroke = \"0 mm\"; };");
+  (void)state;
+  assert_true(rig.params.stroke == 0);
+}
+
+static void test_lab_rig_read__fitted_effect__is_named_with_its_effect(void **state)
+{
+  lab_rig rig;
+  char name[LAB_PARAM_NAME_TEXT];
+  (void)state;
+  need_effect("chamber_leak");
+  rig = read_rig("fit = [ \"chamber_leak.leak_area\" ];");
+  assert_int_equal(rig.fit[0], pneu_effect_params(pneu_effect_find("chamber_leak"), NULL));
+  assert_string_equal(lab_fit_name(rig.fit[0], name), "chamber_leak.leak_area");
+}
+
+static void test_lab_rig_read__effects__are_set_by_name(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  need_effect("chamber_leak");
+  need_effect("stribeck_friction");
+  need_effect("supply_droop");
+  rig = read_rig("effects = { chamber_leak = { leak_area = \"0.02 mm^2\"; };\n"
+                 "  stribeck_friction = { stribeck_excess = 0.25; }; };");
+  assert_close(param(&rig, "chamber_leak", "leak_area"), 0.02e-6, 0, 1e-14);
+  assert_close(param(&rig, "stribeck_friction", "stribeck_excess"), 0.25, 0, 0);
+  assert_close(param(&rig, "supply_droop", "supply_resistance"), 0, 0, 0);
+}
+
+static void test_lab_rig_read__stribeck_law__switches_its_effect_on(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  need_effect("stribeck_friction");
+  rig = read_rig("laws = { friction = \"stribeck\"; };");
+  assert_int_equal(rig.friction, LAB_FRICTION_STRIBECK);
+  assert_true(param(&rig, "stribeck_friction", "stribeck_excess") > 0);
+}
+
+static void test_lab_rig_read__lugre_law__switches_its_effect_on(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  need_effect("presliding");
+  rig = read_rig("laws = { friction = \"lugre\"; };");
+  assert_true(param(&rig, "presliding", "presliding_length") > 0);
+}
+
+static void test_lab_rig_read__effects_before_laws__have_the_last_word(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  need_effect("stribeck_friction");
+  rig = read_rig("effects = { stribeck_friction = { stribeck_excess = 0.125; }; };\n"
+                 "laws = { friction = \"stribeck\"; };");
+  assert_close(param(&rig, "stribeck_friction", "stribeck_excess"), 0.125, 0, 0);
+}
+
+static void test_lab_rig_read__log_group__becomes_the_format(void **state)
+{
+  lab_rig rig = read_rig("log = { delimiter = \"tab\"; decimal = \",\"; thousands = \".\"; comment = \"%\";\n"
+                         "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
+                         "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
+                         "  scale = { x = -1; }; offset = { T = \"1 degC\"; }; constants = { u = \"50 %\"; }; };");
+  (void)state;
+  assert_int_equal(rig.log.delimiter, '\t');
+  assert_int_equal(rig.log.decimal, ',');
+  assert_int_equal(rig.log.thousands, '.');
+  assert_int_equal(rig.log.comment, '%');
+  assert_int_equal(rig.log.skip_lines, 3);
+  assert_int_equal(rig.log.n_columns, 3);
+  assert_string_equal(rig.log.column[2], "p_abs [hPa]");
+  assert_close(rig.log.from, 0.1, 1e-15, 0);
+  assert_close(rig.log.to, 2, 0, 0);
+  assert_int_equal(rig.log.new_run, LAB_RUN_T_DROPS);
+  assert_int_equal(rig.log.damaged, LAB_DAMAGED_DROP);
+  assert_close(rig.log.scale[LAB_CHANNEL_X], -1, 0, 0);
+  assert_close(rig.log.scale[LAB_CHANNEL_P], 1, 0, 0);
+  assert_close(rig.log.offset[LAB_CHANNEL_T], 1, 1e-12, 0);
+  assert_close(rig.log.constant[LAB_CHANNEL_U], 0.5, 0, 0);
+  assert_true(isnan(rig.log.constant[LAB_CHANNEL_P]));
+}
+
+/* Written and read again, the shape of a raw log is the same. */
+static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
+{
+  lab_rig rig = read_rig(
+      "log = { columns = ( \"t [ms]\", \"p [bar]\", \"p [bar]\" ); weights = ( 1, 0.5, -0.25 ); every = 7; first = 2;\n"
+      "  name = { x = \"_l [dm]\"; }; holdout = { window = ( \"5 s\", \"6 s\" ); first = 3; };\n"
+      "  new_run = \"t drops\"; runs = \"mean\";\n"
+      "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; ps = \"last p\"; x = \"first x\"; }, { t = 0; u = 1; } ); };");
+  FILE *file = fopen(scratch_path("again.cfg"), "w");
+  (void)state;
+  assert_non_null(file);
+  lab_rig_write(file, &rig, NULL);
+  fclose(file);
+  if (lab_rig_read(scratch_path("again.cfg"), &rig, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(rig.log.weighted, 3);
+  assert_close(rig.log.weight[2], -0.25, 0, 0);
+  assert_int_equal(rig.log.every, 7);
+  assert_int_equal(rig.log.first, 2);
+  assert_string_equal(rig.log.name[LAB_CHANNEL_X], "_l [dm]");
+  assert_int_equal(rig.log.holdout_first, 3);
+  assert_close(rig.log.holdout_from, 5, 0, 0);
+  assert_close(rig.log.holdout_to, 6, 0, 0);
+  assert_int_equal(rig.log.runs, LAB_RUNS_MEAN);
+  assert_int_equal(rig.log.way_back, -1);
+  assert_int_equal(rig.log.n_lead, 2);
+  assert_close(rig.log.lead[0][LAB_CHANNEL_TIME], -1e-3, 0, 0);
+  assert_close(rig.log.lead[0][LAB_CHANNEL_P], 2e5, 1e-9, 0);
+  assert_true(isnan(rig.log.lead[1][LAB_CHANNEL_P]));
+  assert_int_equal(rig.log.lead_last[0][LAB_CHANNEL_PS], LAB_CHANNEL_P + 1);
+  assert_int_equal(rig.log.lead_first[0][LAB_CHANNEL_X], LAB_CHANNEL_X + 1);
+  assert_int_equal(rig.log.lead_first[1][LAB_CHANNEL_X], 0);
+  assert_close(rig.log.lead[1][LAB_CHANNEL_U], 1, 0, 0);
+  rig = read_rig("log = { columns = ( \"p [kPa]\", \"x [mm]\" ); time_step = 10; way_back = \"p\"; };");
+  assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
+  file = fopen(scratch_path("again.cfg"), "w");
+  assert_non_null(file);
+  lab_rig_write(file, &rig, NULL);
+  fclose(file);
+  if (lab_rig_read(scratch_path("again.cfg"), &rig, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
+}
+
+static void test_lab_rig_read__long_log__lists_quantities(void **state)
+{
+  lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
+                         "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
+  (void)state;
+  assert_int_equal(rig.log.n_quantities, 2);
+  assert_string_equal(rig.log.quantity[0].word, "p_bar");
+  assert_string_equal(rig.log.quantity[0].column, "p [bar]");
+}
+
+static void test_lab_rig_read__proportional_band__makes_the_command_a_pressure(void **state)
+{
+  lab_rig rig = read_rig("log = { constants = { u = \"80 kPa\"; }; };\n"
+                         "transducer = { proportional_band = \"5 kPa\"; };");
+  (void)state;
+  assert_int_equal(rig.log.command_is_pressure, 1);
+  assert_close(rig.log.constant[LAB_CHANNEL_U], 80000, 0, 1e-14);
+}
+
+static void test_lab_rig_read__no_fill_area__needs_no_supply(void **state)
+{
+  lab_rig rig = read_rig("supply = { pressure = 0; }; transducer = { fill_area = 0; };");
+  (void)state;
+  assert_true(rig.params.supply_pressure == 0);
+}
+
+/* ---- Bad files ---- */
+
+static void test_lab_rig_read__missing_file__says_so(void **state)
+{
+  lab_rig rig;
+  (void)state;
+  assert_int_equal(lab_rig_read(scratch_path("none.cfg"), &rig, &error), LAB_DATA);
+  assert_contains(error.text, "none.cfg: there is no such file");
+}
+
+static void test_lab_rig_read__empty_file__says_so(void **state)
+{
+  (void)state;
+  assert_refused("", "rig.cfg", "empty");
+}
+
+static void test_lab_rig_read__binary_file__is_refused(void **state)
+{
+  const char bytes[] = "\x7f"
+                       "ELF\0\0\0\1";
+  lab_rig rig;
+  (void)state;
+  assert_int_equal(lab_rig_read(scratch_bytes("rig.cfg", bytes, sizeof bytes), &rig, &error), LAB_DATA);
+  assert_contains(error.text, "rig.cfg:1:");
+}
+
+static void test_lab_rig_read__syntax_error__has_its_line(void **state)
+{
+  (void)state;
+  assert_refused("actuator = {\n  area = \"1 m2\";\n  stroke = ;\n};\n", "rig.cfg:3:", "syntax error");
+}
+
+static void test_lab_rig_read__key_twice__has_its_line(void **state)
+{
+  (void)state;
+  assert_refused("actuator = {\n  area = 1;\n  area = 2;\n};\n", "rig.cfg:3:", "duplicate");
+}
+
+/* ---- Bad keys and values ---- */
+
+static void test_lab_rig_read__unknown_key__names_the_nearest(void **state)
+{
+  (void)state;
+  assert_refused("actuator = {\n  spring_rat = \"4 kN/m\";\n};\n",
+                 "rig.cfg:2: actuator.spring_rat:", "nearest known one is \"spring_rate\"");
+}
+
+static void test_lab_rig_read__key_of_another_group__says_where_it_belongs(void **state)
+{
+  (void)state;
+  assert_refused("actuator = { fill_area = 0; };\n", "actuator.fill_area", "belongs to the group transducer");
+}
+
+static void test_lab_rig_read__unknown_group__names_the_nearest(void **state)
+{
+  (void)state;
+  assert_refused("\nactuater = { area = 1; };\n", "rig.cfg:2: actuater:", "nearest known one is \"actuator\"");
+}
+
+static void test_lab_rig_read__value_for_a_group__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("actuator = 5;\n", "rig.cfg:1: actuator:", "expected a group { ... }, found 5");
+}
+
+static void test_lab_rig_read__wrong_unit__names_both(void **state)
+{
+  (void)state;
+  assert_refused("actuator = {\n area = \"40 cm\";\n};\n",
+                 "rig.cfg:2: actuator.area:", "expected a unit like m2 (m2), found \"cm\"");
+  assert_refused("supply = { pressure = \"4 barr\"; };\n", "supply.pressure", "unknown unit \"barr\"");
+}
+
+static void test_lab_rig_read__wrong_type__names_both(void **state)
+{
+  (void)state;
+  assert_refused("actuator = { area = true; };\n", "actuator.area", "found true");
+  assert_refused("actuator = { area = [1, 2]; };\n", "actuator.area", "found a list of 2 entries");
+  assert_refused("actuator = { name = 5; };\n", "actuator.name", "expected a text in quotes, found 5");
+  assert_refused("laws = { gas = 1; };\n", "laws.gas", "expected a word in quotes, found 1");
+}
+
+static void test_lab_rig_read__no_number__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("actuator = { area = \"big\"; };\n", "actuator.area", "expected a number");
+  assert_refused("actuator = { area = \"nan m2\"; };\n", "actuator.area", "expected a number");
+}
+
+static void test_lab_rig_read__out_of_bounds__gives_the_bounds(void **state)
+{
+  (void)state;
+  assert_refused("actuator = {\n area = \"-400 cm^2\";\n};\n",
+                 "rig.cfg:2: actuator.area:", "expected 1e-06 to 10 m2, found \"-400 cm^2\", which is -0.04 m2");
+  assert_refused("ambient = { pressure = \"0 Pa\"; };\n", "ambient.pressure", "expected 100 to 1e+07 Pa");
+  assert_refused("actuator = { dead_volume = -1; };\n", "actuator.dead_volume", "found -1");
+  assert_refused("actuator = { area = 1e999; };\n", "actuator.area", "expected");
+}
+
+static void test_lab_rig_read__supply_at_ambient__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("supply = {\n pressure = \"0 kPa\";\n};\n", "rig.cfg:2: supply.pressure:", "supply above ambient");
+}
+
+static void test_lab_rig_read__unknown_law__names_the_nearest(void **state)
+{
+  (void)state;
+  assert_refused("laws = { gas = \"isotermal\"; };\n", "laws.gas", "nearest known one is \"isothermal\"");
+  assert_refused("laws = { flow = \"ISO6358\"; };\n", "laws.flow", "nearest known one is \"iso6358\"");
+  assert_refused("laws = { friction = \"lugree\"; };\n", "laws.friction", "nearest known one is \"lugre\"");
+}
+
+static void test_lab_rig_read__unknown_action__names_the_nearest(void **state)
+{
+  (void)state;
+  assert_refused("actuator = { action = \"revers\"; };\n", "actuator.action", "\"reverse\"");
+}
+
+static void test_lab_rig_read__long_name__is_refused(void **state)
+{
+  char text[300] = "actuator = { name = \"";
+  (void)state;
+  memset(text + strlen(text), 'n', 100);
+  strcat(text, "\"; };\n");
+  assert_refused(text, "actuator.name", "at most 63 bytes, found 100");
+}
+
+static void test_lab_rig_read__bad_fit__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("fit = ( \"dry_frction\" );\n", "fit[0]", "nearest known one is \"dry_friction\"");
+  assert_refused("fit = ( \"area\",\n \"area\" );\n", "rig.cfg:2: fit[1]:", "twice");
+  assert_refused("fit = ( \"orifice_area\", \"vent_area\" );\n", "fit[1]", "orifice_area scales");
+  assert_refused("fit = ( \"fill_area\", \"orifice_area\" );\n", "fit[1]", "orifice_area scales");
+  assert_refused("fit = ( 5 );\n", "fit[0]", "expected a word");
+  assert_refused("fit = \"area\";\n", "fit", "expected a list");
+  assert_refused("fit_per_log = ( \"dry_frction\" );\n", "fit_per_log[0]", "nearest known one is \"dry_friction\"");
+  assert_refused("fit = ( \"area\" );\nfit_per_log = ( \"area\" );\n", "rig.cfg:2: fit_per_log[0]:", "twice");
+  assert_refused("fit = ( \"fill_area\" ); fit_per_log = ( \"orifice_area\" );\n", "fit_per_log[0]",
+                 "orifice_area scales");
+}
+
+static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
+{
+  (void)state;
+  need_effect("heat_transfer");
+  assert_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
+                 "effects.heat_transfer.free_convection", "does nothing with the other laws");
+}
+
+static void test_lab_rig_read__control_characters__do_not_reach_the_message(void **state)
+{
+  (void)state;
+  assert_refused("laws = { gas = \"a\\n\\x1b[2Jb\"; };\n", "laws.gas", "unknown word \"a??[2Jb\"");
+}
+
+static void test_lab_rig_read__bad_keys_of_logs__are_refused(void **state)
+{
+  (void)state;
+  assert_refused("log = { decimal = 5; };\n", "log.decimal", "expected one character");
+  assert_refused("log = { scale = { p = true; }; };\n", "log.scale.p", "expected");
+  assert_refused("log = { scale = { p = 0; }; };\n", "log.scale.p", "other than 0");
+  assert_refused(
+      "log = { quantities = {\n a12345678901234567890123456789012345678901234567890123456789012345 = \"-\"; }; };",
+      "log.quantities.a1234", "a word of less than 64 bytes");
+  assert_refused("log = { holdout = { first = -1; }; };\n", "log.holdout.first", "0 to");
+  assert_refused("log = { holdout = { window = ( \"2 s\", \"1 s\" ); }; };\n", "log.holdout.window", "from 2 s to 1 s");
+  assert_refused("log = { lead = ( { t = \"0 s\"; p = \"2e15 Pa\"; } ); };\n", "log.lead[0].p", "-5e+14 to 5e+14");
+}
+
+static void test_lab_rig_read__bad_noise__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("noise = { presure = 1; };\n", "noise.presure", "\"pressure\"");
+  assert_refused("noise = { pressure = 0; };\n", "noise.pressure", "above 0");
+  assert_refused("noise = { pressure = \"-1 kPa\"; };\n", "noise.pressure", "above 0");
+  assert_refused("noise = { pressure = \"1 mm\"; };\n", "noise.pressure", "expected a unit like Pa");
+  assert_refused("noise = { command = 1; };\n", "noise.command", "unknown key");
+}
+
+static void test_lab_rig_read__bad_inputs__are_refused(void **state)
+{
+  (void)state;
+  assert_refused("inputs = [ \"v\" ];\n", "inputs[0]", "unknown word \"v\"");
+  assert_refused("inputs = [ \"T\" ];\n", "inputs[0]", "unknown word \"T\"");
+  assert_refused("inputs = [ ];\n", "inputs", "expected a list");
+}
+
+static void test_lab_rig_read__bad_effects__are_refused(void **state)
+{
+  (void)state;
+  need_effect("chamber_leak");
+  assert_refused("effects = { chamber_leek = { leak_area = 0; }; };\n", "effects.chamber_leek", "\"chamber_leak\"");
+  assert_refused("effects = { chamber_leak = { leek_area = 0; }; };\n", "effects.chamber_leak.leek_area",
+                 "\"leak_area\"");
+  assert_refused("effects = { chamber_leak = { leak_area = \"1 kPa\"; }; };\n", "effects.chamber_leak.leak_area",
+                 "expected a unit like m2");
+  assert_refused("effects = { chamber_leak = { leak_area = -1; }; };\n", "effects.chamber_leak.leak_area",
+                 "expected 0 to");
+  assert_refused("effects = { chamber_leak = 1; };\n", "effects.chamber_leak", "expected a group");
+  assert_refused("effects = 1;\n", "effects", "expected a group");
+}
+
+static void test_lab_rig_read__bad_log_group__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("log = { delimeter = \";\"; };\n", "log.delimeter", "\"delimiter\"");
+  assert_refused("log = { delimiter = \"ab\"; };\n", "log.delimiter", "one character");
+  assert_refused("log = { delimiter = 5; };\n", "log.delimiter", "one character");
+  assert_refused("log = { decimal = \";\"; };\n", "log.decimal", "expected \".\" or \",\"");
+  assert_refused("log = { decimal = \",\"; };\n", "log:", "delimiter and decimal");
+  assert_refused("log = { thousands = \",\"; };\n", "log:", "delimiter and thousands");
+  assert_refused("log = { skip_lines = -1; };\n", "log.skip_lines", "whole number");
+  assert_refused("log = { skip_lines = 1.5; };\n", "log.skip_lines", "whole number");
+  assert_refused("log = { columns = \"t [s]\"; };\n", "log.columns", "expected a list");
+  assert_refused("log = { columns = ( \"t [s]\", 5 ); };\n", "log.columns[1]", "expected a text");
+  assert_refused("log = { columns = ( \"t [s]\", \"q [s]\" ); };\n", "log.columns", "unknown channel \"q\"");
+  assert_refused("log = { window = ( 1 ); };\n", "log.window", "2 to 2 entries");
+  assert_refused("log = { window = ( 2, 1 ); };\n", "log.window", "(from, to)");
+  assert_refused("log = { window = ( 0, \"2 m\" ); };\n", "log.window[1]", "expected a unit like s");
+  assert_refused("log = { new_run = \"t rises\"; };\n", "log.new_run", "\"t drops\"");
+  assert_refused("log = { damaged = \"keep\"; };\n", "log.damaged", "unknown word");
+  assert_refused("log = { columns = ( \"t [s]\" ); weights = ( 1, 2 ); };\n", "log:", "a weight for each of the 1");
+  assert_refused("log = { every = 0; };\n", "log.every", "whole number");
+  assert_refused("log = { name = { x = \"_l\"; }; };\n", "log.name.x", "mark [unit]");
+  assert_refused("log = { name = { q = \"_l [m]\"; }; };\n", "log.name.q", "unknown key");
+  assert_refused("log = { holdout = { rows = 1; }; };\n", "log.holdout.rows", "unknown key");
+  assert_refused("log = { way_back = \"p\"; };\n", "log:", "way_back needs time_step");
+  assert_refused("log = { way_back = \"q\"; };\n", "log.way_back", "unknown word");
+  assert_refused("log = { runs = \"mean\"; };\n", "log:", "needs new_run");
+  assert_refused("log = { lead = ( { t = 0; p = \"last q\"; } ); };\n", "log.lead[0].p", "\"first p\"");
+  assert_refused("log = { lead = ( { u = 1; } ); };\n", "log.lead[0]", "its time t");
+  assert_refused("log = { lead = ( { t = 1; }, { t = 1; } ); };\n", "log.lead[1]", "after that of the row before");
+  assert_refused("log = { time_step = 0; };\n", "log.time_step", "expected");
+  assert_refused("log = { scale = { q = 1; }; };\n", "log.scale.q", "unknown key");
+  assert_refused("log = { scale = { x = 0; }; };\n", "log.scale.x", "other than 0");
+  assert_refused("log = { constants = { t = 0; }; };\n", "log.constants", "time_step");
+  assert_refused("log = { quantities = { a = \"b [Pa]\"; }; };\n", "log.quantities", "unknown channel \"b\"");
+  assert_refused("log = { quantities = { a = \"p [Pa]\"; }; new_run = \"t drops\"; };\n", "log:", "neither");
+}
+
+/* ---- Writing ---- */
+
+/* Two rigs agree in everything but the name of the file. */
+static void assert_same(const lab_rig *a, const lab_rig *b)
+{
+  assert_memory_equal(&a->params, &b->params, sizeof a->params);
+  assert_memory_equal(&a->laws, &b->laws, sizeof a->laws);
+  assert_string_equal(a->name, b->name);
+  assert_int_equal(a->action, b->action);
+  assert_int_equal(a->friction, b->friction);
+  assert_int_equal(a->n_fit, b->n_fit);
+  assert_memory_equal(a->fit, b->fit, (size_t)a->n_fit * sizeof a->fit[0]);
+  assert_memory_equal(a->fit_per_log, b->fit_per_log, (size_t)a->n_fit * sizeof a->fit_per_log[0]);
+  assert_int_equal(a->n_terms, b->n_terms);
+  assert_memory_equal(a->term, b->term, (size_t)a->n_terms * sizeof a->term[0]);
+  assert_memory_equal(a->noise, b->noise, sizeof a->noise);
+  assert_memory_equal(a->input, b->input, sizeof a->input);
+  assert_memory_equal(&a->log, &b->log, sizeof a->log);
+}
+
+static lab_rig write_and_read(const lab_rig *rig)
+{
+  const char *path = scratch_path("model.cfg");
+  FILE *file = fopen(path, "w");
+  lab_rig again;
+  assert_non_null(file);
+  lab_rig_write(file, rig, "two lines\nof remark");
+  assert_int_equal(fclose(file), 0);
+  if (lab_rig_read(path, &again, &error))
+    fail_msg("%s", error.text);
+  return again;
+}
+
+static void test_lab_rig_write__declared_rig__comes_back_bit_for_bit(void **state)
+{
+  lab_rig rig = read_rig(declared), again = write_and_read(&rig);
+  (void)state;
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
+{
+  lab_rig rig, again;
+  need_effect("positioner");
+  (void)state;
+  rig =
+      read_rig("positioner = { gain = 30; integral_time = \"5 s\"; derivative_time = \"20 ms\"; dead_band = \"0.2 %\"; "
+               "cutoff_low = \"1 %\"; cutoff_high = \"99 %\"; };\n"
+               "effects = { positioner_zero = { zero_shift = \"1 mm\"; }; };\n"
+               "fit = ( \"positioner.gain\", \"positioner.dead_band\" );\n");
+  assert_close(param(&rig, "positioner", "gain"), 30, 0, 0);
+  assert_close(param(&rig, "positioner", "integral_time"), 5, 0, 0);
+  assert_close(param(&rig, "positioner", "derivative_time"), 0.02, 1e-15, 0);
+  assert_close(param(&rig, "positioner", "dead_band"), 0.002, 1e-15, 0);
+  assert_close(param(&rig, "positioner", "cutoff_low"), 0.01, 1e-15, 0);
+  assert_close(param(&rig, "positioner", "cutoff_high"), 0.99, 1e-15, 0);
+  assert_int_equal(rig.n_fit, 2);
+  assert_int_equal(lab_rig_has_positioner(&rig), 1);
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+  rig = read_rig("positioner = { };\n");
+  assert_close(param(&rig, "positioner", "gain"), 20, 0, 0);
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+  rig = read_rig("positioner = { gain = 0; dead_band = 0.01; };\n");
+  assert_int_equal(lab_rig_has_positioner(&rig), 0);
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state)
+{
+  need_effect("positioner");
+  (void)state;
+  assert_refused("positioner = { gian = 20; };\n", "positioner.gian", "\"gain\"");
+  assert_refused("positioner = { gain = -1; };\n", "positioner.gain", "0");
+  assert_refused("effects = { positioner = { gain = 20; }; };\n", "effects.positioner", "unknown");
+  assert_refused("positioner = { gain = 20; };\ntransducer = { proportional_band = \"1 bar\"; };\n", "positioner.gain",
+                 "does nothing");
+  assert_refused("positioner = { gain = 20; };\nactuator = { stroke = \"0 mm\"; };\n", "positioner.gain",
+                 "does nothing");
+}
+
+static void test_lab_rig_write__remark__heads_the_file(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  char *text;
+  (void)state;
+  write_and_read(&rig);
+  text = scratch_read(scratch_path("model.cfg"));
+  assert_int_equal(strncmp(text, "// two lines\n// of remark\nactuator = {\n", 39), 0);
+  free(text);
+}
+
+static void test_lab_rig_read__no_name__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("actuator = { name = \"\"; };\n", "actuator.name", "expected a name");
+}
+
+static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
+{
+  char text[2000] = "log = { quantities = {", one[40];
+  int i;
+  (void)state;
+  for (i = 0; i <= LAB_QUANTITY_MAX; i++) {
+    snprintf(one, sizeof one, " q%d = \"-\";", i);
+    strcat(text, one);
+  }
+  strcat(text, " }; };\n");
+  assert_refused(text, "log.quantities", "at most 32 quantities");
+}
+
+static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(void **state)
+{
+  lab_rig rig, again;
+  int i;
+  (void)state;
+  lab_rig_default(&rig);
+  for (i = 0; i < PNEU_PARAM_COUNT; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    *pneu_param_at(&rig.params, i) = (pneu_real)((double)info.lower + ((double)info.upper - (double)info.lower) / 3);
+  }
+  rig.params.supply_pressure = (pneu_real)(1e6 / 7);
+  if (pneu_param_find("positioner.gain") >= 0) /* which needs a position for a command */
+    *pneu_param_at(&rig.params, pneu_param_find("positioner.gain")) = 0;
+  rig.log.command_is_pressure = 1;
+  rig.log.stroke = (double)rig.params.stroke;
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_write__name_with_quotes__comes_back(void **state)
+{
+  lab_rig rig, again;
+  (void)state;
+  lab_rig_default(&rig);
+  strcpy(rig.name, "the \"old\" back\\slash");
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void **state)
+{
+  lab_rig rig, again;
+  (void)state;
+  need_effect("stribeck_friction");
+  rig = read_rig("laws = { friction = \"stribeck\"; };\n"
+                 "effects = { stribeck_friction = { stribeck_excess = 0; }; };");
+  again = write_and_read(&rig);
+  assert_close(param(&again, "stribeck_friction", "stribeck_excess"), 0, 0, 0);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_write__log_group__comes_back(void **state)
+{
+  lab_rig rig = read_rig("inputs = [ \"p\", \"x\" ];\n"
+                         "log = { delimiter = \"tab\"; decimal = \",\"; thousands = \"'\"; comment = \"\\\"\";\n"
+                         "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
+                         "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
+                         "  scale = { x = -0.1; }; offset = { T = \"0.1 degC\"; }; constants = { u = \"10 %\"; }; };");
+  lab_rig again = write_and_read(&rig);
+  (void)state;
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_write__long_log__comes_back(void **state)
+{
+  lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
+                         "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
+  lab_rig again = write_and_read(&rig);
+  (void)state;
+  assert_same(&rig, &again);
+  rig = read_rig("log = { time_step = \"1 ms\"; };");
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
+{
+  lab_rig rig, again;
+  int i;
+  (void)state;
+  lab_rig_default(&rig);
+  for (i = 0; i < LAB_PARAM_COUNT; i++)
+    if (i != PNEU_PARAM_fill_area && i != PNEU_PARAM_vent_area)
+      rig.fit[rig.n_fit++] = i;
+  again = write_and_read(&rig);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_write__each_its_own__comes_back(void **state)
+{
+  lab_rig rig = read_rig("fit_per_log = ( \"supply_pressure\", \"orifice_area\" ); fit = ( \"spring_rate\" );\n"
+                         "unlisted = ( { equation = \"friction\"; argument = \"x\"; from = 0; to = \"20 mm\";\n"
+                         "  values = [ 0.0, 0.1, 0.0 ]; } );\n"),
+          again = write_and_read(&rig);
+  (void)state;
+  assert_int_equal(again.fit_per_log[0], 0);
+  assert_int_equal(again.fit_per_log[1], 1);
+  assert_int_equal(again.n_terms, 1);
+  assert_same(&rig, &again);
+  rig = read_rig("fit_per_log = ( \"damping\" );\n"); /* and none is shared */
+  again = write_and_read(&rig);
+  assert_int_equal(again.n_fit, 1);
+  assert_int_equal(again.fit_per_log[0], 1);
+  assert_same(&rig, &again);
+}
+
+static void test_lab_rig_model__good_rig__is_accepted(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  pneu_model model;
+  (void)state;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_true(model.p.area == rig.params.area);
+}
+
+static void test_lab_rig_model__bad_parameter__is_named(void **state)
+{
+  lab_rig rig = read_rig(declared);
+  pneu_model model;
+  (void)state;
+  rig.params.moving_mass = -1;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_DATA);
+  assert_contains(error.text, "moving_mass");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_rig_read__every_parameter__lands_in_si),
+      cmocka_unit_test(test_lab_rig_read__words__become_laws),
+      cmocka_unit_test(test_lab_rig_read__fit_and_noise__are_listed),
+      cmocka_unit_test(test_lab_rig_read__fit_per_log__is_marked),
+      cmocka_unit_test(test_lab_rig_read__nothing_declared__takes_the_defaults),
+      cmocka_unit_test(test_lab_rig_read__inputs__set_the_roles),
+      cmocka_unit_test(test_lab_rig_read__zero_stroke__is_a_vessel),
+      cmocka_unit_test(test_lab_rig_read__fitted_effect__is_named_with_its_effect),
+      cmocka_unit_test(test_lab_rig_read__effects__are_set_by_name),
+      cmocka_unit_test(test_lab_rig_read__stribeck_law__switches_its_effect_on),
+      cmocka_unit_test(test_lab_rig_read__lugre_law__switches_its_effect_on),
+      cmocka_unit_test(test_lab_rig_read__effects_before_laws__have_the_last_word),
+      cmocka_unit_test(test_lab_rig_read__log_group__becomes_the_format),
+      cmocka_unit_test(test_lab_rig_read__shape_of_a_log__is_read_and_written),
+      cmocka_unit_test(test_lab_rig_read__long_log__lists_quantities),
+      cmocka_unit_test(test_lab_rig_read__proportional_band__makes_the_command_a_pressure),
+      cmocka_unit_test(test_lab_rig_read__no_fill_area__needs_no_supply),
+      cmocka_unit_test(test_lab_rig_read__missing_file__says_so),
+      cmocka_unit_test(test_lab_rig_read__empty_file__says_so),
+      cmocka_unit_test(test_lab_rig_read__binary_file__is_refused),
+      cmocka_unit_test(test_lab_rig_read__syntax_error__has_its_line),
+      cmocka_unit_test(test_lab_rig_read__key_twice__has_its_line),
+      cmocka_unit_test(test_lab_rig_read__unknown_key__names_the_nearest),
+      cmocka_unit_test(test_lab_rig_read__key_of_another_group__says_where_it_belongs),
+      cmocka_unit_test(test_lab_rig_read__unknown_group__names_the_nearest),
+      cmocka_unit_test(test_lab_rig_read__value_for_a_group__is_refused),
+      cmocka_unit_test(test_lab_rig_read__wrong_unit__names_both),
+      cmocka_unit_test(test_lab_rig_read__wrong_type__names_both),
+      cmocka_unit_test(test_lab_rig_read__no_number__is_refused),
+      cmocka_unit_test(test_lab_rig_read__out_of_bounds__gives_the_bounds),
+      cmocka_unit_test(test_lab_rig_read__supply_at_ambient__is_refused),
+      cmocka_unit_test(test_lab_rig_read__unknown_law__names_the_nearest),
+      cmocka_unit_test(test_lab_rig_read__unknown_action__names_the_nearest),
+      cmocka_unit_test(test_lab_rig_read__long_name__is_refused),
+      cmocka_unit_test(test_lab_rig_read__bad_fit__is_refused),
+      cmocka_unit_test(test_lab_rig_read__effect_that_cannot_act__is_refused),
+      cmocka_unit_test(test_lab_rig_read__control_characters__do_not_reach_the_message),
+      cmocka_unit_test(test_lab_rig_read__bad_keys_of_logs__are_refused),
+      cmocka_unit_test(test_lab_rig_read__bad_noise__is_refused),
+      cmocka_unit_test(test_lab_rig_read__bad_inputs__are_refused),
+      cmocka_unit_test(test_lab_rig_read__bad_effects__are_refused),
+      cmocka_unit_test(test_lab_rig_read__bad_log_group__is_refused),
+      cmocka_unit_test(test_lab_rig_read__no_name__is_refused),
+      cmocka_unit_test(test_lab_rig_write__declared_rig__comes_back_bit_for_bit),
+      cmocka_unit_test(test_lab_rig_read__positioner__is_read_and_comes_back),
+      cmocka_unit_test(test_lab_rig_read__positioner_that_is_wrong__is_refused),
+      cmocka_unit_test(test_lab_rig_write__remark__heads_the_file),
+      cmocka_unit_test(test_lab_rig_read__too_many_quantities__are_refused),
+      cmocka_unit_test(test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit),
+      cmocka_unit_test(test_lab_rig_write__name_with_quotes__comes_back),
+      cmocka_unit_test(test_lab_rig_write__friction_law_fitted_to_nothing__stays_off),
+      cmocka_unit_test(test_lab_rig_write__log_group__comes_back),
+      cmocka_unit_test(test_lab_rig_write__long_log__comes_back),
+      cmocka_unit_test(test_lab_rig_write__all_can_be_fitted__comes_back),
+      cmocka_unit_test(test_lab_rig_write__each_its_own__comes_back),
+      cmocka_unit_test(test_lab_rig_model__good_rig__is_accepted),
+      cmocka_unit_test(test_lab_rig_model__bad_parameter__is_named),
+  };
+  return cmocka_run_group_tests_name("rig", tests, scratch_open, scratch_close);
+}

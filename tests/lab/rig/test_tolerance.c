@@ -1,0 +1,95 @@
+/* apps/lab/rig/tolerance: how well declared values are known */
+#include "../../scratch.h"
+
+#include "../../../apps/lab/rig/tolerance.h"
+
+static lab_rig rig;
+static lab_error error;
+
+static int read_rig(const char *group)
+{
+  char text[512];
+  snprintf(text, sizeof text,
+           "actuator = { spring_rate = \"400 kN/m\"; stroke = \"20 mm\"; };\n"
+           "supply = { pressure = \"4 bar\"; };\n%s",
+           group);
+  return lab_rig_read(scratch_text("rig.cfg", text), &rig, &error);
+}
+
+static int bias(void)
+{
+  int e;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    if (!strcmp(pneu_effect_at(e)->name, "pressure_bias"))
+      return pneu_effect_params(e, NULL);
+  skip();
+  return -1;
+}
+
+static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **state)
+{
+  (void)state;
+  assert_int_equal(read_rig(""), LAB_OK);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 0.1 * 4e5, 0, 1e-12);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_ambient_pressure), 2000, 0, 0);
+  assert_close(lab_tolerance(&rig, LAB_PARAM_ORIFICE_AREA), 0.2, 0, 0);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_gas_constant), 0, 0, 0);
+  assert_close(lab_tolerance(&rig, bias()), 0.0025 * 4e5, 0, 1e-12);
+}
+
+static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
+{
+  (void)state;
+  assert_int_equal(read_rig("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"),
+                   LAB_OK);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_dead_volume), 20e-6, 0, 1e-12);
+  assert_close(lab_tolerance(&rig, bias()), 4e3, 0, 1e-12);
+}
+
+/* Wherever the group stands: a share of the supply is one of what the file declares. */
+static void test_lab_tolerance_read__others__are_exact(void **state)
+{
+  (void)state;
+  assert_int_equal(read_rig("tolerance = { others = 0; spring_rate = \"5 %\"; };"), LAB_OK);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
+}
+
+static void test_lab_tolerance_read__mistakes__are_named(void **state)
+{
+  (void)state;
+  assert_int_equal(read_rig("tolerance = { sprig_rate = \"5 %\"; };"), LAB_DATA);
+  assert_contains(error.text, "spring_rate");
+  assert_int_equal(read_rig("tolerance = { spring_rate = \"-5 %\"; };"), LAB_DATA);
+  assert_contains(error.text, "tolerance.spring_rate");
+  assert_int_equal(read_rig("tolerance = { dead_volume = \"5 s\"; };"), LAB_DATA);
+  assert_contains(error.text, "tolerance.dead_volume");
+}
+
+static void test_lab_tolerance_write__given_ones__are_read_again(void **state)
+{
+  const char *path = scratch_path("again.cfg");
+  FILE *file;
+  (void)state;
+  assert_int_equal(read_rig("tolerance = { others = 0; clock = \"5 ms\"; spring_rate = \"5 %\"; };"), LAB_OK);
+  file = fopen(path, "w");
+  assert_non_null(file);
+  lab_rig_write(file, &rig, NULL);
+  fclose(file);
+  assert_int_equal(lab_rig_read(path, &rig, &error), LAB_OK);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
+  assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_tolerance__no_group__is_the_default_of_the_kind),
+      cmocka_unit_test(test_lab_tolerance_read__share_and_quantity__are_in_si),
+      cmocka_unit_test(test_lab_tolerance_read__others__are_exact),
+      cmocka_unit_test(test_lab_tolerance_read__mistakes__are_named),
+      cmocka_unit_test(test_lab_tolerance_write__given_ones__are_read_again),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}

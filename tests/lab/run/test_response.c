@@ -1,0 +1,337 @@
+/* Responses to schedules: delays of command and of position, and the clock of what comes in cycles. */
+#include "../../fixture.h"
+
+#include "../../../apps/lab/run/response.h"
+
+enum { SAMPLES = 301 };
+static const double dt = 0.01, t_end = 3;
+
+/* A schedule on the stroke of the R1-400, with a supply that changes on its own, and while the command does not. */
+enum { ROWS = 6 };
+static const double row_t[ROWS] = {0, 0.2, 0.7, 1.1, 1.13, 2.0};
+static const double row_u[ROWS] = {0, 1, 1, -1, 0.5, 0};
+static const double row_supply[ROWS] = {4e5, 4e5, 3.5e5, 3.5e5, 4.5e5, 4.5e5};
+
+static pneu_model model_with(const char *name, double value)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  p.fill_area = p.vent_area = (pneu_real)4e-6;
+  if (name)
+    fixture_set(&p, name, value);
+  return fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+}
+
+static int absent(const char *effect)
+{
+  return pneu_effect_find(effect) < 0;
+}
+
+/* Inputs of n rows: command of row i, supply of row j. */
+static pneu_input input_of(const pneu_model *m, int i, int j)
+{
+  pneu_input input = fixture_input(m, row_u[i]);
+  input.supply_pressure = (pneu_real)row_supply[j];
+  return input;
+}
+
+static lab_response respond(const pneu_model *m, size_t n, const double *t_row, const pneu_input *input, double shift,
+                            int integrator)
+{
+  lab_schedule schedule;
+  double t[SAMPLES];
+  lab_response response;
+  lab_error error;
+  const pneu_state start = fixture_rest(m, 0, 0, &input[0]);
+  const lab_simulation task = {.start = &start,
+                               .schedule = &schedule,
+                               .t = t,
+                               .n = SAMPLES,
+                               .t_end = t_end,
+                               .options = {.integrator = integrator, .tol = 1e-9}};
+  int i;
+  for (i = 0; i < SAMPLES; i++)
+    t[i] = fmin(fmax(i * dt - shift, 0), t_end);
+  schedule.n = n;
+  schedule.t = t_row;
+  schedule.input = input;
+  if (lab_response_run(m, &task, &response, &error))
+    fail_msg("%s", error.text);
+  return response;
+}
+
+static lab_response respond_to_rows(const pneu_model *m, double shift, int integrator)
+{
+  pneu_input input[ROWS];
+  int i;
+  for (i = 0; i < ROWS; i++)
+    input[i] = input_of(m, i, i);
+  return respond(m, ROWS, row_t, input, shift, integrator);
+}
+
+static void assert_same(const double *a, const double *b, double tol, const char *what)
+{
+  int i;
+  for (i = 0; i < SAMPLES; i++) {
+    check_note("%s at %g s", what, i * dt);
+    assert_close(a[i], b[i], tol, 0);
+  }
+}
+
+/* Commands that overlap with changes of supply, and a delay longer than the shortest command: against the schedule
+ * written out by hand. */
+static void check_delay(double delay, size_t n, const double *t, const int (*row)[2])
+{
+  const pneu_model late = model_with("dead_time", delay), prompt = model_with(NULL, 0);
+  pneu_input input[2 * ROWS];
+  lab_response a, b;
+  size_t i;
+  for (i = 0; i < n; i++)
+    input[i] = input_of(&prompt, row[i][0], row[i][1]);
+  a = respond_to_rows(&late, 0, LAB_STEPPER);
+  b = respond(&prompt, n, t, input, 0, LAB_STEPPER);
+  assert_same(a.p, b.p, 1e-2, "p");
+  assert_same(a.x, b.x, 1e-9, "x");
+  for (i = 0; i < SAMPLES; i++) /* as given */
+    assert_close(a.u[i], a.t[i] < 0.2 ? 0 : a.t[i] < 1.1 ? 1 : a.t[i] < 1.13 ? -1 : a.t[i] < 2 ? 0.5 : 0, 0, 0);
+  lab_response_free(&a);
+  lab_response_free(&b);
+}
+
+static void test_lab_response_run__dead_time__delays_the_command_and_nothing_else(void **state)
+{
+  static const double t[] = {0, 0.221, 0.7, 1.1, 1.121, 1.13, 1.151, 2.021};
+  static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {1, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 5}};
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  check_delay(0.021, 8, t, row);
+}
+
+static void test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order(void **state)
+{
+  static const double t[] = {0, 0.7, 0.75, 1.13, 1.65, 1.68, 2.55};
+  static const int row[][2] = {{0, 0}, {0, 2}, {1, 2}, {1, 4}, {3, 4}, {4, 4}, {5, 5}};
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  check_delay(0.55, 7, t, row);
+}
+
+/* 1.1 + 0.03 and 1.13 are apart by rounding. */
+static void test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them(void **state)
+{
+  static const double t[] = {0, 0.23, 0.7, 1.13, 1.16, 2.03};
+  static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {3, 4}, {4, 4}, {5, 5}};
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  assert_true(1.1 + 0.03 != 1.13);
+  check_delay(0.03, 6, t, row);
+}
+
+/* Position as it was `skew` ago; before the start, as at the start; a younger one from beyond the end of the log. */
+static void check_skew(double skew, int integrator)
+{
+  const pneu_model skewed = model_with("channel_skew", skew), plain = model_with(NULL, 0);
+  lab_response a = respond_to_rows(&skewed, 0, integrator), now = respond_to_rows(&plain, 0, integrator);
+  lab_response b = respond_to_rows(&plain, skew, integrator);
+  int i;
+  assert_same(a.p, now.p, 1e-2, "p");
+  for (i = 0; i < SAMPLES && i * dt - skew <= t_end; i++) {
+    check_note("skew %g s, x at %g s", skew, i * dt);
+    assert_close(a.x[i], b.x[i], 1e-8, 0);
+  }
+  lab_response_free(&a);
+  lab_response_free(&b);
+  lab_response_free(&now);
+}
+
+static void test_lab_response_run__channel_skew__shifts_position_alone(void **state)
+{
+  static const double skew[] = {0.037, -0.016, 0.6, 50};
+  int i;
+  (void)state;
+  if (absent("channel_skew"))
+    skip();
+  for (i = 0; i < COUNT(skew); i++)
+    check_skew(skew[i], LAB_STEPPER);
+  check_skew(0.037, LAB_CVODE);
+}
+
+/* A younger position: the stem goes on beyond the last sample under the last command. */
+static void test_lab_response_run__negative_skew__looks_beyond_the_end(void **state)
+{
+  const double ahead = 0.05;
+  pneu_model skewed, plain;
+  const double t0 = 0;
+  pneu_input input;
+  lab_response a, b;
+  (void)state;
+  if (absent("channel_skew"))
+    skip();
+  skewed = model_with("channel_skew", -ahead);
+  plain = model_with(NULL, 0);
+  skewed.p.fill_area = plain.p.fill_area = (pneu_real)4e-7; /* still rising at the end */
+  input = fixture_input(&plain, 1);
+  a = respond(&skewed, 1, &t0, &input, 0, LAB_STEPPER);
+  b = respond(&plain, 1, &t0, &input, 0, LAB_STEPPER);
+  assert_close(a.x[SAMPLES - 6], b.x[SAMPLES - 1], 1e-9, 0);
+  assert_true(a.x[SAMPLES - 1] > b.x[SAMPLES - 1] + 1e-6);
+  lab_response_free(&a);
+  lab_response_free(&b);
+}
+
+static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
+{
+  pneu_model m;
+  pneu_input input[2];
+  const double t[] = {0, 0.2};
+  const lab_schedule schedule = {2, t, input};
+  pneu_state start;
+  pneu_stats stats;
+  const lab_simulation task = {
+      .start = &start, .schedule = &schedule, .t_end = t_end, .options = {.tol = 1e-6}, .stats = &stats};
+  lab_error error;
+  (void)state;
+  if (absent("dead_time") || absent("channel_skew"))
+    skip();
+  m = model_with("dead_time", 0.1);
+  m.position_skew = (pneu_real)0.1;
+  input[0] = fixture_input(&m, 0);
+  input[1] = fixture_input(&m, 1);
+  start = fixture_rest(&m, 0, 0, &input[0]);
+  assert_int_equal(lab_response_run(&m, &task, NULL, &error), LAB_OK);
+  assert_true(stats.steps > 10);
+}
+
+/* ---- Cycles ---- */
+
+static pneu_term cycle(int equation, double period, double size)
+{
+  pneu_term term;
+  memset(&term, 0, sizeof term);
+  term.equation = equation;
+  term.argument = PNEU_TERM_OVER_CYCLE;
+  term.n = 2;
+  term.to = (pneu_real)period;
+  term.value[0] = (pneu_real)(0.3 * size);
+  term.value[1] = (pneu_real)size;
+  return term;
+}
+
+static double cycle_at(const pneu_term *term, double t)
+{
+  const double angle = 6.283185307179586 * t / (double)term->to;
+  return (double)term->value[0] * cos(angle) + (double)term->value[1] * sin(angle);
+}
+
+/* The strokes of the rows under what comes in cycles: both integrators carry the clock. */
+static void test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode(void **state)
+{
+  const pneu_term term[] = {cycle(PNEU_TERM_FORCE, 0.31, 700), cycle(PNEU_TERM_SUPPLY, 0.9, 4e4),
+                            cycle(PNEU_TERM_FLOW, 0.2, 5e-4), cycle(PNEU_TERM_FRICTION, 1.3, 200)};
+  const pneu_model plain = model_with(NULL, 0);
+  lab_response without = respond_to_rows(&plain, 0, LAB_STEPPER);
+  int k, i;
+  (void)state;
+  for (k = 0; k < COUNT(term); k++) {
+    pneu_model m = plain;
+    lab_response a, b;
+    double apart = 0;
+    assert_int_equal(pneu_model_terms(&m, &term[k], 1), PNEU_OK);
+    a = respond_to_rows(&m, 0, LAB_STEPPER);
+    b = respond_to_rows(&m, 0, LAB_CVODE);
+    assert_same(a.p, b.p, 2, "p");
+    assert_same(a.x, b.x, 2e-7, "x");
+    for (i = 0; i < SAMPLES; i++)
+      apart = fmax(apart, fabs(a.x[i] - without.x[i]));
+    assert_true(apart > 1e-4);
+    lab_response_free(&a);
+    lab_response_free(&b);
+  }
+  lab_response_free(&without);
+}
+
+/* A schedule that begins late, and whose changes do not matter: cycles go by its own time. Position is shown as it was
+ * a skew ago, and so is what its sensor adds. */
+static void check_own_time(double skew, int integrator)
+{
+  static const double t_row[] = {5.3, 6.1, 7.4};
+  const pneu_term term[] = {cycle(PNEU_TERM_SHOWN_PRESSURE, 0.77, 1e3), cycle(PNEU_TERM_SHOWN_POSITION, 0.9, 1e-3)};
+  pneu_model m = model_with(NULL, 0);
+  double t[28];
+  pneu_input input[3];
+  lab_schedule schedule = {3, t_row, input};
+  pneu_state start;
+  const lab_simulation task = {.start = &start,
+                               .schedule = &schedule,
+                               .t = t,
+                               .n = COUNT(t),
+                               .t_end = 8,
+                               .options = {.integrator = integrator, .tol = 1e-9}};
+  lab_response response;
+  lab_error error;
+  int i;
+  for (i = 0; i < 3; i++) {
+    input[i] = fixture_input(&m, 0);
+    input[i].force = (pneu_real)i;
+  }
+  for (i = 0; i < COUNT(t); i++)
+    t[i] = 5.3 + 0.1 * i;
+  assert_int_equal(pneu_model_terms(&m, term, 2), PNEU_OK);
+  m.position_skew = (pneu_real)skew;
+  start = fixture_rest(&m, 2e5, 0.01, &input[0]);
+  if (lab_response_run(&m, &task, &response, &error))
+    fail_msg("%s", error.text);
+  for (i = 0; i < COUNT(t); i++) {
+    check_note("integrator %d, skew %g s, t = %g s", integrator, skew, t[i]);
+    assert_close(response.p[i] - 2e5, cycle_at(&term[0], t[i]), 1e-5, 0);
+    assert_close(response.x[i] - 0.01, cycle_at(&term[1], fmax(t[i] - skew, 5.3)), 1e-11, 0);
+  }
+  lab_response_free(&response);
+}
+
+static void test_lab_response_run__cycles__go_by_the_time_of_the_schedule(void **state)
+{
+  (void)state;
+  check_own_time(0, LAB_STEPPER);
+  check_own_time(0, LAB_CVODE);
+  check_own_time(0.25, LAB_STEPPER);
+}
+
+/* The stem has sunk into a stop that yields; from the second row on the stop is rigid. */
+static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke(void **state)
+{
+  const pneu_model yields = model_with("stop_compliance.stop_compliance", 1e-8), rigid = model_with(NULL, 0);
+  const pneu_model *const rows[2] = {&yields, &rigid};
+  const double t_row[2] = {0, 2}, t[2] = {1.99, 3};
+  const pneu_input input[2] = {input_of(&yields, 1, 0), input_of(&yields, 1, 0)};
+  const lab_schedule schedule = {2, t_row, input};
+  const pneu_state start = fixture_rest(&yields, 0, 0, &input[0]);
+  const lab_simulation task = {.start = &start, .schedule = &schedule, .rows = rows, .t = t, .n = 2};
+  lab_response response;
+  lab_error error;
+  (void)state;
+  if (absent("stop_compliance"))
+    skip();
+  assert_int_equal(lab_response_run(&yields, &task, &response, &error), LAB_OK);
+  assert_true(response.x[0] > (double)rigid.p.stroke);
+  assert_close(response.x[1], (double)rigid.p.stroke, 1e-9, 0);
+  lab_response_free(&response);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_response_run__dead_time__delays_the_command_and_nothing_else),
+      cmocka_unit_test(test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them),
+      cmocka_unit_test(test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order),
+      cmocka_unit_test(test_lab_response_run__channel_skew__shifts_position_alone),
+      cmocka_unit_test(test_lab_response_run__negative_skew__looks_beyond_the_end),
+      cmocka_unit_test(test_lab_response_run__statistics_only__needs_no_trace),
+      cmocka_unit_test(test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode),
+      cmocka_unit_test(test_lab_response_run__cycles__go_by_the_time_of_the_schedule),
+      cmocka_unit_test(test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,489 @@
+/* apps/lab/run/schedule, start, standard and table */
+#include "../../scratch.h"
+
+#include "../../../apps/lab/rig/rigkeys.h"
+#include "../../../apps/lab/run/run.h"
+#include "../../../apps/lab/run/schedule.h"
+#include "../../../apps/lab/run/standard.h"
+#include "../../../apps/lab/run/start.h"
+#include "../../../apps/lab/base/series.h"
+
+static lab_error error;
+static lab_rig rig;
+static pneu_model model;
+static double load; /* [N] force on the stem at a start */
+
+/* The default rig, R1-400: spring 400 kN/m compressed 10 mm, area 400 cm^2, dry friction 480 N. */
+static int fresh_rig(void **state)
+{
+  (void)state;
+  lab_rig_default(&rig);
+  load = 0;
+  return lab_rig_model(&rig, &model, &error);
+}
+
+static void set_inputs(int p, int x, int ps, int force)
+{
+  rig.input[LAB_CHANNEL_P] = (unsigned char)p;
+  rig.input[LAB_CHANNEL_X] = (unsigned char)x;
+  rig.input[LAB_CHANNEL_PS] = (unsigned char)ps;
+  rig.input[LAB_CHANNEL_FORCE] = (unsigned char)force;
+  rig.laws.pressure_input = p;
+  rig.laws.position_input = x;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+}
+
+static lab_log read_log(const char *text)
+{
+  lab_log log;
+  if (lab_log_read(scratch_text("log.csv", text), &rig.log, 101325, &log, &error))
+    fail_msg("%s", error.text);
+  return log;
+}
+
+static lab_inputs drive_of(const lab_log *log, size_t run)
+{
+  lab_inputs inputs;
+  if (lab_inputs_from_log(&model, &rig, log, run, &inputs, &error))
+    fail_msg("%s", error.text);
+  return inputs;
+}
+
+/* ---- Schedules ---- */
+
+static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
+{
+  lab_log log = read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
+  lab_inputs inputs = drive_of(&log, 0);
+  (void)state;
+  assert_int_equal(inputs.schedule.n, 3);
+  assert_close(inputs.schedule.t[0], 0, 0, 0);
+  assert_close(inputs.schedule.t[1], 2, 0, 0);
+  assert_close(inputs.schedule.t[2], 4, 0, 0);
+  assert_close(inputs.schedule.input[1].u, 1, 0, 0);
+  assert_close(inputs.schedule.input[2].u, -0.5, 0, 0);
+  assert_close(inputs.schedule.input[0].supply_pressure, 4e5, 0, 0);
+  assert_close(inputs.schedule.input[0].pressure_rate, 0, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void declare_positioner(void)
+{
+  *pneu_param_at(&rig.params, pneu_param_find("positioner.gain")) = 20;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+}
+
+static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_command(void **state)
+{
+  lab_log log = read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
+  lab_inputs inputs;
+  (void)state;
+  assert_int_equal(lab_inputs_from_log(&model, &rig, &log, 0, &inputs, &error), LAB_DATA);
+  assert_contains(error.text, "positioner = { gain = 20; }");
+  declare_positioner();
+  inputs = drive_of(&log, 0);
+  assert_int_equal(inputs.schedule.n, 2);
+  assert_close(inputs.schedule.t[1], 2, 0, 0);
+  assert_close(inputs.schedule.input[1].u, 0.5, 1e-15, 0);
+  assert_int_equal(inputs.schedule.input[1].set_position, 1);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+  log = read_log("t [s],sp [%],u [1]\n0,0,0\n1,50,1\n2,,0.25\n");
+  inputs = drive_of(&log, 0);
+  assert_int_equal(inputs.schedule.n, 3);
+  assert_close(inputs.schedule.input[2].u, 0.25, 0, 0);
+  assert_int_equal(inputs.schedule.input[2].set_position, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__second_run__has_its_own_rows(void **state)
+{
+  lab_log log;
+  lab_inputs inputs;
+  (void)state;
+  rig.log.new_run = LAB_RUN_T_DROPS;
+  log = read_log("t [s],u [1]\n0,0\n1,1\n0.5,1\n2,-1\n");
+  inputs = drive_of(&log, 1);
+  assert_int_equal(inputs.schedule.n, 2);
+  assert_close(inputs.schedule.t[0], 0.5, 0, 0);
+  assert_close(inputs.schedule.input[1].u, -1, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps(void **state)
+{
+  lab_log log = read_log("t [s],p [kPa],x [mm]\n0,10,0\n1,,1\n3,40,1\n4,40,2\n");
+  lab_inputs inputs;
+  (void)state;
+  set_inputs(1, 1, 0, 0);
+  inputs = drive_of(&log, 0);
+  assert_int_equal(inputs.schedule.n, 4);
+  assert_close(inputs.schedule.input[0].pressure_rate, 1e4, 1e-6, 0);
+  assert_close(inputs.schedule.input[1].pressure_rate, 1e4, 1e-6, 0);
+  assert_close(inputs.schedule.input[2].pressure_rate, 0, 0, 0);
+  assert_close(inputs.schedule.input[0].position_rate, 1e-3, 1e-12, 0);
+  assert_close(inputs.schedule.input[1].position_rate, 0, 0, 0);
+  assert_close(inputs.schedule.input[3].position_rate, 0, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps(void **state)
+{
+  lab_log log = read_log("t [s],u [1],ps [kPa],force [N]\n0,0,300,5\n1,0,,5\n2,0,290,7\n");
+  lab_inputs inputs;
+  (void)state;
+  set_inputs(0, 0, 1, 1);
+  inputs = drive_of(&log, 0);
+  assert_int_equal(inputs.schedule.n, 2);
+  assert_close(inputs.schedule.input[0].supply_pressure, 300e3, 1e-9, 0);
+  assert_close(inputs.schedule.input[1].supply_pressure, 290e3, 1e-9, 0);
+  assert_close(inputs.schedule.input[1].force, 7, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__measured_outputs__do_not_drive(void **state)
+{
+  lab_log log = read_log("t [s],u [1],p [kPa],ps [kPa],force [N]\n0,0,1,300,5\n1,0,2,290,7\n");
+  lab_inputs inputs = drive_of(&log, 0);
+  (void)state;
+  assert_int_equal(inputs.schedule.n, 1);
+  assert_close(inputs.schedule.input[0].supply_pressure, 4e5, 0, 0);
+  assert_close(inputs.schedule.input[0].force, 0, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__missing_input__is_named(void **state)
+{
+  lab_log log = read_log("t [s],p [kPa]\n0,1\n");
+  lab_inputs inputs;
+  (void)state;
+  assert_int_equal(lab_inputs_from_log(&model, &rig, &log, 0, &inputs, &error), LAB_DATA);
+  assert_contains(error.text, "log.csv: expected a column u");
+  set_inputs(1, 1, 0, 0);
+  assert_int_equal(lab_inputs_from_log(&model, &rig, &log, 0, &inputs, &error), LAB_DATA);
+  assert_contains(error.text, "expected a column x");
+  lab_log_free(&log);
+}
+
+/* ---- Starts ---- */
+
+static pneu_state start_of(const char *text, double u)
+{
+  lab_log log = read_log(text);
+  pneu_input input;
+  pneu_state start;
+  pneu_input_default(&model, &input);
+  input.u = (pneu_real)u;
+  input.force = (pneu_real)load;
+  if (lab_run_initial_state(&model, &input, &log, 0, &start, &error))
+    fail_msg("%s", error.text);
+  lab_log_free(&log);
+  return start;
+}
+
+static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
+{
+  char text[4096] = "t [s],u [1],p [kPa],x [mm]\n", row[64];
+  pneu_state start;
+  int i;
+  (void)state;
+  for (i = 0; i < 50; i++) {
+    snprintf(row, sizeof row, "%d,0,%g,%g\n", i, 200 + (i * 7 % 5 - 2) * 0.1, 10 + (i * 3 % 5 - 2) * 0.01);
+    strcat(text, row);
+  }
+  strcat(text, "50,1,900,900\n");
+  start = start_of(text, 0);
+  assert_close(start.p, 200e3, 1, 0);
+  assert_close(start.x, 10e-3, 1e-6, 0);
+  assert_close(start.v, 0, 0, 0);
+  assert_close(start.T, 298.15, 0, 0);
+}
+
+static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows(void **state)
+{
+  char text[65536] = "t [s],u [1],p [kPa],x [mm]\n", row[64];
+  pneu_state start;
+  int i;
+  (void)state;
+  for (i = 0; i < 1000; i++) {
+    snprintf(row, sizeof row, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
+    strcat(text, row);
+  }
+  start = start_of(text, 1);
+  assert_close(start.p, 0, 1e-6, 0);
+  assert_close(start.x, 0, 0, 0);
+}
+
+/* Down and up again, so that both halves of the curve have one mean. */
+static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(void **state)
+{
+  char text[65536] = "t [s],u [1],p [kPa]\n", row[64];
+  int i;
+  (void)state;
+  for (i = 0; i < 200; i++) {
+    snprintf(row, sizeof row, "%d,-1,%g\n", i, 100 + 0.01 * (i - 99.5) * (i - 99.5));
+    strcat(text, row);
+  }
+  assert_close(start_of(text, -1).p, (100 + 0.01 * 99.5 * 99.5) * 1e3, 1, 0);
+}
+
+static void test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position(void **state)
+{
+  char text[4096] = "t [s],p [kPa],x [mm]\n", row[64];
+  int i;
+  (void)state;
+  set_inputs(1, 0, 0, 0);
+  for (i = 0; i < 20; i++) {
+    snprintf(row, sizeof row, "%d,%d,%d\n", i, 100 + i, i % 2 ? 12 : 4);
+    strcat(text, row);
+  }
+  assert_close(start_of(text, 0).x, 4e-3, 1e-15, 0);
+}
+
+static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills(void **state)
+{
+  (void)state;
+  rig.params.stroke = 0;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_close(start_of("t [s],u [1],p [kPa]\n0,1,\n1,-1,350\n", 1).p, 4e5, 0, 0);
+  assert_close(start_of("t [s],u [1],p [kPa]\n0,0,\n1,1,150\n", 0).p, 0, 0, 0);
+}
+
+/* A sensor that swings by 2 kPa every 10 s: the log begins at its highest, a quarter of a cycle after a zero of time.
+ */
+static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log(void **state)
+{
+  static const pneu_term swing = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_CYCLE, 2, 0, 10, {0, 2000}};
+  pneu_state start;
+  (void)state;
+  assert_int_equal(pneu_model_terms(&model, &swing, 1), PNEU_OK);
+  start = start_of("t [s],u [1],p [kPa],x [mm]\n42.5,0,202,10\n43,1,202,10\n", 0);
+  assert_close(start.p, 200e3, 1e-6, 0);
+  assert_close(start.extra[model.clock], 42.5, 0, 0);
+}
+
+static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
+  (void)state;
+  assert_true(start.x == 0);
+  assert_int_equal(start.mode, PNEU_MODE_LOWER);
+  start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,19.97\n", 0);
+  assert_close(start.x, 0.02, 1e-15, 0);
+  assert_int_equal(start.mode, PNEU_MODE_UPPER);
+  start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0);
+  assert_close(start.x, 0.02, 1e-15, 0);
+}
+
+static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0);
+  (void)state;
+  assert_close(start.x, 0.01, 1e-15, 0);
+  assert_int_equal(start.mode, PNEU_MODE_STUCK);
+}
+
+/* A sensor's error is not in the state: bias and gain as the model has them are taken out. */
+static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there(void **state)
+{
+  static const struct sensor {
+    const char *effect;
+    double size;
+  } sensors[] = {{"pressure_bias", 1400}, {"position_gain", 0.05}};
+  pneu_state start;
+  int i, first;
+  (void)state;
+  for (i = 0; i < 2; i++) {
+    first = pneu_effect_params(pneu_effect_find(sensors[i].effect), NULL);
+    *pneu_param_at(&rig.params, first) = (pneu_real)sensors[i].size;
+  }
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  start = start_of("t [s],u [1],p [Pa],x [mm]\n0,0,201400,10.5\n", 0);
+  assert_close(start.p, 200e3, 1e-6, 0);
+  assert_close(start.x, 10e-3, 0, 1.01 * 0.05 * 0.05 * 0.05); /* three rounds, each takes out all but the gain */
+}
+
+static void test_lab_run_initial_state__no_position__follows_from_pressure(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0);
+  (void)state;
+  assert_close(start.x, 0.01, 1e-12, 0);
+  start = start_of("t [s],u [1],p [kPa]\n0,0,20\n", 0);
+  assert_true(start.x == 0);
+  start = start_of("t [s],u [1],p [kPa]\n0,0,390\n", 0);
+  assert_close(start.x, 0.02, 1e-15, 0);
+}
+
+static void test_lab_run_initial_state__no_pressure__follows_from_position(void **state)
+{
+  pneu_state start = start_of("t [s],u [1],x [mm]\n0,0,10\n", 0);
+  (void)state;
+  assert_close(start.p, 200e3, 1e-6, 0);
+  start = start_of("t [s],u [1],x [mm]\n0,0,0.02\n", 0);
+  assert_close(start.p, 0, 0, 0);
+  assert_true(start.x == 0);
+  start = start_of("t [s],u [1],x [mm]\n0,1,19.99\n", 1);
+  assert_close(start.p, 4e5, 0, 0);
+}
+
+/* 400 N more against the air take 10 kPa more, or let the stem down by 1 mm. */
+static void test_lab_run_initial_state__force_on_the_stem__counts_against_the_air(void **state)
+{
+  (void)state;
+  load = 400;
+  assert_close(start_of("t [s],u [1],x [mm]\n0,0,10\n", 0).p, 210e3, 1e-6, 0);
+  assert_close(start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0).x, 9e-3, 1e-12, 0);
+}
+
+static void test_lab_run_initial_state__nothing_measured__is_empty_and_down(void **state)
+{
+  pneu_state start = start_of("t [s],u [1]\n0,0\n", 0);
+  (void)state;
+  assert_close(start.p, 0, 0, 0);
+  assert_true(start.x == 0);
+}
+
+static void test_lab_run_initial_state__vessel__has_no_position(void **state)
+{
+  pneu_state start;
+  (void)state;
+  rig.params.stroke = 0;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  start = start_of("t [s],u [1],p [kPa]\n0,-1,700\n", -1);
+  assert_close(start.p, 700e3, 1e-6, 0);
+  assert_true(start.x == 0);
+}
+
+static void test_lab_run_initial_state__driven_channels__start_at_their_first_value(void **state)
+{
+  pneu_state start;
+  (void)state;
+  set_inputs(1, 1, 0, 0);
+  start = start_of("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0);
+  assert_close(start.p, 12e3, 1e-6, 0);
+  assert_close(start.x, 0.5e-3, 1e-15, 0);
+}
+
+static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
+{
+  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
+  pneu_input input;
+  pneu_state start;
+  (void)state;
+  pneu_input_default(&model, &input);
+  assert_int_equal(lab_run_initial_state(&model, &input, &log, 0, &start, &error), LAB_DATA);
+  assert_contains(error.text, "log.csv:2:");
+  assert_contains(error.text, "-150000 Pa");
+  lab_log_free(&log);
+}
+
+/* ---- The standard experiment ---- */
+
+static void test_lab_standard_experiment__default_model__fills_and_vents(void **state)
+{
+  const lab_response_options options = {.tol = 1e-6};
+  lab_response response;
+  (void)state;
+  if (lab_standard_experiment(&model, &options, &response, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(response.n, 3051);
+  assert_close(response.t[1], 0.01, 1e-15, 0);
+  assert_close(response.t[3050], 30.5, 1e-12, 0);
+  assert_close(response.u[49], 0, 0, 0);
+  assert_close(response.u[51], 1, 0, 0);
+  assert_close(response.u[1551], -1, 0, 0);
+  assert_close(response.x[49], 0, 0, 0);
+  assert_close(response.p[49], 0, 1e-9, 0);
+  assert_close(response.x[1549], 0.02, 1e-9, 0);
+  assert_close(response.p[1549], 4e5, 100, 0);
+  assert_close(response.x[3050], 0, 1e-9, 0);
+  lab_response_free(&response);
+}
+
+/* ---- Tables ---- */
+
+static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **state)
+{
+  const double t[] = {0, 0.005}, p[] = {-0.0, 101325}, gap[] = {NAN, 1};
+  const lab_series_column columns[] = {{"t [s]", 1, t}, {"p [kPa]", 1e-3, p}, {"x [mm]", 1e3, gap}};
+  const char *path = scratch_path("table.csv");
+  FILE *file = fopen(path, "w");
+  char *got;
+  (void)state;
+  assert_non_null(file);
+  lab_series_header(file, columns, 3);
+  lab_series_rows(file, columns, 3, 2);
+  fclose(file);
+  got = scratch_read(path);
+  assert_string_equal(got, "t [s],p [kPa],x [mm]\n0,0,\n0.005,101.325,1000\n");
+  free(got);
+}
+
+#define CASE(name) cmocka_unit_test_setup(name, fresh_rig)
+
+/* ---- Runs ---- */
+
+/* The noise of values without any is that of their rounding, whatever its own rounding. */
+static void test_lab_run_open__values_in_steps_without_noise__have_weights(void **state)
+{
+  static char text[20000];
+  char row[64];
+  int k, i;
+  (void)state;
+  for (k = 1; k <= 20; k++) {
+    lab_log log;
+    lab_run run;
+    strcpy(text, "t [s],u [1],p [kPa]\n");
+    for (i = 0; i < 400; i++) {
+      snprintf(row, sizeof row, "%d,%d,%g\n", i, i > 0, 0.1 * k * (double)(i * i / 4000));
+      strcat(text, row);
+    }
+    log = read_log(text);
+    assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+    check_note("steps of %g kPa, sigma %g Pa", 0.1 * k, run.sigma[0]);
+    assert_true(run.sigma[0] > 0);
+    for (i = 0; i < 400; i++)
+      assert_true(run.weight[i] > 0 && run.weight[i] <= 1);
+    lab_run_close(&run);
+    lab_log_free(&log);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(test_lab_inputs_from_log__equal_commands__are_one_entry),
+      CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),
+      CASE(test_lab_inputs_from_log__second_run__has_its_own_rows),
+      CASE(test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps),
+      CASE(test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps),
+      CASE(test_lab_inputs_from_log__measured_outputs__do_not_drive),
+      CASE(test_lab_inputs_from_log__missing_input__is_named),
+      CASE(test_lab_run_initial_state__noise_at_rest__is_averaged),
+      CASE(test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows),
+      CASE(test_lab_run_initial_state__curve_with_halves_alike__is_no_level),
+      CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position),
+      CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills),
+      CASE(test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log),
+      CASE(test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it),
+      CASE(test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen),
+      CASE(test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there),
+      CASE(test_lab_run_initial_state__no_position__follows_from_pressure),
+      CASE(test_lab_run_initial_state__no_pressure__follows_from_position),
+      CASE(test_lab_run_initial_state__force_on_the_stem__counts_against_the_air),
+      CASE(test_lab_run_initial_state__nothing_measured__is_empty_and_down),
+      CASE(test_lab_run_initial_state__vessel__has_no_position),
+      CASE(test_lab_run_initial_state__driven_channels__start_at_their_first_value),
+      CASE(test_lab_run_initial_state__below_vacuum__is_refused),
+      CASE(test_lab_standard_experiment__default_model__fills_and_vents),
+      CASE(test_lab_series_rows__numbers__are_scaled_and_gaps_empty),
+      CASE(test_lab_run_open__values_in_steps_without_noise__have_weights),
+  };
+  return cmocka_run_group_tests_name("schedule", tests, scratch_open, scratch_close);
+}

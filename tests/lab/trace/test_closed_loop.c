@@ -1,0 +1,216 @@
+/* From a log with a positioner in the loop, of the independent rig, to what the declared model lacks. */
+#include <math.h>
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/check/logs.h"
+#include "../../../apps/lab/trace/search.h"
+
+enum { ROWS = 2001, CHANGES = 400 };
+static const double spacing = 0.02, lasting = 40; /* [s] */
+
+/* What a log has. */
+enum { WITH_U = 1, WITH_SP = 2, WITH_P = 4 };
+
+/* An experiment: the true rig and its positioner, and the set positions. */
+static second_rig g;
+static second_positioner k;
+static double t_set[CHANGES], set[CHANGES];
+static size_t n_set;
+
+static lab_unknowns u;
+static lab_search_result result;
+
+/* A staircase of ten levels, each held for 4 s. */
+static void set_stairs(void)
+{
+  static const double level[] = {0, 0.3, 0.6, 0.45, 0.8, 0.75, 0.2, 1, 0.7, 0.1};
+  for (n_set = 0; n_set < sizeof level / sizeof *level; n_set++) {
+    t_set[n_set] = 4 * (double)n_set;
+    set[n_set] = level[n_set];
+  }
+}
+
+/* What a controller sends ten times a second. */
+static void set_waves(void)
+{
+  for (n_set = 0; n_set < CHANGES; n_set++) {
+    t_set[n_set] = 0.1 * (double)n_set;
+    set[n_set] = 0.5 - 0.4 * cos(0.4 * t_set[n_set]);
+  }
+}
+
+static int begin(void **state)
+{
+  (void)state;
+  g = second_rig_default_r1_400();
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.dry_friction = 300;
+  g.fill_area = g.vent_area = 1.786e-6;
+  g.pressure_noise = 300;
+  g.position_noise = 1e-5;
+  g.step = 1e-4;
+  g.seed = 1;
+  k = (second_positioner){.gain = 20, .dead_band = 0.002, .cutoff_low = 0.01, .cutoff_high = 0.99};
+  set_stairs();
+  return 0;
+}
+
+static double set_at(double t)
+{
+  size_t i = 0;
+  while (i < n_set && t_set[i] <= t + 1e-9)
+    i++;
+  return set[i - 1];
+}
+
+static const char *write_log(int columns)
+{
+  static double t[ROWS], sent[ROWS], p[ROWS], x[ROWS];
+  const second_course course = {.t_cmd = t_set, .u_cmd = set, .n = n_set, .positioner = &k};
+  second_log log = {.t = t, .u = sent, .p = p, .x = x};
+  const char *path = scratch_path("log.csv");
+  FILE *file = fopen(path, "w");
+  int i;
+  assert_non_null(file);
+  assert_int_equal(second_samples(lasting, spacing), ROWS);
+  assert_int_equal(second_follow(&g, &course, lasting, spacing, &log, NULL), 0);
+  fprintf(file, "t [s],x [mm]%s%s%s\n", columns & WITH_U ? ",u [1]" : "", columns & WITH_SP ? ",sp [%]" : "",
+          columns & WITH_P ? ",p [kPa]" : "");
+  for (i = 0; i < ROWS; i++) {
+    fprintf(file, "%.2f,%.5f", t[i], 1e3 * x[i]);
+    if (columns & WITH_U)
+      fprintf(file, ",%.6f", sent[i]);
+    if (columns & WITH_SP)
+      fprintf(file, ",%.4f", 100 * set_at(t[i]));
+    fprintf(file, columns & WITH_P ? ",%.4f\n" : "\n", 1e-3 * p[i]);
+  }
+  assert_int_equal(fclose(file), 0);
+  return path;
+}
+
+static const char declared[] =
+    "actuator = { area = \"400 cm^2\"; dead_volume = \"40 cm^3\"; stroke = \"20 mm\"; spring_rate = \"400 kN/m\";"
+    " spring_preload = \"10 mm\"; moving_mass = \"2 kg\"; dry_friction = \"330 N\"; viscous_friction = \"500 N.s/m\";"
+    " damping = \"1000 N.s/m\"; };\n"
+    "transducer = { fill_area = \"1.7 mm^2\"; vent_area = \"1.7 mm^2\"; };\n"
+    "supply = { pressure = \"4 bar\"; };\nlaws = { flow = \"choked\"; };\n"
+    "fit = ( \"orifice_area\", \"dry_friction\" );\nnoise = { pressure = \"300 Pa\"; position = \"0.01 mm\"; };\n"
+    "positioner = { gain = 20; dead_band = \"0.2 %\"; cutoff_low = \"1 %\"; cutoff_high = \"99 %\"; };\n";
+
+/* Run the loop on a log of the experiment. */
+static void close_loop(int columns)
+{
+  static lab_rig rig;
+  static lab_logs logs;
+  lab_search_options options;
+  lab_error error = {0, ""};
+  memset(&logs, 0, sizeof logs);
+  lab_search_options_default(&options);
+  if (lab_rig_read(scratch_text("rig.cfg", declared), &rig, &error) ||
+      lab_logs_add(&logs, &rig, write_log(columns), &error) || lab_unknowns_open(&rig, logs.run, logs.n, &u, &error) ||
+      lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error) || lab_search_run(&u, &options, &result, &error))
+    fail_msg("%s", error.text);
+  lab_logs_close(&logs);
+}
+
+static void assert_found(const char *effect, const char *param, double value, double share)
+{
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, effect);
+  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find(param)), value, 0, share);
+}
+
+/* ---- Set position and travel ---- */
+
+static void test_lab_search_run__set_position_and_travel__nothing_is_missing(void **state)
+{
+  int friction;
+  (void)state;
+  close_loop(WITH_SP);
+  friction = lab_unknowns_find(&u, pneu_param_find("dry_friction"));
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+  assert_close(u.rig.params.fill_area, 1.786e-6, 0, 5e-3);
+  assert_true(result.fit.low[friction] < 300 && 300 < result.fit.high[friction]); /* known to a tenth */
+  assert_close(result.fit.high[friction] - result.fit.low[friction], 69, 0, 0.2);
+}
+
+static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(void **state)
+{
+  (void)state;
+  set_waves();
+  close_loop(WITH_SP);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+}
+
+static void test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized(void **state)
+{
+  (void)state;
+  g.span = 0.03;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("positioner_span", "positioner_span.span_excess", 0.03, 2e-2);
+  begin(NULL);
+  g.overlap = 0.05;
+  close_loop(WITH_SP);
+  assert_found("positioner_overlap", "positioner_overlap.overlap", 0.05, 5e-2);
+}
+
+static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop(void **state)
+{
+  (void)state;
+  g.supply_droop = 1e8;
+  close_loop(WITH_SP);
+  assert_found("supply_droop", "supply_droop.supply_resistance", 1e8, 5e-2);
+}
+
+static void test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized(void **state)
+{
+  (void)state;
+  set_waves();
+  g.leak_area = 3e-8;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("chamber_leak", "chamber_leak.leak_area", 3e-8, 5e-2);
+}
+
+/* ---- Output of the positioner at every row ---- */
+
+static void test_lab_search_run__opening_at_every_row__nothing_is_missing(void **state)
+{
+  (void)state;
+  k.cycle = spacing;
+  close_loop(WITH_U | WITH_SP | WITH_P);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+}
+
+/* Between two rows the positioner has moved on: what matters is where it jumps, with the set position. */
+static void test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing(void **state)
+{
+  (void)state;
+  k.cycle = 0.001;
+  close_loop(WITH_U | WITH_P);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+}
+
+#define CASE(name) cmocka_unit_test_setup(name, begin)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      CASE(test_lab_search_run__set_position_and_travel__nothing_is_missing),
+      CASE(test_lab_search_run__set_position_in_many_small_steps__is_no_hum),
+      CASE(test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized),
+      CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
+      CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
+      CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing),
+      CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}

@@ -1,0 +1,231 @@
+/* What the search decides by: when a model leaves only noise, and which rule holds at which facts. */
+#include "../../fixture.h"
+
+#include "../../../apps/lab/trace/decide.h"
+
+/* A fitted model with so many values that one standard deviation of chi-square is 20. */
+static lab_quality quality(double chi2, double bic)
+{
+  const lab_quality q = {1, chi2, 200, bic, 0, 0};
+  return q;
+}
+
+/* The declared model is the best one and leaves an excess of 1000. */
+static lab_facts declared_alone(void)
+{
+  lab_facts f = {0};
+  f.declared = f.best = quality(1200, 1200);
+  f.excess = 1000;
+  return f;
+}
+
+/* Two effects were added, the second in this round, and leave an excess of 400. */
+static lab_facts two_effects(void)
+{
+  lab_facts f = declared_alone();
+  f.round = 1;
+  f.added = 1;
+  f.n_found = 2;
+  f.best = quality(600, 620);
+  f.excess = 400;
+  return f;
+}
+
+/* Whether the rule with an action holds. */
+static int holds(enum lab_phase phase, int action, const lab_facts *f)
+{
+  int i;
+  for (i = 0; i < lab_rule_count; i++)
+    if (lab_rules[i].phase == phase && lab_rules[i].action == action)
+      return lab_rules[i].holds(f);
+  fail_msg("no rule %d in phase %d", action, phase);
+  return 0;
+}
+
+static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **state)
+{
+  lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0};
+  (void)state;
+  assert_true(lab_is_noise(&q));
+  q.chi2 += 2;
+  assert_false(lab_is_noise(&q));
+  q.white = 1;
+  assert_true(lab_is_noise(&q));
+  q.fitted = 0;
+  assert_false(lab_is_noise(&q));
+  assert_true(lab_is_noise(&many));
+  many.chi2 = 1.1026e6;
+  assert_false(lab_is_noise(&many));
+}
+
+static void test_lab_is_clean__one_standard_deviation__is_the_limit(void **state)
+{
+  const lab_quality in = quality(219, 0), out = quality(221, 0);
+  (void)state;
+  assert_true(lab_is_clean(&in));
+  assert_false(lab_is_clean(&out));
+}
+
+static void test_lab_is_poor__half_of_the_excess__is_the_limit(void **state)
+{
+  const lab_quality declared = quality(1200, 0), much = quality(699, 0), little = quality(701, 0);
+  lab_quality failed = much;
+  (void)state;
+  failed.fitted = 0;
+  assert_false(lab_is_poor(&declared, &much));
+  assert_true(lab_is_poor(&declared, &little));
+  assert_true(lab_is_poor(&declared, &failed));
+}
+
+static void test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.effect = 333;
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+  f.effect = 334;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+  f.effect = 100;
+  f.term = 501;
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_FIT_SCORED_TERM, &f));
+  f.term = 499;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_SCORED_TERM, &f));
+  f.term = 501;
+  f.effect = 168;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_SCORED_TERM, &f));
+  f.n_found = 1;
+  f.effect = 0;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+}
+
+static void test_rules__extension__is_added_by_bic(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.extended = quality(1100, 1199);
+  assert_true(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
+  f.extended.bic = 1200;
+  assert_false(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
+  f.extended = quality(1100, 1199);
+  f.extended.fitted = 0;
+  assert_false(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
+}
+
+static void test_rules__after_a_round__earlier_effects_are_tried_again(void **state)
+{
+  lab_facts f = two_effects();
+  (void)state;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_REMOVE_NEEDLESS, &f));
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_EXCHANGE, &f));
+  f.n_found = 3;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_REMOVE_NEEDLESS, &f));
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_EXCHANGE, &f));
+  f.best.chi2 = 200;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_EXCHANGE, &f));
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  f.coarse = 1;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  f.added = 0;
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_REMOVE_NEEDLESS, &f));
+}
+
+static void test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.best.chi2 = 701;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
+  f.best.chi2 = 699;
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
+  f.round = 1;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
+  f.free_term = quality(900, 900);
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
+}
+
+static void test_rules__free_term__ends_the_rounds_where_it_leaves_a_tenth(void **state)
+{
+  lab_facts f = two_effects();
+  (void)state;
+  f.best = quality(5200, 5220);
+  f.free_term = quality(699, 700);
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
+  f.free_term.chi2 = 701;
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
+  f.free_term.chi2 = 699;
+  f.n_found = 1;
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
+  f.free_term.chi2 = 300; /* noise */
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
+}
+
+static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(void **state)
+{
+  lab_facts f = two_effects();
+  (void)state;
+  f.free_term = quality(599, 610);
+  assert_true(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
+  f.n_found = 1;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
+  f.free_term.chi2 = 399;
+  assert_true(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
+  f.free_term.bic = f.best.bic;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
+  f.free_term.bic = 610;
+  f.best.chi2 = 319; /* noise */
+  assert_false(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
+}
+
+static void test_rules__free_term_beside__needs_room_and_something_left(void **state)
+{
+  lab_facts f = two_effects();
+  (void)state;
+  assert_true(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
+  f.best.chi2 = 239;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
+  f.n_found = 0;
+  assert_true(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
+  f.n_terms = 1;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
+  f = two_effects();
+  f.n_found = 3;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
+  f = two_effects();
+  f.extended = quality(399, 500);
+  assert_true(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
+  f.extended.chi2 = 401;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
+}
+
+static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
+{
+  lab_facts f = two_effects();
+  (void)state;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
+  f.found_term = 1;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
+  f.found_term = 0;
+  f.best.chi2 = 200;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
+  f.n_found = 0;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_NONE);
+  assert_string_equal(lab_verdict_text(LAB_VERDICT_NONE), "none");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_is_noise__chi_square_near_its_expectation__is_noise),
+      cmocka_unit_test(test_lab_is_clean__one_standard_deviation__is_the_limit),
+      cmocka_unit_test(test_lab_is_poor__half_of_the_excess__is_the_limit),
+      cmocka_unit_test(test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it),
+      cmocka_unit_test(test_rules__extension__is_added_by_bic),
+      cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
+      cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),
+      cmocka_unit_test(test_rules__free_term__ends_the_rounds_where_it_leaves_a_tenth),
+      cmocka_unit_test(test_rules__free_term__replaces_one_effect_by_half_and_two_by_less),
+      cmocka_unit_test(test_rules__free_term_beside__needs_room_and_something_left),
+      cmocka_unit_test(test_lab_decide_verdict__each_outcome__has_its_verdict),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

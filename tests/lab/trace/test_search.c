@@ -1,0 +1,309 @@
+/* From a log of the independent rig to the effect that the declared model lacks. */
+#include <math.h>
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/fit/deviations.h"
+#include "../../../apps/lab/trace/search.h"
+#include "../../../apps/lab/trace/freeterms.h"
+
+enum { ROWS = 1001 };
+static const double spacing = 0.01; /* [s] */
+
+/* The R1-400 with 40 cm3 of dead volume; the declaration is off by a few per cent in what is fitted. */
+static second_rig true_rig(void)
+{
+  second_rig g = second_rig_default_r1_400();
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = 7;
+  return g;
+}
+
+enum { COMMANDS = 5 };
+static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
+static const double brisk[COMMANDS] = {1, 0, -1, 0.5, -0.5};
+
+static void write_log(const second_rig *g, const double *u_cmd, const char *path)
+{
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  second_log log = {0};
+  FILE *file = fopen(path, "w");
+  int i;
+  log.t = t;
+  log.u = u;
+  log.p = p;
+  log.x = x;
+  assert_int_equal(second_samples(10, spacing), ROWS);
+  assert_int_equal(second_run(g, t_cmd, u_cmd, COMMANDS, 10, spacing, &log, NULL), 0);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+}
+
+static void declare(lab_rig *rig)
+{
+  static const char *const fitted[] = {"dry_friction", "spring_rate", "spring_preload"};
+  int i;
+  lab_rig_default(rig);
+  rig->laws.flow = PNEU_FLOW_CHOKED;
+  rig->params.dead_volume = (pneu_real)4e-5;
+  rig->params.spring_rate = (pneu_real)3.9e5;
+  rig->params.dry_friction = 500;
+  rig->noise[LAB_CHANNEL_P] = 320;
+  rig->noise[LAB_CHANNEL_X] = 2e-5;
+  rig->fit[rig->n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  for (i = 0; i < 3; i++)
+    rig->fit[rig->n_fit++] = pneu_param_find(fitted[i]);
+}
+
+/* Run the loop on a log of the true rig under some commands; where `all` is given, with tolerances. */
+static void run_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result,
+                     lab_deviations *all)
+{
+  static lab_rig rig;
+  static lab_log log;
+  static lab_run run;
+  const char *path = scratch_path("log.csv");
+  lab_search_options options;
+  lab_error error = {0, ""};
+  write_log(g, u_cmd, path);
+  declare(&rig);
+  lab_search_options_default(&options);
+  options.max_effects = 1;
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+  assert_int_equal(run.n_instants, COMMANDS);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  if (all) {
+    assert_int_equal(lab_unknowns_hold(u, &error), LAB_OK);
+    assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  }
+  assert_int_equal(lab_search_run(u, &options, result, &error), LAB_OK);
+  if (all)
+    assert_int_equal(lab_deviations_find(&rig, u, &result->fit, all, &error), LAB_OK);
+  lab_run_close(&run);
+  lab_log_free(&log);
+}
+
+static void close_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result)
+{
+  run_loop(g, u_cmd, u, result, NULL);
+}
+
+static const lab_deviation *deviation(const lab_deviations *all, const char *name)
+{
+  int i;
+  for (i = 0; i < all->n; i++)
+    if (!strcmp(all->of[i].name, name))
+      return &all->of[i];
+  return NULL;
+}
+
+/* A dead volume a fifth off is within its tolerance: nothing is missing, and what is off is told. */
+static void test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  static lab_deviations all;
+  const lab_deviation *d;
+  second_rig g = true_rig();
+  (void)state;
+  g.dead_volume *= 1.2;
+  run_loop(&g, brisk, &u, &result, &all);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(all.condition, LAB_CONDITION_AS_DECLARED);
+  assert_non_null(d = deviation(&all, "dead_volume"));
+  assert_between(1.2, d->lower / 4e-5, d->upper / 4e-5);
+  assert_true(d->held && !d->beyond);
+}
+
+/* Friction of twice its declared value is wear, whatever explains the log. */
+static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  static lab_deviations all;
+  const lab_deviation *d;
+  second_rig g = true_rig();
+  (void)state;
+  g.dry_friction = 960;
+  run_loop(&g, brisk, &u, &result, &all);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(all.condition, LAB_CONDITION_DEVIATES);
+  assert_non_null(d = deviation(&all, "dry_friction"));
+  assert_close(d->ratio, 1.92, 0, 0.1);
+  assert_true(d->beyond && !d->held);
+}
+
+/* What no value within its tolerance does is named. */
+static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  static lab_deviations all;
+  second_rig g = true_rig();
+  (void)state;
+  g.leak_area = 0.02 * g.vent_area;
+  g.dead_volume *= 1.2;
+  run_loop(&g, brisk, &u, &result, &all);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->equation, "mass"); /* it may be the porous one */
+}
+
+static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  const second_rig g = true_rig();
+  (void)state;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(result.n_found, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+  assert_close(u.rig.params.spring_rate, 4e5, 0, 2e-3);
+  assert_close(u.rig.params.dry_friction, 480, 0, 2e-2);
+}
+
+static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  second_rig g = true_rig();
+  (void)state;
+  g.pressure_noise *= 1.25;
+  g.position_noise *= 1.25;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1.25, 0.1, 0);
+}
+
+/* The fit bends so far that the slope of the missing film has the wrong sign, and the truth is at its bound. */
+static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  second_rig g = true_rig();
+  (void)state;
+  g.gas = SECOND_ENERGY;
+  g.heat = 0;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "heat_transfer");
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+}
+
+static void test_lab_search_run__leak__is_named_and_sized(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  second_rig g = true_rig();
+  (void)state;
+  if (pneu_effect_find("chamber_leak") < 0)
+    skip();
+  g.leak_area = 1.5e-8;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_leak");
+  assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 1.5e-8, 0, 0.05);
+  assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+}
+
+/* Bonferroni: the level of a single score is that of all, shared by the slopes that were tried. */
+static void test_lab_search_run__many_slopes__share_the_level(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  const second_rig g = true_rig();
+  lab_search_options options;
+  (void)state;
+  lab_search_options_default(&options);
+  close_loop(&g, brisk, &u, &result);
+  assert_true(result.scores.tests >= result.scores.n && result.scores.n > 10);
+  assert_close(result.level * result.scores.tests, options.alpha, 0, 1e-12);
+}
+
+/* Friction of a place, which the catalogue does not have, under commands that go through the whole stroke. The bump
+ * falls to 15 % of its peak 2.07 mm from its middle, where it no longer counts as acting; knots lie 0.3 mm apart. */
+static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **state)
+{
+  static const double through[COMMANDS] = {1, 0.9, -1, 0.5, -0.5};
+  static lab_unknowns u;
+  static lab_search_result result;
+  second_rig g = true_rig();
+  const pneu_term *term = &u.rig.term[0];
+  char text[LAB_WHERE_TEXT];
+  double from, to, level, peak;
+  (void)state;
+  g.bump = 300;
+  g.bump_at = 12e-3;
+  g.bump_width = 1.5e-3;
+  close_loop(&g, through, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_UNLISTED);
+  assert_int_equal(result.n_found, 1);
+  assert_int_equal(result.found[0].effect, -1);
+  assert_int_equal(result.found[0].term, 0);
+  assert_string_equal(lab_free_term_equation(term), "force");
+  assert_int_equal(term->equation, PNEU_TERM_FRICTION);
+  assert_int_equal(term->argument, PNEU_TERM_OVER_POSITION);
+  assert_non_null(strstr(lab_free_term_where(term, text), "both directions"));
+  assert_null(strstr(text, "everywhere"));
+  lab_free_term_stretch(term, &from, &to, &level, &peak);
+  assert_close(from, 12e-3 - 2.07e-3, 0.5e-3, 0);
+  assert_close(to, 12e-3 + 2.07e-3, 0.5e-3, 0);
+  assert_close(peak, 300, 0, 0.1);
+  assert_true(result.before.in_noise[LAB_CHANNEL_X] > 2 * result.after.in_noise[LAB_CHANNEL_X]);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
+}
+
+/* A stem that sticks and slips under slow commands: no model keeps in step with it row by row. */
+static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **state)
+{
+  static const double slow[COMMANDS] = {0.06, 0.05, -0.05, 0.06, -0.05};
+  static lab_unknowns u;
+  static lab_search_result result;
+  second_rig g = true_rig();
+  (void)state;
+  if (pneu_effect_find("stribeck_friction") < 0)
+    skip();
+  g.stribeck = 0.5;
+  g.stribeck_velocity = 2e-3;
+  g.step = 2e-5;
+  close_loop(&g, slow, &u, &result);
+  assert_true(result.window > 0);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "stribeck_friction");
+  assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 0.5, 0, 0.2);
+  assert_int_equal(u.window, 0); /* and handed back as it came */
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect),
+      cmocka_unit_test(test_lab_search_run__friction_beyond_its_tolerance__deviates),
+      cmocka_unit_test(test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass),
+      cmocka_unit_test(test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters),
+      cmocka_unit_test(test_lab_search_run__noisier_than_declared__is_noise_all_the_same),
+      cmocka_unit_test(test_lab_search_run__adiabatic_chamber__lacks_heat_transfer),
+      cmocka_unit_test(test_lab_search_run__leak__is_named_and_sized),
+      cmocka_unit_test(test_lab_search_run__many_slopes__share_the_level),
+      cmocka_unit_test(test_lab_search_run__friction_bump__is_a_force_at_its_place),
+      cmocka_unit_test(test_lab_search_run__stick_slip__is_seen_coarsely_and_named),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}

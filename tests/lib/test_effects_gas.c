@@ -1,0 +1,652 @@
+/* Effects on mass, energy and command: what each does to a vessel or a stroke. */
+#include "../footprint.h"
+
+/* ---- mass ---- */
+
+static pneu_state run_vessel(const pneu_params *p, int gas, int flow, double from, double u, double time)
+{
+  const pneu_model m = fixture_model(p, gas, flow);
+  const pneu_input shut = fixture_input(&m, 0), input = fixture_input(&m, u);
+  pneu_state s = fixture_rest(&m, from, 0, &shut);
+  fixture_run(&m, &s, &input, time, FIXTURE_TOL, NULL);
+  return s;
+}
+
+/* Choked leak from a shut isothermal vessel: exponential at the rate of its area. */
+static void footprint_chamber_leak(void)
+{
+  pneu_params p = fixture_vessel(1e-4);
+  const double g = 1.4, R = (double)p.gas_constant, T = 298.15, pa = (double)p.ambient_pressure;
+  const double c = sqrt(g / R) * pow(2 / (g + 1), (g + 1) / (2 * (g - 1)));
+  pneu_state s;
+  fixture_set(&p, "leak_area", 2e-8);
+  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 5e5, 0, 10);
+  assert_close((double)s.p + pa, (5e5 + pa) * exp(-2e-8 * c * R * sqrt(T) / 1e-4 * 10), 0, TOL(1e-8, 1e-4));
+  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, -3e4, 0, 1);
+  assert_between(s.p, -3e4 + 1, 0);
+  {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 1, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    s = fixture_rest(&m, 2e5, 0, &input);
+    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
+  }
+  { /* a leak that chokes says nothing about the transducer: shut, filling beyond its critical pressure, before it */
+    static const double u[] = {0, 1, 1}, pressure[] = {3e5, 3e5, 1e5};
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+    int i;
+    for (i = 0; i < COUNT(u); i++) {
+      const pneu_input input = fixture_input(&m, u[i]);
+      s = fixture_rest(&m, pressure[i], 0, &input);
+      check_note("u = %g at %g Pa", u[i], pressure[i]);
+      assert_true(fixture_look(&m, &s, &input).out > 0);
+      assert_int_equal(fixture_look(&m, &s, &input).choked, i == 2);
+    }
+  }
+}
+
+/* q = c (p^2 - p_a^2) in a shut vessel: (p - p_a)/(p + p_a) decays at 2 p_a c R T/V, from above and below; under the
+ * energy law, filled from vacuum, at gamma times that. */
+static double seeped(const pneu_params *p, double from, double rate, double time)
+{
+  const double pa = (double)p->ambient_pressure, ratio = from / (from + 2 * pa) * exp(-2 * pa * rate * time);
+  return 2 * pa * ratio / (1 - ratio);
+}
+
+static void footprint_laminar_leak(void)
+{
+  static const double from[] = {4e5, 2e4, -5e4};
+  pneu_params p = fixture_vessel(1e-3);
+  const double c = 1e-15, rate = c * (double)p.gas_constant * (double)p.ambient_temperature / 1e-3;
+  int i;
+  fixture_set(&p, "laminar_leak", c);
+  for (i = 0; i < COUNT(from); i++)
+    assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, from[i], 0, 20).p, seeped(&p, from[i], rate, 20),
+                 TOL(1e-4, 20), TOL(1e-9, 1e-4));
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, -5e4, 0, 20).p, seeped(&p, -5e4, 1.4 * rate, 20),
+               TOL(1e-4, 20), TOL(1e-9, 1e-4));
+  {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
+    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
+  }
+}
+
+/* The flow solves s = q/c + (q/(c p_c))^2, s = p^2 - p_a^2 by size, from inside and outside; slow, it is laminar. */
+static void footprint_porous_leak(void)
+{
+  static const double at[] = {7e5, 2e5, 1e3, -5e4};
+  pneu_params p = fixture_vessel(1e-3);
+  const double c = 2e-15, crossover = 4e5, pa = (double)p.ambient_pressure;
+  int i, driven;
+  fixture_set(&p, "porous_leak", c);
+  fixture_set(&p, "crossover_pressure", crossover);
+  for (i = 0; i < COUNT(at); i++) {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 0);
+    const pneu_state s = fixture_rest(&m, at[i], 0, &input);
+    const fixture_sample f = fixture_look(&m, &s, &input);
+    const double q = f.out - f.in, share = q / (c * crossover), squared = at[i] * (at[i] + 2 * pa);
+    assert_close(q / c + share * fabs(share), squared, 0, TOL(1e-12, 1e-5));
+  }
+  fixture_set(&p, "crossover_pressure", 1e8);
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, -5e4, 0, 20).p,
+               seeped(&p, -5e4, 1.4 * c * (double)p.gas_constant * (double)p.ambient_temperature / 1e-3, 20), 0,
+               TOL(1e-4, 1e-3));
+  for (driven = 0; driven < 2; driven++) {
+    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, driven, 0);
+    const pneu_input input = fixture_input(&m, 0);
+    const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
+    assert_true(driven == !(fixture_look(&m, &s, &input).out > 0));
+  }
+}
+
+static double inflow(const pneu_params *p, int flow, double pressure)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
+  const pneu_input input = fixture_input(&m, 1);
+  const pneu_state s = fixture_rest(&m, pressure, 0, &input);
+  return fixture_look(&m, &s, &input).in;
+}
+
+static void footprint_choked_flow(void)
+{
+  static const double pressure[] = {0, 1.5e5, 3e5};
+  const pneu_params base = fixture_vessel(1e-4);
+  pneu_params p = base;
+  int i;
+  for (i = 0; i < COUNT(pressure); i++) {
+    const double paper = inflow(&base, PNEU_FLOW_PAPER, pressure[i]);
+    const double nozzle = inflow(&base, PNEU_FLOW_CHOKED, pressure[i]);
+    fixture_set(&p, "choked_share", 1);
+    assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), nozzle, 0, TOL(1e-14, 1e-6));
+    fixture_set(&p, "choked_share", 0.25);
+    assert_close(inflow(&p, PNEU_FLOW_PAPER, pressure[i]), 0.75 * paper + 0.25 * nozzle, 0, TOL(1e-14, 1e-6));
+    assert_true(nozzle < paper);
+  }
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 1);
+    pneu_state s = fixture_rest(&m, 0, 0, &input);
+    assert_true(fixture_look(&m, &s, &input).choked);
+    s = fixture_rest(&m, 3e5, 0, &input);
+    assert_false(fixture_look(&m, &s, &input).choked);
+  }
+}
+
+/* The flow through an orifice of 1 mm2 that a pressure lost before or built up behind it leaves. */
+static pneu_flow orifice_between(const pneu_model *m, double up, double down)
+{
+  pneu_flow flow;
+  pneu_orifice(m, m->law.flow, (pneu_real)1e-6, (pneu_real)up, m->p.supply_temperature, (pneu_real)down, &flow);
+  return flow;
+}
+
+static double flow_between(const pneu_model *m, double up, double down)
+{
+  return orifice_between(m, up, down).q;
+}
+
+/* Flow into or out of the vessel at p by a law of which a quarter follows the nozzle; both are solved for, whatever the
+ * resistance before the fill or behind the vent. The flow that belongs to the pressure which the resistance leaves is
+ * off by more than the flow itself: R times the orifice's slope more, which is taken out. */
+static void check_mixed_series(double resistance, double p_in, int fill)
+{
+  pneu_params p = fixture_vessel(1e-4);
+  const double pa = (double)p.ambient_pressure;
+  double q, up, down, off, slope;
+  pneu_flow paper, choked;
+  pneu_model m, nozzle;
+  pneu_input input;
+  pneu_state s;
+  fixture_set(&p, "choked_share", 0.25);
+  fixture_set(&p, fill ? "supply_resistance" : "exhaust_resistance", resistance);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  nozzle = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, fill ? 1 : -1);
+  s = fixture_rest(&m, p_in, 0, &input);
+  q = fill ? fixture_look(&m, &s, &input).in : fixture_look(&m, &s, &input).out;
+  up = fill ? 4e5 + pa - resistance * q : p_in + pa;
+  down = fill ? p_in + pa : pa + resistance * q;
+  paper = orifice_between(&m, up, down);
+  choked = orifice_between(&nozzle, up, down);
+  slope =
+      0.75 * (double)(fill ? paper.dq_dup : -paper.dq_ddown) + 0.25 * (double)(fill ? choked.dq_dup : -choked.dq_ddown);
+  off = (q - 0.75 * (double)paper.q - 0.25 * (double)choked.q) / (1 + resistance * slope);
+  check_note("%s through %g Pa s/kg, %g Pa", fill ? "fill" : "vent", resistance, p_in);
+  assert_close(q, q - off, 0, TOL(1e-9, 5e-3));
+  assert_true(q > 0);
+}
+
+static void check_all_mixed_series(void)
+{
+  static const double resistance[] = {1e5, 1e6, 1e7, 1e8, 1e9}, at[] = {1e4, 1e5, 2e5, 3.5e5, 3.98e5};
+  int i, k, fill;
+  for (fill = 0; fill < 2; fill++)
+    for (i = 0; i < COUNT(resistance); i++)
+      for (k = 0; k < COUNT(at); k++)
+        check_mixed_series(resistance[i], at[k], fill);
+}
+
+static void footprint_supply_droop(void)
+{
+  static const double at[] = {0, 2e5, 3.5e5, 3.98e5};
+  const pneu_params base = fixture_vessel(1e-4);
+  pneu_params p = base;
+  const double resistance = 5e7, pa = (double)base.ambient_pressure;
+  pneu_model m;
+  pneu_input input;
+  int i, flow;
+  fixture_set(&p, "supply_resistance", resistance);
+  for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
+    for (i = 0; i < COUNT(at); i++) {
+      fixture_sample look;
+      pneu_state s;
+      m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+      input = fixture_input(&m, 1);
+      s = fixture_rest(&m, at[i], 0, &input);
+      look = fixture_look(&m, &s, &input);
+      check_note("%s from %g Pa", pneu_flow_key(flow), at[i]);
+      assert_close(look.in, flow_between(&m, 4e5 + pa - resistance * look.in, at[i] + pa), 0, TOL(1e-8, 1e-2));
+      assert_close(look.supply, 4e5 - resistance * look.in, TOL(1e-6, 1), 0);
+      assert_true(look.in < 0.99 * inflow(&base, flow, at[i]));
+    }
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p, TOL(1e-3, 10), 0);
+  check_all_mixed_series();
+}
+
+static void footprint_exhaust_back_pressure(void)
+{
+  static const double at[] = {4e5, 1e5, 1e4, 2e3};
+  const pneu_params base = fixture_vessel(1e-4);
+  pneu_params p = base;
+  const double resistance = 5e7, pa = (double)base.ambient_pressure;
+  int i, flow;
+  fixture_set(&p, "exhaust_resistance", resistance);
+  for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
+    for (i = 0; i < COUNT(at); i++) {
+      const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+      const pneu_input input = fixture_input(&m, -1);
+      const pneu_state s = fixture_rest(&m, at[i], 0, &input);
+      const fixture_sample look = fixture_look(&m, &s, &input);
+      check_note("%s from %g Pa", pneu_flow_key(flow), at[i]);
+      assert_close(look.out, flow_between(&m, at[i] + pa, pa + resistance * look.out), 0, TOL(1e-8, 1e-2));
+      assert_true(look.out > 0 && (look.out < 0.99 * flow_between(&m, at[i] + pa, pa) || at[i] > 3e5));
+    }
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.05).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.05).p, TOL(1e-3, 10), 0);
+}
+
+/* Venting takes 1/(1 - r) of the time, filling what it took. */
+static void footprint_vent_restriction(void)
+{
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  fixture_set(&p, "vent_restriction", 0.2);
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 0.5).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 0.4).p, TOL(0.01, 20), 0);
+  assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p,
+               run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p, TOL(0.01, 20), 0);
+}
+
+/* Constant choked inflow q into V_t, then R, then V: with k = R_g T/V the difference p_t - p settles to
+ * k_t q R/(k_t + k) with time constant R/(k_t + k). */
+static void footprint_connecting_tube(void)
+{
+  static const double at[] = {0.002, 0.01, 0.05};
+  pneu_params p = fixture_vessel(1e-3);
+  const double R = 3e7, RT = (double)p.gas_constant * (double)p.ambient_temperature, pa = (double)p.ambient_pressure;
+  const double k_tube = RT / 2e-5, k = RT / 1e-3, tau = R / (k_tube + k);
+  const double q = inflow(&p, PNEU_FLOW_CHOKED, 0), most = k_tube * q * tau;
+  int i;
+  fixture_set(&p, "tube_resistance", R);
+  fixture_set(&p, "tube_volume", 2e-5);
+  for (i = 0; i < COUNT(at); i++) {
+    const double settled = 1 - exp(-at[i] / tau), chamber = k / R * most * (at[i] - tau * settled);
+    const pneu_state s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1, at[i]);
+    check_note("t = %g s", at[i]);
+    assert_close(s.p, chamber, TOL(1e-3, 5), TOL(1e-8, 1e-4));
+    assert_close((double)s.extra[0] * (4e5 + pa), pa + chamber + most * settled, 0, TOL(1e-8, 1e-4));
+  }
+  assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 2e5, 0, 1).p, 2e5, TOL(1e-6, 1), 0);
+}
+
+/* What leaves the chamber leaves at its temperature, what comes in has that of the tube; the pressure is shared. */
+static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
+  const double R = 3e7, q = 3e4 / R;
+  (void)state;
+  if (pneu_effect_find("connecting_tube") < 0)
+    skip();
+  fixture_set(&p, "tube_resistance", R);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, 0);
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, 250, 0, &input, &s), PNEU_OK);
+  s.extra[0] += (pneu_real)3e4 / m.scale[0];
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  assert_close(f[0], 1.4 * (double)p.gas_constant * 298.15 * q / 1e-3, 0, TOL(1e-9, 1e-4));
+  s.extra[0] -= (pneu_real)6e4 / m.scale[0];
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  assert_close(f[0], -1.4 * (double)p.gas_constant * 250 * q / 1e-3, 0, TOL(1e-9, 1e-4));
+}
+
+/* Hardly any tube: chamber and tube are one, and gas that is not at ambient temperature may rest. */
+static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(void **state)
+{
+  static const double resistance[] = {1, 1e3, 1e5, 1e7};
+  pneu_params p = fixture_params(FIXTURE_37_13);
+  int i;
+  (void)state;
+  if (pneu_effect_find("connecting_tube") < 0)
+    skip();
+  for (i = 0; i < COUNT(resistance); i++) {
+    pneu_model m;
+    fixture_set(&p, "tube_resistance", resistance[i]);
+    m = fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER);
+    check_note("%g Pa s/kg", resistance[i]);
+    assert_between(fixture_steps(&m) * PNEU_STAGE_COUNT, 1, TOL(24000, 240000)); /* stages */
+  }
+}
+
+/* ---- energy ---- */
+
+/* A shut vessel off wall temperature: m c_v T' = G (T_w - T) + c (rho/rho_a)^(2/3) |T_w - T|^(4/3). */
+static double warmed(const pneu_params *p, int gas, double T0, double t)
+{
+  const pneu_model m = fixture_model(p, gas, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s;
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, (pneu_real)T0, 0, &input, &s), PNEU_OK);
+  fixture_run(&m, &s, &input, t, FIXTURE_TOL, NULL);
+  return (double)s.T;
+}
+
+static void footprint_heat_transfer(void)
+{
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  const double R = (double)base.gas_constant, T0 = 250, dT = 298.15 - T0;
+  const double density = (2e5 / (double)base.ambient_pressure + 1) * 298.15 / T0, c = 0.5 * pow(density, 2 / 3.);
+  const double mcv = (2e5 + (double)base.ambient_pressure) * 1e-3 / (R * T0) * R / 0.4;
+  const pneu_state fast = run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 4e5, -1, 1);
+  pneu_state s;
+  pneu_model m;
+  pneu_input shut;
+  p.polytropic_index = (pneu_real)1.2; /* must not matter */
+  fixture_set(&p, "film_conductance", 2);
+  assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
+  fixture_set(&p, "film_conductance", 0);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_close(warmed(&p, PNEU_GAS_ISOTHERMAL, T0, 1), 298.15 - dT * exp(-2 / mcv), 0, TOL(1e-9, 1e-5));
+  fixture_set(&p, "film_resistance", 0);
+  fixture_set(&p, "free_convection", 0.5);
+  assert_close(warmed(&p, PNEU_GAS_ENERGY, T0, 1), 298.15 - pow(pow(dT, -1 / 3.) + c / (3 * mcv), -3), 0,
+               TOL(1e-9, 1e-5));
+  /* vent fast, shut: the cold gas warms and its pressure rises to p T_w/T */
+  fixture_set(&p, "film_conductance", 2);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  shut = fixture_input(&m, 0);
+  s = fast;
+  fixture_run(&m, &s, &shut, 30, FIXTURE_TOL, NULL);
+  assert_true(fast.T < 280);
+  assert_close((double)s.p + 101325, ((double)fast.p + 101325) * 298.15 / (double)fast.T, 0, TOL(1e-7, 1e-4));
+}
+
+/* A film of the energy law does nothing under the other laws, a resistance nothing under any but the isothermal. */
+static void test_heat_transfer__parameter_of_another_law__does_not_act(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  (void)state;
+  if (pneu_effect_find("heat_transfer") < 0)
+    skip();
+  fixture_set(&p, "film_conductance", 2);
+  fixture_set(&p, "free_convection", 2);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 0);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER).n_active, 0);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 1);
+  p = fixture_params(FIXTURE_R1_400);
+  fixture_set(&p, "film_resistance", 0.5);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
+}
+
+/* A sealed vessel in an insulated wall: both meet at their mean by heat capacity, the difference decays at
+ * G (1/(m c_v) + 1/C); with a loss both end at ambient temperature. */
+static void footprint_wall_temperature(void)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  const double T0 = 250, dT = T0 - 298.15, C = 4, G = 2;
+  const double mcv = (2e5 + (double)p.ambient_pressure) * 1e-3 / (0.4 * T0), rate = G * (1 / mcv + 1 / C);
+  pneu_model m;
+  pneu_input shut;
+  pneu_state s;
+  fixture_set(&p, "wall_compliance", 1 / C);
+  fixture_set(&p, "wall_loss", 0);
+  assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0); /* no film, no heat */
+  if (pneu_effect_find("heat_transfer") < 0)
+    skip();
+  fixture_set(&p, "film_conductance", G);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  shut = fixture_input(&m, 0);
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)2e5, (pneu_real)T0, 0, &shut, &s), PNEU_OK);
+  fixture_run(&m, &s, &shut, 0.7, FIXTURE_TOL, NULL);
+  assert_close(s.T, 298.15 + dT * (mcv + C * exp(-rate * 0.7)) / (mcv + C), 0, TOL(1e-9, 1e-5));
+  assert_close(s.extra[0], dT * mcv / (mcv + C) * (1 - exp(-rate * 0.7)) / 298.15, TOL(1e-9, 1e-5), 0);
+  fixture_set(&p, "wall_loss", 1);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  fixture_run(&m, &s, &shut, 200, FIXTURE_TOL, NULL);
+  assert_close(s.T, 298.15, 0, TOL(1e-9, 1e-5));
+}
+
+/* ---- command ---- */
+
+/* In a vessel time enters by the integral of the opening alone: t becomes t - tau (1 - exp(-t/tau)). */
+static void footprint_transducer_lag(void)
+{
+  static const double at[] = {0.005, 0.02, 0.08};
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  const double tau = 0.02;
+  int i, vent;
+  fixture_set(&p, "transducer_time", tau);
+  for (i = 0; i < COUNT(at); i++)
+    for (vent = 0; vent < 2; vent++) {
+      const double t = at[i], start = vent ? 4e5 : 0, u = vent ? -1 : 1;
+      const pneu_state late = run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, start, u, t);
+      const pneu_state prompt =
+          run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, start, u, t - tau * (1 - exp(-t / tau)));
+      check_note("t = %g s, vent %d", t, vent);
+      assert_close(late.p, prompt.p, TOL(0.01, 50), 0);
+      assert_close(late.extra[0], u * (1 - exp(-t / tau)), TOL(1e-8, 1e-4), 0);
+    }
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    const pneu_input half = fixture_input(&m, 0.5);
+    const pneu_state rest = fixture_rest(&m, 0, 0, &half);
+    assert_close(fixture_look(&m, &rest, &half).opening, 0.5, 0, 0);
+  }
+}
+
+/* With a proportional band the command is a pressure; at rest the opening is the regulator's. */
+static void test_transducer_lag__regulator_at_rest__starts_from_its_opening(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (pneu_effect_find("transducer_lag") < 0)
+    skip();
+  fixture_set(&p, "transducer_time", 0.02);
+  p.proportional_band = (pneu_real)1e4;
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 1.05e5);
+  s = fixture_rest(&m, 1e5, 0, &input);
+  assert_close(s.extra[0], 0.5, TOL(1e-12, 1e-5), 0);
+}
+
+/* The pressure of a prompt transducer, later by the dead time; test_delay.c has the rest. */
+static void footprint_dead_time(void)
+{
+  const pneu_params base = fixture_vessel(1e-3);
+  pneu_params p = base;
+  fixture_set(&p, "dead_time", 0.03);
+  assert_close(fixture_model(&base, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).command_delay, 0, 0, 0);
+  assert_close(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).command_delay, 0.03, 0, TOL(1e-15, 1e-7));
+  {
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    pneu_late slot;
+    pneu_delay late;
+    pneu_input input = fixture_input(&m, 0);
+    pneu_state s = fixture_rest(&m, 0, 0, &input);
+    pneu_delay_begin(&late, &slot, 1, 0);
+    input.delay = &late;
+    input.u = 1;
+    fixture_run(&m, &s, &input, 0.13, FIXTURE_TOL, NULL);
+    assert_close(s.p, run_vessel(&base, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1, 0.1).p, TOL(1e-3, 10), 0);
+  }
+}
+
+/* The R1-400 without dry friction, with a positioner. */
+static pneu_params positioned(double gain)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  p.dry_friction = 0;
+  fixture_set(&p, "gain", gain);
+  return p;
+}
+
+static pneu_input set_position(const pneu_model *m, double set)
+{
+  pneu_input input = fixture_input(m, set);
+  input.set_position = 1;
+  return input;
+}
+
+/* What the positioner asks for at rest at a share of the stroke. */
+static double asked(const pneu_params *p, double set, double share)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  const pneu_input input = set_position(&m, set);
+  const pneu_state s = fixture_rest(&m, 1e5, share * (double)p->stroke, &input);
+  return fixture_look(&m, &s, &input).opening;
+}
+
+/* Where the stem comes to rest. */
+static pneu_state follow(const pneu_params *p, double set)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  const pneu_input input = set_position(&m, set);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_run(&m, &s, &input, 100, TOL(1e-8, 1e-5), NULL);
+  return s;
+}
+
+static void footprint_positioner(void)
+{
+  /* with a dead band of 1 % and cut-offs at 2 and 98 % */
+  static const struct law {
+    double set, x, opening;
+  } law[] = {{0.5, 0.5, 0},      {0.5, 0.49, 0},    {0.5, 0.51, 0},      {0.5, 0.489, 0.22}, {0.5, 0.511, -0.22},
+             {0.5, 0.47, 0.6},   {0.5, 0.53, -0.6}, {0.9, 0.2, 1},       {0.2, 0.9, -1},     {0.019, 0, -1},
+             {0.0201, 0, 0.402}, {0.981, 1, 1},     {0.9799, 1, -0.402}, {-3, 0.5, -1},      {3, 0.5, 1}};
+  pneu_params p = positioned(20);
+  pneu_state s;
+  pneu_model m;
+  pneu_input input;
+  double e;
+  int i;
+  fixture_set(&p, "dead_band", 0.01);
+  fixture_set(&p, "cutoff_low", 0.02);
+  fixture_set(&p, "cutoff_high", 0.98);
+  for (i = 0; i < COUNT(law); i++) {
+    check_note("set %g, at %g", law[i].set, law[i].x);
+    assert_close(asked(&p, law[i].set, law[i].x), law[i].opening, TOL(1e-12, 1e-5), 0);
+  }
+  /* without a set position the command is the opening */
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, -0.3);
+  s = fixture_rest(&m, 1e5, 0.01, &input);
+  assert_close(fixture_look(&m, &s, &input).opening, -0.3, TOL(1e-15, 1e-7), 0);
+  /* droop: the fill orifice passes what leaks, both choked, so that the opening is known, and so is the error; the
+   * integral takes it away */
+  p = positioned(20);
+  p.supply_pressure = (pneu_real)9e5;
+  fixture_set(&p, "leak_area", 5e-8);
+  s = follow(&p, 0.5);
+  e = 5e-8 * ((double)s.p + (double)p.ambient_pressure) / (20 * 0.893e-6 * (9e5 + (double)p.ambient_pressure));
+  assert_close((double)s.x / 0.02, 0.5 - e, TOL(1e-8, 1e-5), 0);
+  assert_close(s.p, 400e3 * ((double)s.x + 0.01) / 0.04, TOL(1e-2, 10), 0);
+  fixture_set(&p, "integral_time", 1);
+  s = follow(&p, 0.5);
+  assert_close((double)s.x / 0.02, 0.5, TOL(1e-7, 1e-5), 0);
+  assert_close(s.extra[0], e, TOL(1e-5, 1e-4), 1e-2);
+}
+
+static void footprint_positioner_bend(void)
+{
+  pneu_params p = positioned(2);
+  fixture_set(&p, "flow_bend", 0.4);
+  assert_close(asked(&p, 0.5, 0.25), 0.5 * (1 - 0.4 * 0.5), TOL(1e-12, 1e-5), 0);
+  assert_close(asked(&p, 0.25, 0.5), -0.5 * (1 - 0.4 * 0.5), TOL(1e-12, 1e-5), 0);
+  assert_close(asked(&p, 1, 0.5), 1, TOL(1e-12, 1e-5), 0);
+}
+
+static void footprint_positioner_dead_band(void)
+{
+  pneu_params p = positioned(20);
+  fixture_set(&p, "dead_band", 0.01);
+  fixture_set(&p, "dead_band_excess", 0.02);
+  assert_close(asked(&p, 0.5, 0.471), 0, 0, 0);
+  assert_close(asked(&p, 0.5, 0.529), 0, 0, 0);
+  assert_close(asked(&p, 0.5, 0.469), 0.62, TOL(1e-12, 1e-5), 0);
+  assert_close(asked(&p, 0.5, 0.531), -0.62, TOL(1e-12, 1e-5), 0);
+}
+
+/* Between two orifices in series the chamber stands where [B, Eq. 8] gives both the same flow: f^2 P_s (P_s - P) =
+ * v^2 P (P - P_a), a quadratic equation. */
+static void footprint_positioner_overlap(void)
+{
+  static const double u[] = {0, 0.02, -0.03, 0.04};
+  pneu_params p = positioned(2), q = fixture_vessel(1e-5);
+  int i;
+  fixture_set(&p, "overlap", 0.05);
+  assert_close(asked(&p, 0.5, 0.25), 0.45 / 0.95, TOL(1e-12, 1e-5), 0);
+  assert_close(asked(&p, 0.25, 0.5), -0.45 / 0.95, TOL(1e-12, 1e-5), 0);
+  assert_close(asked(&p, 0.5, 0.476), 0, 0, 0);
+  assert_close(asked(&p, 1, 0.5), 1, TOL(1e-12, 1e-5), 0);
+  fixture_set(&q, "overlap", -0.05);
+  for (i = 0; i < COUNT(u); i++) {
+    const pneu_state s = run_vessel(&q, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1e5, u[i], 1000);
+    const double pa = (double)q.ambient_pressure, ps = (double)q.supply_pressure + pa;
+    const double f2 = pow(0.05 + u[i], 2), v2 = pow(0.05 - u[i], 2), half = (f2 * ps - v2 * pa) / 2;
+    check_note("u = %g", u[i]);
+    assert_close((double)s.p + pa, (sqrt(half * half + v2 * f2 * ps * ps) - half) / v2, 0, TOL(1e-6, 1e-3));
+  }
+}
+
+static void footprint_positioner_span(void)
+{
+  pneu_params p = positioned(20);
+  fixture_set(&p, "span_excess", 0.25);
+  assert_close((double)follow(&p, 0.5).x / 0.02, 0.4, TOL(1e-6, 1e-4), 0);
+  assert_close((double)follow(&p, 1).x / 0.02, 0.8, TOL(1e-6, 1e-4), 0);
+}
+
+static void footprint_positioner_zero(void)
+{
+  pneu_params p = positioned(20);
+  fixture_set(&p, "zero_shift", 1e-3);
+  assert_close((double)follow(&p, 0.5).x / 0.02, 0.45, TOL(1e-6, 1e-4), 0);
+  assert_close((double)follow(&p, 0.9).x / 0.02, 0.85, TOL(1e-6, 1e-4), 0);
+}
+
+static footprint footprints[] = {
+    {"chamber_leak", "shut_vessel__loses_pressure_as_a_choked_blowdown", footprint_chamber_leak},
+    {"choked_flow", "share__mixes_the_laws", footprint_choked_flow},
+    {"connecting_tube", "constant_inflow__chamber_trails_the_tube", footprint_connecting_tube},
+    {"dead_time", "model__holds_the_delay", footprint_dead_time},
+    {"exhaust_back_pressure", "venting__is_slowed_and_filling_is_not", footprint_exhaust_back_pressure},
+    {"heat_transfer", "shut_vessel__levels_temperature_and_pressure_recovers", footprint_heat_transfer},
+    {"laminar_leak", "shut_vessel__follows_the_closed_form", footprint_laminar_leak},
+    {"porous_leak", "flow__solves_its_law_both_ways", footprint_porous_leak},
+    {"positioner", "opening__follows_the_error_and_the_integral_takes_it_away", footprint_positioner},
+    {"positioner_bend", "half_opening__passes_less_and_full_opening_as_before", footprint_positioner_bend},
+    {"positioner_dead_band", "small_errors__open_nothing", footprint_positioner_dead_band},
+    {"positioner_overlap", "spool__opens_late_or_never_shuts", footprint_positioner_overlap},
+    {"positioner_span", "stem__rests_off_in_proportion", footprint_positioner_span},
+    {"positioner_zero", "stem__rests_off_by_the_same", footprint_positioner_zero},
+    {"supply_droop", "filling__is_slowed_and_venting_is_not", footprint_supply_droop},
+    {"transducer_lag", "vessel__runs_late_by_the_integral_of_the_lag", footprint_transducer_lag},
+    {"vent_restriction", "venting__takes_longer_and_filling_does_not", footprint_vent_restriction},
+    {"wall_temperature", "sealed_vessel__shares_its_heat_with_the_wall", footprint_wall_temperature},
+};
+
+static void test_effects_def__each_effect_on_the_gas__has_a_footprint_test(void **state)
+{
+  (void)state;
+  footprint_complete(footprints, COUNT(footprints), "mass energy command");
+}
+
+int main(void)
+{
+  enum { OTHERS = 5 };
+  static char names[COUNT(footprints)][100];
+  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
+      cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
+      cmocka_unit_test(test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it),
+      cmocka_unit_test(test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest),
+      cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
+      cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
+  };
+  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

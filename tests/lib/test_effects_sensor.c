@@ -1,0 +1,343 @@
+/* Effects on the sensors: what each shows of a state that it leaves alone. */
+#include "../footprint.h"
+
+typedef struct shown {
+  double p, x, T;
+} shown;
+
+static shown look(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  pneu_output out;
+  shown seen;
+  assert_int_equal(pneu_observe(m, s, input, &out), PNEU_OK);
+  seen.p = (double)out.shown_pressure;
+  seen.x = (double)out.shown_position;
+  seen.T = (double)out.shown_temperature;
+  return seen;
+}
+
+/* At rest at 1.5 bar and 8 mm, gas at 330 K. */
+static shown look_at_rest(const pneu_params *p)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s;
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)1.5e5, 330, (pneu_real)0.008, &input, &s), PNEU_OK);
+  return look(&m, &s, &input);
+}
+
+static void check_at_rest(const pneu_params *p, double pressure, double x, double T)
+{
+  const shown seen = look_at_rest(p);
+  assert_close(seen.p, pressure, 0, TOL(1e-14, 1e-6));
+  assert_close(seen.x, x, 0, TOL(1e-14, 1e-6));
+  assert_close(seen.T, T, 0, TOL(1e-14, 1e-6));
+}
+
+static pneu_params with(const char *name, double value)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  fixture_set(&p, name, value);
+  return p;
+}
+
+static void footprint_pressure_bias(void)
+{
+  const pneu_params p = with("pressure_bias", -3e3);
+  check_at_rest(&p, 1.5e5 - 3e3, 0.008, 330);
+}
+
+static void footprint_pressure_gain(void)
+{
+  const pneu_params p = with("pressure_gain", 0.04);
+  check_at_rest(&p, 1.5e5 * 1.04, 0.008, 330);
+}
+
+static void footprint_position_bias(void)
+{
+  const pneu_params p = with("position_bias", 5e-4);
+  check_at_rest(&p, 1.5e5, 0.0085, 330);
+}
+
+static void footprint_position_gain(void)
+{
+  const pneu_params p = with("position_gain", -0.03);
+  check_at_rest(&p, 1.5e5, 0.008 * 0.97, 330);
+}
+
+/* Bias is what a sensor shows of nothing: it is not multiplied by the gain. */
+static void test_gain_and_bias__together__are_affine(void **state)
+{
+  static const char *const needed[] = {"pressure_bias", "pressure_gain", "position_bias", "position_gain"};
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(needed); i++) {
+    if (pneu_effect_find(needed[i]) < 0)
+      skip();
+    fixture_set(&p, needed[i], i == 0 ? 1e3 : i == 2 ? 1e-3 : 0.1);
+  }
+  check_at_rest(&p, 1.1 * 1.5e5 + 1e3, 1.1 * 0.008 + 1e-3, 330);
+}
+
+/* Behind a ramp from rest of slope r: r (t - tau (1 - exp(-t/tau))). */
+static double trailing(double slope, double t, double tau)
+{
+  return slope * (t - tau * (1 - exp(-t / tau)));
+}
+
+static void footprint_pressure_lag(void)
+{
+  static const double at[] = {0.01, 0.05, 0.4};
+  const pneu_params p = with("pressure_time", 0.05);
+  const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
+  pneu_input input = fixture_input(&m, 0);
+  int i;
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+  input.pressure_rate = (pneu_real)1e5;
+  for (i = 0; i < COUNT(at); i++) {
+    pneu_state s = fixture_rest(&m, 5e4, 0.01, &input);
+    fixture_run(&m, &s, &input, at[i], FIXTURE_TOL, NULL);
+    assert_close(look(&m, &s, &input).p, 5e4 + trailing(1e5, at[i], 0.05), TOL(1e-3, 5), 0);
+    assert_close(s.p, 5e4 + 1e5 * at[i], TOL(1e-6, 0.1), 0);
+  }
+}
+
+static void footprint_position_lag(void)
+{
+  static const double at[] = {0.01, 0.05, 0.4};
+  const pneu_params p = with("position_time", 0.05);
+  const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
+  pneu_input input = fixture_input(&m, 0);
+  int i;
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+  input.position_rate = (pneu_real)0.01;
+  for (i = 0; i < COUNT(at); i++) {
+    pneu_state s = fixture_rest(&m, 5e4, 0.002, &input);
+    fixture_run(&m, &s, &input, at[i], FIXTURE_TOL, NULL);
+    assert_close(look(&m, &s, &input).x, 0.002 + trailing(0.01, at[i], 0.05), TOL(1e-11, 1e-6), 0);
+    assert_close(s.x, 0.002 + 0.01 * at[i], TOL(1e-14, 1e-7), 0);
+  }
+}
+
+/* From a sensor still at ambient temperature in gas that keeps its own. */
+static void footprint_temperature_lag(void)
+{
+  const pneu_params p = with("temperature_time", 0.4);
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const pneu_input input = fixture_input(&m, 0);
+  pneu_state s;
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+  assert_int_equal(pneu_state_rest(&m, (pneu_real)5e4, 330, 0, &input, &s), PNEU_OK);
+  s.extra[0] = 1;
+  fixture_run(&m, &s, &input, 0.3, FIXTURE_TOL, NULL);
+  assert_close(look(&m, &s, &input).T, 330 - (330 - 298.15) * exp(-0.3 / 0.4), 0, TOL(1e-9, 1e-5));
+  assert_close(s.T, 330, 0, TOL(1e-9, 1e-5));
+}
+
+/* The skew is the model's constant; a state shows what it holds. tests/lab/run/test_response.c has the programs. */
+static void footprint_channel_skew(void)
+{
+  const pneu_params p = with("channel_skew", -0.03);
+  assert_close(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).position_skew, -0.03, 0, TOL(1e-15, 1e-7));
+  check_at_rest(&p, 1.5e5, 0.008, 330);
+}
+
+static footprint footprints[] = {
+    {"channel_skew", "model__holds_the_skew", footprint_channel_skew},
+    {"position_bias", "at_rest__is_added", footprint_position_bias},
+    {"position_gain", "at_rest__multiplies", footprint_position_gain},
+    {"position_lag", "ramp__trails_by_the_closed_form", footprint_position_lag},
+    {"pressure_bias", "at_rest__is_added", footprint_pressure_bias},
+    {"pressure_gain", "at_rest__multiplies", footprint_pressure_gain},
+    {"pressure_lag", "ramp__trails_by_the_closed_form", footprint_pressure_lag},
+    {"temperature_lag", "steady_gas__is_approached_as_first_order", footprint_temperature_lag},
+};
+
+static void test_effects_def__each_effect_on_a_sensor__has_a_footprint_test(void **state)
+{
+  (void)state;
+  footprint_complete(footprints, COUNT(footprints), "sensor");
+}
+
+/* ---- pneu_show: the sensors alone ---- */
+
+/* Set an effect to its usual size. */
+static void switch_on(int effect, pneu_params *p)
+{
+  int i, count, first = pneu_effect_params(effect, &count);
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    *pneu_param_at(p, i) = info.value;
+  }
+}
+
+/* What pneu_show and pneu_observe say of a state is the same, to a rounding of absolute pressure.
+ * Returns: whether the sensors show something else than the truth. */
+static int show_as_observed(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  pneu_output out;
+  pneu_shown seen;
+  assert_int_equal(pneu_observe(m, s, input, &out), PNEU_OK);
+  assert_int_equal(pneu_show(m, s, input, &seen), PNEU_OK);
+  assert_close(seen.pressure, out.shown_pressure, TOL(1e-10, 0.1), 0);
+  assert_close(seen.temperature, out.shown_temperature, 0, 0);
+  assert_close(seen.position, out.shown_position, 0, 0);
+  assert_close(seen.force, m->law.position_input ? out.holding_force : 0, 0, 0);
+  return fabs((double)(out.shown_pressure - out.pressure)) > 1 || out.shown_temperature != out.temperature ||
+         out.shown_position != out.position;
+}
+
+/* In the middle of a fill, where all moves. */
+static pneu_state filling(const pneu_model *m, pneu_input *input)
+{
+  pneu_state s;
+  *input = fixture_input(m, 1);
+  if (m->law.position_input)
+    input->position_rate = (pneu_real)1e-3;
+  s = fixture_rest(m, 1.2e5, 0.002, input);
+  fixture_run(m, &s, input, 0.4, TOL(1e-8, 1e-4), NULL);
+  return s;
+}
+
+/* Alone, in every gas law, as a free stem and as a driven one. */
+static void test_pneu_show__every_effect__is_as_observed(void **state)
+{
+  int e, gas, driven;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
+    const pneu_effect *effect = pneu_effect_at(e);
+    int other = 0;
+    for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+      for (driven = 0; driven < 2; driven++) {
+        pneu_params p = fixture_params(FIXTURE_R1_400);
+        pneu_model m;
+        pneu_input input;
+        pneu_state s;
+        switch_on(e, &p);
+        m = fixture_model_roles(&p, gas, PNEU_FLOW_CHOKED, 0, driven);
+        s = filling(&m, &input);
+        check_note("%s, %s%s", effect->name, pneu_gas_key(gas), driven ? ", driven" : "");
+        other |= show_as_observed(&m, &s, &input);
+      }
+    assert_int_equal(other, !strcmp(effect->equation, "sensor") && effect->add);
+  }
+}
+
+static void test_pneu_show__no_effect__is_the_truth(void **state)
+{
+  int gas;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
+    const pneu_params p = fixture_params(FIXTURE_R1_400);
+    const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_PAPER);
+    pneu_input input;
+    pneu_state s = filling(&m, &input);
+    check_note("%s", pneu_gas_key(gas));
+    assert_int_equal(show_as_observed(&m, &s, &input), 0);
+    s.T += 50; /* says nothing where temperature is no state */
+    assert_int_equal(show_as_observed(&m, &s, &input), 0);
+  }
+}
+
+static void test_pneu_show__all_sensors_at_once__are_as_observed(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  int e, any = 0;
+  (void)state;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    if (!strcmp(pneu_effect_at(e)->equation, "sensor")) {
+      switch_on(e, &p);
+      any |= pneu_effect_at(e)->add != NULL;
+    }
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  s = filling(&m, &input);
+  assert_int_equal(show_as_observed(&m, &s, &input), any);
+}
+
+/* A free term that a sensor shows, and one that only acts. */
+static void test_pneu_show__free_terms__are_as_observed(void **state)
+{
+  static const pneu_term term[] = {
+      {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {3e3, 5e3}},
+      {PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_PRESSURE, 2, 0, (pneu_real)4e5, {(pneu_real)1e-3, (pneu_real)2e-3}},
+      {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {30, 60}}};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(term); i++) {
+    const pneu_params p = fixture_params(FIXTURE_R1_400);
+    pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    pneu_input input;
+    pneu_state s;
+    assert_int_equal(pneu_model_terms(&m, &term[i], 1), PNEU_OK);
+    s = filling(&m, &input);
+    check_note("term %d", i);
+    assert_int_equal(show_as_observed(&m, &s, &input), i < 2);
+  }
+}
+
+static int same_status(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  pneu_output out;
+  pneu_shown seen, before;
+  int status;
+  memset(&seen, 0x55, sizeof seen);
+  before = seen;
+  status = pneu_show(m, s, input, &seen);
+  assert_int_equal(status, pneu_observe(m, s, input, &out));
+  if (status != PNEU_OK)
+    assert_memory_equal(&seen, &before, sizeof seen);
+  return status;
+}
+
+/* No pressure, no temperature, no volume, or no number: refused by both, and nothing is written; with and without a
+ * sensor between. */
+static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void **state)
+{
+  static const pneu_term bias = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, 1, {3e3, 3e3}};
+  int gas, n, role;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+    for (role = 0; role < 3; role++)
+      for (n = 0; n < 2; n++) {
+        const pneu_params p = fixture_params(FIXTURE_R1_400);
+        pneu_model m = fixture_model_roles(&p, gas, PNEU_FLOW_PAPER, role == 1, role == 2);
+        const pneu_input input = fixture_input(&m, 1);
+        const pneu_state good = fixture_rest(&m, 1e5, 0.01, &input);
+        pneu_state s = good;
+        assert_int_equal(pneu_model_terms(&m, &bias, n), PNEU_OK);
+        check_note("%s, role %d, %d terms", pneu_gas_key(gas), role, n);
+        assert_int_equal(same_status(&m, &s, &input), PNEU_OK);
+        s.p = -m.p.ambient_pressure;
+        assert_int_equal(same_status(&m, &s, &input), PNEU_RETRY_STATE);
+        s.p = (pneu_real)NAN;
+        assert_int_equal(same_status(&m, &s, &input), PNEU_RETRY_STATE);
+        s = good;
+        s.T = 0;
+        assert_int_equal(same_status(&m, &s, &input), m.thermal ? PNEU_RETRY_STATE : PNEU_OK);
+        s = good;
+        s.x = -1;
+        assert_int_equal(same_status(&m, &s, &input), m.law.pressure_input ? PNEU_OK : PNEU_RETRY_STATE);
+      }
+}
+
+int main(void)
+{
+  enum { OTHERS = 7 };
+  static char names[COUNT(footprints)][100];
+  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
+      cmocka_unit_test(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test),
+      cmocka_unit_test(test_gain_and_bias__together__are_affine),
+      cmocka_unit_test(test_pneu_show__every_effect__is_as_observed),
+      cmocka_unit_test(test_pneu_show__no_effect__is_the_truth),
+      cmocka_unit_test(test_pneu_show__all_sensors_at_once__are_as_observed),
+      cmocka_unit_test(test_pneu_show__free_terms__are_as_observed),
+      cmocka_unit_test(test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe),
+  };
+  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

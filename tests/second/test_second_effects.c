@@ -1,0 +1,606 @@
+/* Each effect of the virtual rig against a closed form of its own.
+ * SPDX-License-Identifier: MIT */
+#include "../check.h"
+
+#include "cases.h"
+
+#define PI 3.14159265358979323846
+
+/* ---- mass ---- */
+
+/* A leak with both orifices shut is a blowdown through its own area. */
+static void test_leak_area__vessel_shut_and_choked__decays_exponentially(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.start_pressure = 6e5;
+  g.leak_area = 0.05e-6;
+  double rate = g.leak_area * case_choked(&g) * sqrt(case_rt(&g)) / g.dead_volume;
+  case_run(&g, 0.0, 4.0, 0.5);
+  assert_close(case_last(got.p) + g.ambient, 6e5 * exp(-rate * 4.0), 0, 1e-12);
+}
+
+/* P' = -(c R T/V)(P^2 - Pa^2): (P - Pa)/(P + Pa) decays at 2 Pa c R T/V. */
+static void test_laminar_leak__vessel_shut__follows_the_closed_form(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.start_pressure = 4e5;
+  g.laminar_leak = 2e-15;
+  double rate = 2.0 * g.ambient * g.laminar_leak * case_rt(&g) / g.dead_volume;
+  double r0 = (4e5 - g.ambient) / (4e5 + g.ambient);
+  case_run(&g, 0.0, 20.0, 1.0);
+  for (size_t i = 0; i < got.n; i++) {
+    double r = r0 * exp(-rate * got.t[i]);
+    assert_close(got.p[i] + g.ambient, g.ambient * (1.0 + r) / (1.0 - r), 0, 1e-12);
+  }
+}
+
+static void test_relief__below_and_above_its_pressure__shut_and_open(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.relief_area = 0.1e-6;
+  g.relief_from = 150e3;
+  g.relief_span = 1e3;
+  g.start_pressure = g.ambient + 149e3;
+  case_run(&g, 0.0, 10.0, 1.0);
+  assert_true(case_last(got.m) == got.m[0]);
+  g.start_pressure = g.ambient + 200e3;
+  case_run(&g, 0.0, 10.0, 1.0);
+  assert_between(case_last(got.p), 150e3, 152e3);
+}
+
+/* Into a held pressure Eq. (8) with droop reads q^2 R T/(2 (u Ca)^2) = (Ps - r q)(Ps - r q - P). */
+static void test_supply_droop__held_pressure__flow_solves_its_equation(void **state)
+{
+  (void)state;
+  second_rig g = case_held(100e3);
+  g.stroke = 0.0;
+  g.supply_droop = 1e8;
+  double Ps = g.supply + g.ambient, P = 100e3 + g.ambient;
+  double q = case_run(&g, 0.8, 1.0, 1.0).mass_in, s = q / (0.8 * g.fill_area), P1 = Ps - 1e8 * q;
+  assert_true(1e8 * q > 0.1 * Ps); /* it does droop */
+  assert_close(s * s * 0.5 * case_rt(&g), P1 * (P1 - P), 0, 1e-7);
+}
+
+/* q^2 R T/(2 Ca^2) = P (P - Pa - r q). */
+static void test_back_pressure__held_pressure__flow_solves_its_equation(void **state)
+{
+  (void)state;
+  second_rig g = case_held(100e3);
+  g.stroke = 0.0;
+  g.back_pressure = 2e8;
+  double q = case_run(&g, -1.0, 1.0, 1.0).mass_out, s = q / g.vent_area;
+  assert_true(2e8 * q > 0.1 * 100e3);
+  assert_close(s * s * 0.5 * case_rt(&g), (100e3 + g.ambient) * (100e3 - 2e8 * q), 0, 1e-7);
+}
+
+static void test_vent_area__smaller_than_fill_area__scales_the_outflow_only(void **state)
+{
+  (void)state;
+  second_rig g = case_held(100e3);
+  g.stroke = 0.0;
+  double in = case_run(&g, 1.0, 1.0, 1.0).mass_in, out = case_run(&g, -1.0, 1.0, 1.0).mass_out;
+  g.vent_area *= 0.4;
+  assert_close(case_run(&g, 1.0, 1.0, 1.0).mass_in, in, 0, 1e-12);
+  assert_close(case_run(&g, -1.0, 1.0, 1.0).mass_out, 0.4 * out, 0, 1e-10);
+}
+
+/* Constant choked flow q into a tube, a linear restriction, a vessel:
+ * P = P0 + q/(C1 + C2) (t - T (1 - exp(-t/T))), Ci = Vi/(R Ta), T = r C1 C2/(C1 + C2). */
+static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.tube_volume = 2e-4;
+  g.tube_resistance = 5e7;
+  double c1 = g.tube_volume / case_rt(&g), c2 = g.dead_volume / case_rt(&g), lag = 5e7 * c1 * c2 / (c1 + c2);
+  double q = 0.2 * g.fill_area * case_choked(&g) * (g.supply + g.ambient) / sqrt(case_rt(&g));
+  case_run(&g, 0.2, 1.0, 0.05);
+  for (size_t i = 0; i < got.n; i++) {
+    double t = got.t[i];
+    assert_close(got.p[i], q / (c1 + c2) * (t - lag * (1.0 - exp(-t / lag))), 1e-6, 1e-11);
+  }
+}
+
+/* A tiny vessel behind a large orifice follows the supply. */
+static void test_pulsation__tiny_vessel__follows_the_supply(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
+  g.dead_volume = 1e-5;
+  g.pulsation = 5e3;
+  g.pulsation_rate = 2.0;
+  case_run(&g, 1.0, 3.0, 0.01);
+  for (size_t i = 150; i < got.n; i++)
+    assert_close(got.p[i], g.supply + 5e3 * sin(2.0 * PI * 2.0 * got.t[i]), 300, 0);
+}
+
+/* ---- energy ---- */
+
+/* (T - Ta) decays at hA/(m cv); hot air sealed in. */
+static void test_heat__sealed_hot_air__cools_exponentially(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
+  g.heat = 0.8;
+  g.start_temperature = 400.0;
+  case_run(&g, 0.0, 3.0, 0.1);
+  double rate = 0.8 / (got.m[0] * g.gas_constant / (g.gamma - 1.0));
+  for (size_t i = 0; i < got.n; i++)
+    assert_close(got.T[i] - g.ambient_temperature, (400.0 - g.ambient_temperature) * exp(-rate * got.t[i]), 1e-9, 0);
+}
+
+/* d' = -a d^(4/3): d^(-1/3) grows by a/3 a second. */
+static void test_heat_natural__sealed_hot_air__follows_the_closed_form(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
+  g.heat_natural = 0.2;
+  g.start_temperature = 400.0;
+  case_run(&g, 0.0, 3.0, 0.1);
+  double a = 0.2 / (got.m[0] * g.gas_constant / (g.gamma - 1.0)), d0 = 400.0 - g.ambient_temperature;
+  for (size_t i = 0; i < got.n; i++)
+    assert_close(got.T[i] - g.ambient_temperature, pow(1.0 / cbrt(d0) + a * got.t[i] / 3.0, -3.0), 1e-9, 0);
+}
+
+/* Air and wall, insulated from the rest, meet at the common mean. */
+static void test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
+  g.heat = 1.0;
+  g.wall_capacity = 5.0;
+  g.start_temperature = 400.0;
+  case_run(&g, 0.0, 20.0, 1.0);
+  double c = got.m[0] * g.gas_constant / (g.gamma - 1.0);
+  assert_close(case_last(got.T), (c * 400.0 + 5.0 * g.ambient_temperature) / (c + 5.0), 1e-8, 0);
+}
+
+static void test_heat__very_large__is_the_isothermal_chamber(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  case_run(&g, 1.0, 1.0, 0.5);
+  double want = case_last(got.p);
+  g.gas = SECOND_ENERGY;
+  g.heat = 5e3;
+  case_run(&g, 1.0, 1.0, 0.5);
+  assert_close(case_last(got.p), want, 0, 2e-4);
+}
+
+/* ---- command ---- */
+
+/* Into a held pressure the mass is the integral of the opening, t - T (1 - exp(-t/T)). */
+static void test_transducer_lag__step__opening_rises_as_first_order(void **state)
+{
+  (void)state;
+  second_rig g = case_held(0.0);
+  g.stroke = 0.0;
+  g.transducer_lag = 0.1;
+  double t = 0.25, in = case_run(&g, 1.0, t, t).mass_in;
+  g.transducer_lag = 0.0;
+  double full = case_run(&g, 1.0, 1.0, 1.0).mass_in;
+  assert_close(in / full, t - 0.1 * (1.0 - exp(-t / 0.1)), 0, 1e-8);
+}
+
+static void test_dead_time__step__flow_starts_late_and_the_log_shows_the_command(void **state)
+{
+  (void)state;
+  static const double at[] = {0.1}, to[] = {1.0};
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.dead_time = 0.033;
+  case_schedule(&g, at, to, 1, 0.2, 0.001);
+  assert_true(got.u[99] == 0.0 && got.u[100] == 1.0);
+  assert_true(got.m[133] == got.m[0] && got.m[134] > got.m[0]);
+}
+
+/* ---- force ---- */
+
+/* Below break-away, F (1 + s), the stem stays; above, it goes. */
+static void test_stribeck__push_around_the_break_away__stays_or_goes(void **state)
+{
+  (void)state;
+  for (int go = 0; go < 2; go++) {
+    second_rig g = case_held((go ? 721.0 : 719.0) / 0.04);
+    g.dry_friction = 480.0;
+    g.stribeck = 0.5;
+    g.stribeck_velocity = 1e-3;
+    case_run(&g, 0.0, 0.5, 0.1);
+    assert_int_equal(case_last(got.x) > 0.0, go);
+  }
+}
+
+/* Far above vs it is Coulomb again: M v'= p A - F. */
+static void test_stribeck__fast_slide__is_coulomb_friction(void **state)
+{
+  (void)state;
+  second_rig g = case_held(0.0);
+  g.dry_friction = 480.0;
+  g.stribeck = 0.5;
+  g.stribeck_velocity = 1e-3;
+  g.start_velocity = 5.0;
+  case_run(&g, 0.0, 0.02, 0.01);
+  assert_close(case_last(got.v), 5.0 - 240.0 * 0.02, 1e-7, 0);
+}
+
+/* Presliding by dz/dt = v - s0 |v| z/F: a load f < F is carried at x = -(F/s0) ln(1 - f/F). */
+static void test_bristle__load_below_friction__creeps_to_the_presliding_distance(void **state)
+{
+  (void)state;
+  second_rig g = case_held(240.0 / 0.04);
+  g.dry_friction = 480.0;
+  g.bristle_rate = 1e6;
+  g.bristle_damping = 1e3;
+  g.viscous = 1e4;
+  g.start_position = 0.3;
+  case_run(&g, 0.0, 0.5, 0.1);
+  assert_close(case_last(got.x) - 0.3, 480.0 / 1e6 * log(2.0), 1e-9, 0);
+}
+
+/* Sliding at a steady velocity it is F: v = (f - F)/c. */
+static void test_bristle__steady_slide__is_coulomb_friction(void **state)
+{
+  (void)state;
+  second_rig g = case_held(600.0 / 0.04);
+  g.dry_friction = 480.0;
+  g.viscous = 1000.0;
+  g.bristle_rate = 1e6;
+  g.start_position = 0.1;
+  case_run(&g, 0.0, 1.0, 0.5);
+  assert_close(case_last(got.v), 0.12, 1e-9, 0);
+}
+
+/* Where a slide from x = 0 at v0 ends: the work of friction equals M v0^2/2. */
+static double slide_end(const second_rig *g)
+{
+  second_audit a = case_run(g, 0.0, 1.0, 0.5);
+  assert_true(case_last(got.v) == 0.0);
+  double push = (g->start_pressure - g->ambient) * g->area * case_last(got.x);
+  assert_close(a.dry, 0.5 * g->mass * g->start_velocity * g->start_velocity + push, 0, 1e-7);
+  return case_last(got.x);
+}
+
+static void test_friction_position__slide__work_is_the_integral(void **state)
+{
+  (void)state;
+  second_rig g = case_held(0.0);
+  g.dry_friction = 480.0;
+  g.friction_position = 2.0;
+  g.start_velocity = 8.0;
+  double x = slide_end(&g);
+  assert_close(480.0 * (x + x * x), 64.0, 0, 1e-6);
+}
+
+static void test_friction_pressure__slide__adds_in_proportion(void **state)
+{
+  (void)state;
+  second_rig g = case_held(5e3); /* pushes by 200 N, adds 400 N */
+  g.dry_friction = 480.0;
+  g.friction_pressure = 0.08;
+  g.start_velocity = 8.0;
+  assert_close(slide_end(&g), 64.0 / 680.0, 0, 1e-6);
+}
+
+static void test_bump__slide_across_it__takes_its_area(void **state)
+{
+  (void)state;
+  second_rig g = case_held(0.0);
+  g.dry_friction = 480.0;
+  g.bump = 300.0;
+  g.bump_at = 0.05;
+  g.bump_width = 0.005;
+  g.start_velocity = 8.0;
+  double area = 300.0 * 0.005 * sqrt(PI); /* its tails are whole within the slide */
+  assert_close(slide_end(&g), (64.0 - area) / 480.0, 0, 1e-6);
+}
+
+/* p A = k x + k3 x^3 */
+static void test_spring_cubic__held_pressure__balances(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(500e3);
+  g.spring_cubic = 4e6;
+  case_run(&g, 0.0, 2.0, 1.0);
+  double x = case_last(got.x);
+  assert_close(1e5 * x + 4e6 * x * x * x, 500e3 * 0.04, 0, 1e-8);
+}
+
+/* On the way up the loop's force is H (1 - exp(-x/l)). */
+static void test_hysteresis__held_pressure__balances_on_the_loading_branch(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(100e3);
+  g.hysteresis = 400.0;
+  g.hysteresis_length = 0.02;
+  case_run(&g, 0.0, 2.0, 1.0);
+  double x = case_last(got.x);
+  assert_close(1e5 * x + 400.0 * (1.0 - exp(-x / 0.02)), 100e3 * 0.04, 0, 1e-8);
+}
+
+/* p A (1 - a x/stroke) = k x, and the volume swept is A (x - a x^2/(2 stroke)). */
+static void test_area_slope__held_pressure__force_and_volume_agree(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(500e3);
+  g.area_slope = 0.2;
+  second_audit a = case_run(&g, 0.0, 2.0, 1.0);
+  double x = 500e3 * 0.04 / (1e5 + 500e3 * 0.04 * 0.2);
+  assert_close(case_last(got.x), x, 0, 1e-8);
+  assert_close(a.volume_end - a.volume_start, 0.04 * (x - 0.1 * x * x), 1e-6, 0);
+}
+
+static void test_travel_limit__large_push__stops_there(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(500e3);
+  g.travel_limit = 0.123;
+  case_run(&g, 0.0, 2.0, 1.0);
+  assert_true(case_last(got.x) == 0.123);
+}
+
+/* k x + ks (x - limit) = p A */
+static void test_upper_rate__large_push__yields_elastically(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(500e3);
+  g.travel_limit = 0.1;
+  g.upper_rate = 1e6;
+  g.stop_damping = 100.0;
+  case_run(&g, 0.0, 2.0, 1.0);
+  assert_close(case_last(got.x), (500e3 * 0.04 + 1e6 * 0.1) / (1e5 + 1e6), 0, 1e-8);
+}
+
+static void test_lower_rate__preload__rests_below_zero(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(0.0);
+  g.spring_preload = 0.01;
+  g.lower_rate = 1e7;
+  case_run(&g, 0.0, 1.0, 0.5);
+  assert_close(case_last(got.x), -1e5 * 0.01 / (1e5 + 1e7), 1e-12, 0);
+}
+
+/* Amplitude of a forced, damped mass on a spring. */
+static void test_force__periodic__swings_by_the_transfer_function(void **state)
+{
+  (void)state;
+  second_rig g = case_balance(500e3); /* about x = 0.2 m */
+  g.force = 500.0;
+  g.force_rate = 5.0;
+  g.viscous = 800.0;
+  case_run(&g, 0.0, 2.0, 0.001);
+  double w = 2.0 * PI * 5.0, re = 1e5 - g.mass * w * w, im = 800.0 * w, gain = 500.0 / (re * re + im * im);
+  for (size_t i = 1500; i < got.n; i++) {
+    double a = w * got.t[i];
+    assert_close(got.x[i], 0.2 - gain * (re * sin(a) - im * cos(a)), 1e-8, 0);
+  }
+}
+
+/* ---- measuring chain ---- */
+
+static void test_bias_and_gain__measured__are_affine(void **state)
+{
+  (void)state;
+  static double p[CASE_SAMPLES], x[CASE_SAMPLES];
+  second_rig g = second_rig_default_r1_400();
+  case_run(&g, 1.0, 2.0, 0.01);
+  memcpy(p, got.p, sizeof p);
+  memcpy(x, got.x, sizeof x);
+  g.pressure_bias = 1500.0;
+  g.pressure_gain = 0.02;
+  g.position_bias = -1e-4;
+  g.position_gain = -0.01;
+  case_run(&g, 1.0, 2.0, 0.01);
+  for (size_t i = 0; i < got.n; i++) {
+    assert_close(got.p[i], 1.02 * p[i] + 1500.0, 1e-9, 1e-14);
+    assert_close(got.x[i], 0.99 * x[i] - 1e-4, 1e-16, 1e-14);
+  }
+}
+
+/* A first-order sensor on a ramp trails by rate times lag. Constant choked flow makes the pressure a ramp. */
+static void test_pressure_lag__ramp__trails_by_rate_times_lag(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.pressure_lag = 0.02;
+  double q = g.fill_area * case_choked(&g) * (g.supply + g.ambient) / sqrt(case_rt(&g));
+  double rate = q * case_rt(&g) / g.dead_volume;
+  case_run(&g, 1.0, 0.6, 0.1);
+  for (size_t i = 0; i < got.n; i++) {
+    double t = got.t[i];
+    assert_close(got.p[i], rate * (t - 0.02 * (1.0 - exp(-t / 0.02))), 1e-6, 1e-8);
+  }
+}
+
+static void test_position_lag__uniform_motion__trails_by_velocity_times_lag(void **state)
+{
+  (void)state;
+  second_rig g = case_held(0.0);
+  g.position_lag = 0.02;
+  g.start_velocity = 0.5;
+  case_run(&g, 0.0, 0.6, 0.1);
+  for (size_t i = 0; i < got.n; i++) {
+    double t = got.t[i];
+    assert_close(got.x[i], 0.5 * (t - 0.02 * (1.0 - exp(-t / 0.02))), 1e-8, 0);
+  }
+}
+
+/* Two first-order lags in series: air cooling at rate a, read with rate b. */
+static void test_temperature_lag__sealed_hot_air__is_two_lags_in_series(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
+  g.heat = 0.8;
+  g.temperature_lag = 0.2;
+  g.start_temperature = 400.0;
+  case_run(&g, 0.0, 3.0, 0.1);
+  double a = 0.8 / (got.m[0] * g.gas_constant / (g.gamma - 1.0)), b = 5.0, d = 400.0 - g.ambient_temperature;
+  for (size_t i = 0; i < got.n; i++) {
+    double t = got.t[i], want = d * (b * exp(-a * t) - a * exp(-b * t)) / (b - a);
+    assert_close(got.T[i] - g.ambient_temperature, want, 1e-8, 0);
+  }
+}
+
+/* Late by 3 samples, the position channel is the true one of 3 rows before; early, of 3 rows after. */
+static void test_position_skew__uniform_motion__shifts_that_channel_only(void **state)
+{
+  (void)state;
+  for (int late = 0; late < 2; late++) {
+    second_rig g = case_held(0.0);
+    g.start_velocity = 0.5;
+    g.position_skew = late ? 0.0123 : -0.0123;
+    case_run(&g, 0.0, 0.5, 0.01);
+    for (size_t i = 2; i < got.n; i++)
+      assert_close(got.x[i], 0.5 * (got.t[i] - g.position_skew), 1e-9, 0);
+  }
+}
+
+static void mean_and_deviation(const double *y, double *mean, double *deviation)
+{
+  double s = 0.0, q = 0.0;
+  for (size_t i = 0; i < got.n; i++)
+    s += y[i];
+  *mean = s / (double)got.n;
+  for (size_t i = 0; i < got.n; i++)
+    q += (y[i] - *mean) * (y[i] - *mean);
+  *deviation = sqrt(q / (double)(got.n - 1));
+}
+
+/* 4,001 draws: the mean is known to 1.6 %, the deviation to 1.1 % of it; four of those allowed. */
+static void test_noise__many_samples__has_the_given_deviation_and_no_bias(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.pressure_noise = 320.0;
+  g.position_noise = 2e-5;
+  g.temperature_noise = 0.1;
+  double mean, deviation;
+  case_run(&g, 0.0, 4.0, 0.001);
+  mean_and_deviation(got.p, &mean, &deviation);
+  assert_close(mean, 0.0, 0.065 * 320.0, 0);
+  assert_close(deviation, 320.0, 0, 0.045);
+  mean_and_deviation(got.x, &mean, &deviation);
+  assert_close(mean, 0.0, 0.065 * 2e-5, 0);
+  assert_close(deviation, 2e-5, 0, 0.045);
+  mean_and_deviation(got.T, &mean, &deviation);
+  assert_close(mean, g.ambient_temperature, 0.065 * 0.1, 0);
+  assert_close(deviation, 0.1, 0, 0.045);
+}
+
+static void test_noise__channels_and_seeds__are_independent(void **state)
+{
+  (void)state;
+  static double first[CASE_SAMPLES];
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.pressure_noise = g.position_noise = 1.0;
+  case_run(&g, 0.0, 4.0, 0.001);
+  memcpy(first, got.p, sizeof first);
+  double same = 0.0, other = 0.0, next = 0.0;
+  for (size_t i = 0; i < got.n; i++)
+    same += got.p[i] * got.x[i];
+  for (size_t i = 1; i < got.n; i++)
+    next += got.p[i] * got.p[i - 1];
+  g.seed = 1;
+  case_run(&g, 0.0, 4.0, 0.001);
+  for (size_t i = 0; i < got.n; i++)
+    other += got.p[i] * first[i];
+  assert_close(same / (double)got.n, 0.0, 0.065, 0);
+  assert_close(next / (double)got.n, 0.0, 0.065, 0);
+  assert_close(other / (double)got.n, 0.0, 0.065, 0);
+}
+
+static void test_range__quantised__every_value_is_a_code(void **state)
+{
+  (void)state;
+  second_rig g = second_rig_default_r1_400();
+  g.pressure_range = 1e6;
+  g.position_range = 0.05;
+  case_run(&g, 1.0, 2.0, 0.001);
+  for (size_t i = 0; i < got.n; i++) {
+    double p = got.p[i] / (1e6 / 16384.0), x = got.x[i] / (0.05 / 16384.0);
+    assert_close(p, floor(p + 0.5), 1e-9, 0);
+    assert_close(x, floor(x + 0.5), 1e-9, 0);
+  }
+}
+
+/* ---- together ---- */
+
+static const double at[] = {0.1, 1.5, 2.5, 3.0, 4.0}, to[] = {1.0, -0.5, 0.0, 0.8, -1.0};
+
+/* Everything at once: the audits still close, and the run is worth its name. */
+static void test_second_run__all_effects_at_once__audits_close(void **state)
+{
+  (void)state;
+  second_rig g = second_rig_default_r1_400();
+  g.gas = SECOND_ENERGY;
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.leak_area = 1e-8;
+  g.laminar_leak = 1e-16;
+  g.relief_area = 1e-8, g.relief_from = 2e5, g.relief_span = 1e3;
+  g.heat = 2.0, g.heat_natural = 0.1, g.wall_capacity = 50.0, g.wall_loss = 1.0;
+  g.supply_droop = 1e7, g.back_pressure = 5e6, g.pulsation = 2e3, g.pulsation_rate = 3.0;
+  g.tube_volume = 2e-5, g.tube_resistance = 1e7;
+  g.transducer_lag = 0.02, g.dead_time = 0.013;
+  g.stribeck = 0.2, g.stribeck_velocity = 5e-3;
+  g.friction_position = 0.2, g.friction_pressure = 1e-4;
+  g.bump = 200.0, g.bump_at = 0.012, g.bump_width = 1e-3;
+  g.spring_cubic = 1e7, g.hysteresis = 100.0, g.hysteresis_length = 2e-3;
+  g.area_slope = 0.1, g.travel_limit = 0.019, g.upper_rate = 1e7, g.stop_damping = 1e3;
+  g.force = 20.0, g.force_rate = 2.0;
+  second_audit a = case_schedule(&g, at, to, 5, 6.0, 0.01);
+  double turnover = a.enthalpy_in + a.enthalpy_out, work = a.gas_work - g.ambient * (a.volume_end - a.volume_start);
+  assert_true(a.mass_in > 1e-3 && a.mass_out > 1e-3 && a.dry > 5.0);
+  assert_close(a.mass_end - a.mass_start, a.mass_in - a.mass_out, 1e-12 * a.mass_in, 0);
+  assert_close(a.energy_end - a.energy_start, a.enthalpy_in - a.enthalpy_out + a.heat - a.gas_work, 1e-10 * turnover,
+               0);
+  double taken =
+      a.kinetic_end - a.kinetic_start + a.spring_end - a.spring_start + a.dry + a.viscous + a.impact + a.other;
+  assert_close(work, taken, 1e-5 * a.dry, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_leak_area__vessel_shut_and_choked__decays_exponentially),
+      cmocka_unit_test(test_laminar_leak__vessel_shut__follows_the_closed_form),
+      cmocka_unit_test(test_relief__below_and_above_its_pressure__shut_and_open),
+      cmocka_unit_test(test_supply_droop__held_pressure__flow_solves_its_equation),
+      cmocka_unit_test(test_back_pressure__held_pressure__flow_solves_its_equation),
+      cmocka_unit_test(test_vent_area__smaller_than_fill_area__scales_the_outflow_only),
+      cmocka_unit_test(test_tube__constant_inflow__chamber_lags_by_the_closed_form),
+      cmocka_unit_test(test_pulsation__tiny_vessel__follows_the_supply),
+      cmocka_unit_test(test_heat__sealed_hot_air__cools_exponentially),
+      cmocka_unit_test(test_heat_natural__sealed_hot_air__follows_the_closed_form),
+      cmocka_unit_test(test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean),
+      cmocka_unit_test(test_heat__very_large__is_the_isothermal_chamber),
+      cmocka_unit_test(test_transducer_lag__step__opening_rises_as_first_order),
+      cmocka_unit_test(test_dead_time__step__flow_starts_late_and_the_log_shows_the_command),
+      cmocka_unit_test(test_stribeck__push_around_the_break_away__stays_or_goes),
+      cmocka_unit_test(test_stribeck__fast_slide__is_coulomb_friction),
+      cmocka_unit_test(test_bristle__load_below_friction__creeps_to_the_presliding_distance),
+      cmocka_unit_test(test_bristle__steady_slide__is_coulomb_friction),
+      cmocka_unit_test(test_friction_position__slide__work_is_the_integral),
+      cmocka_unit_test(test_friction_pressure__slide__adds_in_proportion),
+      cmocka_unit_test(test_bump__slide_across_it__takes_its_area),
+      cmocka_unit_test(test_spring_cubic__held_pressure__balances),
+      cmocka_unit_test(test_hysteresis__held_pressure__balances_on_the_loading_branch),
+      cmocka_unit_test(test_area_slope__held_pressure__force_and_volume_agree),
+      cmocka_unit_test(test_travel_limit__large_push__stops_there),
+      cmocka_unit_test(test_upper_rate__large_push__yields_elastically),
+      cmocka_unit_test(test_lower_rate__preload__rests_below_zero),
+      cmocka_unit_test(test_force__periodic__swings_by_the_transfer_function),
+      cmocka_unit_test(test_bias_and_gain__measured__are_affine),
+      cmocka_unit_test(test_pressure_lag__ramp__trails_by_rate_times_lag),
+      cmocka_unit_test(test_position_lag__uniform_motion__trails_by_velocity_times_lag),
+      cmocka_unit_test(test_temperature_lag__sealed_hot_air__is_two_lags_in_series),
+      cmocka_unit_test(test_position_skew__uniform_motion__shifts_that_channel_only),
+      cmocka_unit_test(test_noise__many_samples__has_the_given_deviation_and_no_bias),
+      cmocka_unit_test(test_noise__channels_and_seeds__are_independent),
+      cmocka_unit_test(test_range__quantised__every_value_is_a_code),
+      cmocka_unit_test(test_second_run__all_effects_at_once__audits_close),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+/* apps/study/report: REPORT.md from tables made up here */
+#include "../scratch.h"
+
+#include "../../apps/study/products.h"
+
+static lab_error error;
+
+/* Tables of no interest here. */
+static const char *const empty[][2] = {
+    {"paper_numbers.csv", "item,quantity,unit,printed,computed,agrees,note,kind,cause,statement,severity,counted\n"},
+    {"eq1.csv", "actuator,gas,flow,stroke,lag_T_s,lag_rms,ramp_T_s,ramp_rms,shape\n"},
+    {"hypotheses_thresholds.csv", "actuator,hypothesis,gas,flow,share_left,share_left_signed,share_alone,"
+                                  "share_alone_signed,depends_on_threshold\n"},
+    {"directions.csv", "actuator,gas,flow,what,down_over_up,duration_ratio,asymmetry,asymmetry_signed\n"},
+    {"influence.csv", "actuator,hypothesis,gas,flow,asymmetry_min,asymmetry_max\n"},
+    {"conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"},
+    {"conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,depends_on\n"},
+    {"agreement.csv", "actuator,gas,flow,position_gap_over_stroke,pressure_gap_over_supply,mass_gap,energy_gap\n"}};
+
+static study *made_up(void)
+{
+  static study s;
+  memset(&s, 0, sizeof s);
+  snprintf(s.results, sizeof s.results, "%s", scratch_folder);
+  s.n_actuators = 2;
+  s.n_printed = 1;
+  strcpy(s.actuator[0].name, "one");
+  strcpy(s.actuator[1].name, "one-bench");
+  s.confirmed_below = 0.1;
+  return &s;
+}
+
+/* The report where one table has rows, and the others none, to be freed. */
+static char *report_with(const char *name, const char *text)
+{
+  size_t i;
+  for (i = 0; i < sizeof empty / sizeof *empty; i++)
+    if (!scratch_exists(scratch_path(empty[i][0])))
+      scratch_text(empty[i][0], empty[i][1]);
+  scratch_text(name, text);
+  if (report_make(made_up(), &error))
+    fail_msg("%s", error.text);
+  return scratch_read(scratch_path("REPORT.md"));
+}
+
+static const char *const numbers =
+    "item,quantity,unit,printed,computed,agrees,note,kind,cause,statement,severity,counted\n"
+    "a1,q,1,5,5,yes,n,,,Eq. 1,,yes\n"
+    "a2,q,1,5,6,no,n,data,a slip,Eq. 1,number,yes\n"
+    "b,q,1,,2,rounding,n,,,Eq. 2,,yes\n"
+    "b2,q,1,,2,yes,n,,,Eq. 2,,yes\n"
+    "c,q,1,7,8,no,n,data,a slip,Eq. 3,number,yes\n"
+    "d,q,1,7,9,no,n,data,a slip,Eq. 3,number,yes\n"
+    "e,q,1,3,4,no,n,,,,,no\n"
+    "f,q,1,,1,no,n,modelling,a gap,Eq. 4,conclusion,yes\n"
+    "g,q,1,,1,no,n,arithmetic,a sign,Eq. 5,form,yes\n";
+
+/* Eq. 1 disagrees in one of its rows, 7 is printed once and tried twice, e is an aside. */
+static void test_report__rows_of_one_statement__counted_once(void **state)
+{
+  char *text = report_with("paper_numbers.csv", numbers);
+  (void)state;
+  assert_contains(text, "Of 5 ");
+  assert_contains(text, " 1 are ");
+  assert_contains(text, "\n\n4 are not, 2 numbers");
+  free(text);
+}
+
+static void test_report__three_causes__each_once_the_graver_first(void **state)
+{
+  char *text = report_with("paper_numbers.csv", numbers);
+  (void)state;
+  assert_contains(text, "|\n| a conclusion | a gap | modelling | Eq. 4 | |\n"
+                        "| a number | a slip | data | Eq. 1; Eq. 3 | 5, 6 |\n\n"
+                        "Matters of form: a sign.\n");
+  free(text);
+}
+
+static void test_report__laws_that_differ__counted_and_marked(void **state)
+{
+  char *text;
+  (void)state;
+  scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
+                                            "1,one,printed,isothermal,paper,1,,1,holds,e\n"
+                                            "1,one,printed,isothermal,choked,1,,1,contradicted,e\n"
+                                            "1,one-bench,bench,isothermal,paper,1,,1,contradicted,e\n"
+                                            "2,one,printed,isothermal,paper,1,,1,holds when it rains,e\n"
+                                            "2,one,printed,isothermal,choked,1,,1,holds when it snows,e\n");
+  text = report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
+                                                   "depends_on\n"
+                                                   "1,printed,isothermal,paper,holds,,,,,,set\n"
+                                                   "1,printed,isothermal,choked,contradicted,,,,,,\"threshold, set\"\n"
+                                                   "2,printed,isothermal,paper,holds when,,,,,,\n");
+  assert_contains(text, "| the paper concludes | one | depends on | remark |");
+  assert_contains(text, "| holds (1 of 2), contradicted (1 of 2) | threshold, set |");
+  assert_contains(text, "| holds when | |");
+  free(text);
+}
+
+/* 20 % is left in one law, 5 % in the other: two verdicts; the other actuator is the same in both. */
+static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
+{
+  char *text = report_with("hypotheses_thresholds.csv", "actuator,hypothesis,gas,flow,share_left,share_left_signed,"
+                                                        "share_alone,share_alone_signed,depends_on_threshold\n"
+                                                        "one,H2,a,b,0.2,0.2,,,yes\none,H2,a,c,0.05,-0.05,,,no\n"
+                                                        "one-bench,H2,a,b,1.5,1.5,,,no\n");
+  (void)state;
+  assert_contains(text, "| H2 preload of the spring | not confirmed | -5..20 %: differs by law † | 150 %: not "
+                        "confirmed |");
+  free(text);
+}
+
+static void test_report__no_table__data_error(void **state)
+{
+  (void)state;
+  remove(scratch_path("conclusions_thresholds.csv"));
+  assert_int_equal(report_make(made_up(), &error), LAB_DATA);
+  assert_contains(error.text, "conclusions_thresholds.csv");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_report__rows_of_one_statement__counted_once),
+      cmocka_unit_test(test_report__three_causes__each_once_the_graver_first),
+      cmocka_unit_test(test_report__laws_that_differ__counted_and_marked),
+      cmocka_unit_test(test_report__hypothesis_that_differs_by_law__is_marked),
+      cmocka_unit_test(test_report__no_table__data_error),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
