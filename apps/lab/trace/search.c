@@ -256,13 +256,12 @@ static int holds_instants_alone(const lab_nuisance *h)
 static int rank_unfolded(search *s, lab_error *error)
 {
   const int n = s->n_pool < lab_count(LAB_UNFOLDED) ? s->n_pool : lab_count(LAB_UNFOLDED);
-  const double reach = n > 0 ? lab_constant(LAB_RIVAL) * s->pool[0].quality.chi2 : 0;
   lab_candidate *whole = &s->whole, *best = &s->unfolded;
   int i;
   best->quality.fitted = 0;
   for (i = 0; holds_instants_alone(&s->nuisance) && i < n; i++) {
-    if (s->pool[i].quality.chi2 > reach || lab_cpu_is_spent(s->declared.u.until))
-      continue;
+    if (lab_cpu_is_spent(s->declared.u.until))
+      break;
     *whole = s->pool[i];
     if (lab_nuisance_return(&whole->u, error))
       return error->status;
