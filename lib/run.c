@@ -10,7 +10,6 @@ enum { EVENTS_AT_ONE_TIME = 16 };
 #define PNEU_COARSE_TOL PNEU_C(1e-3)
 #define PNEU_HELD_TOL   PNEU_C(1e-2)
 #define PNEU_AIM        PNEU_C(0.6) /* share of it that the next part aims at, lest every other be refused */
-#define PNEU_POWER      (PNEU_C(1.0) / PNEU_ORDER) /* of the tolerance, that a step's length goes with */
 
 /* One run in progress. */
 typedef struct run {
@@ -41,6 +40,13 @@ static void pass_time(run *r, pneu_real h)
   r->t = t;
 }
 
+/* A step's length goes with the tolerance by this root, of the method's order; square roots cost a processor without a
+ * power less. */
+static pneu_real root(pneu_real ratio)
+{
+  return PNEU_ORDER == 4 ? PNEU_M(sqrt)(PNEU_M(sqrt)(ratio)) : PNEU_M(pow)(ratio, PNEU_C(1.0) / PNEU_ORDER);
+}
+
 /* First step in a mode: with mu the rate at which the slope changes along the solution,
  * |J f|/|f|, the local error is about |f| mu^4 h^5 / 1000, in units of full scale; of order 4, |f| mu^3 h^4 / 100.
  * And no longer than the slope needs for the full scale, which a choked flow, whose slope does not change, would leave
@@ -62,8 +68,8 @@ static pneu_real first_step(const run *r)
   if (!(f > 0))
     return left_of(r);
   mu = jf / f + PNEU_EPS;
-  h = PNEU_ORDER == 4 ? PNEU_M(pow)(100 * r->options->tol / (f * mu * mu * mu), PNEU_POWER)
-                      : PNEU_M(pow)(1000 * r->options->tol / (f * mu * mu * mu * mu), PNEU_POWER);
+  h = PNEU_ORDER == 4 ? root(100 * r->options->tol / (f * mu * mu * mu))
+                      : root(1000 * r->options->tol / (f * mu * mu * mu * mu));
   return PNEU_M(fmin)(h, 1 / f);
 }
 
@@ -137,11 +143,12 @@ static int leaps(const pneu_model *model, const pneu_state *state, const pneu_in
   return 0;
 }
 
-/* Growth of the step that its error allows: a tenth at least and sixfold at most, about. */
+/* Growth of the step that its error allows: a tenth at least, also where the error is no number, and sixfold at most,
+ * about. */
 static pneu_real growth(pneu_real tol, pneu_real error)
 {
-  const pneu_real most = PNEU_C(1e5) * tol, bounded = error < most ? error : most; /* no number: most */
-  return PNEU_C(0.9) * PNEU_M(pow)(tol / clip(bounded, PNEU_C(1e-4) * tol, most), PNEU_POWER);
+  const pneu_real least = PNEU_C(1e-4) * tol;
+  return PNEU_C(0.9) * root(error < PNEU_C(1e5) * tol ? tol / (error > least ? error : least) : PNEU_C(1e-5));
 }
 
 /* Growth of the step by the error of this one, and by the trend since the last where that asks for
@@ -153,7 +160,7 @@ static pneu_real next_factor(const run *r, pneu_real h, pneu_real error)
   if (!(r->h_before > 0))
     return factor;
   error = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
-  trend = factor * h / r->h_before * PNEU_M(pow)(r->error_before / error, PNEU_POWER);
+  trend = factor * h / r->h_before * root(r->error_before / error);
   return PNEU_M(fmin)(factor, trend);
 }
 
@@ -224,7 +231,7 @@ static int advance(run *r)
       return status;
     if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, r->input, PNEU_BLEND, w)) {
       factor = status == PNEU_OK && error > tol && error < PNEU_C(1e30)
-                   ? clip(PNEU_C(0.9) * PNEU_M(pow)(tol / error, PNEU_POWER), PNEU_C(0.1), PNEU_C(0.8))
+                   ? clip(PNEU_C(0.9) * root(tol / error), PNEU_C(0.1), PNEU_C(0.8))
                    : PNEU_C(0.2);
       r->h = h * factor;
       w->stats.rejected++;
@@ -334,22 +341,18 @@ static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_inp
   int status = pneu_step_try(model, now, input, p->h, work, &p->error);
   if (status == PNEU_OK && !(p->error <= tol))
     return PNEU_RETRY_STATE;
-  if (status == PNEU_OK && leaps(model, now, input, PNEU_BLEND + tol, work))
-    status = PNEU_RETRY_STATE;
-  if (status == PNEU_OK)
+  if (status == PNEU_OK && !leaps(model, now, input, PNEU_BLEND + tol, work)) {
     status = pneu_locate(model, now, input, work, &p->h, &p->which, &p->error);
-  if (status == PNEU_OK) {
     pneu_unpack(model, work->y1, &next);
     if (!model->law.position_input)
       next.x = clip(next.x, model->lower_stop, model->upper_stop);
-    if (p->error <= tol && is_sound(model, &next)) {
+    if (status == PNEU_OK && p->error <= tol && is_sound(model, &next)) {
       *now = next;
       return PNEU_OK;
     }
-    status = PNEU_RETRY_STATE;
   }
   p->error = 1000 * tol;
-  return status;
+  return status < 0 ? status : PNEU_RETRY_STATE;
 }
 
 /* The parts are used up, as by a stem that bounces between its stops: it stands for what is left of the step, as if
@@ -368,15 +371,17 @@ static int step_on(const pneu_model *model, pneu_state *state, const pneu_input 
 {
   enum { FREE = PNEU_PARTS_MAX - PNEU_PARTS_HELD, FINE = FREE - PNEU_PARTS_COARSE }; /* the stem moves in FREE parts */
   pneu_state now = *state;
-  pneu_real left = dt, h = dt;
+  pneu_real left = dt, h = dt, tol = PNEU_STEP_TOL;
   int i, status = PNEU_OK;
   pneu_settle(model, input, &now);
   for (i = 0; i < PNEU_PARTS_MAX && left > 0; i++) {
-    const pneu_real tol = i < FINE ? PNEU_STEP_TOL : i < FREE ? PNEU_COARSE_TOL : PNEU_HELD_TOL;
     step_part p = {0, 0, -1};
+    if (i == FINE)
+      tol = PNEU_COARSE_TOL;
     if (i == FREE) {
       hold(model, &now);
       h = left;
+      tol = PNEU_HELD_TOL;
       status = PNEU_OK;
     }
     if (status == PNEU_OK) { /* from a new state */
@@ -392,14 +397,14 @@ static int step_on(const pneu_model *model, pneu_state *state, const pneu_input 
     if (status == PNEU_OK) {
       left -= p.h;
       work->stats.steps++;
+      if (p.which >= 0) {
+        pneu_switch(model, input, p.which, &now);
+        work->stats.events++;
+        if (left <= PNEU_EVENT_TIME)
+          left = 0;
+      }
     } else
       work->stats.rejected++;
-    if (status == PNEU_OK && p.which >= 0) {
-      pneu_switch(model, input, p.which, &now);
-      work->stats.events++;
-      if (left <= PNEU_EVENT_TIME)
-        left = 0;
-    }
     if (left > 0)
       h = PNEU_M(fmin)(left, h * growth(PNEU_AIM * tol, p.error));
   }

@@ -123,6 +123,8 @@ static int draw_model(uint64_t *seed, scene *s)
   p.proportional_band = (pneu_real)(one_of(seed, 8) ? 0 : uniform(seed, 1e4, 1e5));
   law.gas = one_of(seed, PNEU_GAS_COUNT);
   law.flow = one_of(seed, PNEU_FLOW_COUNT);
+  p.critical_ratio = (pneu_real)with_ends(seed, 0, 0.9);
+  p.subsonic_index = (pneu_real)with_ends(seed, 0.2, 1);
   law.pressure_input = one_of(seed, 32) == 0;
   law.position_input = one_of(seed, 32) == 0;
   draw_effects(seed, s, &p);
@@ -225,6 +227,17 @@ static void look(const scene *s, const drive *d, path *way)
   way->lowest = fmin(way->lowest, p);
   way->highest = fmax(way->highest, p);
   way->volume = fmax(way->volume, (double)pneu_volume(&s->model, way->end.x));
+}
+
+/* A stem that is held may stand where its bounce squeezes the gas, and longer than the small steps do: what the
+ * orifices let at the pressure at which it ends counts too. */
+static void add_held_flow(const scene *s, const drive *d, const pneu_state *end, path *way)
+{
+  pneu_output seen;
+  if (pneu_observe(&s->model, end, &d->input, &seen) != PNEU_OK)
+    return;
+  way->in = fmax(way->in, (double)seen.mass_in);
+  way->out = fmax(way->out, (double)seen.mass_out);
 }
 
 /* Held small steps are as good a comparison as any: they are few, and differ more from the step. */
@@ -372,6 +385,8 @@ static void try_case(long number, int show, tally *t)
   if (status < 0 || way.status != PNEU_OK)
     return;
   d = apart(&s, &end, &way.end);
+  if (status > 0)
+    add_held_flow(&s, &driven, &end, &way);
   if (!is_bounded(&s, &end, &way)) {
     t->unbounded++;
     say("out of bounds", number, &s, &end, &way, d);
