@@ -82,12 +82,11 @@ static int begins_number(const table *t, size_t row)
 }
 
 /* A cause, the statements that it spoils, and the first number in print among them. */
-static void put_cause(const table *t, size_t first, const char *changes, cJSON *cause)
+static void put_cause(const table *t, size_t first, cJSON *cause)
 {
   const char *words = table_text(t, first, "cause");
   cJSON *spoilt = cJSON_AddArrayToObject(cause, "spoilt");
   size_t row;
-  lab_json_put(cause, "changes", "%s", changes);
   lab_json_put(cause, "cause", "%s", words);
   lab_json_put(cause, "kind", "%s", table_text(t, first, "kind"));
   for (row = first; row < table_rows(t); row++) {
@@ -100,19 +99,32 @@ static void put_cause(const table *t, size_t first, const char *changes, cJSON *
   }
 }
 
-/* What a disagreement changes: the graver first; matters of form are a list. */
+/* A slip that changes a number: "Table 1: sign (arithmetic; -0.29 printed, 0.423 computed)". */
+static void put_slip(const table *t, size_t row, cJSON *slips)
+{
+  char print[64] = "";
+  if (begins_number(t, row))
+    snprintf(print, sizeof print, "; %.4g printed, %.4g computed", table_number(t, row, "printed"),
+             table_number(t, row, "computed"));
+  lab_json_join(slips, "; ", "%s (%s%s)", table_text(t, row, "cause"), table_text(t, row, "kind"), print);
+}
+
+/* What disagreements change: conclusions in a table, numbers and matters of form in a list each. */
 static void put_causes(const table *t, cJSON *page)
 {
-  static const char *const severities[][2] = {{"conclusion", "a conclusion"}, {"number", "a number"}};
-  cJSON *causes = cJSON_AddArrayToObject(page, "causes"), *forms = cJSON_AddArrayToObject(page, "forms");
-  size_t row, k;
-  for (k = 0; k < 2; k++)
-    for (row = 0; row < table_rows(t); row++)
-      if (is_new(t, row, "cause", "cause") && table_is(t, row, "severity", severities[k][0]))
-        put_cause(t, row, severities[k][1], lab_json_append(causes));
-  for (row = 0; row < table_rows(t); row++)
-    if (is_new(t, row, "cause", "cause") && table_is(t, row, "severity", "form"))
+  cJSON *causes = cJSON_AddArrayToObject(page, "causes"), *slips = cJSON_AddArrayToObject(page, "slips");
+  cJSON *forms = cJSON_AddArrayToObject(page, "forms");
+  size_t row;
+  for (row = 0; row < table_rows(t); row++) {
+    if (!is_new(t, row, "cause", "cause"))
+      continue;
+    if (table_is(t, row, "severity", "conclusion"))
+      put_cause(t, row, lab_json_append(causes));
+    else if (table_is(t, row, "severity", "number"))
+      put_slip(t, row, slips);
+    else
       lab_json_join(forms, "; ", "%s", table_text(t, row, "cause"));
+  }
 }
 
 static void put_paper(const study *s, const table *t, cJSON *page)
@@ -316,6 +328,34 @@ static void put_conclusions(const study *s, const table *t, cJSON *page)
   }
 }
 
+/* Whether a conclusion holds under every law on every actuator, whatever the threshold and the set. */
+static int is_held(const cJSON *item)
+{
+  const cJSON *cell;
+  cJSON_ArrayForEach(cell, cJSON_GetObjectItem(item, "verdicts"))
+  {
+    if (strcmp(cell->valuestring, finding_word(FINDING_HOLDS)) != 0)
+      return 0;
+  }
+  return !cJSON_GetArraySize(cJSON_GetObjectItem(item, "marks"));
+}
+
+/* Those that are held leave the list of the others for one of their own. */
+static void part_held(cJSON *page)
+{
+  cJSON *list = cJSON_GetObjectItem(page, "conclusions"), *held = cJSON_AddArrayToObject(page, "held"), *item, *next;
+  for (item = list ? list->child : NULL; item; item = next) {
+    const char *remark = cJSON_GetStringValue(cJSON_GetObjectItem(item, "remark"));
+    next = item->next;
+    if (!is_held(item))
+      continue;
+    lab_json_join(held, "; ", "%s %s%s%s%s", cJSON_GetStringValue(cJSON_GetObjectItem(item, "number")),
+                  cJSON_GetStringValue(cJSON_GetObjectItem(item, "says")), *remark ? " (" : "", remark,
+                  *remark ? ")" : "");
+    cJSON_Delete(cJSON_DetachItemViaPointer(list, item));
+  }
+}
+
 /* What each verdict depends on in some law: the words of the column of the thresholds. */
 static void put_marks(const study *s, const table *t, cJSON *page)
 {
@@ -336,6 +376,7 @@ static void put_marks(const study *s, const table *t, cJSON *page)
         lab_json_say(list, "%s%s", cJSON_GetArraySize(list) ? ", " : " ", marks[k]);
     }
   }
+  part_held(page);
 }
 
 /* ---- The solver, from agreement.csv ---- */
@@ -343,11 +384,10 @@ static void put_marks(const study *s, const table *t, cJSON *page)
 static void put_trust(const study *s, const table *t, cJSON *page)
 {
   static const char *const gaps[][2] = {{"position_gap", "position_gap_over_stroke"},
-                                        {"pressure_gap", "pressure_gap_over_supply"},
-                                        {"mass_gap", "mass_gap"}};
+                                        {"pressure_gap", "pressure_gap_over_supply"}};
   size_t k, row;
   (void)s;
-  for (k = 0; k < 3; k++) {
+  for (k = 0; k < 2; k++) {
     double most = 0;
     for (row = 0; row < table_rows(t); row++)
       most = fmax(most, table_number(t, row, gaps[k][1]));

@@ -66,12 +66,12 @@ static void test_report__rows_of_one_statement__counted_once(void **state)
   free(text);
 }
 
-static void test_report__three_causes__each_once_the_graver_first(void **state)
+static void test_report__three_causes__each_once_by_what_it_changes(void **state)
 {
   char *text = report_with("paper_numbers.csv", numbers);
   (void)state;
-  assert_contains(text, "|\n| a conclusion | a gap | modelling | Eq. 4 | |\n"
-                        "| a number | a slip | data | Eq. 1; Eq. 3 | 5, 6 |\n\n"
+  assert_contains(text, "|\n| a gap | modelling | Eq. 4 | |\n\n"
+                        "A number: a slip (data; 5 printed, 6 computed).\n"
                         "Matters of form: a sign.\n");
   free(text);
 }
@@ -94,6 +94,31 @@ static void test_report__laws_that_differ__counted_and_marked(void **state)
   assert_contains(text, "| the paper concludes | one | depends on | remark |");
   assert_contains(text, "| holds (1 of 2), contradicted (1 of 2) | threshold, set |");
   assert_contains(text, "| holds when | |");
+  free(text);
+}
+
+/* 2 has a mark, 3 fails in one law. */
+static void test_report__conclusions_that_hold_throughout__in_words(void **state)
+{
+  char *text;
+  (void)state;
+  scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
+                                            "1,one,printed,isothermal,paper,1,,1,contradicted,e\n"
+                                            "2,one,printed,isothermal,paper,1,,1,holds,e\n"
+                                            "3,one,printed,isothermal,paper,1,,1,holds,e\n"
+                                            "3,one,printed,isothermal,choked,1,,1,contradicted,e\n"
+                                            "11,one,printed,isothermal,paper,1,,1,holds,e\n"
+                                            "11,one,printed,isothermal,choked,1,,1,holds,e\n");
+  text = report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
+                                                   "depends_on\n"
+                                                   "2,printed,isothermal,paper,holds,,,,,,threshold\n");
+  assert_contains(
+      text, "these hold:\n\n11 fall: theoretical change free of parameters (as the theoretical change; over their "
+            "travels the actuators differ).\n");
+  assert_contains(text, "\n| 1 | ");
+  assert_contains(text, "\n| 2 | ");
+  assert_contains(text, "\n| 3 | ");
+  assert_null(strstr(text, "\n| 11 | "));
   free(text);
 }
 
@@ -122,8 +147,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_report__rows_of_one_statement__counted_once),
-      cmocka_unit_test(test_report__three_causes__each_once_the_graver_first),
+      cmocka_unit_test(test_report__three_causes__each_once_by_what_it_changes),
       cmocka_unit_test(test_report__laws_that_differ__counted_and_marked),
+      cmocka_unit_test(test_report__conclusions_that_hold_throughout__in_words),
       cmocka_unit_test(test_report__hypothesis_that_differs_by_law__is_marked),
       cmocka_unit_test(test_report__no_table__data_error),
   };
