@@ -11,7 +11,7 @@ N       ?= 500
 
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wvla -Wundef -Wwrite-strings -Wold-style-definition \
            -Wstrict-prototypes -Wmissing-prototypes -Wdouble-promotion -Wpointer-arith
-FLAGS   := -std=c99 $(OPT) -g $(WARN) $(if $(WERROR),-Werror) $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+FLAGS   := -std=c99 $(OPT) -g $(WARN) $(if $(WERROR),-Werror) $(if $(SANITIZE),-fsanitize=$(SANITIZE) -DLAB_SANITIZED -fno-sanitize-recover=all -fno-omit-frame-pointer)
 DEPS    := -MMD -MP
 SINGLE_FLAG := $(if $(SINGLE),-DPNEU_SINGLE)
 

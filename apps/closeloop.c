@@ -18,6 +18,7 @@ static double alpha, min_gain;
 static int budget, figures, no_figures, reports, allow_include;
 
 static const int usual_budget = 60, usual_batch_budget = 600; /* [s] of CPU, for a log and for a line of a batch */
+static const int usual_memory = 4096;                         /* [MB] for a line of a batch */
 static const int patience = 10; /* budgets after which even what follows the search is given up */
 
 static const lab_option options[] = {
@@ -138,6 +139,7 @@ static int run_batch(const lab_cli *cli, lab_error *error)
   how.at_once = cli->threads;
   how.quiet = cli->quiet;
   how.budget = budget ? budget : usual_batch_budget;
+  how.memory = usual_memory;
   how.allow_include = allow_include;
   return lab_batch_run(&how, error);
 }

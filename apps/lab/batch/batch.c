@@ -56,18 +56,25 @@ static void folder_of(const batch *b, const char *name, char folder[LAB_PATH_TEX
   snprintf(folder, LAB_PATH_TEXT, "%s/%s", b->out, name);
 }
 
-/* What the process at work on one line may take: CPU time, and room on the disk for a file. */
+static void limit(int what, rlim_t most)
+{
+  struct rlimit now;
+  if (getrlimit(what, &now) || now.rlim_cur <= most)
+    return;
+  now.rlim_cur = most;
+  setrlimit(what, &now);
+}
+
+/* What the process at work on one line may take: CPU time, room on the disk for a file, and memory. */
 static void bound(const batch *b)
 {
-  struct rlimit cpu, file;
   signal(SIGXCPU, SIG_DFL); /* the parent says it, in the line's row */
   signal(SIGXFSZ, SIG_IGN); /* who writes says it */
-  if (getrlimit(RLIMIT_CPU, &cpu) == 0 && getrlimit(RLIMIT_FSIZE, &file) == 0) {
-    cpu.rlim_cur = (rlim_t)b->how->budget < cpu.rlim_max ? (rlim_t)b->how->budget : cpu.rlim_max;
-    file.rlim_cur = file.rlim_cur < LAB_TEXT_MAX ? file.rlim_cur : LAB_TEXT_MAX;
-    setrlimit(RLIMIT_CPU, &cpu);
-    setrlimit(RLIMIT_FSIZE, &file);
-  }
+  limit(RLIMIT_CPU, (rlim_t)b->how->budget);
+  limit(RLIMIT_FSIZE, LAB_TEXT_MAX);
+#ifndef LAB_SANITIZED /* a sanitizer reserves more than there is */
+  limit(RLIMIT_DATA, (rlim_t)b->how->memory << 20);
+#endif
 }
 
 /* ---- Whether a line is done ---- */

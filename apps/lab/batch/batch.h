@@ -21,6 +21,7 @@ typedef struct lab_batch_options {
   int at_once; /* 0: as many as are usual */
   int quiet;
   int budget;        /* [s] of CPU for a line, at least 1: more is an error of the line */
+  int memory;        /* [MB] for a line: more is an error of the line */
   int allow_include; /* 0: a rig file with @include is an error of its line */
 } lab_batch_options;
 

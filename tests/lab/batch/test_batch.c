@@ -436,6 +436,7 @@ static int run_list(const char *list, const char *out, long *rss)
   how.at_once = 2;
   how.quiet = 1;
   how.budget = options.budget ? options.budget : 60;
+  how.memory = options.memory ? options.memory : 4096;
   assert_int_equal(pipe(ends), 0);
   pid = fork();
   assert_true(pid >= 0);
@@ -520,6 +521,39 @@ static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **s
   free(row);
 }
 
+/* A log of 12 MB, which asks for 25 MB at once while it is read, beside a short one. */
+static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line(void **state)
+{
+  FILE *file = fopen(scratch_path("large.csv"), "w");
+  char out[600], path[700], *rows;
+  long rss;
+  int i;
+  (void)state;
+#ifdef LAB_SANITIZED
+  fclose(file);
+  skip(); /* reserves more than there is */
+#endif
+  fputs("t [s],u [1],p [kPa]\n", file);
+  for (i = 0; i < 1000000; i++)
+    fprintf(file, "%d,1,%d\n", i, i % 7);
+  fclose(file);
+  scratch_text("rig.cfg", "supply = { pressure = \"2 bar\"; };\n");
+  scratch_text("log.csv", "t [s],u [1],p [kPa]\n0,0,0\n");
+  snprintf(out, sizeof out, "%s", scratch_path("bounded"));
+  options.memory = 24;
+  assert_int_equal(
+      run_list(scratch_text("bounded.csv", "name,rig,log\nlarge,rig.cfg,large.csv\nshort,rig.cfg,log.csv\n"), out,
+               &rss),
+      LAB_WORLD);
+  options.memory = 0;
+  snprintf(path, sizeof path, "%s/batch.csv", out);
+  rows = scratch_read(path);
+  assert_contains(rows, "\nlarge,error,");
+  assert_contains(rows, "memory");
+  assert_contains(rows, "\nshort,error,");
+  free(rows);
+}
+
 /* 2000 lines take no more than 100, but for the list itself and the 16 bytes a line of its check. */
 static void test_lab_batch__long_list__takes_no_more_memory(void **state)
 {
@@ -557,6 +591,7 @@ int main(void)
       cmocka_unit_test(test_lab_jobs__result_that_cannot_be_kept__ends_the_run),
       cmocka_unit_test(test_lab_batch__lines_that_fail__are_lines),
       cmocka_unit_test(test_lab_batch__rig_with_include__is_refused_unless_allowed),
+      cmocka_unit_test(test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line),
       cmocka_unit_test(test_lab_batch__long_list__takes_no_more_memory),
   };
   return cmocka_run_group_tests_name("batch", tests, scratch_open, scratch_close);

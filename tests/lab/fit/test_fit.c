@@ -416,6 +416,41 @@ static void test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds(
   assert_close(theta[0], -0.99, 0.02, 0);
 }
 
+/* As many residuals as unknowns, each 0 at a quarter. */
+static int quarters(void *context, const double *theta, double *r, lab_error *e)
+{
+  int j;
+  (void)context, (void)e;
+  for (j = 0; j < LAB_FIT_MAX; j++)
+    r[j] = theta[j] - 0.25;
+  return LAB_OK;
+}
+
+static void test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more(void **state)
+{
+  static double lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], theta[LAB_FIT_MAX], r[LAB_FIT_MAX];
+  const lab_fit_problem p = {.n = LAB_FIT_MAX,
+                             .m = LAB_FIT_MAX,
+                             .lower = lower,
+                             .upper = upper,
+                             .residuals = quarters,
+                             .search = 4 * LAB_FIT_MAX};
+  double before, after;
+  int j;
+  (void)state;
+  for (j = 0; j < LAB_FIT_MAX; j++) {
+    lower[j] = -1;
+    upper[j] = 2;
+    theta[j] = 0.9;
+  }
+  assert_int_equal(lab_fit_evaluate(&p, theta, r, &before, &error), LAB_OK);
+  assert_int_equal(lab_fit_search(&p, theta, &error), LAB_OK);
+  assert_int_equal(lab_fit_evaluate(&p, theta, r, &after, &error), LAB_OK);
+  assert_true(after < 0.2 * before);
+  for (j = 0; j < LAB_FIT_MAX; j++)
+    assert_true(theta[j] >= -1 && theta[j] <= 2);
+}
+
 /* The start is the best of all, and no point of the search is. */
 static void test_lab_fit__search_finds_nothing_better__goes_on_from_the_start(void **state)
 {
@@ -488,6 +523,7 @@ int main(void)
       cmocka_unit_test(test_lab_fit__lasting_slopes__are_kept_and_change_nothing),
       cmocka_unit_test(test_lab_fit__two_wells__search_finds_the_deeper),
       cmocka_unit_test(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds),
+      cmocka_unit_test(test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more),
       cmocka_unit_test(test_lab_fit__search_finds_nothing_better__goes_on_from_the_start),
       cmocka_unit_test(test_lab_fit__any_other_failure_in_the_search__ends_it_at_once),
       cmocka_unit_test(test_lab_fit__residual_not_finite__is_named),
