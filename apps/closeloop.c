@@ -140,6 +140,7 @@ static int run_batch(const lab_cli *cli, lab_error *error)
   how.quiet = cli->quiet;
   how.budget = budget ? budget : usual_batch_budget;
   how.memory = usual_memory;
+  how.room = LAB_TEXT_MAX;
   how.allow_include = allow_include;
   return lab_batch_run(&how, error);
 }

@@ -71,7 +71,7 @@ static void bound(const batch *b)
   signal(SIGXCPU, SIG_DFL); /* the parent says it, in the line's row */
   signal(SIGXFSZ, SIG_IGN); /* who writes says it */
   limit(RLIMIT_CPU, (rlim_t)b->how->budget);
-  limit(RLIMIT_FSIZE, LAB_TEXT_MAX);
+  limit(RLIMIT_FSIZE, (rlim_t)b->how->room);
 #ifndef LAB_SANITIZED /* a sanitizer reserves more than there is */
   limit(RLIMIT_DATA, (rlim_t)b->how->memory << 20);
 #endif

@@ -22,6 +22,7 @@ typedef struct lab_batch_options {
   int quiet;
   int budget;        /* [s] of CPU for a line, at least 1: more is an error of the line */
   int memory;        /* [MB] for a line: more is an error of the line */
+  long room;         /* [byte] on the disk for each file of a line: the same */
   int allow_include; /* 0: a rig file with @include is an error of its line */
 } lab_batch_options;
 

@@ -437,6 +437,7 @@ static int run_list(const char *list, const char *out, long *rss)
   how.quiet = 1;
   how.budget = options.budget ? options.budget : 60;
   how.memory = options.memory ? options.memory : 4096;
+  how.room = options.room ? options.room : 1 << 29;
   assert_int_equal(pipe(ends), 0);
   pid = fork();
   assert_true(pid >= 0);
@@ -554,6 +555,39 @@ static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_
   free(rows);
 }
 
+/* The list of the guide on a leak, from wherever it is. */
+static const char *leak_list(const char *name)
+{
+  char here[500], text[2000];
+  assert_non_null(getcwd(here, sizeof here));
+  snprintf(text, sizeof text, "name,rig,log\nleak,%s/study/guides/leak/rig.cfg,%s/study/guides/leak/fit.csv\n", here,
+           here);
+  return scratch_text(name, text);
+}
+
+static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line(void **state)
+{
+  static const struct {
+    long room;
+    int status;
+    const char *said;
+  } with[] = {{1 << 20, LAB_OK, "leak,effect,"}, {2000, LAB_WORLD, "File too large"}};
+  char out[600], path[700], *rows;
+  long rss;
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof with / sizeof with[0]; i++) {
+    snprintf(out, sizeof out, "%s", scratch_path(i ? "tight" : "roomy"));
+    options.room = with[i].room;
+    assert_int_equal(run_list(leak_list("leak.csv"), out, &rss), with[i].status);
+    snprintf(path, sizeof path, "%s/batch.csv", out);
+    rows = scratch_read(path);
+    assert_contains(rows, with[i].said);
+    free(rows);
+  }
+  options.room = 0;
+}
+
 /* 2000 lines take no more than 100, but for the list itself and the 16 bytes a line of its check. */
 static void test_lab_batch__long_list__takes_no_more_memory(void **state)
 {
@@ -592,6 +626,7 @@ int main(void)
       cmocka_unit_test(test_lab_batch__lines_that_fail__are_lines),
       cmocka_unit_test(test_lab_batch__rig_with_include__is_refused_unless_allowed),
       cmocka_unit_test(test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line),
+      cmocka_unit_test(test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line),
       cmocka_unit_test(test_lab_batch__long_list__takes_no_more_memory),
   };
   return cmocka_run_group_tests_name("batch", tests, scratch_open, scratch_close);
