@@ -858,6 +858,7 @@ static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **s
     check_note("step %d", i);
     assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)dt, &work), PNEU_HELD);
     assert_true(state_is_usable(&m, &s));
+    assert_true(s.v == 0);
     assert_between(s.p, -1e3, (double)input.supply_pressure + 1e3);
     assert_close((double)pneu_mass(&m, &s), mass, 1.001 * (double)inflow.q * dt, 0);
     assert_true(i % 2 ? (double)pneu_mass(&m, &s) < mass : (double)pneu_mass(&m, &s) > mass);

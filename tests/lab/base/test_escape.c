@@ -264,8 +264,10 @@ static void test_lab_row_error__file_named_as_a_formula__is_no_formula(void **st
 static void look_at_config(const char *name, const char *text)
 {
   char line[1400];
-  const char *got;
+  const char *got, *c;
   config_t config;
+  for (c = text; *c; c++)
+    assert_false(iscntrl((unsigned char)*c));
   snprintf(line, sizeof line, "s = %s;\n", text);
   config_init(&config);
   assert_int_equal(config_read_string(&config, line), CONFIG_TRUE);
