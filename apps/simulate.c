@@ -147,6 +147,8 @@ static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const 
   int status = lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, &log, error);
   if (status != LAB_OK)
     return status;
+  if (*log.read_as)
+    fprintf(stderr, "%s: note: %s: %s\n", program.name, path, log.read_as);
   if (log.dropped)
     fprintf(stderr, "%s: note: %s: %zu damaged rows left out\n", program.name, path, log.dropped);
   status = figures ? figures_of_log(model, rig, &log, file, error) : simulate_log(model, rig, &log, file, error);

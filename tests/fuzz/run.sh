@@ -24,6 +24,7 @@ for target in "$@"; do
   corpus="$folder/corpus/$target"
   log="$folder/$target.log"
   mkdir -p "$corpus"
+  [ "$target" != log ] || cp tests/loggers/* "$corpus"
   for seed in tests/fuzz/seeds/"$target"-* tests/fuzz/finds/"$target"-*; do
     [ -f "$seed" ] && cp "$seed" "$corpus"
   done

@@ -115,8 +115,15 @@ static char *cut_cell(char *at, char *end, char mark, lab_cell *cell)
 
 int lab_csv_cells(char *at, char *end, char mark, lab_cell *cell, int most)
 {
+  const int any_number = mark == LAB_CSV_BLANKS;
   lab_cell beyond;
   int n;
+  if (any_number) {
+    mark = ' ';
+    while (end > at && end[-1] == ' ')
+      end--;
+    at += strspn(at, " ");
+  }
   for (n = 1;; n++) {
     lab_cell *to = n <= most ? &cell[n - 1] : &beyond;
     char *stop = cut_cell(at, end, mark, to);
@@ -126,6 +133,8 @@ int lab_csv_cells(char *at, char *end, char mark, lab_cell *cell, int most)
     if (stop == end)
       return n;
     at = stop + 1;
+    if (any_number)
+      at += strspn(at, " ");
   }
 }
 

@@ -1,8 +1,8 @@
 /* The reader of CSV files: logs, lists of a fleet, tables of the study.
  *
  * A cell may be in quotes, with blanks before them; marks in it are text then, and "" is a quote (RFC 4180). The end of
- * a line is the end of its row, in quotes too, so that a message can name the line.
- * SPDX-License-Identifier: MIT */
+ * a line is the end of its row, in quotes too, so that a message can name the line. Where LAB_CSV_BLANKS is the
+ * mark, any number of blanks is one mark, and those around a line are none. SPDX-License-Identifier: MIT */
 #ifndef LAB_CSV_H
 #define LAB_CSV_H
 
@@ -12,7 +12,8 @@
 
 enum {
   LAB_CSV_LINE = 65536, /* bytes of a line */
-  LAB_CSV_CELLS = 64    /* cells of a row that are kept */
+  LAB_CSV_CELLS = 64,   /* cells of a row that are kept */
+  LAB_CSV_BLANKS = 1    /* the mark of tables whose columns are filled up with blanks */
 };
 
 /* A text that ends with a 0 byte at `end`. */

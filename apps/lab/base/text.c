@@ -7,6 +7,33 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "encoding.h"
+
+/* Files that hold a log and are no text, by the bytes they begin with, and what makes a CSV of them. */
+static const struct binary {
+  const char *begin;
+  size_t size;
+  const char *kind, *command;
+} binaries[] = {
+#define KIND(begin, kind, command)                                                                                     \
+  {                                                                                                                    \
+    begin, sizeof begin - 1, kind, command                                                                             \
+  }
+    KIND("\x1F\x8B", "compressed by gzip", "gunzip -k FILE"),
+    KIND("PK\x03\x04", "an Excel workbook (.xlsx) or another ZIP archive", "soffice --headless --convert-to csv FILE"),
+    KIND("\xD0\xCF\x11\xE0", "an Excel workbook (.xls)", "soffice --headless --convert-to csv FILE"),
+    KIND("MATLAB 5.0 MAT-file", "a MATLAB file", "in MATLAB: writetable(struct2table(load('FILE')), 'log.csv')"),
+    KIND("\x89HDF", "HDF5, as MATLAB writes with -v7.3",
+         "in MATLAB: writetable(struct2table(load('FILE')), 'log.csv')"),
+    KIND("PAR1", "Parquet", "python3 -c \"import pandas; pandas.read_parquet('FILE').to_csv('log.csv')\""),
+    KIND("TDSm", "TDMS, as LabVIEW writes",
+         "python3 -c \"import nptdms; nptdms.TdmsFile('FILE').as_dataframe().to_csv('log.csv')\""),
+    KIND("MDF     ", "MDF, as measuring software of cars writes",
+         "python3 -c \"import asammdf; asammdf.MDF('FILE').export('csv', 'log.csv')\""),
+#undef KIND
+};
+enum { BINARIES = sizeof binaries / sizeof binaries[0] };
+
 static int cannot_read(const char *path, lab_error *error)
 {
   if (errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG)
@@ -69,22 +96,56 @@ static int read_stream(FILE *file, const char *path, lab_text *text, lab_error *
     errno = 0;
     got = fread(text->data + text->size, 1, room - text->size, file);
     text->size += got;
-  } while (text->size == room && !memchr(text->data + text->size - got, '\0', got));
+  } while (text->size == room &&
+           (lab_encoding_of(text->data, text->size) || !memchr(text->data + text->size - got, '\0', got)));
   text->data[text->size] = '\0';
   return ferror(file) ? cannot_read(path, error) : LAB_OK;
 }
 
-static int check_text(const char *path, lab_text *text, lab_error *error)
+/* UTF-16 becomes UTF-8, which is at most half as long again. */
+static int recode(const char *path, lab_text *text, lab_error *error)
+{
+  const char *from = lab_encoding_of(text->data, text->size);
+  const size_t room = text->size + text->size / 2 + 4;
+  char *out = from ? malloc(room) : NULL;
+  size_t size;
+  if (!from)
+    return LAB_OK;
+  if (!out)
+    return lab_fail_memory(error, path);
+  size = lab_encode(from, text->data, text->size, out, room);
+  free(text->data);
+  text->data = out;
+  text->size = size;
+  if (size == (size_t)-1)
+    return lab_fail(error, LAB_DATA, "%s: this is UTF-16, which this system cannot read; save it as UTF-8", path);
+  return LAB_OK;
+}
+
+static int check_kind_of_text(const char *path, const lab_text *text, lab_error *error)
+{
+  int i;
+  for (i = 0; i < BINARIES; i++)
+    if (text->size >= binaries[i].size && memcmp(text->data, binaries[i].begin, binaries[i].size) == 0)
+      return lab_fail(error, LAB_DATA, "%s: this is %s, not text; make a text file of it: %s", path, binaries[i].kind,
+                      binaries[i].command);
+  return LAB_OK;
+}
+
+static int check_text(const char *path, const lab_text *text, lab_error *error)
 {
   const char *zero = memchr(text->data, '\0', text->size), *at;
   int line = 1;
   if (text->size == 0)
     return lab_fail(error, LAB_DATA, "%s: the file is empty", path);
+  if (check_kind_of_text(path, text, error))
+    return error->status;
   if (!zero)
     return LAB_OK;
   for (at = text->data; at < zero; at++)
     line += *at == '\n';
-  return lab_fail(error, LAB_DATA, "%s:%d: expected text, found a 0 byte (a binary file, or UTF-16?)", path, line);
+  return lab_fail(error, LAB_DATA, "%s:%d: expected text, found a 0 byte: this is no text file; export it as CSV", path,
+                  line);
 }
 
 static void drop_mark(lab_text *text)
@@ -106,6 +167,8 @@ int lab_text_read(const char *path, lab_text *text, lab_error *error)
     return error->status;
   status = read_stream(file, path, text, error);
   fclose(file);
+  if (status == LAB_OK)
+    status = recode(path, text, error);
   if (status == LAB_OK) {
     drop_mark(text);
     status = check_text(path, text, error);

@@ -20,10 +20,10 @@ typedef struct lab_text {
  * LAB_WORLD if it cannot be read. */
 FILE *lab_text_open(const char *path, lab_error *error);
 
-/* Read a whole file that lab_text_open opens; a UTF-8 byte order mark is left out.
+/* Read a whole file that lab_text_open opens; UTF-16 becomes UTF-8, and a byte order mark is left out.
  * Out:     text  to be freed with lab_text_free
- * Returns: LAB_OK; LAB_DATA if the file is missing, no file on a disk, too large, empty or not text; LAB_WORLD if it
- *          cannot be read. */
+ * Returns: LAB_OK; LAB_DATA if the file is missing, no file on a disk, too large, empty or not text, with what turns it
+ * into text where its kind is known; LAB_WORLD if it cannot be read. */
 int lab_text_read(const char *path, lab_text *text, lab_error *error);
 
 void lab_text_free(lab_text *text);

@@ -1,6 +1,7 @@
 #include "logs.h"
 
 #include "mend.h"
+#include "../base/text.h"
 
 static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error *error)
 {
@@ -10,6 +11,8 @@ static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error
   if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
     return error->status;
   b->n_logs++;
+  if (*log->read_as)
+    lab_limitation(&b->limitations, "%s: %s.", lab_file_name(path), log->read_as);
   lab_log_even_stamps(log, &b->limitations);
   if (lab_log_remove_hum(log, &b->limitations, error))
     return error->status;

@@ -13,9 +13,11 @@
 static const double command_max = 1.05;
 static const double set_point_max = 2; /* a set position may lie beyond the stops */
 
+#define LEAVE_OUT "; to leave such rows out, write into the rig file: log = { damaged = \"drop\"; };"
+
 struct reader {
   lab_csv csv;
-  const lab_log_format *format;
+  lab_log_format *format;
   lab_header header;
   lab_log *log;
   size_t run_room; /* entries allocated for log->run */
@@ -23,6 +25,8 @@ struct reader {
   double last_t;   /* [s] of the last row taken */
   double value;    /* long format: number of the row being read */
   int quantity;    /* long format: its row in format->quantity */
+  lab_stamp stamp; /* of the row, where the file has dates */
+  lab_stamp first; /* of the first row: its time is 0 */
   lab_error *error;
 };
 
@@ -56,6 +60,34 @@ static void put_number(struct reader *r, int i, const lab_column *column, double
   *at = r->format->weight[i] * column->scale * number + (before ? *at : column->offset);
 }
 
+static int is_empty(const lab_cell *cell)
+{
+  return cell->begin[strspn(cell->begin, " \t")] == '\0';
+}
+
+static int read_stamp(struct reader *r, int i)
+{
+  const lab_cell *cell = &r->csv.cell[i];
+  char shown[LAB_QUOTE];
+  if (is_empty(cell) || lab_stamp_read(cell->begin, cell->end, r->format->date, &r->stamp))
+    return LAB_OK;
+  return lab_fail(r->error, LAB_DATA,
+                  "column %d \"%s\": expected a date or time as in the first row (%s), found \"%s\"; if the day comes "
+                  "first, write into the rig file: log = { date = \"dmy\"; };",
+                  i + 1, r->header.text[i], r->format->date ? lab_date_orders[r->format->date] : "time of day",
+                  lab_log_quote(cell->begin, shown));
+}
+
+/* What may be done about a cell that is no number. */
+static const char *number_advice(const struct reader *r, const char *text)
+{
+  if (strpbrk(text, "0123456789") && strchr(text, ',') && strchr(text, '.') && !r->format->thousands)
+    return r->format->decimal == ','
+               ? "; if points part thousands, write into the rig file: log = { thousands = \".\"; };"
+               : "; if commas part thousands, write into the rig file: log = { thousands = \",\"; };";
+  return LEAVE_OUT;
+}
+
 static int read_field(struct reader *r, int i)
 {
   const lab_column *column = &r->header.column[i];
@@ -64,11 +96,13 @@ static int read_field(struct reader *r, int i)
   double number;
   if (column->channel == LAB_COLUMN_IGNORED)
     return LAB_OK;
+  if (column->is_stamp)
+    return read_stamp(r, i);
   if (column->channel == LAB_COLUMN_QUANTITY)
     return read_word(r, cell->begin);
   if (lab_number_read(cell->begin, cell->end, r->format->decimal, r->format->thousands, &number) == LAB_NUMBER_BAD)
-    return lab_fail(r->error, LAB_DATA, "column %d \"%s\": expected a number, found \"%s\"", i + 1, r->header.text[i],
-                    lab_log_quote(cell->begin, shown));
+    return lab_fail(r->error, LAB_DATA, "column %d \"%s\": expected a number, found \"%s\"%s", i + 1, r->header.text[i],
+                    lab_log_quote(cell->begin, shown), number_advice(r, cell->begin));
   if (column->channel == LAB_COLUMN_VALUE)
     r->value = number;
   else
@@ -76,17 +110,45 @@ static int read_field(struct reader *r, int i)
   return LAB_OK;
 }
 
+/* [s] since the first row. A time of day without a date that falls by half a day or more is that of the next day. */
+static double stamp_time(struct reader *r)
+{
+  const double day = 86400, step = 1e-9; /* [s] */
+  if (!r->stamp.has_day && !r->stamp.has_time)
+    return NAN;
+  if (!r->first.has_day && !r->first.has_time)
+    r->first = r->stamp;
+  if (!r->stamp.has_day) {
+    r->stamp.day = (long)floor(r->last_t / day);
+    while ((double)(r->stamp.day - r->first.day) * day + r->stamp.second - r->first.second < r->last_t - day / 2)
+      r->stamp.day++;
+  }
+  return round(((double)(r->stamp.day - r->first.day) * day + r->stamp.second - r->first.second) / step) * step;
+}
+
+static void put_stamp(struct reader *r)
+{
+  int i;
+  for (i = 0; i < r->header.n; i++)
+    if (r->header.column[i].is_stamp && r->header.column[i].channel == LAB_CHANNEL_TIME)
+      put_number(r, i, &r->header.column[i], stamp_time(r));
+}
+
 static int read_row(struct reader *r)
 {
   int i;
   if (lab_csv_cut(&r->csv, r->error))
     return r->error->status;
+  if (r->header.has_stamps)
+    r->stamp = (lab_stamp){0};
   for (i = 0; i < r->header.n && i < r->csv.n; i++)
     if (read_field(r, i))
       return r->error->status;
-  if (r->csv.n == r->header.n)
-    return LAB_OK;
-  return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d", r->header.n, r->csv.n);
+  if (r->csv.n != r->header.n)
+    return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d" LEAVE_OUT, r->header.n, r->csv.n);
+  if (r->header.has_stamps)
+    put_stamp(r);
+  return LAB_OK;
 }
 
 /* Put constants, or gaps, where the row may bring nothing. */
@@ -228,7 +290,10 @@ static int read_file(struct reader *r, const char *path, double ambient)
   if (!r->log->path)
     return lab_fail_memory(r->error, path);
   if (lab_csv_open(&r->csv, path, r->error) || lab_header_read(&r->csv, r->format, ambient, &r->header, r->error) ||
-      allocate(r, lab_csv_lines(&r->csv)) || read_rows(r))
+      allocate(r, lab_csv_lines(&r->csv)))
+    return r->error->status;
+  memcpy(r->log->read_as, r->header.said, sizeof r->log->read_as);
+  if (read_rows(r))
     return r->error->status;
   return finish(r);
 }

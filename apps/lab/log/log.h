@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "logformat.h"
+#include "logguess.h"
 
 /* A swing that does not come from the rig. */
 typedef struct lab_hum {
@@ -15,7 +15,8 @@ typedef struct lab_hum {
 typedef struct lab_log {
   char *path;                       /* for messages */
   size_t n;                         /* rows */
-  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap (never in t or what commands); NULL where the channel is absent */
+  double *value[LAB_CHANNEL_COUNT]; /* SI, n each; NaN is a gap (never in t or what commands); NULL where the channel is
+                                       absent */
   int *line;                        /* line of each row in the file */
   size_t n_runs;
   size_t *run;                    /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
@@ -23,6 +24,7 @@ typedef struct lab_log {
   size_t outside;                 /* rows left out by the window */
   double clock_step;              /* [s] to which the time was rounded before it was mended; 0: it was not */
   lab_hum hum[LAB_CHANNEL_COUNT]; /* that was taken off the values */
+  char read_as[2 * LAB_GUESS_TEXT]; /* what was guessed of how the file is written, in words; "": nothing */
 } lab_log;
 
 /* Read a log.

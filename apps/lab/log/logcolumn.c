@@ -29,9 +29,9 @@ static int split(const char *text, char name[LAB_COLUMN_TEXT], char unit[LAB_COL
 {
   char rest[2] = "";
   *unit = '\0';
-  if (sscanf(text, " %63[^][ \t] [%63[^][]] %1s", name, unit, rest) == 2)
+  if (sscanf(text, " %127[^][ \t] [%127[^][]] %1s", name, unit, rest) == 2)
     return strchr(text, ']') != NULL;
-  return sscanf(text, " %63[^][ \t] %1s", name, rest) == 1;
+  return sscanf(text, " %127[^][ \t] %1s", name, rest) == 1;
 }
 
 /* Whether a position is given as a share of the stroke. */
@@ -40,26 +40,29 @@ static int is_share(const char *unit, const lab_column_frame *frame)
   return frame->stroke > 0 && (!strcmp(unit, "%") || !strcmp(unit, "percent"));
 }
 
-static int read_unit(const char *text, const struct column_name *found, const char *unit, const lab_column_frame *frame,
-                     lab_column *column, lab_error *error)
+int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_column_frame *frame,
+                  lab_column *column, lab_error *error)
 {
-  const char *si = lab_channel_unit(found->channel, frame->command_is_pressure);
-  if (!*unit)
-    return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text, found->name,
-                    si);
-  if (found->channel == LAB_CHANNEL_X && is_share(unit, frame)) {
+  const char *si = lab_channel_unit(channel, frame->command_is_pressure);
+  *column = (lab_column){.channel = channel, .scale = 1};
+  if (channel == LAB_CHANNEL_TIME && strcmp(unit, "date") == 0)
+    column->is_stamp = 1;
+  else if (channel == LAB_CHANNEL_X && is_share(unit, frame))
     column->scale = 0.01 * frame->stroke;
-    return LAB_OK;
-  }
-  if (found->channel == LAB_CHANNEL_SP && frame->stroke > 0 &&
-      lab_unit_factor(unit, "m", &column->scale, &column->offset, error) == LAB_OK) {
+  else if (channel == LAB_CHANNEL_SP && frame->stroke > 0 &&
+           lab_unit_factor(unit, "m", &column->scale, &column->offset, error) == LAB_OK) {
     column->scale /= frame->stroke;
     column->offset /= frame->stroke;
-    return LAB_OK;
-  }
-  if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
+  } else if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
     return lab_fail_in(error, "column \"%s\"", text);
+  column->offset -= absolute ? frame->ambient : 0;
   return LAB_OK;
+}
+
+int lab_column_is_named(const char *text)
+{
+  char name[LAB_COLUMN_TEXT], unit[LAB_COLUMN_TEXT];
+  return split(text, name, unit) && *unit && lab_name_index(name, column_names, NAMES, sizeof column_names[0]) >= 0;
 }
 
 int lab_column_read(const char *text, const lab_column_frame *frame, lab_column *column, lab_error *error)
@@ -74,15 +77,13 @@ int lab_column_read(const char *text, const lab_column_frame *frame, lab_column 
     return lab_fail(error, LAB_DATA, "unknown channel \"%s\"; the nearest known one is \"%s\"", name,
                     lab_name_nearest(name, column_names, NAMES, sizeof column_names[0]));
   found = &column_names[i];
-  column->channel = found->channel;
-  column->scale = 1;
-  column->offset = 0;
+  *column = (lab_column){.channel = found->channel, .scale = 1};
   if (found->channel < 0)
     return LAB_OK;
-  if (read_unit(text, found, unit, frame, column, error))
-    return error->status;
-  column->offset -= found->absolute ? frame->ambient : 0;
-  return LAB_OK;
+  if (!*unit)
+    return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text, found->name,
+                    lab_channel_unit(found->channel, frame->command_is_pressure));
+  return lab_column_of(text, found->channel, found->absolute, unit, frame, column, error);
 }
 
 int lab_column_mark(const char *text, const char *si, char *mark, double *scale, double *offset, lab_error *error)

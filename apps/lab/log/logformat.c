@@ -17,7 +17,7 @@ static const char *const damaged_words[] = {"error", "drop"};
 static const struct mark {
   const char *name;
   char mark;
-} marks[] = {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}};
+} marks[] = {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}, {"blanks", LAB_CSV_BLANKS}};
 
 enum { MARKS = sizeof marks / sizeof marks[0], SKIP_MAX = 1000000 };
 
@@ -25,8 +25,7 @@ void lab_log_format_default(lab_log_format *format)
 {
   int i;
   memset(format, 0, sizeof *format);
-  format->delimiter = ',';
-  format->decimal = '.';
+  format->skip_lines = -1;
   format->comment = '#';
   format->way_back = -1;
   format->every = 1;
@@ -48,7 +47,7 @@ static int read_mark(const config_setting_t *setting, char *mark, lab_error *err
   const char *text = config_setting_get_string(setting);
   int named = text ? lab_name_index(text, marks, MARKS, sizeof marks[0]) : -1;
   if (!text || (named < 0 && strlen(text) != 1))
-    return lab_config_expected(setting, "one character, \"tab\", \"comma\" or \"semicolon\"", error);
+    return lab_config_expected(setting, "one character, \"tab\", \"comma\", \"semicolon\" or \"blanks\"", error);
   if (named < 0)
     *mark = *text;
   else
@@ -92,8 +91,8 @@ static int read_window(const config_setting_t *setting, lab_log_format *format, 
   return LAB_OK;
 }
 
-/* Channels that the file's name tells. */
-static int read_name(const config_setting_t *group, lab_log_format *format, lab_error *error)
+/* A text a channel. */
+static int read_texts(const config_setting_t *group, char text[LAB_CHANNEL_COUNT][LAB_COLUMN_TEXT], lab_error *error)
 {
   int i, status = lab_config_is_group(group, error);
   if (status == LAB_OK)
@@ -101,14 +100,31 @@ static int read_name(const config_setting_t *group, lab_log_format *format, lab_
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
     const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
-    char mark[LAB_COLUMN_TEXT];
-    double scale, offset;
-    status = lab_config_text(member, format->name[c], LAB_COLUMN_TEXT, error);
-    if (status == LAB_OK && lab_column_mark(format->name[c], lab_channel_unit(c, format->command_is_pressure), mark,
-                                            &scale, &offset, error))
-      status = lab_config_fail_in(member, error);
+    status = lab_config_text(member, text[c], LAB_COLUMN_TEXT, error);
+    if (status == LAB_OK && !*text[c])
+      status = lab_config_expected(member, "a text", error);
   }
   return status;
+}
+
+static int read_map(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  return read_texts(group, format->map, error);
+}
+
+/* Channels that the file's name tells. */
+static int read_name(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  char mark[LAB_COLUMN_TEXT];
+  double scale, offset;
+  int c;
+  if (read_texts(group, format->name, error))
+    return error->status;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (*format->name[c] && lab_column_mark(format->name[c], lab_channel_unit(c, format->command_is_pressure), mark,
+                                            &scale, &offset, error))
+      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, lab_channels[c].key), error);
+  return LAB_OK;
 }
 
 static int read_weights(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -295,6 +311,8 @@ static const struct log_key {
     {.name = "thousands", .kind = MARK, MEMBER(thousands)},
     {.name = "comment", .kind = MARK, MEMBER(comment)},
     {.name = "skip_lines", .kind = COUNT, MEMBER(skip_lines)},
+    {.name = "map", .kind = OWN, .read = read_map},
+    {.name = "date", .kind = CHOICE, MEMBER(date), WORDS(lab_date_orders)},
     {.name = "columns", .kind = OWN, .read = read_columns},
     {.name = "time_step", .kind = OWN, .read = read_time_step},
     {.name = "window", .kind = OWN, .read = read_window},
@@ -350,9 +368,10 @@ static int check_columns(const config_setting_t *group, const lab_log_format *fo
 
 static int check_format(const config_setting_t *group, const lab_log_format *format, lab_error *error)
 {
-  if (format->delimiter == format->decimal)
+  int i;
+  if (format->delimiter && format->delimiter == format->decimal)
     return lab_config_fail(group, error, "delimiter and decimal are both \"%c\": give one of them", format->decimal);
-  if (format->delimiter == format->thousands)
+  if (format->delimiter && format->delimiter == format->thousands)
     return lab_config_fail(group, error, "delimiter and thousands are both \"%c\"", format->delimiter);
   if (format->n_quantities && (format->new_run != LAB_RUN_NEVER || format->time_step > 0))
     return lab_config_fail(group, error, "quantities (long format) go with neither new_run nor time_step");
@@ -363,6 +382,9 @@ static int check_format(const config_setting_t *group, const lab_log_format *for
     return lab_config_fail(group, error, "way_back needs time_step: rows that are reversed have no time of their own");
   if (format->runs == LAB_RUNS_MEAN && format->new_run == LAB_RUN_NEVER)
     return lab_config_fail(group, error, "runs = \"mean\" needs new_run, which says where a run begins");
+  for (i = 0; i < LAB_CHANNEL_COUNT && format->n_columns; i++)
+    if (*format->map[i])
+      return lab_config_fail(group, error, "map names columns of a header, columns says that there is none: give one");
   return check_columns(group, format, error);
 }
 

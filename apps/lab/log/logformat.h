@@ -2,11 +2,16 @@
  * about a raw logger file.
  *
  *   log = {
- *     delimiter  = ";";            // one character, "tab", "comma", "semicolon"; default ","
- *     decimal    = ",";            // "." (default) or ","
+ *     delimiter  = ";";            // one character, "tab", "comma", "semicolon", "blanks"; guessed
+ *     decimal    = ",";            // "." or ","; guessed by default
  *     thousands  = ".";            // mark to leave out; equal to decimal: all but the last; default none
  *     comment    = "#";            // lines that begin with it are not data
- *     skip_lines = 1;              // lines before the header, or before the data where there is no header
+ *     skip_lines = 1;              // lines before the header (guessed by default), or before the data where there is
+ * no
+ *                                  // header
+ *     map        = { p = "Pressure_1 (bar)"; }; // which column of the header is which channel; "name [unit]" gives or
+ *                                  // replaces its unit; those that are not given are guessed
+ *     date       = "dmy";          // order of a date's numbers: "dmy", "mdy", "ymd"; guessed by default
  *     columns    = ( "t [ms]", "-", "p [bar]" );  // the file has no header; "-" is a column to ignore
  *     time_step  = "10 ms";        // rows are this far apart; for a file without a column t
  *     window     = ( "0 s", "3 s" ); // only rows with t inside it, in every run
@@ -35,6 +40,7 @@
 #include <libconfig.h>
 
 #include "logcolumn.h"
+#include "stamp.h"
 #include "../base/csv.h"
 
 enum {
@@ -49,18 +55,20 @@ enum lab_damaged { LAB_DAMAGED_ERROR, LAB_DAMAGED_DROP };
 
 /* A word in the column "quantity" of a long file, and the channel it stands for. */
 typedef struct lab_long_quantity {
-  char word[LAB_COLUMN_TEXT];
+  char word[64];
   char column[LAB_COLUMN_TEXT];
 } lab_long_quantity;
 
 typedef struct lab_log_format {
-  char delimiter, decimal;
-  char thousands; /* 0: none */
-  char comment;   /* 0: none */
-  int skip_lines;
-  int new_run;   /* enum lab_new_run */
-  int damaged;   /* enum lab_damaged */
-  int n_columns; /* 0: the file has a header */
+  char delimiter, decimal;                      /* 0: guess */
+  char thousands;                               /* 0: none */
+  char comment;                                 /* 0: none */
+  int skip_lines;                               /* -1: guess */
+  int date;                                     /* enum lab_date_order */
+  char map[LAB_CHANNEL_COUNT][LAB_COLUMN_TEXT]; /* column of the header; "": guess */
+  int new_run;                                  /* enum lab_new_run */
+  int damaged;                                  /* enum lab_damaged */
+  int n_columns;                                /* 0: the file has a header */
   char column[LAB_COLUMN_MAX][LAB_COLUMN_TEXT];
   int every;                                     /* rows of which one is kept; at least 1 */
   int first;                                     /* the first row that is kept */

@@ -2,7 +2,11 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+#include "logmap.h"
+#include "../base/encoding.h"
 
 #include "../base/number.h"
 
@@ -15,20 +19,23 @@ const char *lab_log_quote(const char *text, char shown[LAB_QUOTE])
   return shown;
 }
 
-/* A column with the scale and the offset of the format worked in. */
+/* Work the scale and the offset of the format into a column. */
+static void scale_column(const lab_log_format *format, lab_column *column)
+{
+  const int c = column->channel;
+  if (c < 0)
+    return;
+  column->offset = format->scale[c] * column->offset + format->offset[c];
+  column->scale *= format->scale[c];
+}
+
 static int read_column(const char *text, const lab_log_format *format, double ambient, lab_column *column,
                        lab_error *error)
 {
   const lab_column_frame frame = {ambient, format->stroke, format->command_is_pressure};
-  double scale, offset;
   if (lab_column_read(text, &frame, column, error))
     return error->status;
-  if (column->channel < 0)
-    return LAB_OK;
-  scale = format->scale[column->channel];
-  offset = format->offset[column->channel];
-  column->offset = scale * column->offset + offset;
-  column->scale *= scale;
+  scale_column(format, column);
   return LAB_OK;
 }
 
@@ -49,17 +56,7 @@ static int has_control(const char *text)
   return *text != '\0';
 }
 
-/* A cell of the header line. */
-static int add_cell(const lab_cell *cell, const lab_log_format *format, double ambient, lab_header *header,
-                    lab_error *error)
-{
-  const char *text = lab_trim(cell->begin);
-  char shown[LAB_QUOTE];
-  if (strlen(text) >= LAB_COLUMN_TEXT || has_control(text))
-    return lab_fail(error, LAB_DATA, "column %d: expected \"name [unit]\", found \"%s\"", header->n + 1,
-                    lab_log_quote(text, shown));
-  return add_column(text, format, ambient, header, error);
-}
+/* ---- The header line, and what stands around it ---- */
 
 /* A first line that begins with a number is a row: the file has no header. */
 static int begins_with_number(const lab_cell *cell, const lab_log_format *format)
@@ -68,33 +65,133 @@ static int begins_with_number(const lab_cell *cell, const lab_log_format *format
   return lab_number_read(cell->begin, cell->end, format->decimal, format->thousands, &value) == LAB_NUMBER_FINITE;
 }
 
-static int read_cells(lab_csv *csv, const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+/* The file has no header: show log.columns with as many columns as it has. */
+static int ask_for_columns(const lab_csv *csv, int cells, lab_error *error)
 {
+  static const char *const usual[] = {"t [s]", "u [1]", "p [bar]", "x [mm]"};
+  char columns[8 * LAB_COLUMN_MAX + 64] = "";
   int i;
+  for (i = 0; i < cells && i < LAB_COLUMN_MAX; i++)
+    snprintf(columns + strlen(columns), sizeof columns - strlen(columns), "%s\"%s\"", i ? ", " : "",
+             i < 4 ? usual[i] : "-");
+  lab_fail(error, LAB_DATA,
+           "expected a header \"name [unit], ...\", found numbers; for a file without a header give log.columns in the "
+           "rig file, with its own channels and units: log = { columns = ( %s ); };",
+           columns);
+  return lab_csv_fail_in(csv, error);
+}
+
+/* Step to a line of the file. */
+static int go_to(lab_csv *csv, int line, lab_error *error)
+{
+  int more = 1;
+  while (csv->line < line && more)
+    if (lab_csv_line(csv, &more, error))
+      return error->status;
+  return LAB_OK;
+}
+
+static int read_headings(lab_csv *csv, const lab_log_format *format, lab_heading *heading, int *n, lab_error *error)
+{
+  char shown[LAB_QUOTE];
+  csv->begin += csv->begin < csv->end && format->comment && *csv->begin == format->comment;
   if (lab_csv_cut(csv, error))
     return error->status;
-  if (begins_with_number(csv->cell, format))
-    return lab_fail(error, LAB_DATA,
-                    "expected a header \"name [unit], ...\", found numbers; for a file without a header "
-                    "give log.columns in the rig file");
-  for (i = 0; i < csv->n; i++) {
-    if (i == LAB_COLUMN_MAX)
-      return lab_fail(error, LAB_DATA, "expected at most %d columns", LAB_COLUMN_MAX);
-    if (add_cell(&csv->cell[i], format, ambient, header, error))
-      return error->status;
+  if (csv->n > LAB_COLUMN_MAX)
+    return lab_fail(error, LAB_DATA, "expected at most %d columns", LAB_COLUMN_MAX);
+  for (*n = 0; *n < csv->n; ++*n) {
+    const char *text = lab_trim(csv->cell[*n].begin);
+    if (has_control(text))
+      return lab_fail(error, LAB_DATA, "column %d: expected \"name [unit]\", found \"%s\"", *n + 1,
+                      lab_log_quote(text, shown));
+    lab_encode_cell(text, heading[*n].text, LAB_HEADING_TEXT);
   }
   return LAB_OK;
 }
 
-static int read_line(lab_csv *csv, const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+static int read_units(lab_csv *csv, int n, lab_heading *heading, lab_error *error)
+{
+  int i;
+  if (lab_csv_cut(csv, error))
+    return error->status;
+  for (i = 0; i < n && i < csv->n && i < LAB_CSV_CELLS; i++)
+    lab_encode_cell(lab_trim(csv->cell[i].begin), heading[i].below, LAB_HEADING_TEXT);
+  return LAB_OK;
+}
+
+static int read_stamps(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, lab_error *error)
+{
+  int i;
+  if (lab_csv_cut(csv, error))
+    return error->status;
+  for (i = 0; i < n && i < csv->n && i < LAB_CSV_CELLS; i++) {
+    const lab_cell *cell = &csv->cell[i];
+    if (!lab_stamp_read(cell->begin, cell->end, format->date, &heading[i].stamp))
+      heading[i].stamp = (lab_stamp){0};
+  }
+  return LAB_OK;
+}
+
+/* A header whose line was guessed. Rows say how many columns there are. */
+static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_guess *guess, lab_heading *heading,
+                        int *n, lab_error *error)
+{
+  if (go_to(csv, guess->header ? guess->header : guess->data, error))
+    return error->status;
+  if (!guess->header)
+    return ask_for_columns(csv, guess->cells, error);
+  if (read_headings(csv, format, heading, n, error) || (guess->units && go_to(csv, guess->units, error)) ||
+      (guess->units && read_units(csv, *n, heading, error)) || go_to(csv, guess->data, error) ||
+      read_stamps(csv, format, *n, heading, error))
+    return lab_csv_fail_in(csv, error);
+  *n = guess->cells;
+  lab_csv_restart(csv);
+  return go_to(csv, guess->data - 1, error);
+}
+
+/* A header in the first line that is no comment. */
+static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *heading, int *n, lab_error *error)
 {
   int more;
+  csv->comment = format->comment;
   if (lab_csv_line(csv, &more, error))
     return error->status;
   if (!more)
     return lab_fail(error, LAB_DATA, "%s: expected a header \"name [unit], ...\", found the end of the file",
                     csv->path);
-  return read_cells(csv, format, ambient, header, error) ? lab_csv_fail_in(csv, error) : LAB_OK;
+  if (lab_csv_cut(csv, error))
+    return lab_csv_fail_in(csv, error);
+  if (begins_with_number(csv->cell, format))
+    return ask_for_columns(csv, csv->n, error);
+  return read_headings(csv, format, heading, n, error) ? lab_csv_fail_in(csv, error) : LAB_OK;
+}
+
+static int fail_in_header(const lab_csv *csv, const lab_guess *guess, lab_error *error)
+{
+  return lab_fail_in(error, "%s:%d", csv->path, guess->header ? guess->header : csv->line);
+}
+
+static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *guess, double ambient,
+                        lab_header *header, lab_error *error)
+{
+  lab_heading heading[LAB_COLUMN_MAX];
+  char said[LAB_MAP_TEXT] = "";
+  int i, n = 0;
+  memset(heading, 0, sizeof heading);
+  csv->mark = format->delimiter;
+  if (guess->guessed ? read_guessed(csv, format, guess, heading, &n, error)
+                     : read_first(csv, format, heading, &n, error))
+    return error->status;
+  if (lab_map_columns(heading, n, guess->guessed, format, ambient, header, said, error))
+    return fail_in_header(csv, guess, error);
+  for (i = 0; i < n; i++)
+    scale_column(format, &header->column[i]);
+  if (guess->guessed)
+    lab_guess_say(guess, format, header->said);
+  if (*said)
+    snprintf(header->said + strlen(header->said), sizeof header->said - strlen(header->said), "%s%s",
+             guess->guessed ? "; " : "", said);
+  return LAB_OK;
 }
 
 static int skip_lines(lab_csv *csv, int n, lab_error *error)
@@ -150,9 +247,10 @@ static int check_channels(const lab_header *header, const lab_log_format *format
 
 static int check_time(const lab_header *header, const lab_log_format *format, lab_error *error)
 {
-  int n = lab_header_count(header, format, LAB_CHANNEL_TIME);
+  const int n = lab_header_count(header, format, LAB_CHANNEL_TIME);
   if (!n && !(format->time_step > 0))
-    return lab_fail(error, LAB_DATA, "expected a column t, such as \"t [s]\", found none");
+    return lab_fail(error, LAB_DATA,
+                    "expected a column t, such as \"t [s]\", found none; without one give log.time_step");
   if (n && format->time_step > 0)
     return lab_fail(error, LAB_DATA, "expected a column t or log.time_step, found both");
   return LAB_OK;
@@ -169,17 +267,23 @@ static int check_long(const lab_header *header, const lab_log_format *format, la
                   "log.quantities, or none of the three");
 }
 
-int lab_header_read(lab_csv *csv, const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+int lab_header_read(lab_csv *csv, lab_log_format *format, double ambient, lab_header *header, lab_error *error)
 {
-  header->n = 0;
+  lab_guess guess;
+  int i;
+  header->n = header->has_stamps = 0;
+  *header->said = '\0';
   memset(header->quantity, 0, sizeof header->quantity);
-  if (skip_lines(csv, format->skip_lines, error) || take_listed(format, ambient, header, error))
+  if (lab_guess_form(csv, format, &guess, error) || skip_lines(csv, format->skip_lines, error) ||
+      take_listed(format, ambient, header, error))
     return error->status;
   csv->mark = format->delimiter;
-  csv->comment = format->comment;
-  if (header->n == 0 && read_line(csv, format, ambient, header, error))
+  if (header->n == 0 && read_columns(csv, format, &guess, ambient, header, error))
     return error->status;
+  csv->comment = format->comment;
+  for (i = 0; i < header->n; i++)
+    header->has_stamps |= header->column[i].is_stamp;
   if (check_channels(header, format, error) || check_time(header, format, error) || check_long(header, format, error))
-    return lab_csv_fail_in(csv, error);
+    return fail_in_header(csv, &guess, error);
   return LAB_OK;
 }

@@ -11,7 +11,7 @@ static void write_mark(FILE *file, const char *key, char mark)
   if (!mark)
     return;
   fprintf(file, "  %s = ", key);
-  lab_put_config(file, mark == '\t' ? "tab" : (char[]){mark, '\0'});
+  lab_put_config(file, mark == '\t' ? "tab" : mark == LAB_CSV_BLANKS ? "blanks" : (char[]){mark, '\0'});
   fputs(";\n", file);
 }
 
@@ -90,13 +90,18 @@ static void write_held_out(FILE *file, const lab_log_format *format)
     fputs(" };\n", file);
 }
 
-static void write_channel_names(FILE *file, const lab_log_format *format)
+/* A text a channel. */
+static void write_texts(FILE *file, const char *key, const char text[LAB_CHANNEL_COUNT][LAB_COLUMN_TEXT])
 {
   int c, any = 0;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (*format->name[c]) {
-      fprintf(file, "%s %s = ", any++ ? ";" : "  name = {", lab_channels[c].key);
-      lab_put_config(file, format->name[c]);
+    if (*text[c]) {
+      if (any++)
+        fputc(';', file);
+      else
+        fprintf(file, "  %s = {", key);
+      fprintf(file, " %s = ", lab_channels[c].key);
+      lab_put_config(file, text[c]);
     }
   if (any)
     fputs("; };\n", file);
@@ -129,7 +134,11 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   write_mark(file, "decimal", format->decimal);
   write_mark(file, "thousands", format->thousands);
   write_mark(file, "comment", format->comment);
-  fprintf(file, "  skip_lines = %d;\n", format->skip_lines);
+  if (format->skip_lines >= 0)
+    fprintf(file, "  skip_lines = %d;\n", format->skip_lines);
+  write_texts(file, "map", format->map);
+  if (format->date)
+    fprintf(file, "  date = \"%s\";\n", lab_date_orders[format->date]);
   write_columns(file, format);
   if (format->time_step > 0)
     fprintf(file, "  time_step = \"%s s\";\n", lab_number_write(format->time_step, number));
@@ -147,7 +156,7 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   if (format->every > 1)
     fprintf(file, "  every = %d;\n", format->every);
   write_held_out(file, format);
-  write_channel_names(file, format);
+  write_texts(file, "name", format->name);
   write_weights(file, format);
   if (format->way_back >= 0)
     fprintf(file, "  way_back = \"%s\";\n", lab_channels[format->way_back].key);

@@ -18,8 +18,8 @@ static int check_inputs(const lab_rig *rig, const lab_log *log, lab_error *error
       continue;
     return lab_fail(error, LAB_DATA,
                     "%s: expected a column %s, which drives the model; where it is constant give "
-                    "log.constants in the rig file",
-                    log->path, lab_channels[i].key);
+                    "log.constants in the rig file, and where a column has another name log.map%s%s%s",
+                    log->path, lab_channels[i].key, *log->read_as ? " (" : "", log->read_as, *log->read_as ? ")" : "");
   }
   return LAB_OK;
 }

@@ -1,0 +1,273 @@
+#include "logname.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/units.h"
+
+enum { WORDS_TEXT = LAB_COLUMN_TEXT + 2 };
+
+/* ---- Units ---- */
+
+/* Units that loggers write and UDUNITS does not read, or reads as another one. */
+static const struct unit_word {
+  const char *word, *unit;
+  int absolute;
+} unit_words[] = {
+    {"barg", "bar", 0},
+    {"bar g", "bar", 0},
+    {"bar(g)", "bar", 0},
+    {"mbarg", "mbar", 0},
+    {"bara", "bar", 1},
+    {"bar a", "bar", 1},
+    {"bar(a)", "bar", 1},
+    {"bar abs", "bar", 1},
+    {"mbara", "mbar", 1},
+    {"kpa(g)", "kPa", 0},
+    {"kpa(a)", "kPa", 1},
+    {"kpa abs", "kPa", 1},
+    {"psig", "psi", 0},
+    {"psia", "psi", 1},
+    {"kg/cm2", "98066.5 Pa", 0}, /* technical atmosphere, kgf/cm2 (ISO 80000-4) */
+    {"kgf/cm2", "98066.5 Pa", 0},
+    {"c", "degC", 0},
+    {"deg c", "degC", 0},
+    {"grad c", "degC", 0},
+    {"f", "degF", 0},
+    {"deg f", "degF", 0},
+    {"sec", "s", 0},
+    {"secs", "s", 0},
+    {"sek", "s", 0},
+    {"sekunden", "s", 0},
+    {"msec", "ms", 0},
+    {"pct", "%", 0},
+    {"prozent", "%", 0},
+    {"% open", "%", 0},
+    {"percent open", "%", 0},
+};
+enum { UNIT_WORDS = sizeof unit_words / sizeof unit_words[0] };
+
+static int same_word(const char *a, const char *b)
+{
+  while (*a && tolower((unsigned char)*a) == *b)
+    a++, b++;
+  return !*a && !*b;
+}
+
+/* Whether a word is a unit into which `si` goes; a word of the table only where it fits. */
+static int unit_of(const char *word, const char *si, char unit[LAB_COLUMN_TEXT], int *absolute)
+{
+  lab_error ignored;
+  double scale, offset;
+  int i;
+  for (i = 0; i < UNIT_WORDS; i++)
+    if (same_word(word, unit_words[i].word) &&
+        lab_unit_factor(unit_words[i].unit, si, &scale, &offset, &ignored) == LAB_OK) {
+      strcpy(unit, unit_words[i].unit);
+      *absolute |= unit_words[i].absolute;
+      return 1;
+    }
+  if (!*word || isdigit((unsigned char)*word) || lab_unit_factor(word, si, &scale, &offset, &ignored) != LAB_OK)
+    return 0;
+  snprintf(unit, LAB_COLUMN_TEXT, "%s", word);
+  return 1;
+}
+
+/* The text between the last pair of marks, blanks dropped.  Returns: 0 if there is none */
+static int between(const char *text, char open, char shut, char word[LAB_COLUMN_TEXT])
+{
+  const char *begin = strrchr(text, open), *end = strrchr(text, shut);
+  if (open == '(' && end) /* "(bar(g))": the first one that is not shut before the last */
+    begin = strchr(text, open);
+  if (!begin || !end || end < begin)
+    return 0;
+  begin += 1 + strspn(begin + 1, " ");
+  while (end > begin && end[-1] == ' ')
+    end--;
+  snprintf(word, LAB_COLUMN_TEXT, "%.*s", end > begin ? (int)(end - begin) : 0, begin);
+  return *word != '\0';
+}
+
+/* The text behind the last of these marks. */
+static int behind(const char *text, const char *mark, char word[LAB_COLUMN_TEXT])
+{
+  const char *at, *last = NULL;
+  for (at = strstr(text, mark); at; at = strstr(at + 1, mark))
+    last = at;
+  if (!last)
+    return 0;
+  last += strlen(mark);
+  snprintf(word, LAB_COLUMN_TEXT, "%s", last + strspn(last, " "));
+  return *word != '\0';
+}
+
+int lab_name_unit(const char *text, const char *si, char unit[LAB_COLUMN_TEXT], int *absolute)
+{
+  static const char *const marks[] = {" in ", " / ", ", ", "/", " ", "_"};
+  char word[LAB_COLUMN_TEXT];
+  size_t i;
+  *unit = '\0';
+  if ((between(text, '[', ']', word) && unit_of(word, si, unit, absolute)) ||
+      (between(text, '(', ')', word) && unit_of(word, si, unit, absolute)))
+    return 1;
+  for (i = 0; i < sizeof marks / sizeof marks[0]; i++)
+    if (behind(text, marks[i], word) && unit_of(word, si, unit, absolute))
+      return 1;
+  return 0;
+}
+
+int lab_name_is_unit(const char *text)
+{
+  static const char *const bases[] = {"s", "Pa", "1", "m", "K", "N", "V", "A"};
+  char word[LAB_COLUMN_TEXT], unit[LAB_COLUMN_TEXT];
+  int absolute = 0;
+  size_t i;
+  snprintf(word, sizeof word, "%s", text);
+  if (*text == '[' || *text == '(')
+    between(text, *text, *text == '[' ? ']' : ')', word);
+  for (i = 0; i < sizeof bases / sizeof bases[0]; i++)
+    if (unit_of(word, bases[i], unit, &absolute))
+      return 1;
+  return 0;
+}
+
+/* ---- Words ---- */
+
+/* What names mean; the first row that fits decides. A word of three letters or fewer must stand alone. */
+static const struct name_word {
+  const char *word;
+  int channel;
+} name_words[] = {
+    {"ambient", LAB_COLUMN_IGNORED},
+    {"umgebung", LAB_COLUMN_IGNORED},
+    {"atmos", LAB_COLUMN_IGNORED},
+    {"baro", LAB_COLUMN_IGNORED},
+    {"differential", LAB_COLUMN_IGNORED},
+    {"delta", LAB_COLUMN_IGNORED},
+    {"deviation", LAB_COLUMN_IGNORED},
+    {"abweichung", LAB_COLUMN_IGNORED},
+    {"error", LAB_COLUMN_IGNORED},
+    {"fehler", LAB_COLUMN_IGNORED},
+    {"status", LAB_COLUMN_IGNORED},
+    {"quality", LAB_COLUMN_IGNORED},
+    {"validity", LAB_COLUMN_IGNORED},
+    {"comment", LAB_COLUMN_IGNORED},
+    {"drive", LAB_COLUMN_IGNORED},
+    {"x value", LAB_CHANNEL_TIME},
+    {"supply", LAB_CHANNEL_PS},
+    {"zuluft", LAB_CHANNEL_PS},
+    {"versorgung", LAB_CHANNEL_PS},
+    {"speise", LAB_CHANNEL_PS},
+    {" temp", LAB_CHANNEL_T},
+    {"force", LAB_CHANNEL_FORCE},
+    {"kraft", LAB_CHANNEL_FORCE},
+    {"setpoint", LAB_CHANNEL_SP},
+    {"set point", LAB_CHANNEL_SP},
+    {"set position", LAB_CHANNEL_SP},
+    {"target", LAB_CHANNEL_SP},
+    {"demand", LAB_CHANNEL_SP},
+    {"soll", LAB_CHANNEL_SP},
+    {"sp", LAB_CHANNEL_SP},
+    {"command", LAB_CHANNEL_U},
+    {"cmd", LAB_CHANNEL_U},
+
+    {"solenoid", LAB_CHANNEL_U},
+    {"befehl", LAB_CHANNEL_U},
+    {"valve signal", LAB_CHANNEL_U},
+    {"magnetventil", LAB_CHANNEL_U},
+    {"u", LAB_CHANNEL_U},
+    {"consigne", LAB_CHANNEL_SP},
+    {"commande", LAB_CHANNEL_U},
+    {"alimentation", LAB_CHANNEL_PS},
+    {"course", LAB_CHANNEL_X},
+    {"pression", LAB_CHANNEL_P},
+    {"temps", LAB_CHANNEL_TIME},
+    {"travel", LAB_CHANNEL_X},
+    {"position", LAB_CHANNEL_X},
+    {"pos", LAB_CHANNEL_X},
+    {"hub", LAB_CHANNEL_X},
+    {"weg", LAB_CHANNEL_X},
+    {"stellung", LAB_CHANNEL_X},
+    {"istwert", LAB_CHANNEL_X},
+    {" stem", LAB_CHANNEL_X},
+    {"stroke", LAB_CHANNEL_X},
+    {"displacement", LAB_CHANNEL_X},
+    {"lvdt", LAB_CHANNEL_X},
+    {"feedback", LAB_CHANNEL_X},
+    {"pv", LAB_CHANNEL_X},
+    {"x", LAB_CHANNEL_X},
+    {"pressure", LAB_CHANNEL_P},
+    {"press", LAB_CHANNEL_P},
+    {"druck", LAB_CHANNEL_P},
+    {"p1", LAB_CHANNEL_P},
+    {"p", LAB_CHANNEL_P},
+    {"time", LAB_CHANNEL_TIME},
+    {"zeit", LAB_CHANNEL_TIME},
+    {"date", LAB_CHANNEL_TIME},
+    {"datum", LAB_CHANNEL_TIME},
+    {"elapsed", LAB_CHANNEL_TIME},
+    {"second", LAB_CHANNEL_TIME},
+    {"t", LAB_CHANNEL_TIME},
+};
+enum { NAME_WORDS = sizeof name_words / sizeof name_words[0], LONE = 3 };
+
+/* " word word ": small letters, what is neither letter nor digit as one blank, what is in brackets left out. */
+static void words_of(const char *text, char words[WORDS_TEXT])
+{
+  size_t n = 0;
+  words[n++] = ' ';
+  for (; *text && n < WORDS_TEXT - 2 && *text != '[' && *text != '('; text++)
+    if (isalnum((unsigned char)*text) || (unsigned char)*text >= 0x80)
+      words[n++] = (char)tolower((unsigned char)*text);
+    else if (words[n - 1] != ' ')
+      words[n++] = ' ';
+  words[n++] = ' ';
+  words[n] = '\0';
+}
+
+static int has_word(const char *words, const char *word)
+{
+  char alone[32];
+  snprintf(alone, sizeof alone, strlen(word) <= LONE ? " %s " : "%s", word);
+  return strstr(words, alone) != NULL;
+}
+
+/* Whether a channel can be what a column holds: dates are time, and a unit must fit. */
+static int fits(int channel, const char *text, const char *below, int is_stamp, const lab_column_frame *frame,
+                int *absolute)
+{
+  const char *si = lab_channel_unit(channel, frame->command_is_pressure);
+  char unit[LAB_COLUMN_TEXT];
+  const int bracket = strpbrk(text, "[(%") != NULL;
+  if (is_stamp)
+    return channel == LAB_CHANNEL_TIME;
+  if (lab_name_unit(*below ? below : text, si, unit, absolute) || (*below && unit_of(below, si, unit, absolute)))
+    return 1;
+  if ((channel == LAB_CHANNEL_X && lab_name_unit(text, "1", unit, absolute)) ||
+      (channel == LAB_CHANNEL_SP && lab_name_unit(text, "m", unit, absolute)))
+    return 1;
+  return !bracket && !*below;
+}
+
+int lab_name_channel(const char *text, const char *below, int is_stamp, const lab_column_frame *frame, int *absolute)
+{
+  char words[WORDS_TEXT];
+  int i;
+  words_of(text, words);
+  *absolute = 0;
+  for (i = 0; i < NAME_WORDS; i++) {
+    const int channel = name_words[i].channel;
+    if (!has_word(words, name_words[i].word))
+      continue;
+    if (channel < 0)
+      return LAB_COLUMN_IGNORED;
+    if (fits(channel, text, below, is_stamp, frame, absolute)) {
+      *absolute |= strcmp(lab_channel_unit(channel, 0), "Pa") == 0 && strstr(words, " abs") != NULL;
+      return channel;
+    }
+    *absolute = 0;
+  }
+  return !is_stamp && *below && fits(LAB_CHANNEL_TIME, text, below, 0, frame, absolute) ? LAB_CHANNEL_TIME
+                                                                                        : LAB_COLUMN_IGNORED;
+}
