@@ -120,9 +120,10 @@ int lab_csv_cells(char *at, char *end, char mark, lab_cell *cell, int most)
   int n;
   if (any_number) {
     mark = ' ';
+    while (at < end && *at == ' ')
+      at++;
     while (end > at && end[-1] == ' ')
       end--;
-    at += strspn(at, " ");
   }
   for (n = 1;; n++) {
     lab_cell *to = n <= most ? &cell[n - 1] : &beyond;
