@@ -8,6 +8,7 @@
 #include "../base/names.h"
 #include "rigkeys.h"
 #include "rigterm.h"
+#include "sheet.h"
 #include "tolerance.h"
 #include "../base/text.h"
 
@@ -139,6 +140,8 @@ static int read_keys(const config_setting_t *group, lab_rig *rig, lab_error *err
   int i, row, status = lab_config_is_group(group, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
+    if (lab_sheet_has(config_setting_name(group), config_setting_name(setting)))
+      continue;
     row = key_row(config_setting_name(group), config_setting_name(setting));
     if (row < 0)
       return unknown_key(setting, config_setting_name(group), error);
@@ -309,6 +312,13 @@ static int read_unlisted(const config_setting_t *list, lab_rig *rig, lab_error *
   return lab_terms_read(list, LAB_TERM_MAX, rig->term, &rig->n_terms, error);
 }
 
+/* By lab_sheet_read, when all else is known. */
+static int read_later(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  (void)rig;
+  return lab_config_is_group(group, error);
+}
+
 /* In the order of reading: effects after the friction law, log after the transducer. */
 static const struct section {
   const char *name;
@@ -328,6 +338,7 @@ static const struct section {
     {"effects", read_effects},
     {"unlisted", read_unlisted},
     {"tolerance", lab_tolerance_read},
+    {"tube", read_later},
     {"log", read_log},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
@@ -430,6 +441,8 @@ static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
     if (member)
       status = sections[i].read(member, rig, error);
   }
+  if (status == LAB_OK)
+    status = lab_sheet_read(root, rig, error);
   tell_log(rig);
   return status == LAB_OK ? check_supply(config, rig, error) : status;
 }

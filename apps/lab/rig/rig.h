@@ -12,7 +12,8 @@
  * its equation is supply, force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p, u
  * or t, and numbers are in SI where no unit is given. Over t the values are the amplitudes of cosine and sine of the
  * period to - from, of its half and so on. Between [ and ] libconfig wants all numbers with a point or none; ( and )
- * take both. The groups log and tolerance are described in logformat.h and tolerance.h.
+ * take both. The groups log and tolerance are described in logformat.h and tolerance.h, the
+ * words of a data sheet in sheet.h.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_RIG_H
 #define LAB_RIG_H

@@ -1,0 +1,169 @@
+/* apps/lab/rig/sheet: words of a data sheet against numbers that a Python script computed from the sources in sheet.h.
+ */
+#include "../../scratch.h"
+
+#include "../../../apps/lab/rig/rig.h"
+
+static lab_error error;
+
+static const char *const sheet =
+    "actuator = { area = \"400 cm^2\"; stroke = \"20 mm\"; };\nsupply = { pressure = \"4 bar\"; };\n";
+
+static int read_text(const char *more, const char *law, lab_rig *rig)
+{
+  char text[2048];
+  snprintf(text, sizeof text, "%s%s\nlaws = { flow = \"%s\"; };\n", strstr(more, "actuator") ? "" : sheet, more, law);
+  return lab_rig_read(scratch_text("rig.cfg", text), rig, &error);
+}
+
+static lab_rig read_rig(const char *more, const char *law)
+{
+  lab_rig rig;
+  if (read_text(more, law, &rig))
+    fail_msg("%s", error.text);
+  return rig;
+}
+
+static void assert_refused(const char *more, const char *place, const char *words)
+{
+  lab_rig rig;
+  if (read_text(more, "choked", &rig) == LAB_OK)
+    fail_msg("\"%s\" was read; it should say \"%s\"", more, words);
+  assert_int_equal(error.status, LAB_DATA);
+  assert_contains(error.text, place);
+  assert_contains(error.text, words);
+}
+
+/* In any order of the keys. */
+static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
+{
+  lab_rig rig = read_rig(
+      "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; area = \"400 cm^2\"; stroke = \"20 mm\"; };", "choked");
+  (void)state;
+  assert_close((double)rig.params.spring_rate, 160000, 0, TOL(1e-12, 1e-6));
+  assert_close((double)rig.params.spring_preload, 0.005, 0, TOL(1e-12, 1e-6));
+}
+
+static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state)
+{
+  static const struct {
+    const char *words, *law;
+    double area; /* [m2] */
+  } row[] = {
+      {"{ Kv = 0.1; }", "choked", 2.293186050641583e-06},
+      {"{ Kv = \"100 l/h\"; }", "iso6358", 2.293186050641583e-06},
+      {"{ Kv = 0.1; }", "paper", 1.8332031509707252e-06},
+      {"{ Cv = 0.1; }", "choked", 1.9836059338049695e-06},
+      {"{ C = \"0.5 dm3/(s.bar)\"; }", "choked", 2.5172479727786547e-06},
+      {"{ C = 5e-9; b = 0.3; }", "iso6358", 2.5172479727786547e-06},
+      {"{ C = 5e-9; b = 0.3; }", "paper", 1.95241516482365e-06},
+      {"{ Qn = \"110 l/min\"; }", "choked", 1.9946960589642835e-06},
+      {"{ Qn = \"110 l/min\"; b = 0.3; }", "iso6358", 2.367243070902674e-06},
+  };
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof row / sizeof row[0]; i++) {
+    char text[256];
+    lab_rig rig;
+    check_note("%s, %s", row[i].words, row[i].law);
+    snprintf(text, sizeof text, "transducer = { fill = %s; };", row[i].words);
+    rig = read_rig(text, row[i].law);
+    assert_close((double)rig.params.fill_area, row[i].area, 0, 1e-6);
+    snprintf(text, sizeof text, "transducer = { vent = %s; };", row[i].words);
+    rig = read_rig(text, row[i].law);
+    assert_close((double)rig.params.vent_area, row[i].area, 0, 1e-6);
+  }
+}
+
+/* The library's own sonic conductance of the area is the sheet's. */
+static void test_lab_sheet_read__C__comes_back_from_the_library(void **state)
+{
+  lab_rig rig = read_rig("transducer = { fill = { C = 5e-9; b = 0.25; }; vent = { Kv = 0.1; }; };", "iso6358");
+  pneu_model model;
+  (void)state;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_close((double)pneu_sonic_conductance(&model, rig.params.fill_area), 5e-9, 0,
+               2e-4); /* R of dry air or of [B] */
+  assert_close((double)rig.params.critical_ratio, 0.25, 0, 1e-6);
+}
+
+/* Below Re = 2300 by Hagen and Poiseuille, above it by Blasius. */
+static void test_lab_sheet_read__tube__is_a_volume_and_a_resistance(void **state)
+{
+  const int resistance = pneu_param_find("connecting_tube.tube_resistance");
+  const int volume = pneu_param_find("connecting_tube.tube_volume");
+  lab_rig rig;
+  (void)state;
+  if (resistance < 0)
+    skip();
+  rig = read_rig("transducer = { fill_area = \"0.02 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
+                 "choked");
+  assert_close((double)*pneu_param_at(&rig.params, volume), 2.5132741228718347e-05, 0, 1e-6);
+  assert_close((double)*pneu_param_at(&rig.params, resistance), 1645427.3619244916, 0, 1e-6);
+  rig = read_rig("transducer = { fill_area = \"0.893 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
+                 "choked");
+  assert_close((double)*pneu_param_at(&rig.params, resistance), 12811831.903400254, 0, 1e-6);
+}
+
+static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
+{
+  (void)state;
+  assert_refused("actuator = { bench_set = [\"1 bar\", \"0.2 bar\"]; };", "actuator.bench_set", "lower pressure first");
+  assert_refused("actuator = { bench_set = [\"1 bar\"]; };", "actuator.bench_set", "2 to 2 entries");
+  assert_refused("actuator = { bench_set = [\"1 bar\", \"2 mm\"]; };", "actuator.bench_set", "expected a unit like Pa");
+  assert_refused("actuator = { stroke = 0; bench_set = [\"0 bar\", \"1 bar\"]; };", "actuator.bench_set", "stroke");
+  assert_refused("actuator = { spring_rate = 1e5; bench_set = [\"0 bar\", \"1 bar\"]; };", "actuator.bench_set",
+                 "spring_rate is there too");
+  assert_refused("actuator = { spring_preload = 0.01; bench_set = [\"0 bar\", \"1 bar\"]; };", "actuator.bench_set",
+                 "spring_preload is there too");
+  assert_refused("actuator = { stroke = \"1 um\"; bench_set = [\"0 bar\", \"9 bar\"]; };", "actuator.bench_set",
+                 "gives a spring_rate of");
+  assert_refused("transducer = { fill = { Kv = 1; Cv = 1; }; };", "transducer.fill", "one of Kv, Cv, C and Qn");
+  assert_refused("transducer = { fill = { b = 0.5; }; };", "transducer.fill", "one of Kv, Cv, C and Qn");
+  assert_refused("transducer = { fill = { Kw = 1; }; };", "transducer.fill.Kw", "nearest");
+  assert_refused("transducer = { fill = { Kv = 0; }; };", "transducer.fill.Kv", "more than 0");
+  assert_refused("transducer = { fill = 3; };", "transducer.fill", "a group");
+  assert_refused("transducer = { fill = { Qn = 1e-3; p1 = \"5 bar\"; }; };", "transducer.fill", "p1 above p2");
+  assert_refused("transducer = { vent = { Kv = 1; }; vent_area = 1e-6; };", "transducer.vent",
+                 "vent_area is there too");
+  assert_refused("transducer = { fill = { C = 1e-9; b = 0.3; }; vent = { C = 1e-9; b = 0.4; }; };", "transducer.vent.b",
+                 "expected 0.3");
+  assert_refused("transducer = { fill = { Kv = 1e6; }; };", "transducer.fill", "gives a fill_area of");
+  assert_refused("tube = { length = \"2 m\"; };", "tube", "expected length and bore");
+  assert_refused("tube = { length = \"2 m\"; bore = \"4 mm\"; wall = 1; };", "tube.wall", "nearest");
+  if (pneu_effect_find("connecting_tube") >= 0)
+    assert_refused(
+        "tube = { length = \"2 m\"; bore = \"4 mm\"; };\neffects = { connecting_tube = { tube_volume = 1e-5; }; };",
+        "tube", "connecting_tube is there too");
+}
+
+/* model.cfg holds the numbers. */
+static void test_lab_rig_write__of_words__gives_the_same_model(void **state)
+{
+  static lab_rig rig, again;
+  FILE *file;
+  (void)state;
+  rig = read_rig(
+      "actuator = { stroke = \"20 mm\"; area = \"400 cm^2\"; bench_set = [\"0.2 bar\", \"1 bar\"]; };\n"
+      "transducer = { fill = { Kv = 0.1; }; vent = { Cv = 0.2; }; };\ntube = { length = \"1 m\"; bore = \"4 mm\"; };",
+      "choked");
+  file = fopen(scratch_path("again.cfg"), "w");
+  assert_non_null(file);
+  lab_rig_write(file, &rig, NULL);
+  assert_int_equal(fclose(file), 0);
+  assert_int_equal(lab_rig_read(scratch_path("again.cfg"), &again, &error), LAB_OK);
+  assert_memory_equal(&rig.params, &again.params, sizeof rig.params);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_sheet_read__bench_set__is_rate_and_preload),
+      cmocka_unit_test(test_lab_sheet_read__orifices__pass_what_the_sheet_says),
+      cmocka_unit_test(test_lab_sheet_read__C__comes_back_from_the_library),
+      cmocka_unit_test(test_lab_sheet_read__tube__is_a_volume_and_a_resistance),
+      cmocka_unit_test(test_lab_sheet_read__what_cannot_be__is_refused),
+      cmocka_unit_test(test_lab_rig_write__of_words__gives_the_same_model),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
