@@ -678,12 +678,13 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * Error:   R1-400 with its 2 cm3 of dead volume, filled and vented from end to end, in four laws, in double: at most
  *          4e-6 of stroke up to 2 ms, 4e-5 up to 50 ms. In single (order 4): 7e-5 up to 1 ms, most of it rounding, 9e-5
  *          up to 50 ms.
- *          Anywhere: random actuators, states and inputs, up to three effects, steps of 0.1 to 5 ms, each against 64
- *          small ones (make step-search). Of 4.0 million in double and 5.0 million in single 41 and 179 that said
- *          PNEU_OK were off by more than 1e-2 of full scale (pneu_scales), 1 and 15 by more than 1e-1, the worst by
- *          0.36 and 0.79; without stop_compliance, whose stop a stem may leave late, 34 and 41, the worst by 0.07 and
- *          0.16. One in 780 and one in 240 was PNEU_HELD, 3 and 11 were PNEU_E_STEP_COUNT. In none, held or not, had
- *          more gas passed than the orifices let, or was its pressure beyond what supply, ambient and compression allow
+ *          Anywhere: random actuators, states and inputs, all laws, up to three effects, steps of 0.1 to 5 ms, each
+ *          against 64 small ones (make step-search). Of 5.0 million in double and as many in single 47 and 145 that
+ *          said PNEU_OK were off by more than 1e-2 of full scale (pneu_scales), 1 and 26 by more than 1e-1, the worst
+ *          by 0.23 and 0.46; without stop_compliance, whose stop a stem may leave late, 36 and 23, the worst by 0.23
+ *          and 0.16. One in 920 and one in 260 was PNEU_HELD, 9 and 18 were PNEU_E_STEP_COUNT. In none, held or not,
+ *          had more gas passed than the orifices let, or was its pressure beyond what supply, ambient and compression
+ *          allow
  * In/out:  state, work
  * Returns: PNEU_OK, and `state` is again in the ranges above, v = 0 on a stop. PNEU_HELD, and it is so too, but the
  *          stem was held and is late: a controller goes on, and does not judge by this step; shorter ones from a copy

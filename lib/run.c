@@ -181,26 +181,37 @@ static int all_finite(const pneu_input *input)
   return 0 * (input->u + input->supply_pressure + input->force + input->pressure_rate + input->position_rate) == 0;
 }
 
-/* Whether state and input lie in their documented ranges; position with a thousandth of the stroke for sensors and
- * rounding. */
+/* Whether a position is between the stops, with a thousandth of the stroke for sensors and rounding. */
+static int between_stops(const pneu_model *model, pneu_real x)
+{
+  const pneu_real margin = PNEU_C(1e-3) * model->p.stroke;
+  return model->law.position_input || (x >= model->lower_stop - margin && x <= model->upper_stop + margin);
+}
+
+/* Whether state and input lie in their documented ranges. */
 static int usable(const pneu_model *model, const pneu_state *state, const pneu_input *input)
 {
   const pneu_params *p = &model->p;
-  const pneu_real margin = PNEU_C(1e-3) * p->stroke;
   if (!is_sound(model, state) || !all_finite(input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
     return 0;
   if (input->supply_pressure <= -p->ambient_pressure)
     return 0;
   if (p->proportional_band <= 0 && !input->set_position && PNEU_M(fabs)(input->u) > PNEU_C(1.00001))
     return 0;
-  return model->law.position_input ||
-         (state->x >= model->lower_stop - margin && state->x <= model->upper_stop + margin);
+  return between_stops(model, state->x);
 }
 
 /* Whether duration and tolerance lie in their documented ranges; tolerance with room for rounding. */
 static int in_range(pneu_real duration, pneu_real tol)
 {
   return duration >= 0 && duration * 0 == 0 && tol >= PNEU_C(0.9999e-10) && tol <= PNEU_C(1.0001e-2);
+}
+
+/* Whether a step has carried the stem through a stop: the repeat that ends on another event may miss it. */
+static int is_through(const run *r)
+{
+  return pneu_dimension(r->model, r->state->mode) > r->model->n_gas &&
+         !between_stops(r->model, r->work->y1[r->model->n_gas]);
 }
 
 /* Try steps from the present state until one is accepted. */
@@ -216,7 +227,7 @@ static int advance(run *r)
   if (fresh)
     r->h = first_step(r);
   for (;;) {
-    pneu_real error = 0, h = r->h, factor;
+    pneu_real error = 0, h = r->h, factor, tried, located;
     int which = -1;
     if (r->options->h_max > 0)
       h = PNEU_M(fmin)(h, r->options->h_max);
@@ -238,14 +249,21 @@ static int advance(run *r)
       refused = 1;
       continue;
     }
+    tried = h;
     factor = clip(next_factor(r, h, error), PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
-    r->h_before = h;
-    r->error_before = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
-    if (h < left || factor < 1) /* a step cut short by the end says little about the next */
-      r->h = h * factor;
-    status = pneu_locate(r->model, r->state, r->input, w, &h, &which, &error);
+    status = pneu_locate(r->model, r->state, r->input, w, &h, &which, &located);
     if (status != PNEU_OK)
       return status < 0 ? status : PNEU_E_NONFINITE;
+    if (is_through(r)) {
+      r->h = h * PNEU_C(0.2);
+      w->stats.rejected++;
+      refused = 1;
+      continue;
+    }
+    r->h_before = tried;
+    r->error_before = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
+    if (tried < left || factor < 1) /* a step cut short by the end says little about the next */
+      r->h = tried * factor;
     return accept(r, h, which);
   }
 }

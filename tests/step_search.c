@@ -2,8 +2,8 @@
  * inputs, each step against 64 small ones, against the flows of these and against the pressures that they, supply and
  * compression allow.
  *   step_search FIRST COUNT [show]     cases FIRST.. FIRST + COUNT - 1: the same in every run; show: those that are
- * wrong Ends with 1 where a step breaks a bound, where more are refused, held or wrong than pneu.h says, or one is
- * worse.
+ * wrong. Ends with 1 where a step breaks a bound, where a run ends in a state that no step takes, where more are
+ * refused, held or wrong than pneu.h says, or one is worse.
  *
  * A step that differs by more than COARSE is wrong unless the start does not tell the end: where starts that lie apart
  * by the step's tolerance, 1e-4 of full scale, end a third as far apart as the step from the small ones, as when a
@@ -47,7 +47,7 @@ typedef struct path {
 } path;
 
 typedef struct tally {
-  long cases, held, refused, lost, sensitive, wrong, unbounded, evaluations;
+  long cases, held, refused, strange, lost, sensitive, wrong, unbounded, evaluations;
   long beyond[DECADES], held_beyond[DECADES]; /* by more than 1e-4, 1e-3 ... of full scale */
   double worst;
   long worst_case;
@@ -378,6 +378,7 @@ static void try_case(long number, int show, tally *t)
   way = walk(&s, &s.start, SMALL);
   t->evaluations += stats.rhs;
   t->refused += status < 0;
+  t->strange += status == PNEU_E_NONFINITE;
   t->held += status > 0;
   t->lost += way.status != PNEU_OK;
   if (status < 0 && show)
@@ -416,13 +417,14 @@ int main(int argc, char **argv)
   memset(&t, 0, sizeof t);
   for (i = first; i < first + count; i++)
     try_case(i, argc > 3, &t);
-  printf("step_search: %ld steps, %.1f evaluations each: %ld refused, %ld held, %ld not told by their start, %ld wrong "
+  printf("step_search: %ld steps, %.1f evaluations each: %ld refused (%ld as out of range), %ld held, %ld not told by "
+         "their start, %ld wrong "
          "(worst %.2g, case %ld), %ld out of bounds, %ld without comparison\n",
-         t.cases, (double)t.evaluations / (double)t.cases, t.refused, t.held, t.sensitive, t.wrong, t.worst,
+         t.cases, (double)t.evaluations / (double)t.cases, t.refused, t.strange, t.held, t.sensitive, t.wrong, t.worst,
          t.worst_case, t.unbounded, t.lost);
   for (i = 0; i < DECADES; i++)
     printf("  beyond %g of full scale: %ld with PNEU_OK, %ld with PNEU_HELD\n", pow(10, (double)i - 4), t.beyond[i],
            t.held_beyond[i]);
-  return t.unbounded > 0 || t.refused > 1 + t.cases / 100000 || t.held > t.cases / 100 ||
+  return t.unbounded > 0 || t.strange > 0 || t.refused > 1 + t.cases / 100000 || t.held > t.cases / 100 ||
          t.wrong > 2 + t.cases / 10000 || !(t.worst < 1);
 }

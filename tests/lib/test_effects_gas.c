@@ -544,7 +544,8 @@ static void footprint_positioner(void)
   s = follow(&p, 0.5);
   e = 5e-8 * ((double)s.p + (double)p.ambient_pressure) / (20 * 0.893e-6 * (9e5 + (double)p.ambient_pressure));
   assert_close((double)s.x / 0.02, 0.5 - e, TOL(1e-8, 1e-5), 0);
-  assert_close(s.p, 400e3 * ((double)s.x + 0.01) / 0.04, TOL(1e-2, 10), 0);
+  /* in single precision a stem stays at rest against a ten-thousandth of the largest force */
+  assert_close(s.p, 400e3 * ((double)s.x + 0.01) / 0.04, TOL(1e-2, 1e-4 * 9e5), 0);
   fixture_set(&p, "integral_time", 1);
   s = follow(&p, 0.5);
   assert_close((double)s.x / 0.02, 0.5, TOL(1e-7, 1e-5), 0);
