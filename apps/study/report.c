@@ -187,8 +187,8 @@ static void put_measured(const study *s, const table *t, cJSON *page)
 
 /* ---- Six hypotheses, from hypotheses_thresholds.csv, directions.csv, influence.csv ---- */
 
-/* "65..92 %: not confirmed †" over the laws of an actuator. */
-static void add_verdict(const table *t, const char *actuator, const char *name, double below, cJSON *to)
+/* "65..92 %: not confirmed †" over the laws of an actuator.  Returns: whether it depends on the threshold */
+static int add_verdict(const table *t, const char *actuator, const char *name, double below, cJSON *to)
 {
   span left = no_span;
   int agreed = -2, depends = 0; /* -1: laws differ */
@@ -212,20 +212,22 @@ static void add_verdict(const table *t, const char *actuator, const char *name, 
     lab_json_say(to, "%s%.0f %%: %s%s", low, left.high, agreed < 0 ? "differs by law" : verdict_brief((verdict)agreed),
                  depends ? " †" : "");
   }
+  return depends;
 }
 
 static void put_verdicts(const study *s, const table *t, cJSON *page)
 {
   cJSON *list = cJSON_AddArrayToObject(page, "hypotheses");
-  int h, a;
+  int h, a, depends = 0;
   for (h = 0; h < HYPOTHESES; h++) {
     cJSON *item = lab_json_append(list), *cells = cJSON_AddArrayToObject(item, "verdicts");
     lab_json_put(item, "name", "%s", hypotheses[h].name);
     lab_json_put(item, "words", "%s", hypotheses[h].words);
     lab_json_put(item, "paper", "%s", hypotheses[h].paper);
     for (a = 0; a < s->n_actuators; a++)
-      add_verdict(t, s->actuator[a].name, hypotheses[h].name, s->confirmed_below, cells);
+      depends |= add_verdict(t, s->actuator[a].name, hypotheses[h].name, s->confirmed_below, cells);
   }
+  lab_json_put(page, "turning", "%s", depends ? "† turns" : "None turns");
 }
 
 /* The asymmetry of a row over that of the same actuator and laws with nothing added [%]. */

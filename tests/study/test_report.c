@@ -63,6 +63,7 @@ static void test_report__rows_of_one_statement__counted_once(void **state)
   assert_contains(text, "Of 5 ");
   assert_contains(text, " 1 are ");
   assert_contains(text, "\n\n4 are not, 2 numbers");
+  assert_contains(text, "None turns with a threshold");
   free(text);
 }
 
@@ -132,6 +133,7 @@ static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
   (void)state;
   assert_contains(text, "| H2 preload of the spring | not confirmed | -5..20 %: differs by law † | 150 %: not "
                         "confirmed |");
+  assert_contains(text, "† turns with a threshold");
   free(text);
 }
 
