@@ -522,6 +522,23 @@ static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **s
   free(row);
 }
 
+static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line(void **state)
+{
+  char text[600] = "name,rig,log\nmany,rig.cfg,log.csv", out[600], path[700], *rows;
+  long rss;
+  int i;
+  (void)state;
+  for (i = 0; i < LAB_LOGS_MAX; i++)
+    strcat(text, ";log.csv");
+  scratch_text("rig.cfg", "supply = { pressure = \"2 bar\"; };\n");
+  snprintf(out, sizeof out, "%s", scratch_path("crowded"));
+  assert_int_equal(run_list(scratch_text("crowded.csv", strcat(text, "\n")), out, &rss), LAB_DATA);
+  snprintf(path, sizeof path, "%s/batch.csv", out);
+  rows = scratch_read(path);
+  assert_contains(rows, "more than 32 logs on one line");
+  free(rows);
+}
+
 /* A log of 12 MB, which asks for 25 MB at once while it is read, beside a short one. */
 static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line(void **state)
 {
@@ -625,6 +642,7 @@ int main(void)
       cmocka_unit_test(test_lab_jobs__result_that_cannot_be_kept__ends_the_run),
       cmocka_unit_test(test_lab_batch__lines_that_fail__are_lines),
       cmocka_unit_test(test_lab_batch__rig_with_include__is_refused_unless_allowed),
+      cmocka_unit_test(test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line),
       cmocka_unit_test(test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line),
       cmocka_unit_test(test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line),
       cmocka_unit_test(test_lab_batch__long_list__takes_no_more_memory),
