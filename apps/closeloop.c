@@ -6,6 +6,7 @@
 #include "lab/report/answer.h"
 #include "lab/trace/decide.h"
 #include "lab/batch/batch.h"
+#include "lab/rig/draft.h"
 #include "lab/base/cli.h"
 #include "lab/base/escape.h"
 #include "lab/base/interrupt.h"
@@ -13,7 +14,8 @@
 #include "lab/base/progress.h"
 #include "lab/base/text.h"
 
-static const char *holdout, *baseline, *out, *list;
+static const char *holdout, *baseline, *out, *list, *init;
+static lab_texts sheet;
 static double alpha, min_gain;
 static int budget, figures, no_figures, reports, allow_include;
 
@@ -47,13 +49,19 @@ static const lab_option options[] = {
      "ends "
      "in an error (600)",
      1, 1e7},
+    {"init", LAB_OPTION_TEXT, &init, "LOG.csv",
+     "write a rig file for this log to standard output, each line with a comment on where its value\ncomes from", 0, 0},
+    {"sheet", LAB_OPTION_TEXTS, &sheet, "KEY=VALUE",
+     "with --init: what the data sheet says, \"area=400 cm2\", \"bench_set=0.2..1.0 bar\", Kv=0.1; may be\ngiven many "
+     "times, or once with more KEY=VALUE behind it",
+     0, 0},
     {"allow-include", LAB_OPTION_FLAG, &allow_include, NULL,
      "with --batch: read rig files that take in others by @include", 0, 0},
     {NULL, 0, NULL, NULL, NULL, 0, 0}};
 
 static const lab_program program = {
     "closeloop",
-    "RIG.cfg LOG.csv [LOG2.csv ...] | --batch LIST.csv",
+    "RIG.cfg LOG.csv [LOG2.csv ...] | --batch LIST.csv | --init LOG.csv",
     "Fit the declared model to logs of a test bench, trace the residual to a physical effect that the model lacks, add "
     "it, and report the error before and after.",
     options,
@@ -145,9 +153,27 @@ static int run_batch(const lab_cli *cli, lab_error *error)
   return lab_batch_run(&how, error);
 }
 
+/* Words of the sheet may stand behind the first as operands. */
+static int run_init(const lab_cli *cli, lab_error *error)
+{
+  lab_outfile file;
+  int i;
+  for (i = 0; i < cli->n_operands && sheet.n < LAB_TEXTS_MAX; i++)
+    sheet.text[sheet.n++] = cli->operand[i];
+  if (lab_out_open(&file, out, error))
+    return error->status;
+  return lab_out_end(&file, lab_draft_write(file.file, init, sheet.text, sheet.n, error), error);
+}
+
 /* What the table of options cannot say. */
 static int check_usage(const lab_cli *cli, lab_error *error)
 {
+  if (init && (list || holdout || baseline))
+    return lab_fail(error, LAB_USAGE, "--init: goes with --sheet and --out alone");
+  if (!init && sheet.n)
+    return lab_fail(error, LAB_USAGE, "--sheet: goes with --init");
+  if (init && cli->n_operands && !sheet.n)
+    return lab_fail(error, LAB_USAGE, "--init: expected --sheet before \"%s\"", cli->operand[0]);
   if (!list && reports)
     return lab_fail(error, LAB_USAGE, "--reports: goes with --batch; a single run writes everything");
   if (!list && allow_include)
@@ -158,6 +184,8 @@ static int check_usage(const lab_cli *cli, lab_error *error)
     return lab_fail(error, LAB_USAGE, "--baseline: does not go with --batch");
   if (list && holdout)
     return lab_fail(error, LAB_USAGE, "--holdout: with --batch, the column holdout of the list says it");
+  if (init)
+    return LAB_OK;
   if (list ? cli->n_operands != 0 : cli->n_operands < 2)
     return lab_fail(error, LAB_USAGE, "expected %s, found %d operands; see --help", program.operands, cli->n_operands);
   return LAB_OK;
@@ -167,6 +195,8 @@ static int closeloop(const lab_cli *cli, lab_error *error)
 {
   if (check_usage(cli, error))
     return error->status;
+  if (init)
+    return run_init(cli, error);
   return list ? run_batch(cli, error) : run_one(cli, error);
 }
 

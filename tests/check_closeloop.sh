@@ -29,6 +29,14 @@ printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02
   cat study/actuators/r1-400.cfg - >"$folder/rig.cfg"
 "$BUILD/bin/simulate" study/actuators/r1-400.cfg --step | awk 'NR == 1 || NR % 5 == 0' >"$folder/log.csv"
 
+# A rig file drafted from the log alone is read, and answers.
+expect 0 "draft" "$programs/closeloop" --init "$folder/log.csv" --sheet "area=400 cm^2" "stroke=20 mm" -o "$folder/draft.cfg"
+expect 0 "run of a draft" "$programs/closeloop" "$folder/draft.cfg" "$folder/log.csv" --out "$folder/drafted" --no-figures
+grep -q '"verdict"' "$folder/drafted/report.json" || complain "a drafted rig file has no answer"
+expect 2 "draft with a wrong word" "$programs/closeloop" --init "$folder/log.csv" --sheet aera=1
+expect 2 "words without a draft" "$programs/closeloop" --sheet area=1 "$folder/rig.cfg" "$folder/log.csv"
+expect 2 "a draft of a list" "$programs/closeloop" --init "$folder/log.csv" --batch "$folder/list.csv"
+
 expect 0 "first run" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --out "$folder/whole"
 expect 0 "second run, no locale" env LC_ALL=C "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --out "$folder/again"
 grep warning "$folder/err" && complain "without a locale there are warnings"

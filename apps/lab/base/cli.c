@@ -98,6 +98,15 @@ static int set_number(const lab_option *row, const char *text, lab_error *error)
   return LAB_OK;
 }
 
+static int add_text(const lab_option *row, const char *argument, lab_error *error)
+{
+  lab_texts *texts = row->value;
+  if (texts->n == LAB_TEXTS_MAX)
+    return lab_fail(error, LAB_USAGE, "--%s: given more than %d times", row->name, (int)LAB_TEXTS_MAX);
+  texts->text[texts->n++] = argument;
+  return LAB_OK;
+}
+
 static int set_option(const lab_option *row, const char *argument, lab_error *error)
 {
   switch (row->kind) {
@@ -107,6 +116,8 @@ static int set_option(const lab_option *row, const char *argument, lab_error *er
   case LAB_OPTION_TEXT:
     *(const char **)row->value = argument;
     return LAB_OK;
+  case LAB_OPTION_TEXTS:
+    return add_text(row, argument, error);
   default:
     return set_number(row, argument, error);
   }

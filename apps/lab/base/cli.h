@@ -9,8 +9,16 @@ enum lab_option_kind {
   LAB_OPTION_FLAG,  /* value: int *, set to 1 */
   LAB_OPTION_TEXT,  /* value: const char **, points into argv */
   LAB_OPTION_COUNT, /* value: int *, a whole number in lower..upper */
-  LAB_OPTION_REAL   /* value: double *, a number in lower..upper */
+  LAB_OPTION_REAL,  /* value: double *, a number in lower..upper */
+  LAB_OPTION_TEXTS  /* value: lab_texts *; may be given many times */
 };
+
+enum { LAB_TEXTS_MAX = 64 };
+
+typedef struct lab_texts {
+  int n;
+  const char *text[LAB_TEXTS_MAX]; /* point into argv */
+} lab_texts;
 
 /* A row of a program's own table; the last row has name NULL. */
 typedef struct lab_option {

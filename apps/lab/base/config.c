@@ -22,18 +22,24 @@ static int parse_failed(const config_t *config, const char *path, lab_error *err
   return lab_fail(error, LAB_DATA, "%s:%d: %s%s", included ? included : path, config_error_line(config), text, advice);
 }
 
+int lab_config_parse(config_t *config, const char *text, const char *path, lab_error *error)
+{
+  config_init(config);
+  if (!config_read_string(config, text))
+    return parse_failed(config, path, error);
+  config_setting_set_hook(config_root_setting(config), (void *)path);
+  return LAB_OK;
+}
+
 int lab_config_read(config_t *config, const char *path, lab_error *error)
 {
   lab_text text;
-  int status;
-  config_init(config);
-  status = lab_text_read(path, &text, error);
-  if (status != LAB_OK)
+  int status = lab_text_read(path, &text, error);
+  if (status != LAB_OK) {
+    config_init(config);
     return status;
-  if (!config_read_string(config, text.data))
-    status = parse_failed(config, path, error);
-  else
-    config_setting_set_hook(config_root_setting(config), (void *)path);
+  }
+  status = lab_config_parse(config, text.data, path, error);
   lab_text_free(&text);
   return status;
 }

@@ -15,6 +15,11 @@
  * Returns: LAB_OK, LAB_DATA, LAB_WORLD. */
 int lab_config_read(config_t *config, const char *path, lab_error *error);
 
+/* Read a text.
+ * In:      path  what messages call it; kept
+ * Out:     config, Returns: as lab_config_read. */
+int lab_config_parse(config_t *config, const char *text, const char *path, lab_error *error);
+
 /* Fail at a setting: "file:line: group.key: ..."; the long form leaves the words to `format`.
  * Returns: LAB_DATA. */
 int lab_config_fail(const config_setting_t *setting, lab_error *error, const char *format, ...) LAB_PRINTF(3, 4);

@@ -447,18 +447,34 @@ static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
   return status == LAB_OK ? check_supply(config, rig, error) : status;
 }
 
-int lab_rig_read(const char *path, lab_rig *rig, lab_error *error)
+/* What a file or a text declares, and the end of it. */
+static int take_config(config_t *config, int status, lab_rig *rig, lab_error *error)
 {
-  config_t config;
-  int status;
+  if (status == LAB_OK)
+    status = read_sections(config, rig, error);
+  config_destroy(config);
+  return status == LAB_OK ? check_all_acts(rig, error) : status;
+}
+
+static void begin(const char *path, lab_rig *rig)
+{
   lab_rig_default(rig);
   snprintf(rig->file, sizeof rig->file, "%s", path);
   name_from_path(path, rig->name);
-  status = lab_config_read(&config, path, error);
-  if (status == LAB_OK)
-    status = read_sections(&config, rig, error);
-  config_destroy(&config);
-  return status == LAB_OK ? check_all_acts(rig, error) : status;
+}
+
+int lab_rig_read(const char *path, lab_rig *rig, lab_error *error)
+{
+  config_t config;
+  begin(path, rig);
+  return take_config(&config, lab_config_read(&config, path, error), rig, error);
+}
+
+int lab_rig_parse(const char *text, const char *path, lab_rig *rig, lab_error *error)
+{
+  config_t config;
+  begin(path, rig);
+  return take_config(&config, lab_config_parse(&config, text, path, error), rig, error);
 }
 
 int lab_rig_has_positioner(const lab_rig *rig)

@@ -65,6 +65,9 @@ void lab_rig_default(lab_rig *rig);
  * Returns: LAB_OK; LAB_DATA with file, line, key, what was expected and what was found; LAB_WORLD. */
 int lab_rig_read(const char *path, lab_rig *rig, lab_error *error);
 
+/* Read the text of a rig file.  In: path  what messages call it  Out, Returns: as lab_rig_read. */
+int lab_rig_parse(const char *text, const char *path, lab_rig *rig, lab_error *error);
+
 /* Write a file from which lab_rig_read makes the same rig, bit for bit; check ferror afterwards.
  * In:      remark  lines for the head of the file, or NULL */
 void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark);

@@ -1,0 +1,140 @@
+/* apps/lab/rig/draft and sheetwords: a rig file drafted from a log and the words of a sheet. */
+#include "../../badlog.h"
+
+#include "../../../apps/lab/log/log.h"
+#include "../../../apps/lab/rig/draft.h"
+#include "../../../apps/lab/rig/rig.h"
+#include "../../../apps/lab/rig/sheetwords.h"
+
+static lab_error error;
+static const char *log_path;
+
+static int open_all(void **state)
+{
+  static bad_log sound;
+  sound = bad_log_of(0);
+  if (scratch_open(state))
+    return -1;
+  log_path = strdup(bad_write("log.csv", "t [s],u [1],p [kPa],x [mm]", &sound));
+  return 0;
+}
+
+/* Draft, and read what was written.  Out: text  to be freed */
+static lab_rig draft_of(const char *log, const char *const *sheet, int n, char **text)
+{
+  FILE *file = fopen(scratch_path("draft.cfg"), "w");
+  lab_rig rig;
+  assert_non_null(file);
+  if (lab_draft_write(file, log, sheet, n, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(fclose(file), 0);
+  if (lab_rig_read(scratch_path("draft.cfg"), &rig, &error))
+    fail_msg("%s", error.text);
+  *text = scratch_read(scratch_path("draft.cfg"));
+  return rig;
+}
+
+static int is_fitted(const lab_rig *rig, const char *name)
+{
+  char found[LAB_PARAM_NAME_TEXT];
+  int i;
+  for (i = 0; i < rig->n_fit; i++)
+    if (strcmp(lab_fit_name(rig->fit[i], found), name) == 0)
+      return 1;
+  return 0;
+}
+
+/* The independent rig has 390 kN/m, 10 mm, 500 N, 0.893 mm2: starts of a fit, not its result. */
+static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **state)
+{
+  static const char *const sheet[] = {"area=400 cm^2", "stroke=20 mm", "supply=400 kPa", "dead_volume=40 cm^3"};
+  char *text;
+  const lab_rig rig = draft_of(log_path, sheet, 4, &text);
+  (void)state;
+  assert_close((double)rig.params.area, 0.04, 0, 1e-6);
+  assert_close((double)rig.params.spring_rate, 4e5, 0, 0.1);
+  assert_close((double)rig.params.spring_preload, 0.01, 0, 0.2);
+  assert_close((double)rig.params.dry_friction, 500, 0, 0.5);
+  assert_close((double)rig.params.fill_area, 0.893e-6, 0, 0.3);
+  assert_close((double)rig.params.vent_area, 0.893e-6, 0, 0.3);
+  assert_int_equal(rig.laws.flow, PNEU_FLOW_CHOKED);
+  assert_true(is_fitted(&rig, "spring_rate") && is_fitted(&rig, "fill_area") && is_fitted(&rig, "dry_friction"));
+  assert_contains(text, "area = \"400 cm^2\"; // sheet");
+  assert_contains(text, "1001 rows in 10 s, one each 0.01 s (100 Hz)");
+  assert_contains(text, "// derived: area times the slope of p over x");
+  assert_contains(text, "moving_mass = \"2 kg\"; // NOT KNOWN");
+  free(text);
+}
+
+static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **state)
+{
+  static const char *const sheet[] = {"bench_set=0.2..1.0 bar", "Kv=0.1",    "vent.xT=0.5",  "tube.length=2 m",
+                                      "tube.bore=4 mm",         "name=FV 1", "flow=iso6358", "actuator.stroke=20 mm"};
+  char *text;
+  const lab_rig rig = draft_of(log_path, sheet, 8, &text);
+  (void)state;
+  assert_close((double)rig.params.spring_preload, 0.005, 0, 1e-6);
+  assert_true(rig.params.vent_area < rig.params.fill_area);
+  assert_string_equal(rig.name, "FV 1");
+  assert_int_equal(rig.laws.flow, PNEU_FLOW_ISO6358);
+  assert_false(is_fitted(&rig, "spring_rate") || is_fitted(&rig, "fill_area") || is_fitted(&rig, "vent_area"));
+  assert_true(is_fitted(&rig, "dry_friction"));
+  free(text);
+}
+
+/* Without any sheet, a positioner's log with shares of the stroke: what is not known is marked. */
+static void test_lab_draft_write__files_of_loggers__are_read_with_their_draft(void **state)
+{
+  static const char *const files[] = {"excel-de.csv", "valvelink.csv", "numpy-savetxt.csv", "grafana.csv"};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof files / sizeof files[0]; i++) {
+    char path[256], *text;
+    lab_log log;
+    lab_rig rig;
+    check_note("%s", files[i]);
+    snprintf(path, sizeof path, "tests/loggers/%s", files[i]);
+    rig = draft_of(path, NULL, 0, &text);
+    assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
+    assert_int_equal(lab_rig_has_positioner(&rig), log.value[LAB_CHANNEL_U] == NULL);
+    lab_log_free(&log);
+    assert_contains(text, "area = \"0.04 m2\"; // NOT KNOWN");
+    assert_contains(text, strstr(files[i], "excel") || strstr(files[i], "link") ? "stroke = \"0.02 m\"; // NOT KNOWN"
+                                                                                : "stroke = \"0.01 m\"; // derived");
+    free(text);
+  }
+}
+
+static void assert_no_word(const char *word, int status, const char *words)
+{
+  FILE *file = fopen(scratch_path("draft.cfg"), "w");
+  assert_non_null(file);
+  assert_int_equal(lab_draft_write(file, log_path, &word, 1, &error), status);
+  assert_int_equal(fclose(file), 0);
+  assert_contains(error.text, words);
+}
+
+static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **state)
+{
+  static const char *const twice[] = {"area=1 cm2", "area=2 cm2"};
+  (void)state;
+  assert_no_word("aera=1 cm2", LAB_USAGE, "the nearest known one is \"area\"");
+  assert_no_word("area", LAB_USAGE, "expected key=value");
+  assert_no_word("name=\"x\"", LAB_USAGE, "without quotes");
+  assert_no_word("pressure=4 bar", LAB_USAGE, "unknown key \"pressure\""); /* supply's or ambient's */
+  assert_no_word("bench_set=1 bar", LAB_USAGE, "expected two pressures");
+  assert_no_word("area=1 kg", LAB_DATA, "actuator.area");
+  assert_int_equal(lab_draft_write(stdout, log_path, twice, 2, &error), LAB_USAGE);
+  assert_contains(error.text, "area is there twice");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit),
+      cmocka_unit_test(test_lab_draft_write__words_of_the_sheet__are_not_fitted),
+      cmocka_unit_test(test_lab_draft_write__files_of_loggers__are_read_with_their_draft),
+      cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
+  };
+  return cmocka_run_group_tests(tests, open_all, scratch_close);
+}
