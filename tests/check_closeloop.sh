@@ -29,6 +29,19 @@ printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02
   cat study/actuators/r1-400.cfg - >"$folder/rig.cfg"
 "$BUILD/bin/simulate" study/actuators/r1-400.cfg --step | awk 'NR == 1 || NR % 5 == 0' >"$folder/log.csv"
 
+# The same log as Excel writes it in German: the same answer, and what was guessed is told.
+{
+  printf 'Zeit (s);Befehl (1);Druck (kPa);Hub (mm)\r\n'
+  tail -n +2 "$folder/log.csv" | tr ',.' ';,' | sed 's/$/\r/'
+} >"$folder/german.csv"
+expect 0 "log in German" "$programs/closeloop" "$folder/rig.cfg" "$folder/german.csv" --out "$folder/german" --no-figures
+cp "$folder/out" "$folder/german.out"
+grep -q 'german.csv: read with semicolons between cells, decimal commas' "$folder/german/report.json" ||
+  complain "what was guessed of a log is not told"
+expect 0 "log in English" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --out "$folder/english" --no-figures
+cmp "$folder/out" "$folder/german.out" || complain "a log in German has another answer"
+cmp "$folder/english/residual.csv" "$folder/german/residual.csv" || complain "a log in German has other residuals"
+
 # A rig file drafted from the log alone is read, and answers.
 expect 0 "draft" "$programs/closeloop" --init "$folder/log.csv" --sheet "area=400 cm^2" "stroke=20 mm" -o "$folder/draft.cfg"
 expect 0 "run of a draft" "$programs/closeloop" "$folder/draft.cfg" "$folder/log.csv" --out "$folder/drafted" --no-figures

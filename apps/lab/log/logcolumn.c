@@ -40,12 +40,33 @@ static int is_share(const char *unit, const lab_column_frame *frame)
   return frame->stroke > 0 && (!strcmp(unit, "%") || !strcmp(unit, "percent"));
 }
 
+const char *lab_column_unit(int channel, const lab_column_frame *frame)
+{
+  const lab_signal *signal = &frame->signal[channel];
+  return signal->from != signal->to ? signal->unit : lab_channel_unit(channel, frame->command_is_pressure);
+}
+
+/* SI value = low + (high - low) (signal - from)/(to - from) */
+static int read_signal(const char *unit, const lab_signal *signal, lab_column *column, lab_error *error)
+{
+  const double gain = (signal->high - signal->low) / (signal->to - signal->from);
+  if (lab_unit_factor(unit, signal->unit, &column->scale, &column->offset, error))
+    return error->status;
+  column->scale *= gain;
+  column->offset = signal->low + gain * (column->offset - signal->from);
+  return LAB_OK;
+}
+
 int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_column_frame *frame,
                   lab_column *column, lab_error *error)
 {
   const char *si = lab_channel_unit(channel, frame->command_is_pressure);
+  const lab_signal *signal = &frame->signal[channel];
   *column = (lab_column){.channel = channel, .scale = 1};
-  if (channel == LAB_CHANNEL_TIME && strcmp(unit, "date") == 0)
+  if (signal->from != signal->to) {
+    if (read_signal(unit, signal, column, error))
+      return lab_fail_in(error, "column \"%s\"", text);
+  } else if (channel == LAB_CHANNEL_TIME && strcmp(unit, "date") == 0)
     column->is_stamp = 1;
   else if (channel == LAB_CHANNEL_X && is_share(unit, frame))
     column->scale = 0.01 * frame->stroke;

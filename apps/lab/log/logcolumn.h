@@ -17,12 +17,23 @@ typedef struct lab_column {
   int is_stamp;         /* it holds dates or times of day (stamp.h), not numbers */
 } lab_column;
 
+/* A signal that stands for a quantity: "4..20 mA" for 0 to 6 bar. */
+typedef struct lab_signal {
+  double from, to;  /* in `unit`; equal: there is none */
+  double low, high; /* SI, at from and to; NaN: not given yet */
+  char unit[16];
+} lab_signal;
+
 /* What the units of a column may refer to. */
 typedef struct lab_column_frame {
-  double ambient;          /* [Pa] absolute */
-  double stroke;           /* [m]; 0: unknown */
-  int command_is_pressure; /* u is a set pressure, not an opening */
+  double ambient;           /* [Pa] absolute */
+  double stroke;            /* [m]; 0: unknown */
+  int command_is_pressure;  /* u is a set pressure, not an opening */
+  const lab_signal *signal; /* of each channel */
 } lab_column_frame;
+
+/* The unit in which a channel's column is to be: that of its signal, or SI. */
+const char *lab_column_unit(int channel, const lab_column_frame *frame);
 
 /* Read "name [unit]"; p_abs, ps_abs and p2_abs become gauge; x may be a share of the stroke ("%"); "-" is a column to
  * ignore. Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */

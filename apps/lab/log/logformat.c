@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../base/config.h"
@@ -35,6 +37,7 @@ void lab_log_format_default(lab_log_format *format)
   format->to = INFINITY;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
     format->scale[i] = 1;
+    format->signal[i].low = format->signal[i].high = NAN;
     format->constant[i] = NAN;
   }
 }
@@ -167,9 +170,66 @@ static int read_one_constant(const config_setting_t *setting, const char *unit, 
   return lab_config_quantity(setting, unit, -INFINITY, INFINITY, value, error);
 }
 
-static int read_scale(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+/* "4..20 mA", or "0..27648" of counts. */
+static int read_signal(const config_setting_t *setting, const char *text, lab_signal *signal, lab_error *error)
 {
-  return read_channels(setting, format, format->scale, read_one_scale, error);
+  static const char *const expected = "two numbers and a unit, such as \"4..20 mA\"";
+  char first[32], *end;
+  const char *dots = strstr(text, "..");
+  double scale, offset;
+  snprintf(first, sizeof first, "%.*s", (int)(dots - text), text);
+  signal->from = strtod(first, &end);
+  if (end == first || *end)
+    return lab_config_expected(setting, expected, error);
+  signal->to = strtod(dots + 2, &end);
+  while (*end == ' ')
+    end++;
+  if (end == dots + 2 || !(fabs(signal->to) < 1e15 && fabs(signal->from) < 1e15) || signal->from == signal->to ||
+      strlen(end) >= sizeof signal->unit)
+    return lab_config_expected(setting, expected, error);
+  snprintf(signal->unit, sizeof signal->unit, "%s", *end ? end : "1");
+  if (lab_unit_factor(signal->unit, signal->unit[0] == '1' ? "1" : "A", &scale, &offset, error) != LAB_OK &&
+      lab_unit_factor(signal->unit, "V", &scale, &offset, error) != LAB_OK)
+    return lab_config_expected(setting, "a signal in mA, V or counts", error);
+  return LAB_OK;
+}
+
+/* Numbers and signals. */
+static int read_scale(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    const char *text = config_setting_get_string(member);
+    status = text && strstr(text, "..") ? read_signal(member, text, &format->signal[c], error)
+                                        : read_one_scale(member, "1", &format->scale[c], error);
+  }
+  return status;
+}
+
+/* What the ends of a signal stand for. */
+static int read_range(const config_setting_t *group, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
+    const char *unit = lab_channel_unit(c, format->command_is_pressure);
+    lab_signal *signal = &format->signal[c];
+    status = lab_config_list(member, 2, 2, error);
+    if (status == LAB_OK)
+      status = lab_config_quantity(config_setting_get_elem(member, 0), unit, -1e15, 1e15, &signal->low, error);
+    if (status == LAB_OK)
+      status = lab_config_quantity(config_setting_get_elem(member, 1), unit, -1e15, 1e15, &signal->high, error);
+    if (status == LAB_OK && signal->low == signal->high)
+      status = lab_config_expected(member, "two values that differ", error);
+  }
+  return status;
 }
 
 static int read_offset(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -319,6 +379,7 @@ static const struct log_key {
     {.name = "new_run", .kind = CHOICE, MEMBER(new_run), WORDS(new_run_words)},
     {.name = "damaged", .kind = CHOICE, MEMBER(damaged), WORDS(damaged_words)},
     {.name = "scale", .kind = OWN, .read = read_scale},
+    {.name = "range", .kind = OWN, .read = read_range},
     {.name = "offset", .kind = OWN, .read = read_offset},
     {.name = "constants", .kind = OWN, .read = read_constants},
     {.name = "quantities", .kind = OWN, .read = read_quantities},
@@ -354,7 +415,7 @@ static int read_key(const config_setting_t *setting, const struct log_key *key, 
 /* Column texts must be readable now, not at the first log. */
 static int check_columns(const config_setting_t *group, const lab_log_format *format, lab_error *error)
 {
-  const lab_column_frame frame = {0, format->stroke, format->command_is_pressure};
+  const lab_column_frame frame = {0, format->stroke, format->command_is_pressure, format->signal};
   lab_column column;
   int i;
   for (i = 0; i < format->n_columns; i++)
@@ -382,6 +443,11 @@ static int check_format(const config_setting_t *group, const lab_log_format *for
     return lab_config_fail(group, error, "way_back needs time_step: rows that are reversed have no time of their own");
   if (format->runs == LAB_RUNS_MEAN && format->new_run == LAB_RUN_NEVER)
     return lab_config_fail(group, error, "runs = \"mean\" needs new_run, which says where a run begins");
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    if ((format->signal[i].from != format->signal[i].to) == isnan(format->signal[i].low))
+      return lab_config_fail(group, error,
+                             "channel %s: scale = \"4..20 mA\" and range = [\"0 bar\", \"6 bar\"] go together",
+                             lab_channels[i].key);
   for (i = 0; i < LAB_CHANNEL_COUNT && format->n_columns; i++)
     if (*format->map[i])
       return lab_config_fail(group, error, "map names columns of a header, columns says that there is none: give one");

@@ -18,6 +18,8 @@
  *     new_run    = "t drops";      // where a run begins: "never" (default), or where t is less than before
  *     damaged    = "drop";         // rows that cannot be read: "error" (default), or left out and counted
  *     scale      = { x = -1.0; };  // value = scale * value + offset, after the conversion to SI
+ *     scale      = { p = "4..20 mA"; x = "0..27648"; }; // a signal, or counts, that stand for a range
+ *     range      = { p = ["0 bar", "6 bar"]; x = ["0 mm", "20 mm"]; }; // what its ends are
  *     offset     = { x = "70 mm"; };
  *     constants  = { u = 1; };     // channels that the file does not have
  *     every      = 10;             // one of every so many rows of a run; default 1
@@ -88,6 +90,7 @@ typedef struct lab_log_format {
   double time_step; /* [s]; 0: the file has a column t */
   double from, to;  /* [s] window, infinite where there is none */
   double scale[LAB_CHANNEL_COUNT];
+  lab_signal signal[LAB_CHANNEL_COUNT];
   double offset[LAB_CHANNEL_COUNT];   /* SI */
   double constant[LAB_CHANNEL_COUNT]; /* SI; NaN: none */
   int command_is_pressure;            /* u is a set pressure [Pa], not an opening */

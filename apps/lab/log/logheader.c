@@ -32,7 +32,7 @@ static void scale_column(const lab_log_format *format, lab_column *column)
 static int read_column(const char *text, const lab_log_format *format, double ambient, lab_column *column,
                        lab_error *error)
 {
-  const lab_column_frame frame = {ambient, format->stroke, format->command_is_pressure};
+  const lab_column_frame frame = {ambient, format->stroke, format->command_is_pressure, format->signal};
   if (lab_column_read(text, &frame, column, error))
     return error->status;
   scale_column(format, column);

@@ -107,8 +107,9 @@ static void say(naming *m, int channel, int i)
 static int find_unit(const naming *m, int i, int channel, const char *own, char unit[LAB_COLUMN_TEXT], int *absolute)
 {
   const lab_heading *h = &m->heading[i];
-  const char *si = lab_channel_unit(channel, m->frame.command_is_pressure);
-  const char *other = channel == LAB_CHANNEL_X ? "1" : channel == LAB_CHANNEL_SP ? "m" : si;
+  const int is_signal = m->frame.signal[channel].from != m->frame.signal[channel].to;
+  const char *si = lab_column_unit(channel, &m->frame);
+  const char *other = is_signal ? si : channel == LAB_CHANNEL_X ? "1" : channel == LAB_CHANNEL_SP ? "m" : si;
   const char *const texts[] = {h->below, h->text};
   char bracket[LAB_HEADING_TEXT + 2];
   int k;
@@ -121,7 +122,9 @@ static int find_unit(const naming *m, int i, int channel, const char *own, char 
     if (lab_name_unit(bracket, si, unit, absolute) || lab_name_unit(bracket, other, unit, absolute))
       return 1;
   }
-  return 0;
+  if (is_signal)
+    snprintf(unit, LAB_COLUMN_TEXT, "%s", si); /* the key has said it */
+  return is_signal;
 }
 
 /* Make column i a channel.
@@ -391,7 +394,7 @@ int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_form
 {
   naming m = {.heading = heading, .n = n, .format = format, .header = header, .error = error};
   int i;
-  m.frame = (lab_column_frame){ambient, format->stroke, format->command_is_pressure};
+  m.frame = (lab_column_frame){ambient, format->stroke, format->command_is_pressure, format->signal};
   header->n = n;
   for (i = 0; i < n; i++) {
     header->column[i] = (lab_column){LAB_COLUMN_IGNORED, 1, 0, 0};

@@ -237,7 +237,7 @@ static int has_word(const char *words, const char *word)
 static int fits(int channel, const char *text, const char *below, int is_stamp, const lab_column_frame *frame,
                 int *absolute)
 {
-  const char *si = lab_channel_unit(channel, frame->command_is_pressure);
+  const char *si = lab_column_unit(channel, frame);
   char unit[LAB_COLUMN_TEXT];
   const int bracket = strpbrk(text, "[(%") != NULL;
   if (is_stamp)

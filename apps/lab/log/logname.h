@@ -15,11 +15,9 @@ int lab_name_unit(const char *text, const char *si, char unit[LAB_COLUMN_TEXT], 
 /* Whether a cell below a name holds nothing but a unit, with or without brackets. */
 int lab_name_is_unit(const char *text);
 
-/* The channel that a name means by its words, in English, German or French, if it can be in the unit of the name or of `below`.
- * In:      below     the unit in the next line of the file; ""
- *          is_stamp  the column holds dates or times
- * Out:     absolute  whether it is a pressure above vacuum
- * Returns: enum lab_channel, or LAB_COLUMN_IGNORED. */
+/* The channel that a name means by its words, in English, German or French, if it can be in the unit of the name or of
+ * `below`. In:      below     the unit in the next line of the file; "" is_stamp  the column holds dates or times Out:
+ * absolute  whether it is a pressure above vacuum Returns: enum lab_channel, or LAB_COLUMN_IGNORED. */
 int lab_name_channel(const char *text, const char *below, int is_stamp, const lab_column_frame *frame, int *absolute);
 
 #endif

@@ -27,8 +27,7 @@ static void write_columns(FILE *file, const lab_log_format *format)
 }
 
 /* A number a channel, those equal to `dflt` left out. */
-static void write_channels(FILE *file, const char *key, const lab_log_format *format, const double *value, double dflt,
-                           int with_unit)
+static void write_channels(FILE *file, const char *key, const lab_log_format *format, const double *value, double dflt)
 {
   char number[LAB_NUMBER_TEXT];
   int i, any = 0;
@@ -38,10 +37,40 @@ static void write_channels(FILE *file, const char *key, const lab_log_format *fo
     if (!any++)
       fprintf(file, "  %s = {", key);
     fprintf(file, " %s = \"%s %s\";", lab_channels[i].key, lab_number_write(value[i], number),
-            with_unit ? lab_channel_unit(i, format->command_is_pressure) : "1");
+            lab_channel_unit(i, format->command_is_pressure));
   }
   if (any)
     fputs(" };\n", file);
+}
+
+/* Scales and signals, and what the ends of these stand for. */
+static void write_scale(FILE *file, const lab_log_format *format)
+{
+  char a[LAB_NUMBER_TEXT], b[LAB_NUMBER_TEXT];
+  int i, any = 0, signals = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    const lab_signal *s = &format->signal[i];
+    const int is_signal = s->from != s->to;
+    if (!is_signal && format->scale[i] == 1)
+      continue;
+    fputs(any++ ? "" : "  scale = {", file);
+    if (is_signal)
+      fprintf(file, " %s = \"%s..%s %s\";", lab_channels[i].key, lab_number_write(s->from, a),
+              lab_number_write(s->to, b), s->unit);
+    else
+      fprintf(file, " %s = \"%s 1\";", lab_channels[i].key, lab_number_write(format->scale[i], a));
+    signals |= is_signal;
+  }
+  fputs(any ? " };\n" : "", file);
+  fputs(signals ? "  range = {" : "", file);
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    const lab_signal *s = &format->signal[i];
+    const char *unit = lab_channel_unit(i, format->command_is_pressure);
+    if (s->from != s->to)
+      fprintf(file, " %s = [\"%s %s\", \"%s %s\"];", lab_channels[i].key, lab_number_write(s->low, a), unit,
+              lab_number_write(s->high, b), unit);
+  }
+  fputs(signals ? " };\n" : "", file);
 }
 
 static void write_quantities(FILE *file, const lab_log_format *format)
@@ -149,9 +178,9 @@ void lab_log_format_write(FILE *file, const lab_log_format *format)
   }
   fprintf(file, "  new_run = \"%s\";\n", format->new_run == LAB_RUN_T_DROPS ? "t drops" : "never");
   fprintf(file, "  damaged = \"%s\";\n", format->damaged == LAB_DAMAGED_DROP ? "drop" : "error");
-  write_channels(file, "scale", format, format->scale, 1, 0);
-  write_channels(file, "offset", format, format->offset, 0, 1);
-  write_channels(file, "constants", format, format->constant, NAN, 1);
+  write_scale(file, format);
+  write_channels(file, "offset", format, format->offset, 0);
+  write_channels(file, "constants", format, format->constant, NAN);
   write_quantities(file, format);
   if (format->every > 1)
     fprintf(file, "  every = %d;\n", format->every);

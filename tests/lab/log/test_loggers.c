@@ -166,22 +166,72 @@ static void test_lab_log_read__map__is_a_group_of_channels_and_not_beside_column
   assert_contains(error.text, "give one");
 }
 
-/* A map and the order of dates are written into model.cfg and read back. */
-static void test_lab_rig_write__map_and_date__are_read_again(void **state)
+/* Written and read again, a group is the same. */
+static void assert_same_again(const char *group)
 {
   static lab_rig rig, again;
   FILE *file = fopen(scratch_path("again.cfg"), "w");
   lab_error error;
-  (void)state;
   assert_non_null(file);
-  assert_int_equal(lab_rig_read(scratch_text("r.cfg", "log = { map = { p = \"a \\\"b\\\" (bar)\"; x = \"c\"; }; date = "
-                                                      "\"dmy\"; delimiter = \"blanks\"; };"),
-                                &rig, &error),
-                   LAB_OK);
+  if (lab_rig_read(scratch_text("r.cfg", group), &rig, &error))
+    fail_msg("%s", error.text);
   lab_rig_write(file, &rig, NULL);
   assert_int_equal(fclose(file), 0);
-  assert_int_equal(lab_rig_read(scratch_path("again.cfg"), &again, &error), LAB_OK);
+  if (lab_rig_read(scratch_path("again.cfg"), &again, &error))
+    fail_msg("%s", error.text);
   assert_memory_equal(&rig.log, &again.log, sizeof rig.log);
+}
+
+/* A signal or counts stand for a range; a column without a unit is taken to be in the signal's. */
+static void test_lab_log_read__signals_and_counts__become_what_they_stand_for(void **state)
+{
+  static const char *const group =
+      "log = { map = { p = \"AI 1\"; }; scale = { p = \"4..20 mA\"; x = \"0..27648\"; sp = \"2..10 V\"; };\n"
+      "range = { p = [\"0 bar\", \"6 bar\"]; x = [\"20 mm\", \"0 mm\"]; sp = [\"0 %\", \"100 %\"]; }; };";
+  const char *path =
+      scratch_text("s.csv", "Time (s),AI 1,Position,Setpoint (mV)\n0,4,0,2000\n1,12,6912,6000\n2,20,27648,10000\n");
+  static const double p[] = {0, 3e5, 6e5}, x[] = {0.02, 0.015, 0}, sp[] = {0, 0.5, 1};
+  lab_log log = read_well(group, path);
+  int i;
+  (void)state;
+  for (i = 0; i < 3; i++) {
+    assert_close(log.value[LAB_CHANNEL_P][i], p[i], 1e-6, 1e-12);
+    assert_close(log.value[LAB_CHANNEL_X][i], x[i], 1e-12, 1e-12);
+    assert_close(log.value[LAB_CHANNEL_SP][i], sp[i], 1e-12, 1e-12);
+  }
+  lab_log_free(&log);
+  assert_same_again(group);
+}
+
+static void test_lab_rig_read__signals_that_are_none__are_refused(void **state)
+{
+  static const struct {
+    const char *group, *words;
+  } bad[] = {{"scale = { p = \"4..20 mA\"; };", "go together"},
+             {"range = { p = [\"0 bar\", \"6 bar\"]; };", "go together"},
+             {"scale = { p = \"..20 mA\"; };", "two numbers and a unit"},
+             {"scale = { p = \"4..4 mA\"; };", "two numbers and a unit"},
+             {"scale = { p = \"4..20 bar\"; };", "a signal in mA, V or counts"},
+             {"scale = { p = \"4..20 mA\"; }; range = { p = [\"0 bar\", \"0 bar\"]; };", "differ"},
+             {"range = { p = [\"0 bar\"]; };", "2 to 2 entries"}};
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    char text[256];
+    lab_error error;
+    lab_rig rig;
+    snprintf(text, sizeof text, "log = { %s };", bad[i].group);
+    assert_int_equal(lab_rig_read(scratch_text("r.cfg", text), &rig, &error), LAB_DATA);
+    assert_contains(error.text, bad[i].words);
+  }
+}
+
+/* A map and the order of dates are written into model.cfg and read back. */
+static void test_lab_rig_write__map_and_date__are_read_again(void **state)
+{
+  (void)state;
+  assert_same_again("log = { map = { p = \"a \\\"b\\\" (bar)\"; x = \"c\"; }; date = \"dmy\"; delimiter = \"blanks\"; "
+                    "scale = { x = -2; }; };");
 }
 
 /* A file in long form goes by columns and quantities; dates are the unit of its time. */
@@ -275,6 +325,8 @@ int main(void)
       cmocka_unit_test(test_lab_log_read__map_of_no_column__names_the_nearest),
       cmocka_unit_test(test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns),
       cmocka_unit_test(test_lab_rig_write__map_and_date__are_read_again),
+      cmocka_unit_test(test_lab_log_read__signals_and_counts__become_what_they_stand_for),
+      cmocka_unit_test(test_lab_rig_read__signals_that_are_none__are_refused),
       cmocka_unit_test(test_lab_log_read__long_form_of_wincc__is_read_by_keys),
       cmocka_unit_test(test_lab_log_read__order_of_dates__is_that_of_the_rig_file),
       cmocka_unit_test(test_lab_log_read__time_of_day__goes_on_after_midnight),
