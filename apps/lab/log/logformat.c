@@ -226,6 +226,8 @@ static int read_range(const config_setting_t *group, lab_log_format *format, lab
       status = lab_config_quantity(config_setting_get_elem(member, 0), unit, -1e15, 1e15, &signal->low, error);
     if (status == LAB_OK)
       status = lab_config_quantity(config_setting_get_elem(member, 1), unit, -1e15, 1e15, &signal->high, error);
+    signal->low += 0.0; /* a zero without sign, as it is written */
+    signal->high += 0.0;
     if (status == LAB_OK && signal->low == signal->high)
       status = lab_config_expected(member, "two values that differ", error);
   }
