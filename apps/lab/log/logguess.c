@@ -68,6 +68,14 @@ static int cut(const sample *s, int i, char delimiter)
 
 /* ---- Marks ---- */
 
+/* "0,5 1,5": two numbers, where blanks are not the mark. */
+static int has_two_numbers(const char *text)
+{
+  const char *blank = strchr(text, ' ');
+  return blank && blank > text && isdigit((unsigned char)blank[-1]) &&
+         isdigit((unsigned char)blank[strspn(blank, " ")]);
+}
+
 /* How well a cell looks with a decimal mark: a number or a date counts, and digits with a mark that belongs to neither
  * speak against it. */
 static int worth(const lab_cell *cell, char decimal, const lab_log_format *format)
@@ -79,6 +87,8 @@ static int worth(const lab_cell *cell, char decimal, const lab_log_format *forma
     return kind == LAB_NUMBER_FINITE ? 2 : 0;
   if (lab_stamp_read(cell->begin, cell->end, format->date, &stamp))
     return 2;
+  if (has_two_numbers(cell->begin))
+    return -6;
   return strpbrk(cell->begin, "0123456789") && strpbrk(cell->begin, ",;\t|.") ? -3 : 0;
 }
 
@@ -128,7 +138,8 @@ static rows guess_marks(const sample *s)
   const char delimiter[2] = {given, '\0'}, decimal[2] = {s->format->decimal, '\0'};
   rows best = {0};
   const char *a, *b;
-  for (a = given ? delimiter : delimiters; *a; a++)
+  for (a = given ? delimiter : delimiters; *a && !(*a == LAB_CSV_BLANKS && best.cells > 1);
+       a++) /* blanks if all else fails */
     for (b = *decimal ? decimal : decimals; *b; b++) {
       const rows found = best_rows(s, *a, *b);
       if (found.worth > best.worth && (!s->format->n_columns || found.cells == s->format->n_columns))

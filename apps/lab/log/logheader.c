@@ -171,6 +171,25 @@ static int fail_in_header(const lab_csv *csv, const lab_guess *guess, lab_error 
   return lab_fail_in(error, "%s:%d", csv->path, guess->header ? guess->header : csv->line);
 }
 
+static int is_any_named(const lab_heading *heading, int n)
+{
+  int i;
+  for (i = 0; i < n; i++)
+    if (lab_column_is_named(heading[i].text))
+      return 1;
+  return 0;
+}
+
+/* Neither a header as documented nor numbers. */
+static int fail_without_rows(const lab_csv *csv, lab_error *error)
+{
+  const lab_error before = *error;
+  return lab_fail(error, LAB_DATA,
+                  "%s:%d: %.400s; nor are there rows of numbers. If this is a log, say how it is written: log = { "
+                  "delimiter = \";\"; decimal = \",\"; skip_lines = 3; };",
+                  csv->path, csv->line, before.text);
+}
+
 static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *guess, double ambient,
                         lab_header *header, lab_error *error)
 {
@@ -183,7 +202,8 @@ static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *g
                      : read_first(csv, format, heading, &n, error))
     return error->status;
   if (lab_map_columns(heading, n, guess->guessed, format, ambient, header, said, error))
-    return fail_in_header(csv, guess, error);
+    return is_any_named(heading, n) || guess->guessed ? fail_in_header(csv, guess, error)
+                                                      : fail_without_rows(csv, error);
   for (i = 0; i < n; i++)
     scale_column(format, &header->column[i]);
   if (guess->guessed)

@@ -364,7 +364,7 @@ static void ask_for_measured(naming *m)
   int i;
   for (i = 0; i < m->n; i++)
     if (is_free(m, i) && *m->heading[i].text && k < sizeof usual / sizeof usual[0] &&
-        m->taken[LAB_CHANNEL_TIME] != i + 1) {
+        m->taken[LAB_CHANNEL_TIME] != i + 1 && !(i == 0 && *m->ask[LAB_CHANNEL_TIME])) {
       ask(m, usual[k], i, usual_unit(usual[k], &m->frame),
           "none of the columns is known to be a command, a pressure or a position; say which are, and what a 1 in them "
           "is");

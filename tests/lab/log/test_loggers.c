@@ -182,6 +182,23 @@ static void assert_same_again(const char *group)
   assert_memory_equal(&rig.log, &again.log, sizeof rig.log);
 }
 
+/* What is guessed of hard files. */
+static void test_lab_log_read__hard_files__are_guessed_or_told(void **state)
+{
+  lab_log log = read_well("", scratch_text("h.txt", "Time_s  Setpoint_%  Travel_mm\n0,0   0   1,5\n0,1  50  2,5\n"));
+  (void)state;
+  assert_close(log.value[LAB_CHANNEL_X][1], 2.5e-3, 1e-15, 0);
+  assert_contains(log.read_as, "blanks between cells, decimal commas");
+  lab_log_free(&log);
+  log = read_well("", scratch_text("h.csv", "Time (s),Travel (mm),Set Point (%)\n0,\"1,5\",2\n1,\"2,5\",3\n"));
+  assert_close(log.value[LAB_CHANNEL_X][1], 2.5e-3, 1e-15, 0);
+  lab_log_free(&log);
+  assert_refused("", scratch_text("h.csv", "a;b;c\n1;2;3\n4;5;6\n"), "t = \"a [s]\"; u = \"b [1]\"; p = \"c [bar]\";");
+  assert_refused("", scratch_text("h.csv", "Zeit (s);p (bar)\n"), "nor are there rows of numbers");
+  assert_refused("", scratch_text("h.csv", "Time,Pressure\n2024-03-01 12:00:00,1 bar\n2024-03-01 12:00:01,2 bar\n"),
+                 "p = \"Pressure [bar]\";");
+}
+
 /* A signal or counts stand for a range; a column without a unit is taken to be in the signal's. */
 static void test_lab_log_read__signals_and_counts__become_what_they_stand_for(void **state)
 {
@@ -325,6 +342,7 @@ int main(void)
       cmocka_unit_test(test_lab_log_read__map_of_no_column__names_the_nearest),
       cmocka_unit_test(test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns),
       cmocka_unit_test(test_lab_rig_write__map_and_date__are_read_again),
+      cmocka_unit_test(test_lab_log_read__hard_files__are_guessed_or_told),
       cmocka_unit_test(test_lab_log_read__signals_and_counts__become_what_they_stand_for),
       cmocka_unit_test(test_lab_rig_read__signals_that_are_none__are_refused),
       cmocka_unit_test(test_lab_log_read__long_form_of_wincc__is_read_by_keys),
