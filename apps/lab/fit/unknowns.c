@@ -313,6 +313,9 @@ static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
   return lab_tolerance(declared, param);
 }
 
+/* Of a declared value, the least share that a fit takes it for: a stem of no mass and no friction would ring. */
+static const double held_least = 0.2;
+
 int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
 {
   lab_rig declared = u->rig;
@@ -328,6 +331,8 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
     x = &u->unknown[u->n - 1];
     x->prior = (double)*pneu_param_at(&u->declared, param);
     x->first = x->prior;
+    if (param < PNEU_PARAM_BASE_COUNT && x->prior > 0)
+      x->lower = fmax(x->lower, held_least * x->prior);
     x->spread = x->tolerance = x->scale = tolerance;
   }
   lab_unknowns_view(u, u->window);

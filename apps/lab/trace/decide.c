@@ -64,9 +64,21 @@ static int convinces(const lab_quality *with_term, const lab_quality *other, dou
 
 /* ---- Rules ---- */
 
+/* Whether declared values within their tolerances explain much of what the values as declared leave. */
+static int tolerances_explain_much(const lab_facts *f)
+{
+  return f->within.fitted && !lab_is_poor(&f->declared, &f->within);
+}
+
+static int tolerances_are_better(const lab_facts *f)
+{
+  return f->within.fitted && f->within.bic < f->best.bic;
+}
+
 static int no_effect_explains_it(const lab_facts *f)
 {
-  return f->n_found == 0 && !lab_is_noise(&f->best) && lab_constant(LAB_TERM_ALONE) * f->effect < f->excess;
+  return f->n_found == 0 && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
+         lab_constant(LAB_TERM_ALONE) * f->effect < f->excess;
 }
 
 static int a_term_stands_out(const lab_facts *f)
@@ -130,7 +142,7 @@ static int a_term_beside_convinces(const lab_facts *f)
 
 static int has_found_a_term(const lab_facts *f)
 {
-  return f->found_term;
+  return f->found_term && (lab_is_noise(&f->best) || !lab_is_strained(&f->best));
 }
 
 static int has_found(const lab_facts *f)
@@ -145,7 +157,9 @@ static int has_found_nothing(const lab_facts *f)
 
 const lab_rule lab_rules[] = {
     {LAB_PHASE_SCORED,
-     "The declared model leaves more than noise, and TERM_ALONE times the best score is below its excess.",
+     "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, and TERM_ALONE times "
+     "the "
+     "best score is below its excess.",
      no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
      a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
@@ -159,6 +173,9 @@ const lab_rule lab_rules[] = {
 
     {LAB_PHASE_ROUND, "The log is seen coarsely, and the best model leaves only noise.", is_noise_coarsely,
      "End: a coarse view does not see fine differences.", LAB_DO_END},
+    {LAB_PHASE_ROUND,
+     "Values as declared: the declared model within its tolerances has a lower BIC than the best model.",
+     tolerances_are_better, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_ROUND, "The round has added an effect to another.", was_joined,
      "Take out each earlier effect without which BIC is no higher.", LAB_DO_REMOVE_NEEDLESS},
     {LAB_PHASE_ROUND, "The same, and there are two effects, or only noise is left.", may_be_exchanged,
@@ -187,7 +204,9 @@ const lab_rule lab_rules[] = {
      "higher; else list the term as small.",
      LAB_DO_ADD_TERM},
 
-    {LAB_PHASE_VERDICT, "A free term was added.", has_found_a_term, "`unlisted`", LAB_VERDICT_UNLISTED},
+    {LAB_PHASE_VERDICT,
+     "A free term was added, and only noise is left or no declared value is STRAINED tolerances off.", has_found_a_term,
+     "`unlisted`", LAB_VERDICT_UNLISTED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
     {LAB_PHASE_VERDICT, "Nothing was added.", has_found_nothing, "`none`", LAB_VERDICT_NONE},

@@ -83,6 +83,7 @@ typedef struct lab_facts {
   int round;             /* 0: the first */
   int coarse;            /* the log is seen coarsely (coarse.h) */
   int added;             /* this round has added an effect */
+  lab_quality within;    /* the declared model within its tolerances, where the search is from values as declared */
   lab_quality declared;  /* the declared model */
   lab_quality best;      /* the best model so far */
   int n_found, n_terms;  /* what was added to it; free terms in it, declared ones among them */

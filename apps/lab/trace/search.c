@@ -15,6 +15,7 @@ typedef struct search {
   lab_search_result *result;
   lab_candidate declared;             /* the declared model, fitted */
   lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */
+  const lab_quality *within;          /* the declared model with its values within tolerances; NULL: that is it */
   lab_candidate without;              /* what is left when an effect is left out */
   lab_candidate whole, unfolded;      /* an extension with all its values fitted, and the best of these */
   lab_candidate beam[LAB_BEAM_WIDTH]; /* best candidates so far, best first */
@@ -451,6 +452,8 @@ static lab_facts facts_of(const search *s)
   f.coarse = best->u.window > 0;
   f.added = s->added;
   f.declared = s->declared.quality;
+  if (s->within)
+    f.within = *s->within;
   f.best = best->quality;
   f.n_found = best->n_found;
   f.n_terms = best->u.rig.n_terms;
@@ -598,10 +601,11 @@ static int search_all(search *s, lab_error *error)
 }
 
 /* The search from a declared model, fitted, in the view that the unknowns have.
+ * In:      within  the same with its values within tolerances, which the search is to beat; may be NULL
  * Out:     best    with what was added
  *          result  all but the errors, the fit and what was found */
-static int search_from(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
-                       lab_candidate *best, lab_error *error)
+static int search_from(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
+                       lab_search_result *result, lab_candidate *best, lab_error *error)
 {
   search *s = calloc(1, sizeof *s);
   int status;
@@ -609,6 +613,7 @@ static int search_from(const lab_unknowns *u, const lab_search_options *options,
     return lab_fail_memory(error, "the search");
   s->options = options;
   s->result = result;
+  s->within = within;
   s->declared.u = *u;
   status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
   if (status == LAB_OK) {
@@ -646,9 +651,10 @@ typedef struct finding {
 } finding;
 
 /* The search from the declared values as they stand; what it finds is then fitted with tolerances. */
-static int search_exactly(const lab_unknowns *u, const lab_search_options *options, finding *f, lab_error *error)
+static int search_exactly(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
+                          finding *f, lab_error *error)
 {
-  if (search_from(u, options, &f->result, &f->best, error))
+  if (search_from(u, within, options, &f->result, &f->best, error))
     return error->status;
   if (!lab_is_noise(&f->best.quality) || f->best.n_found == 0)
     return LAB_OK;
@@ -697,13 +703,13 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
     status = LAB_WORLD;
   whole->declared = whole->best.u;
   if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
-    status = search_exactly(u, options, exact, error);
+    status = search_exactly(u, &whole->best.quality, options, exact, error);
     is_exact = status == LAB_OK && explains(exact);
   }
   if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
     if (is_exact)
       whole->declared.until = enough(u->until, start);
-    status = search_from(&whole->declared, options, &whole->result, &whole->best, error);
+    status = search_from(&whole->declared, NULL, options, &whole->result, &whole->best, error);
     is_exact = is_exact && (status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic);
   }
   if (is_exact) {
@@ -715,7 +721,16 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   return status;
 }
 
-/* The search seen coarsely, if the log is rough.  Out: done, 1 if it left only noise */
+/* Whether a force was found: nothing else makes a stem stick and slip. */
+static int has_found_force(const lab_candidate *c)
+{
+  int i, any = 0;
+  for (i = 0; i < c->n_found; i++)
+    any |= c->found[i].effect >= 0 && strcmp(pneu_effect_at(c->found[i].effect)->equation, "force") == 0;
+  return any;
+}
+
+/* The search seen coarsely, if the log is rough.  Out: done, 1 if it found a force and left only noise */
 static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
                            lab_candidate *best, int *done, lab_error *error)
 {
@@ -726,9 +741,9 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   if (result->window == 0)
     return LAB_OK;
   lab_unknowns_view(&coarse, result->window);
-  if (search_from(&coarse, options, result, best, error))
+  if (search_from(&coarse, NULL, options, result, best, error))
     return error->status;
-  *done = best->n_found > 0 && lab_is_noise(&best->quality);
+  *done = lab_is_noise(&best->quality) && has_found_force(best);
   if (!*done) {
     result->scores.n = 0;
     result->n_steps = result->n_listed = result->n_path = 0;
