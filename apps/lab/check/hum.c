@@ -17,6 +17,9 @@ static const double clipped = 5;    /* median sizes, to which a second differenc
 static const double steady = 0.3;   /* of the amplitude: both halves of a run have it alike */
 static const double visible = 0.25; /* of the scatter from row to row: a smaller amplitude does no harm */
 
+static const double grid = 3e-3;  /* of its frequency, by which the mains and a logger's clock may be off */
+static const double slowest = 20; /* rows a second: of fewer, most frequencies are what the mains would look like */
+
 /* a cos(w i) + b sin(w i) in row i */
 typedef struct wave {
   double w, a, b;
@@ -145,9 +148,22 @@ static int is_commanded(const double *u, size_t n, double w, double *d)
   return power(correlate(d, n, w)) > clear * 4 * sum / ((double)n * (double)n);
 }
 
+/* Whether rows that come at a rate [1/s] show the mains, or an harmonic, as a line at w [rad a row]. */
+static int is_of_mains(double w, double rate)
+{
+  static const double mains[] = {50, 60};
+  int i, k, any = 0;
+  for (i = 0; i < 2; i++)
+    for (k = 1; k <= HARMONICS; k++) {
+      const double f = k * mains[i], seen = fabs(f - rate * floor(f / rate + 0.5));
+      any |= fabs(seen - w / two_pi * rate) < grid * f;
+    }
+  return any;
+}
+
 /* One line off one channel of a run, of which u is the command, or NULL.  Returns: its amplitude; 0 if there is none.
  * Out: w */
-static double remove_line(double *y, const double *u, size_t n, double *room, double *w)
+static double remove_line(double *y, const double *u, size_t n, double rate, double *room, double *w)
 {
   double *d = room, *each = room + n, usual = sharpen(y, n, d, each), size;
   wave v;
@@ -156,7 +172,8 @@ static double remove_line(double *y, const double *u, size_t n, double *room, do
     return 0;
   v = tune(d, n, *w);
   size = sqrt(power(v)) / sharpened(v.w);
-  if (!is_steady(d, n, v) || !(sqrt(power(v)) > visible * usual) || (u && is_commanded(u, n, v.w, each)))
+  if (!is_of_mains(v.w, rate) || !is_steady(d, n, v) || !(sqrt(power(v)) > visible * usual) ||
+      (u && is_commanded(u, n, v.w, each)))
     return 0;
   for (i = 0; i < n; i++)
     y[i] += (v.a * cos(v.w * (double)i) + v.b * sin(v.w * (double)i)) / sharpened(v.w);
@@ -164,6 +181,7 @@ static double remove_line(double *y, const double *u, size_t n, double *room, do
   return size;
 }
 
+/* Rows at equal distances, and not too few a second. */
 static int is_even(const double *t, size_t n)
 {
   const double step = (t[n - 1] - t[0]) / (double)(n - 1);
@@ -171,7 +189,7 @@ static int is_even(const double *t, size_t n)
   for (i = 1; i < n; i++)
     if (fabs(t[i] - t[i - 1] - step) > uneven * step)
       return 0;
-  return 1;
+  return step * slowest < 1;
 }
 
 static void remove_from(lab_log *log, size_t run, int channel, double *room)
@@ -180,14 +198,15 @@ static void remove_from(lab_log *log, size_t run, int channel, double *room)
   const double *t = log->value[LAB_CHANNEL_TIME] + first;
   const int command = lab_log_command(log);
   const double *u = command < 0 ? NULL : log->value[command] + first;
+  const double rate = (double)(n - 1) / (t[n - 1] - t[0]);
   int k;
   for (k = 0; k < HARMONICS; k++) {
     double w = 0;
-    const double size = remove_line(log->value[channel] + first, u, n, room, &w);
+    const double size = remove_line(log->value[channel] + first, u, n, rate, room, &w);
     if (!(size > log->hum[channel].amplitude))
       continue;
     log->hum[channel].amplitude = size;
-    log->hum[channel].frequency = w / two_pi * (double)(n - 1) / (t[n - 1] - t[0]);
+    log->hum[channel].frequency = w / two_pi * rate;
   }
 }
 

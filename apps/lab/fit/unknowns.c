@@ -213,11 +213,12 @@ static int is_jump(const lab_run *x, size_t k)
   return fabs((double)(input[1].u - input[0].u)) > jump;
 }
 
-static size_t count_jumps(const lab_run *x)
+/* Changes whose instant is not known; of these, if asked for, the jumps. */
+static size_t count_bracketed(const lab_run *x, int jumps)
 {
   size_t k, n = 0;
   for (k = 0; k < x->n_instants; k++)
-    n += (size_t)is_jump(x, k);
+    n += (size_t)(x->bracket[k] > 0 && (!jumps || is_jump(x, k)));
   return n;
 }
 
@@ -226,14 +227,14 @@ static size_t count_jumps(const lab_run *x)
 static void add_switches(lab_unknowns *u, int e)
 {
   const lab_run *x = &u->run[e];
-  const size_t n = x->n_instants;
+  const size_t n = count_bracketed(x, 0), jumps = count_bracketed(x, 1);
   const int few = n * ROWS_A_SWITCH <= x->n && (size_t)u->n + n <= SWITCHES_END;
-  const size_t jumps = count_jumps(x);
   size_t k;
   if (!few && u->n < SWITCHES_END)
     add_switch(u, e, LAB_ALL_INSTANTS, 1, "1");
-  for (k = 0; k < n && (few || (jumps * ROWS_A_SWITCH <= x->n && (size_t)u->n + jumps <= SWITCHES_END)); k++)
-    if (few || is_jump(x, k))
+  for (k = 0; k < x->n_instants && (few || (jumps * ROWS_A_SWITCH <= x->n && (size_t)u->n + jumps <= SWITCHES_END));
+       k++)
+    if (x->bracket[k] > 0 && (few || is_jump(x, k)))
       add_switch(u, e, (int)k, x->bracket[k], "s");
 }
 

@@ -167,7 +167,7 @@ static int bracket_switches(lab_run *e, lab_error *error)
     return lab_fail_memory(error, "an experiment");
   for (k = 0; k < e->n_instants; k++) {
     const size_t row = row_at(t, e->n, e->inputs.t[k + 1]);
-    e->bracket[k] = row > 0 ? t[row] - t[row - 1] : 0;
+    e->bracket[k] = row > 0 && t[row] == e->inputs.t[k + 1] ? t[row] - t[row - 1] : 0;
   }
   return LAB_OK;
 }

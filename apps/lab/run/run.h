@@ -21,7 +21,7 @@ typedef struct lab_run {
   double *weight;                  /* n_channels * n: noise over that of a row; at first 1 but for coarse steps */
   lab_inputs inputs;               /* schedule of inputs, as the log shows them */
   size_t n_instants;               /* changes of the command whose instant the log brackets; 0 if other inputs change */
-  double *bracket;                 /* [s] n_instants: time from the row before each change to the row that shows it */
+  double *bracket; /* [s] n_instants: time from the row before each change to the row that shows it; 0 on a ramp */
 } lab_run;
 
 /* Prepare a run. Noise that the rig does not declare is estimated (noise.h).

@@ -65,23 +65,84 @@ static int same(const pneu_input *a, const pneu_input *b)
          a->pressure_rate == b->pressure_rate && a->position_rate == b->position_rate;
 }
 
-static void fill(const lab_rig *rig, const lab_log *log, size_t first, size_t end, pneu_input input, lab_inputs *inputs)
+/* ---- Ramps of the command ---- */
+
+enum { RAMP_STEPS = 20 };                  /* of a ramp from one row to the next, at most */
+static const double ramp_step = 5e-3;      /* of the command's range: what a step of a ramp is meant to be */
+static const double ramp_like = 1.0 / 3.0; /* share of a change that the one before or after it has on a ramp */
+
+/* The change of a channel from the row before; 0 where there is none. */
+static double change_at(const double *value, size_t i, size_t first, size_t end)
+{
+  return i > first && i < end && !isnan(value[i]) && !isnan(value[i - 1]) ? value[i] - value[i - 1] : 0;
+}
+
+/* How many steps stand for the change of a command to row i: 1 if it jumps; more where it is a part of a ramp, which
+ * goes on or comes from before at a like pace, and the rows are far apart for it.
+ * In:      range  from the least to the largest command, or half of it */
+static int steps_to(const double *command, size_t i, size_t first, size_t end, double range)
+{
+  const double here = change_at(command, i, first, end);
+  const double before = change_at(command, i - 1, first, end), after = change_at(command, i + 1, first, end);
+  const double like = ramp_like * fabs(here), steps = ceil(fabs(here) / (ramp_step * range));
+  const int is_ramp = (before * here > 0 && fabs(before) >= like) || (after * here > 0 && fabs(after) >= like);
+  return !is_ramp ? 1 : (int)fmin(fmax(steps, 1), RAMP_STEPS);
+}
+
+/* Steps of equal size from the input before to a command, centred about the straight line. */
+static void add_ramp(double t, double duration, pneu_real to, int steps, lab_inputs *inputs)
+{
+  const size_t n = inputs->schedule.n;
+  const pneu_input from = inputs->input[n - 1];
+  int k;
+  for (k = 0; k < steps; k++) {
+    inputs->t[n + (size_t)k] = t + duration * (k + 0.5) / steps;
+    inputs->input[n + (size_t)k] = from;
+    inputs->input[n + (size_t)k].u =
+        k + 1 < steps ? from.u + (to - from.u) * (pneu_real)(k + 1) / (pneu_real)steps : to;
+  }
+  inputs->schedule.n += (size_t)steps;
+}
+
+static double range_of(const pneu_model *model)
+{
+  return model->p.proportional_band > 0 ? (double)model->p.supply_pressure : 1;
+}
+
+/* Entries of a schedule, at most. */
+static size_t count_entries(const pneu_model *model, const lab_log *log, size_t first, size_t end)
+{
+  const int channel = lab_log_command(log);
+  size_t i, n = end - first;
+  for (i = first + 1; channel >= 0 && i < end; i++)
+    n += (size_t)steps_to(log->value[channel], i, first, end, range_of(model));
+  return n;
+}
+
+static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t first, size_t end,
+                 lab_inputs *inputs)
 {
   const int command = lab_log_command(log);
-  size_t i, n = 0;
+  const double *t = log->value[LAB_CHANNEL_TIME];
+  pneu_input input;
+  size_t i;
+  pneu_input_default(model, &input);
   input.set_position = command == LAB_CHANNEL_SP;
+  inputs->schedule.n = 0;
   for (i = first; i < end; i++) {
+    const int steps = i > first && command >= 0 ? steps_to(log->value[command], i, first, end, range_of(model)) : 1;
     input.u = (pneu_real)held(log, command, i, (double)input.u);
     input.supply_pressure = (pneu_real)held_input(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
     input.force = (pneu_real)held_input(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);
     input.pressure_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_P, i, end, (double)input.pressure_rate);
     input.position_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_X, i, end, (double)input.position_rate);
-    if (n > 0 && same(&input, &inputs->input[n - 1]))
+    if (steps > 1)
+      add_ramp(t[i - 1], t[i] - t[i - 1], input.u, steps, inputs);
+    if (inputs->schedule.n > 0 && same(&input, &inputs->input[inputs->schedule.n - 1]))
       continue;
-    inputs->t[n] = log->value[LAB_CHANNEL_TIME][i];
-    inputs->input[n++] = input;
+    inputs->t[inputs->schedule.n] = t[i];
+    inputs->input[inputs->schedule.n++] = input;
   }
-  inputs->schedule.n = n;
   inputs->schedule.t = inputs->t;
   inputs->schedule.input = inputs->input;
 }
@@ -89,18 +150,16 @@ static void fill(const lab_rig *rig, const lab_log *log, size_t first, size_t en
 int lab_inputs_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_inputs *inputs,
                         lab_error *error)
 {
-  size_t first = log->run[run], end = log->run[run + 1];
-  pneu_input input;
+  const size_t first = log->run[run], end = log->run[run + 1], room = count_entries(model, log, first, end);
   if (check_inputs(rig, log, error))
     return error->status;
-  inputs->t = malloc((end - first) * sizeof *inputs->t);
-  inputs->input = malloc((end - first) * sizeof *inputs->input);
+  inputs->t = malloc(room * sizeof *inputs->t);
+  inputs->input = malloc(room * sizeof *inputs->input);
   if (!inputs->t || !inputs->input) {
     lab_inputs_free(inputs);
     return lab_fail_memory(error, "a schedule");
   }
-  pneu_input_default(model, &input);
-  fill(rig, log, first, end, input, inputs);
+  fill(model, rig, log, first, end, inputs);
   return LAB_OK;
 }
 

@@ -14,7 +14,8 @@ typedef struct lab_inputs {
   pneu_input *input;
 } lab_inputs;
 
-/* Inputs of one run of a log. A command holds until it changes; measured channels that are inputs run along
+/* Inputs of one run of a log. A command holds until it changes; where it ramps over several rows that are far apart, it
+ * goes from row to row in small steps about a straight line; measured channels that are inputs run along
  * straight lines between their values, over gaps as well; a measured supply or force holds.
  * In:      model  of `rig`
  *          rig    says which channels are inputs
