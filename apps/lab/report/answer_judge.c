@@ -1,4 +1,5 @@
 /* How far a model is from logs: those that it was fitted to, on the way there, and those that it has not seen. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "../base/text.h"
@@ -56,14 +57,18 @@ static int judge_logs(lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
-/* Errors of the models on the way there, on the logs that they were fitted to. */
+/* Errors of the models on the way there, on the logs that they were fitted to; NaN of one that cannot follow them. */
 static int retrace(lab_answer *a, lab_error *error)
 {
-  int i;
-  for (i = 0; i < a->now.result.n_path; i++)
-    if (judge(&a->now.result.path[i].rig, a->now.logs.run, a->now.logs.n, 1, &a->report.fitted_path[i], error))
-      return error->status;
-  return LAB_OK;
+  int i, c, status = LAB_OK;
+  for (i = 0; i < a->now.result.n_path && status == LAB_OK; i++) {
+    lab_errors *errors = &a->report.fitted_path[i];
+    status = judge(&a->now.result.path[i].rig, a->now.logs.run, a->now.logs.n, 1, errors, error);
+    for (c = 0; c < LAB_CHANNEL_COUNT && status == LAB_NUMERIC; c++)
+      errors->rmse[c] = errors->in_noise[c] = (double)NAN;
+    status = status == LAB_NUMERIC ? LAB_OK : status;
+  }
+  return status;
 }
 
 /* A model that cannot follow the held-out log has no error on it; that is said, and the rest is written. */

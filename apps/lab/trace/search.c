@@ -766,32 +766,54 @@ int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_r
   return status == LAB_OK ? lab_unknowns_residual_stats(u, result->left[stage], error) : status;
 }
 
+/* Nothing was found, and more than noise may be left. */
+static void give_up(finding *f, const lab_unknowns *declared)
+{
+  f->best.u = *declared;
+  f->best.n_found = 0;
+  f->result.n_path = 1;
+  f->result.verdict = LAB_VERDICT_UNDECIDED;
+}
+
+/* Intervals and errors of the model that was found.
+ * Out:     u, result */
+static int conclude(finding *f, lab_unknowns *u, lab_search_result *result, lab_error *error)
+{
+  int status;
+  *u = f->best.u;
+  *result = f->result;
+  result->n_found = f->best.n_found;
+  memcpy(result->found, f->best.found, sizeof result->found);
+  result->cut_short = lab_cpu_is_spent(u->until);
+  status = lab_unknowns_intervals(u, &result->fit, error);
+  if (status == LAB_OK)
+    status = lab_deviations_forget(u, &f->best.quality.chi2, &result->fit, error);
+  if (result->n_path > 0)
+    result->path[result->n_path - 1].rig = u->rig;
+  lab_unknowns_view(u, 0);
+  return status == LAB_OK ? lab_search_measure(u, LAB_STAGE_AFTER, result, error) : status;
+}
+
 int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_search_result *result, lab_error *error)
 {
   finding *f = calloc(1, sizeof *f);
-  int done = 0, status;
-  if (!f)
-    return lab_fail_memory(error, "the search");
-  status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
+  lab_unknowns *declared = malloc(sizeof *declared);
+  int done = 0, status = f && declared ? LAB_OK : lab_fail_memory(error, "the search");
+  if (status == LAB_OK) {
+    *declared = *u;
+    status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
+  }
   if (status == LAB_OK)
     status = search_coarsely(u, options, &f->result, &f->best, &done, error);
   if (status == LAB_OK && !done)
     status = search_tolerantly(u, options, f, error);
-  if (status == LAB_OK) {
-    *u = f->best.u;
-    *result = f->result;
-    result->n_found = f->best.n_found;
-    memcpy(result->found, f->best.found, sizeof result->found);
-    result->cut_short = lab_cpu_is_spent(u->until);
-    status = lab_unknowns_intervals(u, &result->fit, error);
-    if (status == LAB_OK)
-      status = lab_deviations_forget(u, &f->best.quality.chi2, &result->fit, error);
-    if (result->n_path > 0)
-      result->path[result->n_path - 1].rig = u->rig;
-    lab_unknowns_view(u, 0);
-  }
   if (status == LAB_OK)
-    status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
+    status = conclude(f, u, result, error);
+  if (status == LAB_NUMERIC && f->result.n_path > 0) { /* what was found cannot be simulated as closely as that takes */
+    give_up(f, declared);
+    status = conclude(f, u, result, error);
+  }
+  free(declared);
   free(f);
   return status;
 }
