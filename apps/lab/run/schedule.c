@@ -89,6 +89,15 @@ static int steps_to(const double *command, size_t i, size_t first, size_t end, d
   return !is_ramp ? 1 : (int)fmin(fmax(steps, 1), RAMP_STEPS);
 }
 
+/* Whether a command is seen at the rows of a log: not the rows of a schedule, where it changes and nothing is measured,
+ * and not what a positioner sends, which holds from row to row. */
+static int is_sampled(const lab_log *log)
+{
+  const int command = lab_log_command(log);
+  const int measured = log->value[LAB_CHANNEL_P] || log->value[LAB_CHANNEL_X] || log->value[LAB_CHANNEL_T];
+  return command >= 0 && measured && (command == LAB_CHANNEL_SP || !log->value[LAB_CHANNEL_SP]);
+}
+
 /* Steps of equal size from the input before to a command, centred about the straight line. */
 static void add_ramp(double t, double duration, pneu_real to, int steps, lab_inputs *inputs)
 {
@@ -112,17 +121,17 @@ static double range_of(const pneu_model *model)
 /* Entries of a schedule, at most. */
 static size_t count_entries(const pneu_model *model, const lab_log *log, size_t first, size_t end)
 {
-  const int channel = lab_log_command(log);
+  const int command = lab_log_command(log), sampled = is_sampled(log);
   size_t i, n = end - first;
-  for (i = first + 1; channel >= 0 && i < end; i++)
-    n += (size_t)steps_to(log->value[channel], i, first, end, range_of(model));
+  for (i = first + 1; sampled && i < end; i++)
+    n += (size_t)steps_to(log->value[command], i, first, end, range_of(model));
   return n;
 }
 
 static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t first, size_t end,
                  lab_inputs *inputs)
 {
-  const int command = lab_log_command(log);
+  const int command = lab_log_command(log), sampled = is_sampled(log);
   const double *t = log->value[LAB_CHANNEL_TIME];
   pneu_input input;
   size_t i;
@@ -130,7 +139,7 @@ static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log
   input.set_position = command == LAB_CHANNEL_SP;
   inputs->schedule.n = 0;
   for (i = first; i < end; i++) {
-    const int steps = i > first && command >= 0 ? steps_to(log->value[command], i, first, end, range_of(model)) : 1;
+    const int steps = i > first && sampled ? steps_to(log->value[command], i, first, end, range_of(model)) : 1;
     input.u = (pneu_real)held(log, command, i, (double)input.u);
     input.supply_pressure = (pneu_real)held_input(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
     input.force = (pneu_real)held_input(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);

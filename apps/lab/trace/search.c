@@ -721,16 +721,16 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   return status;
 }
 
-/* Whether a force was found: nothing else makes a stem stick and slip. */
-static int has_found_force(const lab_candidate *c)
+/* Whether something that acts on the stem or its air was found: an error of a sensor makes no stem stick and slip. */
+static int has_found_cause(const lab_candidate *c)
 {
   int i, any = 0;
   for (i = 0; i < c->n_found; i++)
-    any |= c->found[i].effect >= 0 && strcmp(pneu_effect_at(c->found[i].effect)->equation, "force") == 0;
+    any |= c->found[i].effect >= 0 && strcmp(pneu_effect_at(c->found[i].effect)->equation, "sensor") != 0;
   return any;
 }
 
-/* The search seen coarsely, if the log is rough.  Out: done, 1 if it found a force and left only noise */
+/* The search seen coarsely, if the log is rough.  Out: done, 1 if it found a cause and left only noise */
 static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
                            lab_candidate *best, int *done, lab_error *error)
 {
@@ -743,7 +743,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   lab_unknowns_view(&coarse, result->window);
   if (search_from(&coarse, NULL, options, result, best, error))
     return error->status;
-  *done = lab_is_noise(&best->quality) && has_found_force(best);
+  *done = lab_is_noise(&best->quality) && has_found_cause(best);
   if (!*done) {
     result->scores.n = 0;
     result->n_steps = result->n_listed = result->n_path = 0;
