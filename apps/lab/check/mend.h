@@ -14,8 +14,9 @@
 void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
 
 /* Take lines off the spectrum of p, x, T and force that stand on a log from its first row to its last, whatever the
- * stem and the chamber do: the hum of the mains. Only what is fast counts, of at most 16 rows a period; rows at uneven
- * distances have no spectrum. A motion that swings is not always there; a cycle that drives the rig is slower, or does
+ * stem and the chamber do: the hum of the mains, 50 or 60 Hz and two harmonics, within 0.3 %, or what sampling makes of
+ * it. Only what is fast counts, of at most 16 rows a period; rows at uneven distances, or fewer than 20 a second, have
+ * no spectrum. A motion that swings is not always there; a cycle that drives the rig is slower, or does
  * not show while the orifices are shut.
  * In/out:  log  its values; hum has what was taken off
  * Returns: LAB_OK, LAB_WORLD. */

@@ -2,6 +2,7 @@
  * tests/apps/test_closeloop.c.
  */
 #include "../../badlog.h"
+#include "../../fixture.h"
 
 #include "../../../apps/lab/check/standstill.h"
 #include "../../../apps/lab/check/mend.h"
@@ -624,6 +625,40 @@ static void test_lab_format_channel__channels__have_units_that_are_read(void **s
   assert_string_equal(lab_format_channel(LAB_CHANNEL_FORCE, 12, text), "12 N");
 }
 
+/* ---- Hum ---- */
+
+/* Amplitude that is taken off a chamber pressure of 100 kPa with a swing of 3 kPa and noise, in rows at a rate [1/s].
+ */
+static double taken_off(double frequency, double rate)
+{
+  enum { N = 1200 };
+  static double t[N], p[N];
+  static char path[] = "log.csv";
+  lab_log log = {.path = path, .n = N, .n_runs = 1};
+  size_t run[] = {0, N};
+  uint64_t seed = 1;
+  int i;
+  for (i = 0; i < N; i++) {
+    t[i] = i / rate;
+    p[i] = 1e5 + 3e3 * sin(6.283185307179586 * frequency * t[i]) + fixture_random(&seed, -500, 500);
+  }
+  log.run = run;
+  log.value[LAB_CHANNEL_TIME] = t;
+  log.value[LAB_CHANNEL_P] = p;
+  assert_int_equal(lab_log_remove_hum(&log, &limitations, &error), LAB_OK);
+  return log.hum[LAB_CHANNEL_P].amplitude;
+}
+
+static void test_lab_log_remove_hum__only_the_mains__is_taken_off(void **state)
+{
+  (void)state;
+  assert_close(taken_off(50, 200), 3e3, 0, 0.02);
+  assert_close(taken_off(60, 200), 3e3, 0, 0.02);
+  assert_close(taken_off(50, 64), 3e3, 0, 0.02); /* seen as 14 Hz */
+  assert_close(taken_off(43, 200), 0, 0, 0);     /* what swings otherwise may be the rig */
+  assert_close(taken_off(50, 7.2), 0, 0, 0);     /* at so few rows a second anything may be 50 Hz */
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, fresh, done)
 
 int main(void)
@@ -660,6 +695,7 @@ int main(void)
       TEST(test_lab_limitation__too_many__says_so),
       TEST(test_lab_limitations_join__held_out_doubt__is_only_a_remark),
       TEST(test_lab_format_channel__channels__have_units_that_are_read),
+      TEST(test_lab_log_remove_hum__only_the_mains__is_taken_off),
   };
   return cmocka_run_group_tests(tests, open_all, scratch_close);
 }

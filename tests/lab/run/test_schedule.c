@@ -68,6 +68,36 @@ static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state
   lab_log_free(&log);
 }
 
+static void test_lab_inputs_from_log__ramp__runs_between_rows_in_small_steps(void **state)
+{
+  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.1,0\n3,0.2,0\n4,0.25,0\n5,0.25,0\n6,1,0\n");
+  lab_inputs inputs = drive_of(&log, 0);
+  const lab_schedule *s = &inputs.schedule;
+  size_t i;
+  (void)state;
+  assert_int_equal(s->n, 1 + 20 + 20 + 10 + 1);
+  for (i = 1; i <= 40; i++) { /* in the middle of a step the straight line is left by half of it */
+    assert_close(s->input[i].u, 0.1 * (s->t[i] - 1) + 0.0025, 1e-9, 0);
+    assert_true(s->t[i] > s->t[i - 1]);
+  }
+  assert_close(s->input[50].u, 0.25, 0, 0);
+  assert_close(s->t[50], 3.95, 1e-9, 0);
+  assert_close(s->t[51], 6, 0, 0); /* a jump is at its row */
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **state)
+{
+  lab_log log = read_log("t [s],u [1]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
+  lab_inputs inputs = drive_of(&log, 0);
+  (void)state;
+  assert_int_equal(inputs.schedule.n, 4);
+  assert_close(inputs.schedule.t[3], 30, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
 static void declare_positioner(void)
 {
   *pneu_param_at(&rig.params, pneu_param_find("positioner.gain")) = 20;
@@ -459,6 +489,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(test_lab_inputs_from_log__equal_commands__are_one_entry),
+      CASE(test_lab_inputs_from_log__ramp__runs_between_rows_in_small_steps),
+      CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold),
       CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),
       CASE(test_lab_inputs_from_log__second_run__has_its_own_rows),
       CASE(test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps),
