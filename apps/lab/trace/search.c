@@ -766,7 +766,7 @@ int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_r
   return status == LAB_OK ? lab_unknowns_residual_stats(u, result->left[stage], error) : status;
 }
 
-/* Nothing was found, and more than noise may be left. */
+/* Nothing was found: the best model cannot be simulated as closely as its intervals take, or is no better. */
 static void give_up(finding *f, const lab_unknowns *declared)
 {
   f->best.u = *declared;
@@ -794,6 +794,12 @@ static int conclude(finding *f, lab_unknowns *u, lab_search_result *result, lab_
   return status == LAB_OK ? lab_search_measure(u, LAB_STAGE_AFTER, result, error) : status;
 }
 
+/* Whether a search whose time was spent has ended further from the logs, row by row, than it began. */
+static int is_worse(const lab_search_result *result)
+{
+  return result->cut_short && result->window == 0 && result->after.chi2 > result->before.chi2;
+}
+
 int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_search_result *result, lab_error *error)
 {
   finding *f = calloc(1, sizeof *f);
@@ -809,7 +815,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     status = search_tolerantly(u, options, f, error);
   if (status == LAB_OK)
     status = conclude(f, u, result, error);
-  if (status == LAB_NUMERIC && f->result.n_path > 0) { /* what was found cannot be simulated as closely as that takes */
+  if (f && f->result.n_path > 0 && (status == LAB_NUMERIC || (status == LAB_OK && is_worse(result)))) {
     give_up(f, declared);
     status = conclude(f, u, result, error);
   }
