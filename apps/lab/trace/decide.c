@@ -157,9 +157,8 @@ static int has_found_nothing(const lab_facts *f)
 
 const lab_rule lab_rules[] = {
     {LAB_PHASE_SCORED,
-     "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, and TERM_ALONE times "
-     "the "
-     "best score is below its excess.",
+     "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "
+     "and TERM_ALONE times the best score is below its excess.",
      no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
      a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",

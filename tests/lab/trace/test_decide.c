@@ -31,15 +31,18 @@ static lab_facts two_effects(void)
   return f;
 }
 
-/* Whether the rule with an action holds. */
+/* Whether a rule with an action holds. */
 static int holds(enum lab_phase phase, int action, const lab_facts *f)
 {
-  int i;
+  int i, n = 0, any = 0;
   for (i = 0; i < lab_rule_count; i++)
-    if (lab_rules[i].phase == phase && lab_rules[i].action == action)
-      return lab_rules[i].holds(f);
-  fail_msg("no rule %d in phase %d", action, phase);
-  return 0;
+    if (lab_rules[i].phase == phase && lab_rules[i].action == action) {
+      n++;
+      any |= lab_rules[i].holds(f) != 0;
+    }
+  if (n == 0)
+    fail_msg("no rule %d in phase %d", action, phase);
+  return any;
 }
 
 static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **state)
@@ -95,6 +98,20 @@ static void test_rules__first_scores__call_for_free_terms_where_no_effect_explai
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_SCORED_TERM, &f));
   f.n_found = 1;
   f.effect = 0;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+}
+
+static void test_rules__values_as_declared__end_where_tolerances_alone_are_better(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+  f.within = quality(1100, 1201); /* a tenth of the excess, and no better */
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+  f.within = quality(600, 1199); /* most of the excess */
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
 }
 
@@ -204,8 +221,11 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.found_term = 1;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
-  f.found_term = 0;
+  f.best.strain = 4; /* tolerances off, and more than noise is left */
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.best.chi2 = 200;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
+  f.found_term = 0;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
   f.n_found = 0;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_NONE);
@@ -219,6 +239,7 @@ int main(void)
       cmocka_unit_test(test_lab_is_clean__one_standard_deviation__is_the_limit),
       cmocka_unit_test(test_lab_is_poor__half_of_the_excess__is_the_limit),
       cmocka_unit_test(test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it),
+      cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_alone_are_better),
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),
