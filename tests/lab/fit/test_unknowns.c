@@ -189,6 +189,21 @@ static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **s
     assert_close(u.unknown[j].spread, 0, 0, 0); /* nothing is known of the others */
 }
 
+static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost(void **state)
+{
+  int j;
+  (void)state;
+  open_usual();
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  j = lab_unknowns_find(&u, PNEU_PARAM_moving_mass);
+  assert_true(j >= USUAL);
+  assert_close(u.unknown[j].prior, (double)u.declared.moving_mass, 0, 1e-12);
+  assert_close(u.unknown[j].spread, 0.2 * (double)u.declared.moving_mass, 0, 1e-12);
+  assert_close(u.unknown[j].lower, 0.2 * (double)u.declared.moving_mass, 0, 1e-12); /* it would ring without a mass */
+  assert_true(lab_unknown_is_held(&u.unknown[j]));
+  assert_false(lab_unknown_is_held(&u.unknown[lab_unknowns_find(&u, PNEU_PARAM_dry_friction)])); /* it is fitted */
+}
+
 static void test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone(void **state)
 {
   (void)state;
@@ -993,6 +1008,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
+      cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
       cmocka_unit_test(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone),
       cmocka_unit_test(test_lab_unknowns_open__command_that_changes_often__has_one_timing),
       cmocka_unit_test(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing),
