@@ -113,7 +113,7 @@ static int read_range(const key *k, const config_setting_t *group, study *s, lab
   const config_setting_t *from = config_setting_get_member(group, "from");
   const config_setting_t *to = config_setting_get_member(group, "to");
   const config_setting_t *points = config_setting_get_member(group, "points");
-  if (lab_config_is_group(group, error) || lab_config_known(group, keys, 4, sizeof *keys, error))
+  if (lab_config_known(group, keys, 4, sizeof *keys, error))
     return error->status;
   if (!from || !to || !points)
     return lab_config_fail(group, error, "expected the keys from, to and points");
@@ -137,7 +137,7 @@ static int read_benches(const key *k, const config_setting_t *group, study *s, l
   static const char *const keys[] = {"figure", "bench_sets"};
   const config_setting_t *list = config_setting_get_member(group, "bench_sets");
   (void)k;
-  if (lab_config_is_group(group, error) || lab_config_known(group, keys, 2, sizeof *keys, error))
+  if (lab_config_known(group, keys, 2, sizeof *keys, error))
     return error->status;
   if (!list)
     return lab_config_fail(group, error, "expected the key bench_sets");

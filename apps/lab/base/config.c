@@ -116,6 +116,8 @@ int lab_config_unknown(const config_setting_t *setting, const void *table, size_
 int lab_config_known(const config_setting_t *group, const void *table, size_t n, size_t stride, lab_error *error)
 {
   int i;
+  if (lab_config_is_group(group, error))
+    return error->status;
   for (i = 0; i < config_setting_length(group); i++) {
     const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
     if (lab_name_index(config_setting_name(member), table, n, stride) < 0)

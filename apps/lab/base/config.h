@@ -30,7 +30,7 @@ int lab_config_fail_in(const config_setting_t *setting, lab_error *error);
 /* Fail at a setting of the wrong kind: expected `expected`, found what is there.  Returns: LAB_DATA. */
 int lab_config_expected(const config_setting_t *setting, const char *expected, lab_error *error);
 
-/* Check that every member of a group is a row of a table (see names.h).
+/* Check that a setting is a group, and every member of it a row of a table (see names.h).
  * Returns: LAB_OK, or LAB_DATA naming the nearest known key. */
 int lab_config_known(const config_setting_t *group, const void *table, size_t n, size_t stride, lab_error *error);
 

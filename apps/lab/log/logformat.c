@@ -1,5 +1,6 @@
 #include "logformat.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -7,11 +8,12 @@
 #include <string.h>
 
 #include "../base/config.h"
+#include "../base/escape.h"
 #include "../base/names.h"
+#include "../base/number.h"
 #include "../base/units.h"
 
-/* Above every value that a log can have, and an exact integer with those after it. */
-static const double lead_code = 1e15;
+static const double lead_most = 5e14; /* above every value that a log can have */
 
 static const char *const new_run_words[] = {"never", "t drops"};
 static const char *const runs_words[] = {"each", "mean"};
@@ -42,7 +44,47 @@ void lab_log_format_default(lab_log_format *format)
   }
 }
 
-/* ---- One reader a key ---- */
+/* ---- What a key is ---- */
+
+enum kind { MARK, COUNT, CHOICE, TEXTS, NUMBERS, OWN };
+
+/* Of one channel in a group of channels. */
+typedef int channel_reader(const config_setting_t *setting, int channel, lab_log_format *format, lab_error *error);
+
+struct log_key {
+  const char *name;  /* first member, for lab_name_index */
+  enum kind kind;    /* how it is read and written, but for the functions below */
+  size_t member;     /* of the format: a char for MARK, an int for COUNT and CHOICE, else one for each channel */
+  int lower;         /* COUNT, to SKIP_MAX */
+  const void *words; /* CHOICE (names.h) */
+  size_t n, stride;
+  int always;           /* CHOICE: written also where it is the default */
+  channel_reader *each; /* of a group of channels */
+  int (*read)(const config_setting_t *, lab_log_format *, lab_error *);
+  void (*write)(FILE *, const lab_log_format *);
+};
+
+#define MEMBER(name) .member = offsetof(lab_log_format, name)
+#define WORDS(table) .words = table, .n = sizeof table / sizeof table[0], .stride = sizeof table[0]
+
+/* ---- Readers ---- */
+
+/* Unit of a channel where its column does not give one. */
+static const char *unit_of(const lab_log_format *format, int channel)
+{
+  return lab_channel_unit(channel, format->command_is_pressure);
+}
+
+static int read_channels(const config_setting_t *group, channel_reader *read, lab_log_format *format, lab_error *error)
+{
+  int i, status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
+    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
+    const char *name = config_setting_name(member);
+    status = read(member, lab_name_index(name, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]), format, error);
+  }
+  return status;
+}
 
 /* One character, or its name. */
 static int read_mark(const config_setting_t *setting, char *mark, lab_error *error)
@@ -94,40 +136,29 @@ static int read_window(const config_setting_t *setting, lab_log_format *format, 
   return LAB_OK;
 }
 
-/* A text a channel. */
-static int read_texts(const config_setting_t *group, char text[LAB_CHANNEL_COUNT][LAB_COLUMN_TEXT], lab_error *error)
+/* One channel of a group: a text. */
+static int read_text(const config_setting_t *setting, char text[LAB_COLUMN_TEXT], lab_error *error)
 {
-  int i, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
-  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
-    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
-    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
-    status = lab_config_text(member, text[c], LAB_COLUMN_TEXT, error);
-    if (status == LAB_OK && !*text[c])
-      status = lab_config_expected(member, "a text", error);
-  }
-  return status;
+  if (lab_config_text(setting, text, LAB_COLUMN_TEXT, error))
+    return error->status;
+  return *text ? LAB_OK : lab_config_expected(setting, "a text", error);
 }
 
-static int read_map(const config_setting_t *group, lab_log_format *format, lab_error *error)
+static int read_map(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
-  return read_texts(group, format->map, error);
+  return read_text(setting, format->map[c], error);
 }
 
-/* Channels that the file's name tells. */
-static int read_name(const config_setting_t *group, lab_log_format *format, lab_error *error)
+/* A channel that the file's name tells. */
+static int read_name(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
   char mark[LAB_COLUMN_TEXT];
   double scale, offset;
-  int c;
-  if (read_texts(group, format->name, error))
+  if (read_text(setting, format->name[c], error))
     return error->status;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (*format->name[c] && lab_column_mark(format->name[c], lab_channel_unit(c, format->command_is_pressure), mark,
-                                            &scale, &offset, error))
-      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, lab_channels[c].key), error);
-  return LAB_OK;
+  return lab_column_mark(format->name[c], unit_of(format, c), mark, &scale, &offset, error)
+             ? lab_config_fail_in(setting, error)
+             : LAB_OK;
 }
 
 static int read_weights(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -140,34 +171,6 @@ static int read_weights(const config_setting_t *setting, lab_log_format *format,
                                  &format->weight[i], error);
   format->weighted = status == LAB_OK ? config_setting_length(setting) : 0;
   return status;
-}
-
-/* A number a channel, such as `scale` or `constants`, by `read`. */
-static int read_channels(const config_setting_t *group, const lab_log_format *format, double *value,
-                         int (*read)(const config_setting_t *, const char *, double *, lab_error *), lab_error *error)
-{
-  int i, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
-  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
-    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
-    int channel = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
-    status = read(member, lab_channel_unit(channel, format->command_is_pressure), &value[channel], error);
-  }
-  return status;
-}
-
-static int read_one_scale(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
-{
-  (void)unit;
-  if (lab_config_quantity(setting, "1", -INFINITY, INFINITY, value, error))
-    return error->status;
-  return *value != 0 ? LAB_OK : lab_config_expected(setting, "a number other than 0", error);
-}
-
-static int read_one_constant(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
-{
-  return lab_config_quantity(setting, unit, -INFINITY, INFINITY, value, error);
 }
 
 /* "4..20 mA", or "0..27648" of counts. */
@@ -194,114 +197,79 @@ static int read_signal(const config_setting_t *setting, const char *text, lab_si
   return LAB_OK;
 }
 
-/* Numbers and signals. */
-static int read_scale(const config_setting_t *group, lab_log_format *format, lab_error *error)
+/* A number or a signal. */
+static int read_scale(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
-  int i, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
-  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
-    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
-    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
-    const char *text = config_setting_get_string(member);
-    status = text && strstr(text, "..") ? read_signal(member, text, &format->signal[c], error)
-                                        : read_one_scale(member, "1", &format->scale[c], error);
-  }
-  return status;
+  const char *text = config_setting_get_string(setting);
+  if (text && strstr(text, ".."))
+    return read_signal(setting, text, &format->signal[c], error);
+  if (lab_config_quantity(setting, "1", -INFINITY, INFINITY, &format->scale[c], error))
+    return error->status;
+  return format->scale[c] != 0 ? LAB_OK : lab_config_expected(setting, "a number other than 0", error);
 }
 
 /* What the ends of a signal stand for. */
-static int read_range(const config_setting_t *group, lab_log_format *format, lab_error *error)
+static int read_range(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
-  int i, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0], error);
-  for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
-    const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
-    const int c = lab_name_index(config_setting_name(member), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
-    const char *unit = lab_channel_unit(c, format->command_is_pressure);
-    lab_signal *signal = &format->signal[c];
-    status = lab_config_list(member, 2, 2, error);
-    if (status == LAB_OK)
-      status = lab_config_quantity(config_setting_get_elem(member, 0), unit, -1e15, 1e15, &signal->low, error);
-    if (status == LAB_OK)
-      status = lab_config_quantity(config_setting_get_elem(member, 1), unit, -1e15, 1e15, &signal->high, error);
-    signal->low += 0.0; /* a zero without sign, as it is written */
-    signal->high += 0.0;
-    if (status == LAB_OK && signal->low == signal->high)
-      status = lab_config_expected(member, "two values that differ", error);
-  }
-  return status;
+  const char *unit = unit_of(format, c);
+  lab_signal *signal = &format->signal[c];
+  if (lab_config_list(setting, 2, 2, error) ||
+      lab_config_quantity(config_setting_get_elem(setting, 0), unit, -1e15, 1e15, &signal->low, error) ||
+      lab_config_quantity(config_setting_get_elem(setting, 1), unit, -1e15, 1e15, &signal->high, error))
+    return error->status;
+  signal->low += 0.0; /* a zero without sign, as it is written */
+  signal->high += 0.0;
+  return signal->low != signal->high ? LAB_OK : lab_config_expected(setting, "two values that differ", error);
 }
 
-static int read_offset(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+static int read_offset(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
-  return read_channels(setting, format, format->offset, lab_config_difference, error);
+  return lab_config_difference(setting, unit_of(format, c), &format->offset[c], error);
 }
 
-static int read_constants(const config_setting_t *setting, lab_log_format *format, lab_error *error)
+static int read_constant(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
-  if (config_setting_is_group(setting) && config_setting_get_member((config_setting_t *)setting, "t"))
-    return lab_config_fail(setting, error, "time cannot be constant; for a file without t give time_step");
-  return read_channels(setting, format, format->constant, read_one_constant, error);
+  if (c == LAB_CHANNEL_TIME)
+    return lab_config_fail(config_setting_parent(setting), error,
+                           "time cannot be constant; for a file without t give time_step");
+  return lab_config_quantity(setting, unit_of(format, c), -INFINITY, INFINITY, &format->constant[c], error);
 }
 
-/* "first p", "last p", or a value with its unit.  Out: value  channel + 1 of the first two, as an infinite code */
-static int read_lead_value(const config_setting_t *setting, const char *unit, double *value, lab_error *error)
+/* "first p", "last p", or a value with its unit, in the row of the lead that is being read. */
+static int read_lead_value(const config_setting_t *setting, int c, lab_log_format *format, lab_error *error)
 {
+  const int row = format->n_lead;
   const char *text = config_setting_get_string(setting);
   const int last = text && strncmp(text, "last ", 5) == 0, first = text && strncmp(text, "first ", 6) == 0;
   int channel;
   if (!first && !last)
-    return lab_config_quantity(setting, unit, -lead_code / 2, lead_code / 2, value, error);
+    return lab_config_quantity(setting, unit_of(format, c), -lead_most, lead_most, &format->lead[row][c], error);
   channel = lab_name_index(text + (first ? 6 : 5), lab_channels, LAB_CHANNEL_COUNT, sizeof lab_channels[0]);
   if (channel < 0)
     return lab_config_expected(setting, "\"first\" or \"last\" with a channel, such as \"first p\"", error);
-  *value = lead_code + (last ? LAB_CHANNEL_COUNT : 0) + channel;
+  (first ? format->lead_first : format->lead_last)[row][c] = channel + 1;
   return LAB_OK;
 }
 
-/* Take codes of read_lead_value out of a row. */
-static void decode_lead(lab_log_format *format, int row)
-{
-  int c;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
-    const double code = format->lead[row][c] - lead_code;
-    format->lead_first[row][c] = format->lead_last[row][c] = 0;
-    if (!(code >= 0))
-      continue;
-    if (code < LAB_CHANNEL_COUNT)
-      format->lead_first[row][c] = (int)code + 1;
-    else
-      format->lead_last[row][c] = (int)code - LAB_CHANNEL_COUNT + 1;
-    format->lead[row][c] = NAN;
-  }
-}
-
-/* One row of `lead`: a group of channels, with t. */
-static int read_lead_row(const config_setting_t *setting, lab_log_format *format, int index, lab_error *error)
-{
-  double *row = format->lead[index];
-  int c;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    row[c] = NAN;
-  if (read_channels(setting, format, row, read_lead_value, error))
-    return error->status;
-  decode_lead(format, index);
-  return isnan(row[LAB_CHANNEL_TIME]) ? lab_config_expected(setting, "a row with its time t", error) : LAB_OK;
-}
-
+/* Rows, each a group of channels with t. */
 static int read_lead(const config_setting_t *setting, lab_log_format *format, lab_error *error)
 {
-  int i, status = lab_config_list(setting, 1, LAB_LEAD_MAX, error);
-  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++) {
-    const config_setting_t *row = config_setting_get_elem(setting, (unsigned)i);
-    status = read_lead_row(row, format, i, error);
-    if (status == LAB_OK && i > 0 && format->lead[i][LAB_CHANNEL_TIME] <= format->lead[i - 1][LAB_CHANNEL_TIME])
-      status = lab_config_expected(row, "a time after that of the row before", error);
+  int *i = &format->n_lead, c;
+  if (lab_config_list(setting, 1, LAB_LEAD_MAX, error))
+    return error->status;
+  for (*i = 0; *i < config_setting_length(setting); ++*i) {
+    const config_setting_t *row = config_setting_get_elem(setting, (unsigned)*i);
+    const double *t = &format->lead[*i][LAB_CHANNEL_TIME];
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      format->lead[*i][c] = NAN;
+    if (read_channels(row, read_lead_value, format, error))
+      return error->status;
+    if (isnan(*t))
+      return lab_config_expected(row, "a row with its time t", error);
+    if (*i > 0 && *t <= format->lead[*i - 1][LAB_CHANNEL_TIME])
+      return lab_config_expected(row, "a time after that of the row before", error);
   }
-  format->n_lead = status == LAB_OK ? config_setting_length(setting) : 0;
-  return status;
+  return LAB_OK;
 }
 
 static int read_quantities(const config_setting_t *setting, lab_log_format *format, lab_error *error)
@@ -329,7 +297,7 @@ static int read_holdout(const config_setting_t *group, lab_log_format *format, l
   static const char *const keys[] = {"window", "first"};
   const config_setting_t *window, *first;
   lab_log_format out = *format;
-  if (lab_config_is_group(group, error) || lab_config_known(group, keys, 2, sizeof keys[0], error))
+  if (lab_config_known(group, keys, 2, sizeof keys[0], error))
     return error->status;
   window = config_setting_get_member((config_setting_t *)group, "window");
   first = config_setting_get_member((config_setting_t *)group, "first");
@@ -352,47 +320,204 @@ void lab_log_format_hold_out(lab_log_format *format)
     format->first = format->holdout_first;
 }
 
+/* ---- Writers, of what is not left out ---- */
+
+static void write_mark(FILE *file, const char *key, char mark)
+{
+  if (!mark)
+    return;
+  fprintf(file, "  %s = ", key);
+  lab_put_config(file, mark == '\t' ? "tab" : mark == LAB_CSV_BLANKS ? "blanks" : (char[]){mark, '\0'});
+  fputs(";\n", file);
+}
+
+static void write_columns(FILE *file, const lab_log_format *format)
+{
+  int i;
+  for (i = 0; i < format->n_columns; i++) {
+    fputs(i ? ", " : "  columns = ( ", file);
+    lab_put_config(file, format->column[i]);
+  }
+  if (format->n_columns)
+    fputs(" );\n", file);
+}
+
+static void write_time_step(FILE *file, const lab_log_format *format)
+{
+  char number[LAB_NUMBER_TEXT];
+  if (format->time_step > 0)
+    fprintf(file, "  time_step = \"%s s\";\n", lab_number_write(format->time_step, number));
+}
+
+/* A number a channel, those that are as usual left out. */
+static void write_numbers(FILE *file, const char *key, const lab_log_format *format, const double *value,
+                          const double *usual)
+{
+  char number[LAB_NUMBER_TEXT];
+  int i, any = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    if (value[i] == usual[i] || isnan(value[i]))
+      continue;
+    if (!any++)
+      fprintf(file, "  %s = {", key);
+    fprintf(file, " %s = \"%s %s\";", lab_channels[i].key, lab_number_write(value[i], number), unit_of(format, i));
+  }
+  if (any)
+    fputs(" };\n", file);
+}
+
+/* Scales and signals. */
+static void write_scale(FILE *file, const lab_log_format *format)
+{
+  char a[LAB_NUMBER_TEXT], b[LAB_NUMBER_TEXT];
+  int i, any = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    const lab_signal *s = &format->signal[i];
+    const int is_signal = s->from != s->to;
+    if (!is_signal && format->scale[i] == 1)
+      continue;
+    fputs(any++ ? "" : "  scale = {", file);
+    if (is_signal)
+      fprintf(file, " %s = \"%s..%s %s\";", lab_channels[i].key, lab_number_write(s->from, a),
+              lab_number_write(s->to, b), s->unit);
+    else
+      fprintf(file, " %s = \"%s 1\";", lab_channels[i].key, lab_number_write(format->scale[i], a));
+  }
+  fputs(any ? " };\n" : "", file);
+}
+
+/* What the ends of signals stand for. */
+static void write_range(FILE *file, const lab_log_format *format)
+{
+  char a[LAB_NUMBER_TEXT], b[LAB_NUMBER_TEXT];
+  int i, any = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
+    const lab_signal *s = &format->signal[i];
+    if (s->from != s->to)
+      fprintf(file, "%s %s = [\"%s %s\", \"%s %s\"];", any++ ? "" : "  range = {", lab_channels[i].key,
+              lab_number_write(s->low, a), unit_of(format, i), lab_number_write(s->high, b), unit_of(format, i));
+  }
+  fputs(any ? " };\n" : "", file);
+}
+
+static void write_quantities(FILE *file, const lab_log_format *format)
+{
+  int i;
+  for (i = 0; i < format->n_quantities; i++) {
+    fprintf(file, "%s %s = ", i ? ";" : "  quantities = {", format->quantity[i].word);
+    lab_put_config(file, format->quantity[i].column);
+  }
+  if (format->n_quantities)
+    fputs("; };\n", file);
+}
+
+static void write_weights(FILE *file, const lab_log_format *format)
+{
+  char number[LAB_NUMBER_TEXT];
+  int i;
+  for (i = 0; i < format->weighted; i++) {
+    const char *quote =
+        fabs(format->weight[i]) < INT_MAX ? "" : "\""; /* libconfig takes it for an int without a point */
+    fprintf(file, "%s%s%s%s%s", i ? ", " : "  weights = ( ", quote, lab_number_write(format->weight[i], number),
+            *quote ? " 1" : "", quote);
+  }
+  if (format->weighted)
+    fputs(" );\n", file);
+}
+
+static void put_window(FILE *file, double from, double to)
+{
+  char first[LAB_NUMBER_TEXT], last[LAB_NUMBER_TEXT];
+  fprintf(file, " window = ( \"%s s\", \"%s s\" );", lab_number_write(from, first), lab_number_write(to, last));
+}
+
+static void write_window(FILE *file, const lab_log_format *format)
+{
+  if (!isfinite(format->from))
+    return;
+  fputc(' ', file);
+  put_window(file, format->from, format->to);
+  fputc('\n', file);
+}
+
+static void write_holdout(FILE *file, const lab_log_format *format)
+{
+  const int window = !isnan(format->holdout_from), first = format->holdout_first >= 0;
+  if (window || first)
+    fputs("  holdout = {", file);
+  if (window)
+    put_window(file, format->holdout_from, format->holdout_to);
+  if (first)
+    fprintf(file, " first = %d;", format->holdout_first);
+  if (window || first)
+    fputs(" };\n", file);
+}
+
+/* A text a channel. */
+static void write_texts(FILE *file, const char *key, const char *text)
+{
+  int c, any = 0;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++, text += LAB_COLUMN_TEXT)
+    if (*text) {
+      if (any++)
+        fputc(';', file);
+      else
+        fprintf(file, "  %s = {", key);
+      fprintf(file, " %s = ", lab_channels[c].key);
+      lab_put_config(file, text);
+    }
+  if (any)
+    fputs("; };\n", file);
+}
+
+static void write_lead(FILE *file, const lab_log_format *format)
+{
+  char number[LAB_NUMBER_TEXT];
+  int i, c;
+  for (i = 0; i < format->n_lead; i++) {
+    fputs(i ? ", {" : "  lead = ( {", file);
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      if (format->lead_first[i][c] || format->lead_last[i][c])
+        fprintf(file, " %s = \"%s %s\";", lab_channels[c].key, format->lead_first[i][c] ? "first" : "last",
+                lab_channels[format->lead_first[i][c] + format->lead_last[i][c] - 1].key);
+      else if (!isnan(format->lead[i][c]))
+        fprintf(file, " %s = \"%s %s\";", lab_channels[c].key, lab_number_write(format->lead[i][c], number),
+                unit_of(format, c));
+    fputs(" }", file);
+  }
+  if (format->n_lead)
+    fputs(" );\n", file);
+}
+
 /* ---- All keys ---- */
 
-enum kind { MARK, COUNT, CHOICE, OWN };
-
-#define MEMBER(name) .member = offsetof(lab_log_format, name)
-#define WORDS(table) .words = table, .n = sizeof table / sizeof table[0], .stride = sizeof table[0]
-
-static const struct log_key {
-  const char *name;
-  enum kind kind;
-  size_t member;     /* of the format: a char for MARK, an int for COUNT and CHOICE */
-  int lower;         /* COUNT, to SKIP_MAX */
-  const void *words; /* CHOICE (names.h) */
-  size_t n, stride;
-  int (*read)(const config_setting_t *, lab_log_format *, lab_error *); /* OWN */
-} log_keys[] = {
+/* In the order of reading and writing. */
+static const struct log_key log_keys[] = {
     {.name = "delimiter", .kind = MARK, MEMBER(delimiter)},
-    {.name = "decimal", .kind = OWN, .read = read_decimal},
+    {.name = "decimal", .kind = MARK, MEMBER(decimal), .read = read_decimal},
     {.name = "thousands", .kind = MARK, MEMBER(thousands)},
     {.name = "comment", .kind = MARK, MEMBER(comment)},
     {.name = "skip_lines", .kind = COUNT, MEMBER(skip_lines)},
-    {.name = "map", .kind = OWN, .read = read_map},
+    {.name = "map", .kind = TEXTS, MEMBER(map), .each = read_map},
     {.name = "date", .kind = CHOICE, MEMBER(date), WORDS(lab_date_orders)},
-    {.name = "columns", .kind = OWN, .read = read_columns},
-    {.name = "time_step", .kind = OWN, .read = read_time_step},
-    {.name = "window", .kind = OWN, .read = read_window},
-    {.name = "new_run", .kind = CHOICE, MEMBER(new_run), WORDS(new_run_words)},
-    {.name = "damaged", .kind = CHOICE, MEMBER(damaged), WORDS(damaged_words)},
-    {.name = "scale", .kind = OWN, .read = read_scale},
-    {.name = "range", .kind = OWN, .read = read_range},
-    {.name = "offset", .kind = OWN, .read = read_offset},
-    {.name = "constants", .kind = OWN, .read = read_constants},
-    {.name = "quantities", .kind = OWN, .read = read_quantities},
-    {.name = "weights", .kind = OWN, .read = read_weights},
-    {.name = "first", .kind = COUNT, MEMBER(first)},
-    {.name = "name", .kind = OWN, .read = read_name},
-    {.name = "holdout", .kind = OWN, .read = read_holdout},
+    {.name = "columns", .kind = OWN, .read = read_columns, .write = write_columns},
+    {.name = "time_step", .kind = OWN, .read = read_time_step, .write = write_time_step},
+    {.name = "window", .kind = OWN, .read = read_window, .write = write_window},
+    {.name = "new_run", .kind = CHOICE, MEMBER(new_run), WORDS(new_run_words), .always = 1},
+    {.name = "damaged", .kind = CHOICE, MEMBER(damaged), WORDS(damaged_words), .always = 1},
+    {.name = "scale", .kind = OWN, .each = read_scale, .write = write_scale},
+    {.name = "range", .kind = OWN, .each = read_range, .write = write_range},
+    {.name = "offset", .kind = NUMBERS, MEMBER(offset), .each = read_offset},
+    {.name = "constants", .kind = NUMBERS, MEMBER(constant), .each = read_constant},
+    {.name = "quantities", .kind = OWN, .read = read_quantities, .write = write_quantities},
     {.name = "every", .kind = COUNT, MEMBER(every), .lower = 1},
+    {.name = "first", .kind = COUNT, MEMBER(first)},
+    {.name = "holdout", .kind = OWN, .read = read_holdout, .write = write_holdout},
+    {.name = "name", .kind = TEXTS, MEMBER(name), .each = read_name},
+    {.name = "weights", .kind = OWN, .read = read_weights, .write = write_weights},
     {.name = "way_back", .kind = CHOICE, MEMBER(way_back), WORDS(lab_channels)},
     {.name = "runs", .kind = CHOICE, MEMBER(runs), WORDS(runs_words)},
-    {.name = "lead", .kind = OWN, .read = read_lead},
+    {.name = "lead", .kind = OWN, .read = read_lead, .write = write_lead},
 };
 enum { LOG_KEYS = sizeof log_keys / sizeof log_keys[0] };
 
@@ -400,16 +525,15 @@ static int read_key(const config_setting_t *setting, const struct log_key *key, 
                     lab_error *error)
 {
   void *const member = (char *)format + key->member;
-  switch (key->kind) {
-  case MARK:
-    return read_mark(setting, member, error);
-  case COUNT:
-    return lab_config_count(setting, key->lower, SKIP_MAX, member, error);
-  case CHOICE:
-    return lab_config_choice(setting, key->words, key->n, key->stride, member, error);
-  default:
+  if (key->read)
     return key->read(setting, format, error);
-  }
+  if (key->each)
+    return read_channels(setting, key->each, format, error);
+  if (key->kind == MARK)
+    return read_mark(setting, member, error);
+  if (key->kind == COUNT)
+    return lab_config_count(setting, key->lower, SKIP_MAX, member, error);
+  return lab_config_choice(setting, key->words, key->n, key->stride, member, error);
 }
 
 /* ---- Checks over keys ---- */
@@ -458,13 +582,55 @@ static int check_format(const config_setting_t *group, const lab_log_format *for
 
 int lab_log_format_read(const config_setting_t *group, lab_log_format *format, lab_error *error)
 {
-  int i, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, log_keys, LOG_KEYS, sizeof log_keys[0], error);
+  int i, status = lab_config_known(group, log_keys, LOG_KEYS, sizeof log_keys[0], error);
   for (i = 0; status == LAB_OK && i < LOG_KEYS; i++) {
     const config_setting_t *member = config_setting_get_member((config_setting_t *)group, log_keys[i].name);
     if (member)
       status = read_key(member, &log_keys[i], format, error);
   }
   return status == LAB_OK ? check_format(group, format, error) : status;
+}
+
+/* ---- Writing ---- */
+
+static const char *word_of(const struct log_key *key, int which)
+{
+  return *(const char *const *)((const char *)key->words + (size_t)which * key->stride);
+}
+
+static void write_key(FILE *file, const struct log_key *key, const lab_log_format *format, const lab_log_format *usual)
+{
+  const void *const member = (const char *)format + key->member, *const other = (const char *)usual + key->member;
+  switch (key->kind) {
+  case MARK:
+    write_mark(file, key->name, *(const char *)member);
+    break;
+  case COUNT:
+    if (*(const int *)member != *(const int *)other)
+      fprintf(file, "  %s = %d;\n", key->name, *(const int *)member);
+    break;
+  case CHOICE:
+    if (*(const int *)member != *(const int *)other || key->always)
+      fprintf(file, "  %s = \"%s\";\n", key->name, word_of(key, *(const int *)member));
+    break;
+  case TEXTS:
+    write_texts(file, key->name, member);
+    break;
+  case NUMBERS:
+    write_numbers(file, key->name, format, member, other);
+    break;
+  default:
+    key->write(file, format);
+  }
+}
+
+void lab_log_format_write(FILE *file, const lab_log_format *format)
+{
+  lab_log_format usual;
+  int i;
+  lab_log_format_default(&usual);
+  fputs("log = {\n", file);
+  for (i = 0; i < LOG_KEYS; i++)
+    write_key(file, &log_keys[i], format, &usual);
+  fputs("};\n", file);
 }

@@ -154,14 +154,13 @@ static int read_keys(const config_setting_t *group, lab_rig *rig, lab_error *err
 static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, lab_error *error)
 {
   const char *names[PNEU_PARAM_COUNT];
-  int i, k, count, first = pneu_effect_params(effect, &count), status = lab_config_is_group(group, error);
+  int i, k, count, first = pneu_effect_params(effect, &count), status;
   for (k = 0; k < count; k++) {
     pneu_param_info info;
     pneu_param_describe(first + k, &info);
     names[k] = info.name;
   }
-  if (status == LAB_OK)
-    status = lab_config_known(group, names, (size_t)count, sizeof names[0], error);
+  status = lab_config_known(group, names, (size_t)count, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
     status = read_param(setting, pneu_param_find(config_setting_name(setting)), rig, error);
@@ -185,12 +184,11 @@ static int read_effects(const config_setting_t *group, lab_rig *rig, lab_error *
 {
   const char *names[PNEU_EFFECT_COUNT + 1];
   const int positioner = pneu_effect_find("positioner"); /* has a group of its own */
-  int i, n = 0, status = lab_config_is_group(group, error);
+  int i, n = 0, status;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++)
     if (i != positioner)
       names[n++] = pneu_effect_at(i)->name;
-  if (status == LAB_OK)
-    status = lab_config_known(group, names, (size_t)n, sizeof names[0], error);
+  status = lab_config_known(group, names, (size_t)n, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *member = config_setting_get_elem(group, (unsigned)i);
     status = read_effect(member, pneu_effect_find(config_setting_name(member)), rig, error);

@@ -22,9 +22,7 @@ static const char *const keys[KEYS] = {"equation", "argument", "from", "to", "va
 /* Members of one term, in the order of `keys`; all but the unit must be there. */
 static int find_members(const config_setting_t *group, config_setting_t *member[KEYS], lab_error *error)
 {
-  int k, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, keys, KEYS, sizeof keys[0], error);
+  int k, status = lab_config_known(group, keys, KEYS, sizeof keys[0], error);
   for (k = 0; status == LAB_OK && k < KEYS; k++) {
     member[k] = config_setting_get_member((config_setting_t *)group, keys[k]);
     if (!member[k] && k != UNIT)

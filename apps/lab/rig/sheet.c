@@ -116,8 +116,7 @@ typedef struct orifice_words {
 static int read_words(const config_setting_t *group, orifice_words *w, lab_error *error)
 {
   static const char *const keys[] = {"Kv", "Cv", "C", "b", "Qn", "xT", "p1", "p2"};
-  if (lab_config_is_group(group, error) ||
-      lab_config_known(group, keys, sizeof keys / sizeof keys[0], sizeof keys[0], error))
+  if (lab_config_known(group, keys, sizeof keys / sizeof keys[0], sizeof keys[0], error))
     return error->status;
   if (read_word(group, "Kv", "m3/h", 1e6, &w->Kv, error) || read_word(group, "Cv", "1", 1e6, &w->Cv, error) ||
       read_word(group, "C", "m3/(s.Pa)", 1, &w->C, error) || read_word(group, "b", "1", 0.99, &w->b, error) ||
@@ -231,7 +230,7 @@ static int read_tube(const config_setting_t *root, lab_rig *rig, lab_error *erro
     return LAB_OK;
   if (resistance < 0 || volume < 0)
     return lab_config_fail(tube, error, "this build of the library has no connecting_tube");
-  if (lab_config_is_group(tube, error) || lab_config_known(tube, keys, 2, sizeof keys[0], error))
+  if (lab_config_known(tube, keys, 2, sizeof keys[0], error))
     return error->status;
   if (!member(tube, "length") || !member(tube, "bore"))
     return lab_config_fail(tube, error, "expected length and bore");

@@ -118,11 +118,10 @@ static int read_one(const config_setting_t *setting, const struct kind *k, lab_r
 int lab_tolerance_read(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
   const char *names[KINDS + 1] = {"others"};
-  int i, which, status = lab_config_is_group(group, error);
+  int i, which, status;
   for (i = 0; i < KINDS; i++)
     names[i + 1] = kinds[i].name;
-  if (status == LAB_OK)
-    status = lab_config_known(group, names, KINDS + 1, sizeof names[0], error);
+  status = lab_config_known(group, names, KINDS + 1, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
     double value;

@@ -1,4 +1,4 @@
-/* apps/lab/rig/rig and rigwrite, apps/lab/log/logformat and logwrite: whatever rig file is accepted, what is written of
+/* apps/lab/rig/rig and rigwrite, apps/lab/log/logformat: whatever rig file is accepted, what is written of
  * it is read as the same rig. Files are drawn by the keys that they may have, with values at the ends of what is
  * allowed. */
 #include "../../scratch.h"
