@@ -64,6 +64,13 @@ const char *lab_format_quantity(double value, const char *unit, int digits, char
   return text;
 }
 
+const char *lab_format_brief(double value, const char *unit, char text[LAB_FORMAT_TEXT])
+{
+  const lab_format shown = lab_format_as(unit);
+  snprintf(text, LAB_FORMAT_TEXT, "%.4g %s", shown.scale * value, shown.unit);
+  return text;
+}
+
 const char *lab_format_p(double p, char text[LAB_FORMAT_TEXT])
 {
   if (p < 1e-300)

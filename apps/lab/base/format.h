@@ -20,6 +20,9 @@ const char *lab_format_number(double value, int digits, char text[LAB_FORMAT_TEX
 /* The same with its unit: lab_format_quantity(5591, "Pa", 3, text) is "5.59 kPa". */
 const char *lab_format_quantity(double value, const char *unit, int digits, char text[LAB_FORMAT_TEXT]);
 
+/* For a message, in four digits and without zeros at the end: "398.2 kPa", "20 mm", "298.1 K". */
+const char *lab_format_brief(double value, const char *unit, char text[LAB_FORMAT_TEXT]);
+
 /* A p-value: two digits; "below 1e-300" where it has vanished. */
 const char *lab_format_p(double p, char text[LAB_FORMAT_TEXT]);
 

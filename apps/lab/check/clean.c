@@ -6,7 +6,7 @@
 
 #include "../base/array.h"
 #include "../base/noise.h"
-#include "format_channel.h"
+#include "../base/format.h"
 #include "../base/text.h"
 
 static const double spike_size = 25;    /* in noise, from neighbours, two on either side, that agree */
@@ -130,14 +130,14 @@ static int clear_saturated(struct stretch *s, int upper, lab_limitations *limita
 {
   const double limit = limit_of(s, upper);
   const char *key = lab_channels[s->channel].key, *which = upper ? "largest" : "smallest";
-  char value[LAB_FORMAT_CHANNEL_TEXT];
+  char value[LAB_FORMAT_TEXT];
   double noise;
   size_t n;
   if (noise_elsewhere(s, limit, &noise, error))
     return error->status;
   if (!lacks_noise(s, limit, noise) && !stops_dead(s, limit))
     return LAB_OK;
-  lab_format_channel(s->channel, limit, value);
+  lab_format_brief(limit, lab_channels[s->channel].unit, value);
   if (s->rig->input[s->channel])
     return lab_fail(
         error, LAB_DATA,

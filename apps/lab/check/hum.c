@@ -6,7 +6,6 @@
 #include "../base/array.h"
 #include "../base/format.h"
 #include "../base/text.h"
-#include "format_channel.h"
 
 enum { BLOCK = 128, LOWEST = BLOCK / 16, LINES = BLOCK / 2 + 1, BLOCKS_FEWEST = 4, HARMONICS = 3 };
 
@@ -212,9 +211,10 @@ static void remove_from(lab_log *log, size_t run, int channel, double *room)
 
 static void say(const lab_log *log, int channel, lab_limitations *limitations)
 {
-  char amplitude[LAB_FORMAT_CHANNEL_TEXT], frequency[LAB_FORMAT_TEXT];
+  char amplitude[LAB_FORMAT_TEXT], frequency[LAB_FORMAT_TEXT];
   lab_limitation(limitations, "%s: %s hums, %s at %s Hz; that was taken off.", lab_file_name(log->path),
-                 lab_channels[channel].key, lab_format_channel(channel, log->hum[channel].amplitude, amplitude),
+                 lab_channels[channel].key,
+                 lab_format_brief(log->hum[channel].amplitude, lab_channels[channel].unit, amplitude),
                  lab_format_number(log->hum[channel].frequency, 3, frequency));
 }
 

@@ -196,26 +196,15 @@ int lab_log_view_next(const lab_log_view *s, lab_stretch *stretch)
 
 const char *lab_check_show(lab_check_result *finding, int channel, double value)
 {
-  return lab_format_channel(channel, value, finding->shown[finding->n_shown++]);
+  return lab_format_brief(value, lab_channels[channel].unit, finding->shown[finding->n_shown++]);
 }
 
-int lab_check_fail(lab_check_result *finding, const char *format, ...)
+int lab_check_fail(lab_check_result *finding, size_t row, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
   vsnprintf(finding->text, sizeof finding->text, format, args);
   va_end(args);
-  finding->has_row = 0;
-  return 1;
-}
-
-int lab_check_fail_at(lab_check_result *finding, size_t row, const char *format, ...)
-{
-  va_list args;
-  va_start(args, format);
-  vsnprintf(finding->text, sizeof finding->text, format, args);
-  va_end(args);
-  finding->has_row = 1;
   finding->row = row;
   return 1;
 }

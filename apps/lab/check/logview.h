@@ -8,7 +8,7 @@
 #include "../base/limitations.h"
 #include "../run/response.h"
 #include "../rig/rig.h"
-#include "format_channel.h"
+#include "../base/format.h"
 
 enum {
   LAB_VIEW_CELLS = 512,
@@ -73,24 +73,34 @@ double lab_log_view_value(const double *y, size_t first, size_t end, int from_en
 /* What a check has found. */
 typedef struct lab_check_result {
   char text[LAB_LIMITATION_TEXT];
-  size_t row; /* of the run, where it shows */
-  int has_row;
-  char shown[4][LAB_FORMAT_CHANNEL_TEXT]; /* values in the text */
+  size_t row;                     /* of the run, where it shows, or LAB_NO_ROW */
+  char shown[4][LAB_FORMAT_TEXT]; /* values in the text */
   int n_shown;
 } lab_check_result;
 
-/* A value of a channel for the text of a check, as in lab_format_channel; of up to four. */
+/* A value of a channel for the text of a check, as in lab_format_brief; of up to four. */
 const char *lab_check_show(lab_check_result *finding, int channel, double value);
 
-int lab_check_fail(lab_check_result *finding, const char *format, ...) LAB_PRINTF(2, 3);
-int lab_check_fail_at(lab_check_result *finding, size_t row, const char *format, ...) LAB_PRINTF(3, 4);
+#define LAB_NO_ROW ((size_t)-1)
+
+/* Returns: 1 */
+int lab_check_fail(lab_check_result *finding, size_t row, const char *format, ...) LAB_PRINTF(3, 4);
 
 /* "; mixed up bar and kPa?" for a ratio that a slip of units makes, else "".
  * In: ratio of what is expected to what is found */
 const char *lab_unit_slip(int channel, double ratio);
 
+/* What a check needs, or it is not asked. */
+enum lab_check_need {
+  LAB_NEEDS_P = 1,        /* p was measured */
+  LAB_NEEDS_X = 2,        /* x was measured */
+  LAB_NEEDS_U = 4,        /* u was recorded */
+  LAB_NEEDS_FREE = 8,     /* p or x answers to nothing but the command */
+  LAB_NEEDS_EXPECTED = 16 /* the declared model could be run */
+};
+
 /* Checks, each with 1 and a finding, or 0. */
-#define LAB_CHECK(name, severity) int lab_check_##name(const lab_log_view *, lab_check_result *);
+#define LAB_CHECK(name, severity, needs) int lab_check_##name(const lab_log_view *, lab_check_result *);
 #include "checks.def"
 #undef LAB_CHECK
 

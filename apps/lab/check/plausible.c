@@ -7,13 +7,14 @@
 #include "../base/text.h"
 
 enum severity { WRONG, LIMIT, DOUBT };
+enum { P = LAB_NEEDS_P, X = LAB_NEEDS_X, U = LAB_NEEDS_U, FREE = LAB_NEEDS_FREE, EXPECTED = LAB_NEEDS_EXPECTED };
 enum { VALUES_EACH = 7 }; /* measured values for each unknown, below which nothing is named */
 
 static const struct check {
   int (*find)(const lab_log_view *, lab_check_result *);
-  int severity;
+  int severity, needs; /* enum lab_check_need */
 } checks[] = {
-#define LAB_CHECK(name, severity) {lab_check_##name, severity},
+#define LAB_CHECK(name, severity, needs) {lab_check_##name, severity, needs},
 #include "checks.def"
 #undef LAB_CHECK
 };
@@ -22,19 +23,27 @@ static const struct check {
 static void place(const lab_log_view *s, const lab_check_result *f, const char *file, char *text, size_t size)
 {
   int used = snprintf(text, size, "%s", file);
-  if (f->has_row && used > 0 && (size_t)used < size)
+  if (f->row != LAB_NO_ROW && used > 0 && (size_t)used < size)
     snprintf(text + used, size - (size_t)used, ":%d", s->log->line[s->first + f->row]);
   else if (s->log->n_runs > 1 && used > 0 && (size_t)used < size)
     snprintf(text + used, size - (size_t)used, ", run %zu", s->run + 1);
 }
 
+/* What there is of what checks need. */
+static int what_is_there(const lab_log_view *s)
+{
+  return (s->y[LAB_CHANNEL_P] ? P : 0) | (s->y[LAB_CHANNEL_X] ? X : 0) | (s->u ? U : 0) |
+         (s->main >= 0 && !lab_log_view_is_driven(s) ? FREE : 0) | (s->has_expected ? EXPECTED : 0);
+}
+
 static int check_run(const lab_log_view *s, lab_limitations *limitations, lab_error *error)
 {
+  const int there = what_is_there(s);
   size_t i;
   for (i = 0; i < sizeof checks / sizeof checks[0]; i++) {
     lab_check_result f = {.n_shown = 0};
     char where[LAB_PATH_TEXT];
-    if (!checks[i].find(s, &f))
+    if ((checks[i].needs & there) != checks[i].needs || !checks[i].find(s, &f))
       continue;
     place(s, &f, checks[i].severity == WRONG ? s->log->path : lab_file_name(s->log->path), where, sizeof where);
     if (checks[i].severity == WRONG)

@@ -50,7 +50,7 @@ static int lag_of(const lab_log_view *s, double *best)
   const int most = s->n_cells / 3;
   int lag;
   *best = 1;
-  if (s->main < 0 || !s->has_expected || lab_log_view_is_driven(s) || !s->u || !rates_are_seen(s))
+  if (!rates_are_seen(s))
     return 0;
   *best = 0;
   for (lag = -most; lag <= most; lag++)
@@ -71,7 +71,7 @@ int lab_check_early(const lab_log_view *s, lab_check_result *f)
   if (lag > -4 || best < alike_shifted)
     return 0;
   return lab_check_fail(
-      f,
+      f, LAB_NO_ROW,
       "the command does not match: %s moves %.3g s before u says so; are both from one test, and on one "
       "clock?",
       lab_channels[s->main].key, -lag * s->cell);
@@ -84,7 +84,7 @@ int lab_check_late(const lab_log_view *s, lab_check_result *f)
   if (lag < 4 || best < alike_shifted || lag * s->cell < LAB_VIEW_DEAD_TIME)
     return 0;
   return lab_check_fail(
-      f,
+      f, LAB_NO_ROW,
       "%s follows u about %.3g s late, longer than a dead time of a transducer or a line: command and "
       "measurement seem to be on different clocks",
       lab_channels[s->main].key, lag * s->cell);
@@ -123,7 +123,7 @@ int lab_check_alike(const lab_log_view *s, lab_check_result *f)
   if (obeys > (now > alike ? disobedient : obedient))
     return 0;
   return lab_check_fail(
-      f,
+      f, LAB_NO_ROW,
       "the command does not match: what %s does is not what the declared model makes of u (correlation of "
       "rates %.2f, %.0f %% of the movement the way of u); is u from another test, or the rig file of another "
       "rig?",
@@ -246,7 +246,7 @@ int lab_check_starts(const lab_log_view *s, lab_check_result *f)
   lab_stretch now, next = {0, 0, 0, 0};
   size_t where = 0;
   int wrong = 0, all = 0, first, last;
-  if (s->main < 0 || lab_log_view_is_driven(s) || !lab_log_view_next(s, &next))
+  if (!lab_log_view_next(s, &next))
     return 0;
   follow_channel(s, &channel);
   if (both)
@@ -259,7 +259,7 @@ int lab_check_starts(const lab_log_view *s, lab_check_result *f)
   }
   if (!are_many(wrong, all, alone))
     return 0;
-  return lab_check_fail_at(
+  return lab_check_fail(
       f, where,
       "the command does not match: in %d of %d stretches of u %s moves against it or before it, the first "
       "time at t = %.6g s; is u from another test, or on another clock?",

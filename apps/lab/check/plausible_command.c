@@ -45,7 +45,7 @@ int lab_check_settled(const lab_log_view *s, lab_check_result *f)
 {
   const double supply = (double)s->rig->params.supply_pressure, ambient = (double)s->rig->params.ambient_pressure;
   lab_stretch stretch = {0, 0, 0, 0};
-  if (s->main != LAB_CHANNEL_P || !s->has_expected || lab_log_view_is_driven(s))
+  if (s->main != LAB_CHANNEL_P)
     return 0;
   while (lab_log_view_next(s, &stretch)) {
     const double tolerance = fmax(3 * s->sigma[LAB_CHANNEL_P], 0.005 * supply);
@@ -55,18 +55,18 @@ int lab_check_settled(const lab_log_view *s, lab_check_result *f)
     level = settles(s, s->y[LAB_CHANNEL_P], &stretch, tolerance);
     ought = settles(s, s->expected.p, &stretch, tolerance);
     if (stretch.sign > 0 && ought > 0.9 * supply && level < settled_low * supply)
-      return lab_check_fail_at(f, stretch.end - 1,
-                               "p settles at %s while u fills, expected near the supply, %s: check the unit of p and "
-                               "supply.pressure%s",
-                               lab_check_show(f, LAB_CHANNEL_P, level), lab_check_show(f, LAB_CHANNEL_P, supply),
-                               lab_unit_slip(LAB_CHANNEL_P, supply / level));
+      return lab_check_fail(f, stretch.end - 1,
+                            "p settles at %s while u fills, expected near the supply, %s: check the unit of p and "
+                            "supply.pressure%s",
+                            lab_check_show(f, LAB_CHANNEL_P, level), lab_check_show(f, LAB_CHANNEL_P, supply),
+                            lab_unit_slip(LAB_CHANNEL_P, supply / level));
     if (stretch.sign < 0 && ought < 0.05 * supply && level > settled_high * ambient)
-      return lab_check_fail_at(f, stretch.end - 1, "p settles at %s while u vents, expected near 0 gauge%s",
-                               lab_check_show(f, LAB_CHANNEL_P, level),
-                               fabs(level - ambient) < 0.15 * ambient
-                                   ? ": it is the ambient pressure; absolute, so that the "
-                                     "column is p_abs?"
-                                   : ": check its unit and offset");
+      return lab_check_fail(f, stretch.end - 1, "p settles at %s while u vents, expected near 0 gauge%s",
+                            lab_check_show(f, LAB_CHANNEL_P, level),
+                            fabs(level - ambient) < 0.15 * ambient
+                                ? ": it is the ambient pressure; absolute, so that the "
+                                  "column is p_abs?"
+                                : ": check its unit and offset");
   }
   return 0;
 }
@@ -126,15 +126,13 @@ int lab_check_command(const lab_log_view *s, lab_check_result *f)
   struct account a = {{{0, 0}, {0, 0}}, {0, 0, 0, 0}};
   lab_stretch stretch = {0, 0, 0, 0};
   double least, turned;
-  if (s->main < 0 || lab_log_view_is_driven(s))
-    return 0;
   while (lab_log_view_next(s, &stretch))
     book(s, &stretch, &a);
   least = against * lab_log_view_span(s, s->main);
   turned = a.moved[RISES][AGAINST] + a.moved[FALLS][AGAINST] - a.moved[RISES][ALLOWED] - a.moved[FALLS][ALLOWED];
   if (!is_mismatch(&a, RISES, least) && (!is_mismatch(&a, FALLS, least) || s->y[LAB_CHANNEL_PS]))
     return 0;
-  return lab_check_fail_at(
+  return lab_check_fail(
       f, a.worst.first, "the command does not match: %s %s by %s from t = %.6g s to %.6g s while u = %g %s%s",
       lab_channels[s->main].key, a.worst.change > 0 ? "rises" : "falls",
       lab_check_show(f, s->main, fabs(a.worst.change)), s->t[a.worst.first], s->t[a.worst.end - 1], s->u[a.worst.first],
@@ -202,8 +200,7 @@ int lab_check_half(const lab_log_view *s, lab_check_result *f)
   struct thirds a = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0};
   double least;
   int fills, vents;
-  if (s->main < 0 || !s->u || s->rig->log.command_is_pressure || lab_log_view_is_driven(s) || s->u_low < 0 ||
-      s->u_high > 1)
+  if (s->rig->log.command_is_pressure || s->u_low < 0 || s->u_high > 1)
     return 0;
   least = against * lab_log_view_span(s, s->main);
   sort_by_thirds(s, &a);
@@ -214,13 +211,12 @@ int lab_check_half(const lab_log_view *s, lab_check_result *f)
   sum_up_due(s, a.up[fills] / a.time[fills], &a);
   if (!(a.due > 0.5 * least) || a.up[1] + a.down[1] > half_still * a.due)
     return 0;
-  return lab_check_fail_at(
-      f, a.first,
-      "the %s does not follow the command from t = %.6g s: it falls while u is %s 0.5, rises while "
-      "u is %s it, and stays while u is 0.5: is u in percent (is 50 %% shut on this log? "
-      "log.scale = { u = %.1f; }; log.offset = { u = %.1f; })",
-      lab_channels[s->main].quantity, s->t[a.first], fills ? "below" : "above", fills ? "above" : "below",
-      fills ? 2.0 : -2.0, fills ? -1.0 : 1.0);
+  return lab_check_fail(f, a.first,
+                        "the %s does not follow the command from t = %.6g s: it falls while u is %s 0.5, rises while "
+                        "u is %s it, and stays while u is 0.5: is u in percent (is 50 %% shut on this log? "
+                        "log.scale = { u = %.1f; }; log.offset = { u = %.1f; })",
+                        lab_channels[s->main].quantity, s->t[a.first], fills ? "below" : "above",
+                        fills ? "above" : "below", fills ? 2.0 : -2.0, fills ? -1.0 : 1.0);
 }
 
 /* ---- Pressure that is lost ---- */
@@ -251,7 +247,7 @@ int lab_check_fall(const lab_log_view *s, lab_check_result *f)
   double least, u = 0, worst = 0;
   size_t from = 0, to = 0, a = 0, b = 0;
   int vents = 0;
-  if (s->main != LAB_CHANNEL_P || lab_log_view_is_driven(s) || s->y[LAB_CHANNEL_PS] || !s->u || s->u_low == s->u_high)
+  if (s->main != LAB_CHANNEL_P || s->y[LAB_CHANNEL_PS] || s->u_low == s->u_high)
     return 0;
   least = fmax(against * lab_log_view_span(s, s->main), LAB_VIEW_SIGNIFICANT * s->sigma[s->main]);
   while (lab_log_view_next(s, &stretch)) {
@@ -266,12 +262,11 @@ int lab_check_fall(const lab_log_view *s, lab_check_result *f)
   }
   if (worst == 0 || (u == 0 && vents))
     return 0;
-  return lab_check_fail_at(f, from, "p falls by %s from t = %.6g s to %.6g s while u = %g %s: %s",
-                           lab_check_show(f, LAB_CHANNEL_P, worst), s->t[from], s->t[to], u, kind_of(u > 0),
-                           u > 0
-                               ? "the chamber leaks more than the orifice lets in, the supply has failed, or u is not "
-                                 "what the transducer got"
-                               : "the chamber leaks, or 0 does not stand for shut, for u is never negative");
+  return lab_check_fail(f, from, "p falls by %s from t = %.6g s to %.6g s while u = %g %s: %s",
+                        lab_check_show(f, LAB_CHANNEL_P, worst), s->t[from], s->t[to], u, kind_of(u > 0),
+                        u > 0 ? "the chamber leaks more than the orifice lets in, the supply has failed, or u is not "
+                                "what the transducer got"
+                              : "the chamber leaks, or 0 does not stand for shut, for u is never negative");
 }
 
 /* ---- Pace ---- */
@@ -322,13 +317,10 @@ static double pace(const lab_log_view *s)
 
 int lab_check_pace(const lab_log_view *s, lab_check_result *f)
 {
-  double ratio;
-  if (s->main < 0 || !s->has_expected || lab_log_view_is_driven(s))
-    return 0;
-  ratio = pace(s);
+  const double ratio = pace(s);
   if (isnan(ratio) || (ratio < pace_factor && ratio > 1 / pace_factor))
     return 0;
-  return lab_check_fail(f,
+  return lab_check_fail(f, LAB_NO_ROW,
                         "%s moves %.3g times %s than the declared model: check the unit of t, transducer.fill_area and "
                         "vent_area, and the volume%s",
                         lab_channels[s->main].key, ratio > 1 ? ratio : 1 / ratio, ratio > 1 ? "slower" : "faster",
@@ -340,10 +332,8 @@ int lab_check_pace(const lab_log_view *s, lab_check_result *f)
 int lab_check_one_sided(const lab_log_view *s, lab_check_result *f)
 {
   lab_stretch stretch = {0, 0, 0, 0};
-  double fall = HUGE_VAL, rise = HUGE_VAL, span;
-  if (s->main < 0 || lab_log_view_is_driven(s))
-    return 0;
-  span = lab_log_view_span(s, s->main);
+  const double span = lab_log_view_span(s, s->main);
+  double fall = HUGE_VAL, rise = HUGE_VAL;
   while (lab_log_view_next(s, &stretch)) {
     const double change = stretch.change;
     if (stretch.sign < 0)
@@ -358,7 +348,7 @@ int lab_check_one_sided(const lab_log_view *s, lab_check_result *f)
   }
   if (!isfinite(fall) || !isfinite(rise) || fall > 2 * rise)
     return 0;
-  return lab_check_fail(f,
+  return lab_check_fail(f, LAB_NO_ROW,
                         "u is never negative, and %s falls while it is 0, in %.3g s: as fast as through an orifice; if "
                         "0 stands for vent, make it -1 by log.scale and log.offset",
                         lab_channels[s->main].key, fall);

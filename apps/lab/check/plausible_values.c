@@ -75,7 +75,7 @@ int lab_check_standstill(const lab_log_view *s, lab_check_result *f)
   if (!lab_log_view_predicts(s, LAB_CHANNEL_X) || !lab_is_at_rest(s->rig, 0.5, text) ||
       !(x->high > x->mean[0] + 0.1 * (double)s->rig->params.stroke))
     return 0;
-  return lab_check_fail_at(f, row_of(s, x, x->high), "x rises, but %s", text);
+  return lab_check_fail(f, row_of(s, x, x->high), "x rises, but %s", text);
 }
 
 /* ---- Ranges ---- */
@@ -85,9 +85,9 @@ int lab_check_pressure_range(const lab_log_view *s, lab_check_result *f)
   const lab_view_cells *p = &s->cells[LAB_CHANNEL_P];
   const double supply = supply_of(s),
                most = s->main == LAB_CHANNEL_P && s->has_expected ? s->expected_cells.high : supply;
-  if (!s->y[LAB_CHANNEL_P] || !s->u || !(s->u_high > 0) || !(p->high > over_supply * supply))
+  if (!(s->u_high > 0) || !(p->high > over_supply * supply))
     return 0;
-  return lab_check_fail_at(
+  return lab_check_fail(
       f, row_of(s, p, p->high),
       "p is %s, expected no more than the supply, %s gauge: check the unit of p, supply.pressure, and "
       "whether the log is of this rig%s",
@@ -98,9 +98,9 @@ int lab_check_pressure_range(const lab_log_view *s, lab_check_result *f)
 int lab_check_vacuum(const lab_log_view *s, lab_check_result *f)
 {
   const lab_view_cells *p = &s->cells[LAB_CHANNEL_P];
-  if (!s->y[LAB_CHANNEL_P] || !(p->low < vacuum * (double)s->rig->params.ambient_pressure))
+  if (!(p->low < vacuum * (double)s->rig->params.ambient_pressure))
     return 0;
-  return lab_check_fail_at(
+  return lab_check_fail(
       f, row_of(s, p, p->low),
       "p is %s gauge, expected no vacuum: is it a gauge pressure in a column p_abs, or its offset wrong?",
       lab_check_show(f, LAB_CHANNEL_P, p->low));
@@ -120,9 +120,9 @@ int lab_check_position_range(const lab_log_view *s, lab_check_result *f)
   const double stroke = (double)s->rig->params.stroke;
   const int above = x->high > (1 + beyond_stop) * stroke, below = x->low < -beyond_stop * stroke;
   const double worst = above ? x->high : x->low;
-  if (!s->y[LAB_CHANNEL_X] || !(stroke > 0) || fits_stroke(s->rig) || (!above && !below))
+  if (!(stroke > 0) || fits_stroke(s->rig) || (!above && !below))
     return 0;
-  return lab_check_fail_at(
+  return lab_check_fail(
       f, row_of(s, x, worst),
       "x is %s, expected 0 to the stroke, %s: check the unit of x, its zero and direction (log.scale, "
       "log.offset), actuator.stroke, and whether the log is of this rig%s",
@@ -139,8 +139,8 @@ int lab_check_temperature(const lab_log_view *s, lab_check_result *f)
   T = lab_log_view_value(s->y[LAB_CHANNEL_T], 0, s->n, 0);
   if (isnan(T) || (T > cold * ambient && T < hot * ambient))
     return 0;
-  return lab_check_fail_at(
-      f, 0, "T begins at %.4g K, expected something near the ambient, %.4g K; degC and K mixed up?", T, ambient);
+  return lab_check_fail(f, 0, "T begins at %.4g K, expected something near the ambient, %.4g K; degC and K mixed up?",
+                        T, ambient);
 }
 
 /* ---- Sensors that do not follow ---- */
@@ -167,9 +167,10 @@ int lab_check_dead(const lab_log_view *s, lab_check_result *f)
     if (!(ought > 0.25 * scale_of(s, c)) || ought < 30 * s->sigma[c] || moves(s, c))
       continue;
     if (isnan(lab_log_view_span(s, c)))
-      return lab_check_fail(f, "channel %s has no values: name its column \"-\" to leave it out", lab_channels[c].key);
+      return lab_check_fail(f, LAB_NO_ROW, "channel %s has no values: name its column \"-\" to leave it out",
+                            lab_channels[c].key);
     return lab_check_fail(
-        f,
+        f, LAB_NO_ROW,
         "channel %s stays constant within %s, expected it to move by about %s: is the sensor dead, the "
         "supply shut, the stem blocked, or is it the wrong log? Name a column \"-\" to leave it out%s",
         lab_channels[c].key, lab_check_show(f, c, lab_log_view_span(s, c)), lab_check_show(f, c, ought),
@@ -185,7 +186,7 @@ int lab_check_reach(const lab_log_view *s, lab_check_result *f)
   if (!(ought > 0.5 * (double)s->rig->params.stroke) || !(high < reach_share * ought))
     return 0;
   return lab_check_fail(
-      f,
+      f, LAB_NO_ROW,
       "x reaches %s, expected about %s where p is %s: check the units of x and p, actuator.stroke and the "
       "spring%s",
       lab_check_show(f, LAB_CHANNEL_X, high), lab_check_show(f, LAB_CHANNEL_X, ought),
@@ -219,13 +220,12 @@ int lab_check_balance(const lab_log_view *s, lab_check_result *f)
   const double friction = (double)s->rig->params.dry_friction;
   const int driven = s->rig->input[LAB_CHANNEL_X] || s->y[LAB_CHANNEL_FORCE];
   double air, spring;
-  if (driven || !s->y[LAB_CHANNEL_P] || !s->y[LAB_CHANNEL_X] || !(s->rig->params.spring_rate > 0) ||
-      forces(s, &air, &spring) < 5)
+  if (driven || !(s->rig->params.spring_rate > 0) || forces(s, &air, &spring) < 5)
     return 0;
   if (air > force_low * spring - friction && air < force_high * spring + friction)
     return 0;
   return lab_check_fail(
-      f,
+      f, LAB_NO_ROW,
       "in mid-travel p presses on the stem with %.4g N, expected about the %.4g N of the declared spring: "
       "check the unit of p, the area and the spring%s",
       air, spring, lab_unit_slip(LAB_CHANNEL_P, spring / air));
@@ -236,7 +236,7 @@ int lab_check_opposite(const lab_log_view *s, lab_check_result *f)
   const double *p = s->cells[LAB_CHANNEL_P].mean, *x = s->cells[LAB_CHANNEL_X].mean;
   double mp = 0, mx = 0, pp = 0, xx = 0, px = 0;
   int k;
-  if (!s->y[LAB_CHANNEL_P] || !s->y[LAB_CHANNEL_X] || s->rig->input[LAB_CHANNEL_X] || s->y[LAB_CHANNEL_FORCE] ||
+  if (s->rig->input[LAB_CHANNEL_X] || s->y[LAB_CHANNEL_FORCE] ||
       !(lab_log_view_span(s, LAB_CHANNEL_X) > 0.1 * (double)s->rig->params.stroke) || !moves(s, LAB_CHANNEL_P))
     return 0;
   for (k = 0; k < s->n_cells; k++) {
@@ -251,7 +251,7 @@ int lab_check_opposite(const lab_log_view *s, lab_check_result *f)
   if (!(px < -0.3 * sqrt(pp * xx)))
     return 0;
   return lab_check_fail(
-      f,
+      f, LAB_NO_ROW,
       "x falls as p rises (correlation %.2f), but x counts in the direction in which air drives the stem: "
       "turn it by log.scale = { x = -1.0; } and log.offset = { x = \"%g mm\"; }, or check the columns",
       px / sqrt(pp * xx), 1e3 * (double)s->rig->params.stroke);
@@ -275,7 +275,7 @@ int lab_check_steps(const lab_log_view *s, lab_check_result *f)
     const double declared = s->rig->noise[c], step = s->y[c] ? lab_smallest_step(s->y[c], s->n) : 0;
     if (s->y[c] && step >= 2 * declared && has_repeats(s->y[c], s->n))
       return lab_check_fail(
-          f,
+          f, LAB_NO_ROW,
           "%s is recorded in steps of %s, coarser than the noise of %s that the rig file declares: nothing "
           "below the step can be seen",
           lab_channels[c].key, lab_check_show(f, c, step), lab_check_show(f, c, declared));
@@ -291,7 +291,7 @@ int lab_check_noise(const lab_log_view *s, lab_check_result *f)
   for (c = LAB_CHANNEL_P; c <= LAB_CHANNEL_T && s->n >= ENOUGH; c++) {
     const double declared = s->rig->noise[c], seen = s->seen[c];
     if (seen > 3 * declared || seen < declared / 3)
-      return lab_check_fail(f,
+      return lab_check_fail(f, LAB_NO_ROW,
                             "the noise of %s is about %s from row to row, and %s in the rig file: the report "
                             "counts in the latter, and a wrong one hides effects or leaves the verdict undecided",
                             lab_channels[c].key, lab_check_show(f, c, seen), lab_check_show(f, c, declared));
@@ -311,11 +311,10 @@ int lab_check_jump(const lab_log_view *s, lab_check_result *f)
   usual = (whole - gap) / (double)(s->n - 2);
   if (gap < fmax(20 * usual, 0.05 * whole))
     return 0;
-  return lab_check_fail_at(
-      f, at,
-      "no rows from t = %.6g s to t = %.6g s, where %.3g s apart is usual: the command is assumed to "
-      "hold; if a new test begins there, make it a log of its own",
-      s->t[at - 1], s->t[at], usual);
+  return lab_check_fail(f, at,
+                        "no rows from t = %.6g s to t = %.6g s, where %.3g s apart is usual: the command is assumed to "
+                        "hold; if a new test begins there, make it a log of its own",
+                        s->t[at - 1], s->t[at], usual);
 }
 
 int lab_check_part(const lab_log_view *s, lab_check_result *f)
@@ -324,7 +323,7 @@ int lab_check_part(const lab_log_view *s, lab_check_result *f)
   const double stroke = (double)s->rig->params.stroke;
   if (!lab_log_view_predicts(s, LAB_CHANNEL_X) || lab_log_view_span(s, LAB_CHANNEL_X) > 0.5 * stroke)
     return 0;
-  return lab_check_fail(f, "x covers %s to %s of a stroke of %s: nothing is known of the rest",
+  return lab_check_fail(f, LAB_NO_ROW, "x covers %s to %s of a stroke of %s: nothing is known of the rest",
                         lab_check_show(f, LAB_CHANNEL_X, x->low), lab_check_show(f, LAB_CHANNEL_X, x->high),
                         lab_check_show(f, LAB_CHANNEL_X, stroke));
 }
@@ -362,7 +361,7 @@ int lab_check_unused(const lab_log_view *s, lab_check_result *f)
     range = inner_range(s->y[c], s->n);
     if (range > share * drives[i].scale)
       return lab_check_fail(
-          f,
+          f, LAB_NO_ROW,
           "%s was measured and varies by %s, but the model takes the %s as declared: inputs = ( \"%s\" ) in "
           "the rig file makes it follow",
           lab_channels[c].key, lab_check_show(f, c, range), drives[i].instead, lab_channels[c].key);
@@ -373,13 +372,11 @@ int lab_check_unused(const lab_log_view *s, lab_check_result *f)
 int lab_check_absolute(const lab_log_view *s, lab_check_result *f)
 {
   const double ambient = (double)s->rig->params.ambient_pressure;
-  double start;
-  if (!s->y[LAB_CHANNEL_P] || s->rig->input[LAB_CHANNEL_P] || s->cells[LAB_CHANNEL_P].low < 0.9 * ambient)
+  const double start = lab_log_view_value(s->y[LAB_CHANNEL_P], 0, s->n, 0);
+  if (s->rig->input[LAB_CHANNEL_P] || s->cells[LAB_CHANNEL_P].low < 0.9 * ambient ||
+      fabs(start - ambient) > 0.03 * ambient)
     return 0;
-  start = lab_log_view_value(s->y[LAB_CHANNEL_P], 0, s->n, 0);
-  if (fabs(start - ambient) > 0.03 * ambient)
-    return 0;
-  return lab_check_fail_at(
+  return lab_check_fail(
       f, 0,
       "p begins at %s, which is the ambient pressure, and never falls below: if it is absolute, the column "
       "is p_abs",

@@ -32,6 +32,14 @@ static void test_lab_format_quantity__units__as_engineers_write_them(void **stat
   assert_string_equal(lab_format_quantity(298.15, "K", 4, text), "298.1 K");
 }
 
+static void test_lab_format_brief__sizes__no_zeros_at_the_end(void **state)
+{
+  (void)state;
+  assert_string_equal(lab_format_brief(398200, "Pa", text), "398.2 kPa");
+  assert_string_equal(lab_format_brief(0.02, "m", text), "20 mm");
+  assert_string_equal(lab_format_brief(12, "N", text), "12 N");
+}
+
 /* What is shown must be what UDUNITS makes of it; the two are written differently where a unit has a dot or a square.
  */
 static void assert_scale(const char *unit)
@@ -82,6 +90,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_format_number__sizes__few_digits_and_powers_only_where_needed),
       cmocka_unit_test(test_lab_format_quantity__units__as_engineers_write_them),
+      cmocka_unit_test(test_lab_format_brief__sizes__no_zeros_at_the_end),
       cmocka_unit_test(test_lab_format_as__every_unit_of_the_library__has_the_right_scale),
       cmocka_unit_test(test_lab_format_p__small__is_said_to_be_small),
   };

@@ -7,7 +7,6 @@
 #include "../../../apps/lab/check/standstill.h"
 #include "../../../apps/lab/check/mend.h"
 #include "../../../apps/lab/check/plausible.h"
-#include "../../../apps/lab/check/format_channel.h"
 
 static const char *const header = "t [s],u [1],p [kPa],x [mm]";
 static bad_log sound;
@@ -616,15 +615,6 @@ static void test_lab_limitations_join__held_out_doubt__is_only_a_remark(void **s
   assert_int_equal(limitations.doubt, 0);
 }
 
-static void test_lab_format_channel__channels__have_units_that_are_read(void **state)
-{
-  char text[LAB_FORMAT_CHANNEL_TEXT];
-  (void)state;
-  assert_string_equal(lab_format_channel(LAB_CHANNEL_P, 398200, text), "398.2 kPa");
-  assert_string_equal(lab_format_channel(LAB_CHANNEL_X, 0.0125, text), "12.5 mm");
-  assert_string_equal(lab_format_channel(LAB_CHANNEL_FORCE, 12, text), "12 N");
-}
-
 /* ---- Hum ---- */
 
 /* Amplitude that is taken off a chamber pressure of 100 kPa with a swing of 3 kPa and noise, in rows at a rate [1/s].
@@ -694,7 +684,6 @@ int main(void)
       TEST(test_lab_log_thin__two_runs__keep_their_ends),
       TEST(test_lab_limitation__too_many__says_so),
       TEST(test_lab_limitations_join__held_out_doubt__is_only_a_remark),
-      TEST(test_lab_format_channel__channels__have_units_that_are_read),
       TEST(test_lab_log_remove_hum__only_the_mains__is_taken_off),
   };
   return cmocka_run_group_tests(tests, open_all, scratch_close);
