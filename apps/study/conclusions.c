@@ -84,18 +84,16 @@ static void add_overall(const study *s, const finding *found, int i, int all_of_
   finding all = {0};
   (void)all_of_them;
   int a, first = 0, differ = 0;
-  size_t used = 0;
   for (a = 0; a < s->n_printed; a++) {
     const finding *one = found_of(s, found, a, law, i);
     const int mine = verdict_of(c, one);
     finding_join(&all, one, s->actuator[a].name);
     first = a ? first : mine;
     differ |= mine != first;
-    used += (size_t)snprintf(each + used, sizeof each - used, "%s%s %s", a ? ", " : "", s->actuator[a].name,
-                             finding_word(mine));
+    lab_append(each, sizeof each, "%s%s %s", a ? ", " : "", s->actuator[a].name, finding_word(mine));
   }
   if (differ)
-    finding_say(all.note, "; %s", each);
+    lab_append(all.note, FINDING_TEXT, "; %s", each);
   finding_verdict_text(&all, verdict_of(c, &all), verdict, sizeof verdict);
   evidence_of(c, &all, evidence);
   table_row(t, "gssss", (double)c->number, gas_of(s, law), flow_of(s, law), verdict, evidence);

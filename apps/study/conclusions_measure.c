@@ -121,15 +121,15 @@ static void inverse(const conclusion_trial *t, finding *f)
   const double far = speed_exponent(&t->pair[TRIAL_FAR_SUPPLY].up, t->p->ambient_pressure);
   finding_add(f, speed_exponent(&t->pair->up, t->p->ambient_pressure), "%s", "");
   finding_add_conditioned(f, far);
-  finding_say(f->condition, "the supply is ten times the nominal");
-  finding_say(f->note, "with ten times the supply %.3g", far);
+  lab_append(f->condition, FINDING_TEXT, "the supply is ten times the nominal");
+  lab_append(f->note, FINDING_TEXT, "with ten times the supply %.3g", far);
 }
 
 static void rise_range(const conclusion_trial *t, finding *f)
 {
   const speed_edge *up = &t->pair->up;
   finding_add(f, range_of(up), "%s", "");
-  finding_say(f->note, "%.3g..%.3g mm/s", 1e3 * speed_min(up), 1e3 * speed_max(up));
+  lab_append(f->note, FINDING_TEXT, "%.3g..%.3g mm/s", 1e3 * speed_min(up), 1e3 * speed_max(up));
 }
 
 /* Largest over smallest v(5 %)/p_s of the supplies from the i-th on. */
@@ -156,9 +156,10 @@ static void supply(const conclusion_trial *t, finding *f)
   for (i = 0; i < last && spread_from(t, i) > t->limit; i++)
     ;
   finding_add_conditioned(f, spread_from(t, last));
-  finding_say(f->condition, "p_s is above");
-  finding_say(f->where, "%.3g kPa", p[i].supply_pressure / kPa);
-  finding_say(f->note, "%.3g from %.3g kPa, up to %g kPa", spread_from(t, i), p[i].supply_pressure / kPa, top / kPa);
+  lab_append(f->condition, FINDING_TEXT, "p_s is above");
+  lab_append(f->where, FINDING_TEXT, "%.3g kPa", p[i].supply_pressure / kPa);
+  lab_append(f->note, FINDING_TEXT, "%.3g from %.3g kPa, up to %g kPa", spread_from(t, i), p[i].supply_pressure / kPa,
+             top / kPa);
 }
 
 static double last_over_first(const speed_edge *e)
@@ -171,8 +172,8 @@ static void last_rise(const conclusion_trial *t, finding *f)
   const double far = last_over_first(&t->pair[TRIAL_NO_STOP].up);
   finding_add(f, last_over_first(&t->pair->up), "%s", "");
   finding_add_conditioned(f, far);
-  finding_say(f->condition, "the stop is beyond the reach of the supply");
-  finding_say(f->note, "without the stop %.4f", far);
+  lab_append(f->condition, FINDING_TEXT, "the stop is beyond the reach of the supply");
+  lab_append(f->note, FINDING_TEXT, "without the stop %.4f", far);
 }
 
 /* ---- Falling edge: conclusions 5 to 11 ---- */
@@ -198,9 +199,10 @@ static void vacuum(const conclusion_trial *t, finding *f)
 {
   finding_add(f, range_of(&t->pair[TRIAL_VACUUM].down), "%s", "");
   finding_add_conditioned(f, range_of(&t->pair[TRIAL_NARROW_VACUUM].down));
-  finding_say(f->condition, "the bench set is narrow, so that the pressure hardly changes: at most");
-  finding_say(f->where, "%.2g kPa wide from %.3g kPa", widest_in_vacuum(t) / kPa, t->scan.low / kPa);
-  finding_say(f->note, "P_a = %.2g kPa, %.3g kPa wide", t->p[TRIAL_VACUUM].ambient_pressure / kPa, t->scan.width / kPa);
+  lab_append(f->condition, FINDING_TEXT, "the bench set is narrow, so that the pressure hardly changes: at most");
+  lab_append(f->where, FINDING_TEXT, "%.2g kPa wide from %.3g kPa", widest_in_vacuum(t) / kPa, t->scan.low / kPa);
+  lab_append(f->note, FINDING_TEXT, "P_a = %.2g kPa, %.3g kPa wide", t->p[TRIAL_VACUUM].ambient_pressure / kPa,
+             t->scan.width / kPa);
 }
 
 /* On the springs of Table 1, F = 0; saved where they are left out. */
@@ -221,8 +223,9 @@ static void fixed_range(const conclusion_trial *t, finding *f)
     if (i && i < 4)
       finding_add_conditioned(f, fabs(change[i] - change[0]));
   }
-  finding_say(f->condition, "orifice, supply and area are meant, not the spring");
-  finding_say(f->note, "%.3g..%.3g kPa, %.3g on 6 springs, %.3g on 12", low / kPa, high / kPa, change[0], change[4]);
+  lab_append(f->condition, FINDING_TEXT, "orifice, supply and area are meant, not the spring");
+  lab_append(f->note, FINDING_TEXT, "%.3g..%.3g kPa, %.3g on 6 springs, %.3g on 12", low / kPa, high / kPa, change[0],
+             change[4]);
 }
 
 /* Where the bench set saves a limit: the value, and the words. */
@@ -231,26 +234,26 @@ static void save_by_bench(const conclusion_trial *t, int quantity, finding *f)
   const bench_scan *scan = &t->scan;
   const double first = scan->from[0], last = scan->from[SCAN_POINTS - 1];
   double from = (double)NAN, to = (double)NAN;
-  finding_say(f->condition, "the bench set starts");
+  lab_append(f->condition, FINDING_TEXT, "the bench set starts");
   finding_add_conditioned(f, bench_scan_min(scan, quantity));
   bench_scan_range(scan, quantity, t->limit, &from, &to);
   if (from > first && to < last)
-    finding_say(f->where, "at %.3g..%.3g kPa", from / kPa, to / kPa);
+    lab_append(f->where, FINDING_TEXT, "at %.3g..%.3g kPa", from / kPa, to / kPa);
   else if (from > first)
-    finding_say(f->where, "above %.3g kPa", from / kPa);
+    lab_append(f->where, FINDING_TEXT, "above %.3g kPa", from / kPa);
   else if (to < last)
-    finding_say(f->where, "below %.3g kPa", to / kPa);
+    lab_append(f->where, FINDING_TEXT, "below %.3g kPa", to / kPa);
   else
-    finding_say(f->where, "anywhere");
-  finding_say(f->where, ", %.3g kPa wide", scan->width / kPa);
+    lab_append(f->where, FINDING_TEXT, "anywhere");
+  lab_append(f->where, FINDING_TEXT, ", %.3g kPa wide", scan->width / kPa);
 }
 
 static void fall_range(const conclusion_trial *t, finding *f)
 {
   finding_add(f, range_of(&t->pair->down), "%s", "");
   save_by_bench(t, SCAN_FALL_RANGE, f);
-  finding_say(f->note, "%.3g..%.3g over bench sets %.3g kPa wide", bench_scan_min(&t->scan, SCAN_FALL_RANGE),
-              bench_scan_max(&t->scan, SCAN_FALL_RANGE), t->scan.width / kPa);
+  lab_append(f->note, FINDING_TEXT, "%.3g..%.3g over bench sets %.3g kPa wide",
+             bench_scan_min(&t->scan, SCAN_FALL_RANGE), bench_scan_max(&t->scan, SCAN_FALL_RANGE), t->scan.width / kPa);
 }
 
 static void fall_supply(const conclusion_trial *t, finding *f)
@@ -268,7 +271,7 @@ static double last_over_largest(const speed_edge *e)
 static void last_fall(const conclusion_trial *t, finding *f)
 {
   const double force = t->p->dry_friction / t->p->area, last = last_over_largest(&t->pair->down);
-  finding_say(f->condition, "p_bl > F/A");
+  lab_append(f->condition, FINDING_TEXT, "p_bl > F/A");
   finding_add(f, last, "%s", "");
   finding_add(f, last_over_largest(&t->pair[TRIAL_WEAK_PRELOAD].down), "with p_bl = %.2g kPa, F/A = %.2g kPa",
               0.5 * force / kPa, force / kPa);
@@ -280,7 +283,8 @@ static void fall_change(const conclusion_trial *t, finding *f)
 {
   const speed_edge *down = &t->pair->down;
   finding_add(f, last_over_largest(&t->pair[TRIAL_WHOLE_DISCHARGE].down), "%s", "");
-  finding_say(f->note, "1 - v(5 %%)/v(95 %%) of the travel itself %.3g", 1 - down->v[0] / down->v[SPEED_POINTS - 1]);
+  lab_append(f->note, FINDING_TEXT, "1 - v(5 %%)/v(95 %%) of the travel itself %.3g",
+             1 - down->v[0] / down->v[SPEED_POINTS - 1]);
 }
 
 /* ---- Both edges: conclusions 12 to 16 ---- */
@@ -310,7 +314,7 @@ static void crossing(const conclusion_trial *t, finding *f)
   const speed_pair *pair = &t->pair[TRIAL_PROLONGED];
   const double p = speed_crossing(pair);
   finding_add(f, p / t->p->supply_pressure, "%s", "");
-  finding_say(f->note, "%.3g kPa, both %.3g mm/s", p / kPa, 1e3 * speed_at_pressure(&pair->up, p));
+  lab_append(f->note, FINDING_TEXT, "%.3g kPa, both %.3g mm/s", p / kPa, 1e3 * speed_at_pressure(&pair->up, p));
 }
 
 /* Slopes, that is durations; what shapes need is noted. */
@@ -320,8 +324,9 @@ static void symmetric(const conclusion_trial *t, finding *f)
   double left, from, low = bench_equal(t->p, &t->laws, width, &left), narrow;
   finding_add(f, isnan(low) ? low : 0, "bench set at %.3g..%.3g kPa", low / kPa, (low + width) / kPa);
   narrow = bench_alike(t->p, &t->laws, width, t->limit * nominal, &from);
-  finding_say(f->note, "asymmetry there %.3g for %.3g; shapes alike to %.3g on one %.2g kPa wide from %.3g kPa", left,
-              nominal, t->limit * nominal, narrow / kPa, from / kPa);
+  lab_append(f->note, FINDING_TEXT,
+             "asymmetry there %.3g for %.3g; shapes alike to %.3g on one %.2g kPa wide from %.3g kPa", left, nominal,
+             t->limit * nominal, narrow / kPa, from / kPa);
 }
 
 static void fastest(const conclusion_trial *t, finding *f)
@@ -332,8 +337,9 @@ static void fastest(const conclusion_trial *t, finding *f)
   finding_add(f, speed_max(up) > speed_max(down) ? rising : falling, "%.3g mm/s up, %.3g mm/s down",
               1e3 * speed_max(up), 1e3 * speed_max(down));
   bench_scan_range(&t->scan, SCAN_FASTEST, 1, &from, &to);
-  finding_say(f->note, "rise alone %.3g, fall alone %.3g, rise the faster one on bench sets from %.3g..%.3g kPa",
-              rising, falling, from / kPa, to / kPa);
+  lab_append(f->note, FINDING_TEXT,
+             "rise alone %.3g, fall alone %.3g, rise the faster one on bench sets from %.3g..%.3g kPa", rising, falling,
+             from / kPa, to / kPa);
 }
 
 /* ---- Energy: conclusions 17 and 18 ----
@@ -371,10 +377,10 @@ static void largest_efficiency(const conclusion_trial *t, finding *f)
   finding_add(f, kept(t, TRIAL_IDEAL), "idle return, 1 - E_o/E_i");
   finding_add(f, (cycle->work_up + cycle->work_down) / paper_energy(ideal), "loaded both ways");
   finding_add_conditioned(f, saved);
-  finding_say(f->condition, "%s", idle_condition);
-  finding_say(f->note,
-              "over A p_s x_n; loaded, over the isothermal exergy of the air %.3g; idle with p_bl + p_bh = %g p_s %.3g",
-              over_exergy(ideal, cycle), half_returned, saved);
+  lab_append(f->condition, FINDING_TEXT, "%s", idle_condition);
+  lab_append(f->note, FINDING_TEXT,
+             "over A p_s x_n; loaded, over the isothermal exergy of the air %.3g; idle with p_bl + p_bh = %g p_s %.3g",
+             over_exergy(ideal, cycle), half_returned, saved);
 }
 
 static void efficiency(const conclusion_trial *t, finding *f)
@@ -384,12 +390,12 @@ static void efficiency(const conclusion_trial *t, finding *f)
   finding_add(f, (cycle->work_up + cycle->work_down) / energy, "loaded both ways");
   finding_add(f, cycle->work_up / energy, "idle return");
   finding_add_conditioned(f, t->cycle[TRIAL_CENTRED].work_up / paper_energy(&t->p[TRIAL_CENTRED]));
-  finding_say(f->condition, "%s", idle_condition);
+  lab_append(f->condition, FINDING_TEXT, "%s", idle_condition);
   if (exergetic <= t->limit)
-    finding_say(f->where, "or the energy is the isothermal exergy of the air");
-  finding_say(f->note,
-              "over A p_s x_n, %.3g J up and %.3g J down of %.3g J; over the isothermal exergy of the air %.3g",
-              cycle->work_up, cycle->work_down, energy, exergetic);
+    lab_append(f->where, FINDING_TEXT, "or the energy is the isothermal exergy of the air");
+  lab_append(f->note, FINDING_TEXT,
+             "over A p_s x_n, %.3g J up and %.3g J down of %.3g J; over the isothermal exergy of the air %.3g",
+             cycle->work_up, cycle->work_down, energy, exergetic);
 }
 
 /* ---- The conclusions ---- */

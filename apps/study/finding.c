@@ -5,16 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static void say(char *text, int size, const char *format, ...) LAB_PRINTF(3, 4);
-
-static void say(char *text, int size, const char *format, ...)
-{
-  const int used = (int)strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, (size_t)(size - used), format, args);
-  va_end(args);
-}
+#include "../lab/base/text.h"
 
 void finding_add(finding *f, double value, const char *label, ...)
 {
@@ -33,22 +24,13 @@ void finding_add_conditioned(finding *f, double value)
     f->conditioned[f->n_conditioned++].value = value;
 }
 
-void finding_say(char text[FINDING_TEXT], const char *format, ...)
-{
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, FINDING_TEXT - used, format, args);
-  va_end(args);
-}
-
 void finding_join(finding *all, const finding *one, const char *name)
 {
   int i;
   if (*one->where)
-    finding_say(all->where, "%s%s (%s)", *all->where ? ", " : "", one->where, name);
+    lab_append(all->where, FINDING_TEXT, "%s%s (%s)", *all->where ? ", " : "", one->where, name);
   if (*one->note)
-    finding_say(all->note, "%s%s: %s", *all->note ? "; " : "", name, one->note);
+    lab_append(all->note, FINDING_TEXT, "%s%s: %s", *all->note ? "; " : "", name, one->note);
   strcpy(all->condition, one->condition);
   for (i = 0; i < one->n; i++)
     finding_add(all, one->at[i].value, "%s%s%s", name, *one->at[i].label ? ", " : "", one->at[i].label);
@@ -97,26 +79,26 @@ const char *finding_word(int verdict)
   return words[verdict];
 }
 
-void finding_verdict_text(const finding *f, int verdict, char *text, int size)
+void finding_verdict_text(const finding *f, int verdict, char *text, size_t size)
 {
-  snprintf(text, (size_t)size, "%s", finding_word(verdict));
+  snprintf(text, size, "%s", finding_word(verdict));
   if (verdict == FINDING_HOLDS_WHEN)
-    say(text, size, " %s%s%s", f->condition, *f->where ? " " : "", f->where);
+    lab_append(text, size, " %s%s%s", f->condition, *f->where ? " " : "", f->where);
 }
 
-void finding_evidence(const finding *f, const char *what, double low, double high, char *text, int size)
+void finding_evidence(const finding *f, const char *what, double low, double high, char *text, size_t size)
 {
   int i;
-  snprintf(text, (size_t)size, "%s:", what);
+  snprintf(text, size, "%s:", what);
   for (i = 0; i < f->n; i++)
-    say(text, size, "%s %.3g%s%s%s", i ? "," : "", tidy(f->at[i].value), *f->at[i].label ? " (" : "", f->at[i].label,
-        *f->at[i].label ? ")" : "");
+    lab_append(text, size, "%s %.3g%s%s%s", i ? "," : "", tidy(f->at[i].value), *f->at[i].label ? " (" : "",
+               f->at[i].label, *f->at[i].label ? ")" : "");
   if (low > -HUGE_VAL && high < HUGE_VAL)
-    say(text, size, "; claimed %.4g..%.4g", low, high);
+    lab_append(text, size, "; claimed %.4g..%.4g", low, high);
   else if (high < HUGE_VAL)
-    say(text, size, "; claimed <= %.4g", high);
+    lab_append(text, size, "; claimed <= %.4g", high);
   else
-    say(text, size, "; claimed >= %.4g", low);
+    lab_append(text, size, "; claimed >= %.4g", low);
   if (*f->note)
-    say(text, size, "; %s", f->note);
+    lab_append(text, size, "; %s", f->note);
 }

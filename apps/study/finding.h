@@ -3,7 +3,7 @@
 #ifndef STUDY_FINDING_H
 #define STUDY_FINDING_H
 
-#include "../lab/base/message.h"
+#include "../lab/base/text.h"
 
 enum { FINDING_CASES = 32, FINDING_TEXT = 480, FINDING_LABEL = 64 };
 
@@ -29,9 +29,6 @@ typedef struct finding {
 void finding_add(finding *f, double value, const char *label, ...) LAB_PRINTF(3, 4);
 void finding_add_conditioned(finding *f, double value);
 
-/* Append to one of its texts. */
-void finding_say(char text[FINDING_TEXT], const char *format, ...) LAB_PRINTF(2, 3);
-
 /* Add the cases of another actuator to those of `all`, its name in front; conditions become one sentence. */
 void finding_join(finding *all, const finding *one, const char *name);
 
@@ -47,11 +44,11 @@ double finding_worst(const finding *f, double low, double high);
 const char *finding_word(int verdict);
 
 /* Words of the verdict: "holds", "holds when <condition> <where>", "contradicted".  Out: text, `size` bytes */
-void finding_verdict_text(const finding *f, int verdict, char *text, int size);
+void finding_verdict_text(const finding *f, int verdict, char *text, size_t size);
 
 /* One sentence: what was measured, the values with their labels, what is claimed of them, further figures.
  * In:      what   "slope of ln v over ln P"
  *          low, high  as finding_judge; -HUGE_VAL or HUGE_VAL leaves a side open */
-void finding_evidence(const finding *f, const char *what, double low, double high, char *text, int size);
+void finding_evidence(const finding *f, const char *what, double low, double high, char *text, size_t size);
 
 #endif

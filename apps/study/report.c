@@ -307,11 +307,10 @@ static void add_conclusion(const table *t, int number, const char *actuator, cJS
       all++;
     }
   for (v = FINDING_HOLDS; v <= FINDING_CONTRADICTED; v++) {
-    const size_t used = strlen(text);
     if (laws[v] == all)
-      snprintf(text + used, sizeof text - used, "%s", finding_word(v));
+      lab_append(text, sizeof text, "%s", finding_word(v));
     else if (laws[v])
-      snprintf(text + used, sizeof text - used, "%s%s (%d of %d)", used ? ", " : "", finding_word(v), laws[v], all);
+      lab_append(text, sizeof text, "%s%s (%d of %d)", *text ? ", " : "", finding_word(v), laws[v], all);
   }
   lab_json_say(to, "%s", text);
 }

@@ -8,6 +8,7 @@
 #include "../lab/base/outfile.h"
 #include "../lab/base/json.h"
 #include "../lab/base/template.h"
+#include "../lab/base/text.h"
 #include "../lab/base/units.h"
 #include "../lab/log/channel.h"
 #include "../lab/rig/rig.h"
@@ -185,8 +186,7 @@ static int verdict_of(const cJSON *json)
 
 static void join(char names[NAMES_TEXT], const char *name)
 {
-  const size_t used = strlen(names);
-  snprintf(names + used, NAMES_TEXT - used, "%s%s", used ? ", " : "", name);
+  lab_append(names, NAMES_TEXT, "%s%s", *names ? ", " : "", name);
 }
 
 /* What was found: for the table with what is alike, for the sentence with what a term without a name acts on. */

@@ -8,6 +8,7 @@
 
 #include "../lab/base/config.h"
 #include "../lab/base/outfile.h"
+#include "../lab/base/text.h"
 
 /* A row of the table of keys; the name comes first, as lab_config_known wants it. */
 typedef struct key {
@@ -230,11 +231,8 @@ int table_load(const study *s, const char *name, table *t, lab_error *error)
 
 void study_note_saved(const study *s, const char *name)
 {
-  size_t used;
-  if (!s->saved)
-    return;
-  used = strlen(s->saved->names);
-  snprintf(s->saved->names + used, sizeof s->saved->names - used, "%s%s", used ? " " : "", name);
+  if (s->saved)
+    lab_append(s->saved->names, sizeof s->saved->names, "%s%s", *s->saved->names ? " " : "", name);
 }
 
 pneu_laws study_laws(const lab_rig *rig, int gas, int flow)

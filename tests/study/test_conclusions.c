@@ -117,8 +117,8 @@ static void test_finding_text__values_and_claim__in_words(void **state)
   char text[200];
   (void)state;
   finding_add(&f, 1e-9, "two");
-  finding_say(f.note, "at %g kPa", 80.0);
-  finding_say(f.condition, "p_s is above %g kPa", 140.0);
+  lab_append(f.note, FINDING_TEXT, "at %g kPa", 80.0);
+  lab_append(f.condition, FINDING_TEXT, "p_s is above %g kPa", 140.0);
   finding_evidence(&f, "ratio", -HUGE_VAL, 0.5, text, sizeof text);
   assert_string_equal(text, "ratio: 0.25 (one), 0 (two); claimed <= 0.5; at 80 kPa");
   finding_evidence(&f, "ratio", 0.5, HUGE_VAL, text, sizeof text);
@@ -138,12 +138,12 @@ static void test_finding_join__two_actuators__one_sentence(void **state)
   (void)state;
   memset(&all, 0, sizeof all);
   finding_add_conditioned(&one, 1);
-  finding_say(one.condition, "the bench set starts");
-  finding_say(one.where, "above 40 kPa");
-  finding_say(one.note, "noted");
+  lab_append(one.condition, FINDING_TEXT, "the bench set starts");
+  lab_append(one.where, FINDING_TEXT, "above 40 kPa");
+  lab_append(one.note, FINDING_TEXT, "noted");
   finding_add_conditioned(&two, 2);
-  finding_say(two.condition, "the bench set starts");
-  finding_say(two.where, "anywhere");
+  lab_append(two.condition, FINDING_TEXT, "the bench set starts");
+  lab_append(two.where, FINDING_TEXT, "anywhere");
   finding_join(&all, &one, "r1");
   finding_join(&all, &two, "m37");
   finding_verdict_text(&all, finding_judge(&all, 0, 2), text, sizeof text);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "text.h"
+
 /* SI as in pneu_param_describe and lab_channels, and what engineers say. */
 static const struct {
   const char *si;
@@ -57,10 +59,8 @@ const char *lab_format_quantity(double value, const char *unit, int digits, char
 {
   const lab_format shown = lab_format_as(unit);
   lab_format_number(value * shown.scale, digits, text);
-  if (*shown.unit) {
-    const size_t used = strlen(text);
-    snprintf(text + used, LAB_FORMAT_TEXT - used, " %s", shown.unit);
-  }
+  if (*shown.unit)
+    lab_append(text, LAB_FORMAT_TEXT, " %s", shown.unit);
   return text;
 }
 

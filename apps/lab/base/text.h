@@ -31,6 +31,9 @@ void lab_text_free(lab_text *text);
 /* The name of a file without its folders, for what is kept or sent: an error has the path, an answer the name. */
 const char *lab_file_name(const char *path);
 
+/* Append to a text, as far as it goes into `size` bytes. */
+void lab_append(char *text, size_t size, const char *format, ...) LAB_PRINTF(3, 4);
+
 /* Drop blanks in front and behind, in place.  Returns: where the rest begins */
 char *lab_trim(char *text);
 

@@ -265,11 +265,10 @@ void lab_guess_say(const lab_guess *guess, const lab_log_format *format, char te
 {
   static const char *const names[] = {"commas", "semicolons", "tabs", "bars", "blanks"};
   const char *which = strchr(delimiters, format->delimiter);
-  size_t used = (size_t)snprintf(text, LAB_GUESS_TEXT, "read with %s between cells, decimal %s",
-                                 which ? names[which - delimiters] : "log.delimiter",
-                                 format->decimal == ',' ? "commas" : "points");
+  snprintf(text, LAB_GUESS_TEXT, "read with %s between cells, decimal %s",
+           which ? names[which - delimiters] : "log.delimiter", format->decimal == ',' ? "commas" : "points");
   if (guess->header)
-    used += (size_t)snprintf(text + used, LAB_GUESS_TEXT - used, ", header in line %d", guess->header);
+    lab_append(text, LAB_GUESS_TEXT, ", header in line %d", guess->header);
   if (guess->units)
-    snprintf(text + used, LAB_GUESS_TEXT - used, ", units in line %d", guess->units);
+    lab_append(text, LAB_GUESS_TEXT, ", units in line %d", guess->units);
 }

@@ -72,8 +72,7 @@ static int ask_for_columns(const lab_csv *csv, int cells, lab_error *error)
   char columns[8 * LAB_COLUMN_MAX + 64] = "";
   int i;
   for (i = 0; i < cells && i < LAB_COLUMN_MAX; i++)
-    snprintf(columns + strlen(columns), sizeof columns - strlen(columns), "%s\"%s\"", i ? ", " : "",
-             i < 4 ? usual[i] : "-");
+    lab_append(columns, sizeof columns, "%s\"%s\"", i ? ", " : "", i < 4 ? usual[i] : "-");
   lab_fail(error, LAB_DATA,
            "expected a header \"name [unit], ...\", found numbers; for a file without a header give log.columns in the "
            "rig file, with its own channels and units: log = { columns = ( %s ); };",
@@ -209,8 +208,7 @@ static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *g
   if (guess->guessed)
     lab_guess_say(guess, format, header->said);
   if (*said)
-    snprintf(header->said + strlen(header->said), sizeof header->said - strlen(header->said), "%s%s",
-             guess->guessed ? "; " : "", said);
+    lab_append(header->said, sizeof header->said, "%s%s", guess->guessed ? "; " : "", said);
   return LAB_OK;
 }
 

@@ -23,26 +23,15 @@ typedef struct naming {
   lab_error *error;
 } naming;
 
-static void append(char *text, size_t room, const char *format, ...) LAB_PRINTF(3, 4);
-
-static void append(char *text, size_t room, const char *format, ...)
-{
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, room - used, format, args);
-  va_end(args);
-}
-
 /* ---- What the user is to write ---- */
 
 /* In a string of libconfig. */
 static void append_quoted(char *text, size_t room, const char *value)
 {
-  append(text, room, "\"");
+  lab_append(text, room, "\"");
   for (; *value; value++)
-    append(text, room, strchr("\"\\", *value) ? "\\%c" : "%c", *value);
-  append(text, room, "\"");
+    lab_append(text, room, strchr("\"\\", *value) ? "\\%c" : "%c", *value);
+  lab_append(text, room, "\"");
 }
 
 static int fail_asking(naming *m)
@@ -53,9 +42,9 @@ static int fail_asking(naming *m)
     const char *entry = *m->ask[c] ? m->ask[c] : m->format->map[c];
     if (!*entry)
       continue;
-    append(map, sizeof map, "%s = ", lab_channels[c].key);
+    lab_append(map, sizeof map, "%s = ", lab_channels[c].key);
     append_quoted(map, sizeof map, entry);
-    append(map, sizeof map, "; ");
+    lab_append(map, sizeof map, "; ");
   }
   return lab_fail(m->error, LAB_DATA, "%s; write into the rig file: log = { map = { %s}; };", m->why, map);
 }
@@ -95,11 +84,11 @@ static int is_free(const naming *m, int i)
 /* Note what was guessed of a column. */
 static void say(naming *m, int channel, int i)
 {
-  append(m->said, sizeof m->said, "%s%s is \"%s\"%s%s", *m->said ? ", " : "", lab_channels[channel].key,
-         m->heading[i].text, *m->heading[i].below ? " in " : "", m->heading[i].below);
+  lab_append(m->said, sizeof m->said, "%s%s is \"%s\"%s%s", *m->said ? ", " : "", lab_channels[channel].key,
+             m->heading[i].text, *m->heading[i].below ? " in " : "", m->heading[i].below);
   if (m->header->column[i].is_stamp)
-    append(m->said, sizeof m->said, " (%s)",
-           m->heading[i].stamp.has_day ? lab_date_orders[m->heading[i].stamp.order] : "time of day");
+    lab_append(m->said, sizeof m->said, " (%s)",
+               m->heading[i].stamp.has_day ? lab_date_orders[m->heading[i].stamp.order] : "time of day");
 }
 
 /* The unit of a column: that of the map, of the line below or of the name; a position and its set point may be shares
@@ -171,7 +160,7 @@ static int no_such_column(naming *m, int channel)
   int i;
   for (i = 0; i < m->n; i++) {
     text[i] = m->heading[i].text;
-    append(list, sizeof list, "%s\"%s\"", i ? ", " : "", text[i]);
+    lab_append(list, sizeof list, "%s\"%s\"", i ? ", " : "", text[i]);
   }
   return lab_fail(m->error, LAB_DATA, "log.map.%s: no column is named \"%s\"; the nearest is \"%s\" of %s",
                   lab_channels[channel].key, m->format->map[channel],
@@ -314,11 +303,11 @@ static void say_left_out(naming *m)
   int i, any = 0;
   for (i = 0; i < m->n; i++)
     if (is_free(m, i) && *m->heading[i].text && strcmp(m->heading[i].text, "-") != 0)
-      append(m->said, sizeof m->said, "%s\"%s\"",
-             any++      ? ", "
-             : *m->said ? "; left out: "
-                        : "left out: ",
-             m->heading[i].text);
+      lab_append(m->said, sizeof m->said, "%s\"%s\"",
+                 any++      ? ", "
+                 : *m->said ? "; left out: "
+                            : "left out: ",
+                 m->heading[i].text);
 }
 
 /* The order of the dates in the file. */

@@ -6,6 +6,7 @@
 
 #include "metrics_private.h"
 #include "../base/array.h"
+#include "../base/text.h"
 
 static const double share_63 = 0.632, share_86 = 0.865; /* ISA-75.25.01 */
 static const double share_stroke = 0.99;                /* of the change: the end of a stroke */
@@ -238,9 +239,8 @@ void lab_steps_deny(lab_metrics_work *m, int metric, int up)
       all++;
     }
   for (i = 1; i < sizeof fate / sizeof *fate; i++) {
-    const size_t used = strlen(words);
     if (count[i])
-      snprintf(words + used, sizeof words - used, "%s%d %s", used ? ", " : "", count[i], fate[i]);
+      lab_append(words, sizeof words, "%s%d %s", *words ? ", " : "", count[i], fate[i]);
   }
   if (all)
     lab_metric_absent(m, metric, "no step %s of the %s can be used: %.120s", up ? "up" : "down",

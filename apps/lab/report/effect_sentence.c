@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/format.h"
+#include "../base/text.h"
 
 /* ---- Sizes: each from a rig and the parameter of an effect, of which the amount counts ---- */
 
@@ -177,7 +178,7 @@ static void write_size(const about *a, const char *name, size_t length, char tex
   snprintf(text, 2 * LAB_FORMAT_TEXT, "%s",
            lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
   if (sizes[i].size == leak_normal)
-    snprintf(text + strlen(text), LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
+    lab_append(text, 2 * LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
 }
 
 /* One of the two words of {+more|less}. */
@@ -203,7 +204,7 @@ const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char 
     if (*at == ',')
       comma = used;
     if (*at != '{') {
-      snprintf(text + used, LAB_EFFECT_SENTENCE - used, "%c", *at++);
+      lab_append(text, LAB_EFFECT_SENTENCE, "%c", *at++);
       continue;
     }
     if (at[1] == '+')
@@ -211,7 +212,7 @@ const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char 
     else
       write_size(&a, at + 1, (size_t)(close - at) - 1, part);
     at = close + 1;
-    snprintf(text + used, LAB_EFFECT_SENTENCE - used, "%s", part);
+    lab_append(text, LAB_EFFECT_SENTENCE, "%s", part);
     if (!*part && comma) { /* drop what hangs on it */
       text[comma] = '\0';
       at += strcspn(at, ",.");

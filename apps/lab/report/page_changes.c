@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../base/format.h"
+#include "../base/text.h"
 #include "page_private.h"
 
 static void put_change(const lab_change *change, cJSON *list)
@@ -24,10 +25,8 @@ static void say_alike(const lab_change *change, cJSON *list)
 {
   char name[LAB_PARAM_NAME_TEXT], names[LAB_CHANGE_LEADERS * LAB_PARAM_NAME_TEXT] = "";
   int i;
-  for (i = 0; i < change->n_alike; i++) {
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", lab_change_name(change->alike[i], name));
-  }
+  for (i = 0; i < change->n_alike; i++)
+    lab_append(names, sizeof names, "%s%s", i ? ", " : "", lab_change_name(change->alike[i], name));
   if (change->n_alike)
     lab_json_say(list, "As well as by %s the logs are explained by %s.", lab_change_name(change->param, name), names);
 }

@@ -36,9 +36,8 @@ static void put_logs(const page_context *t, cJSON *page)
   char names[1024] = "";
   int e;
   for (e = 0; e < u->n_runs; e++) {
-    const size_t used = strlen(names);
     if (u->run[e].log != last)
-      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", lab_file_name(u->run[e].log->path));
+      lab_append(names, sizeof names, "%s%s", *names ? ", " : "", lab_file_name(u->run[e].log->path));
     last = u->run[e].log;
   }
   if (u->n_runs > 1)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../base/text.h"
 #include "page_private.h"
 
 static const double rough = 0.1; /* half an interval over the value, from which on it is worth a word */
@@ -41,11 +42,9 @@ static void put_invisible(const lab_scores *scores, cJSON *list)
     tried[scores->of[i].effect] = 1;
     visible[scores->of[i].effect] |= scores->of[i].visible > 0;
   }
-  for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
-    const size_t used = strlen(names);
+  for (i = 0; i < PNEU_EFFECT_COUNT; i++)
     if (tried[i] && !visible[i])
-      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", lab_page_effect_name(i));
-  }
+      lab_append(names, sizeof names, "%s%s", *names ? ", " : "", lab_page_effect_name(i));
   if (*names)
     lab_json_say(list, "With the declared laws this log cannot show these effects: %s.", names);
 }

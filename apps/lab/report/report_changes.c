@@ -4,6 +4,7 @@
 
 #include "../base/format.h"
 #include "../base/json.h"
+#include "../base/text.h"
 #include "report.h"
 
 /* "onset" or "end", where there is one. */
@@ -48,30 +49,26 @@ void lab_report_changes(const lab_changes *changes, cJSON *root)
 }
 
 /* "dry_friction from 480 N to 724 N (1.51 times) since 14.2 s" */
-static size_t say_change(const lab_change *change, char *text, size_t size)
+static void say_change(const lab_change *change, char *text, size_t size)
 {
   char name[LAB_PARAM_NAME_TEXT], then[LAB_FORMAT_TEXT], now[LAB_FORMAT_TEXT], ratio[LAB_FORMAT_TEXT];
   char begin[LAB_FORMAT_TEXT], end[LAB_FORMAT_TEXT];
   const char *unit = lab_change_unit(change);
-  size_t used;
   lab_change_name(change->param, name);
   lab_format_quantity(change->now, unit, 3, now);
   if (change->then == 0)
-    used = (size_t)snprintf(text, size, "%s of %s", name, now);
+    lab_append(text, size, "%s of %s", name, now);
   else
-    used = (size_t)snprintf(text, size, "%s from %s to %s (%s times)", name,
-                            lab_format_quantity(change->then, unit, 3, then), now,
-                            lab_format_number(change->now / change->then, 3, ratio));
-  if (change->begin.known && used < size)
-    used += (size_t)snprintf(text + used, size - used, " since %s s", lab_format_number(change->begin.t, 4, begin));
-  if (change->end.known && used < size)
-    used += (size_t)snprintf(text + used, size - used, " until %s s", lab_format_number(change->end.t, 4, end));
-  return used;
+    lab_append(text, size, "%s from %s to %s (%s times)", name, lab_format_quantity(change->then, unit, 3, then), now,
+               lab_format_number(change->now / change->then, 3, ratio));
+  if (change->begin.known)
+    lab_append(text, size, " since %s s", lab_format_number(change->begin.t, 4, begin));
+  if (change->end.known)
+    lab_append(text, size, " until %s s", lab_format_number(change->end.t, 4, end));
 }
 
 void lab_report_change_sentence(const lab_changes *changes, char *text, size_t size)
 {
-  size_t used;
   int i;
   if (changes->condition == LAB_SINCE_UNCHANGED)
     snprintf(text, size, "As it was: nothing has changed since the baseline. ");
@@ -79,13 +76,10 @@ void lab_report_change_sentence(const lab_changes *changes, char *text, size_t s
     snprintf(text, size, "Whether anything has changed since the baseline cannot be told: %s. ", changes->why);
   if (changes->condition != LAB_SINCE_CHANGED)
     return;
-  used = (size_t)snprintf(text, size, "Changed since the baseline: ");
-  for (i = 0; i < changes->n && used < size; i++) {
-    if (i > 0)
-      used += (size_t)snprintf(text + used, size - used, ", ");
-    if (used < size)
-      used += say_change(&changes->change[i], text + used, size - used);
+  snprintf(text, size, "Changed since the baseline: ");
+  for (i = 0; i < changes->n; i++) {
+    lab_append(text, size, "%s", i ? ", " : "");
+    say_change(&changes->change[i], text, size);
   }
-  if (used < size)
-    snprintf(text + used, size - used, ". ");
+  lab_append(text, size, ". ");
 }

@@ -68,7 +68,7 @@ static void put_members(const draft *d, const char *group, char *text, size_t ro
   int i;
   for (i = 0; i < d->n; i++)
     if (strcmp(d->word[i].group, group) == 0)
-      snprintf(text + strlen(text), room - strlen(text), "%s = %s; ", d->word[i].key, d->word[i].value);
+      lab_append(text, room, "%s = %s; ", d->word[i].key, d->word[i].value);
 }
 
 /* The rig that the sheet alone declares. */
@@ -81,17 +81,17 @@ static int read_sheet(draft *d)
   for (i = 0; i < sizeof groups / sizeof groups[0]; i++) {
     if (!find_word(d, groups[i], NULL) && strcmp(groups[i], "transducer") != 0)
       continue;
-    snprintf(text + strlen(text), sizeof text - strlen(text), "%s = { ", groups[i]);
+    lab_append(text, sizeof text, "%s = { ", groups[i]);
     put_members(d, groups[i], text, sizeof text);
     for (k = 0; k < 2 && strcmp(groups[i], "transducer") == 0; k++) {
       snprintf(name, sizeof name, "transducer.%s", inner[k]);
       if (!find_word(d, name, NULL))
         continue;
-      snprintf(text + strlen(text), sizeof text - strlen(text), "%s = { ", inner[k]);
+      lab_append(text, sizeof text, "%s = { ", inner[k]);
       put_members(d, name, text, sizeof text);
-      snprintf(text + strlen(text), sizeof text - strlen(text), "}; ");
+      lab_append(text, sizeof text, "}; ");
     }
-    snprintf(text + strlen(text), sizeof text - strlen(text), "};\n");
+    lab_append(text, sizeof text, "};\n");
   }
   return lab_rig_parse(text, "--sheet", &d->rig, d->error);
 }
@@ -375,12 +375,11 @@ static void put_fit(FILE *file, const draft *d)
   size_t i;
   for (i = 0; i < sizeof fit / sizeof fit[0]; i++)
     if (fit[i].can && !is_param_said(d, fit[i].param)) {
-      snprintf(names + strlen(names), sizeof names - strlen(names), "%s\"%s\"", *names ? ", " : "", fit[i].name);
-      snprintf(tolerances + strlen(tolerances), sizeof tolerances - strlen(tolerances), " %s = \"100 %%\";",
-               fit[i].name);
+      lab_append(names, sizeof names, "%s\"%s\"", *names ? ", " : "", fit[i].name);
+      lab_append(tolerances, sizeof tolerances, " %s = \"100 %%\";", fit[i].name);
     }
   if (lab_log_command(&d->log) == LAB_CHANNEL_SP)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s\"positioner.gain\"", *names ? ", " : "");
+    lab_append(names, sizeof names, "%s\"positioner.gain\"", *names ? ", " : "");
   fprintf(file,
           "// What the log can determine, and the sheet does not say; the rest is known to its usual tolerance.\nfit = "
           "( %s );\n",

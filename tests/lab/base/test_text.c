@@ -88,9 +88,20 @@ static void test_lab_log_read__a_thousand_columns__are_refused(void **state)
   assert_contains(error.text, "expected at most 64 columns");
 }
 
+static void test_lab_append__more_than_fits__is_cut(void **state)
+{
+  char text[8] = "ab";
+  (void)state;
+  lab_append(text, sizeof text, "%s", ", cd");
+  assert_string_equal(text, "ab, cd");
+  lab_append(text, sizeof text, "%d", 1234);
+  assert_string_equal(text, "ab, cd1");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_append__more_than_fits__is_cut),
       cmocka_unit_test(test_lab_text_open__no_file_on_a_disk__is_refused),
       cmocka_unit_test(test_lab_text_open__too_large__is_refused),
       cmocka_unit_test(test_lab_text_read__as_large_as_may_be_and_empty__ends_soon),
