@@ -2,10 +2,79 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "carried.h"
-#include "units.h"
+
+/* ---- SI units as FMI wants them: exponents of base units ---- */
+
+enum { BASES = 4 };
+
+/* Attributes of BaseUnit. */
+static const char *const base_names[BASES] = {"kg", "m", "s", "K"};
+
+static const struct {
+  const char *symbol;
+  int exponent[BASES];
+} symbols[] = {
+    {"1", {0, 0, 0, 0}},  {"kg", {1, 0, 0, 0}},   {"m", {0, 1, 0, 0}},  {"s", {0, 0, 1, 0}},  {"K", {0, 0, 0, 1}},
+    {"N", {1, 1, -2, 0}}, {"Pa", {1, -1, -2, 0}}, {"J", {1, 2, -2, 0}}, {"W", {1, 2, -3, 0}},
+};
+enum { SYMBOLS = sizeof symbols / sizeof symbols[0] };
+
+static const int *symbol_at(const char *text, size_t length)
+{
+  int i;
+  for (i = 0; i < SYMBOLS; i++)
+    if (strlen(symbols[i].symbol) == length && strncmp(text, symbols[i].symbol, length) == 0)
+      return symbols[i].exponent;
+  return NULL;
+}
+
+/* The power behind a symbol: "2" of "m2", or "^1.5", the only form with a fraction; 1 where there is none. */
+static double power_at(const char **text)
+{
+  char *end;
+  double power = 1;
+  if (**text == '^') {
+    power = strtod(*text + 1, &end);
+    *text = end;
+  } else if (**text >= '0' && **text <= '9') {
+    power = (double)strtol(*text, &end, 10);
+    *text = end;
+  }
+  return power;
+}
+
+/* Exponents of a unit such as "N.s/m", "kg/s" or "1".
+ * Returns: 0 where it has none in whole numbers, or a symbol that is not known. */
+static int exponents_of(const char *unit, int exponent[BASES])
+{
+  double sum[BASES] = {0}, sign = 1;
+  int i;
+  while (*unit) {
+    const size_t length = *unit == '1' ? 1 : strcspn(unit, "./^0123456789");
+    const int *base = symbol_at(unit, length);
+    double power;
+    if (!base)
+      return 0;
+    unit += length;
+    power = sign * power_at(&unit);
+    for (i = 0; i < BASES; i++)
+      sum[i] += power * base[i];
+    sign = *unit == '/' ? -1 : 1;
+    unit += *unit != '\0';
+  }
+  for (i = 0; i < BASES; i++) {
+    if (sum[i] != floor(sum[i]))
+      return 0;
+    exponent[i] = (int)sum[i];
+  }
+  return 1;
+}
+
+/* ---- Parts ---- */
 
 /* What the two versions name differently. */
 typedef struct dialect {
@@ -78,14 +147,14 @@ static void interface(fmu_xml *xml, const fmu_description *d, int co_simulation)
 
 static void unit(fmu_xml *xml, const char *name)
 {
-  int exponent[FMU_BASE_COUNT], i;
+  int exponent[BASES], i;
   fmu_xml_open(xml, "Unit");
   fmu_xml_text(xml, "name", name);
-  if (fmu_unit_exponents(name, exponent)) {
+  if (exponents_of(name, exponent)) {
     fmu_xml_open(xml, "BaseUnit");
-    for (i = 0; i < FMU_BASE_COUNT; i++)
+    for (i = 0; i < BASES; i++)
       if (exponent[i])
-        fmu_xml_whole(xml, fmu_base_names[i], exponent[i]);
+        fmu_xml_whole(xml, base_names[i], exponent[i]);
     fmu_xml_close(xml);
   }
   fmu_xml_close(xml);

@@ -4,10 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <zip.h>
+
 #include "carried.h"
 #include "description.h"
 #include "modeldata.h"
-#include "package.h"
+#include "../lab/base/outfile.h"
 
 enum { PATH_TEXT = 256 };
 
@@ -20,6 +22,109 @@ static const char *const platforms[] = {NULL, "aarch64-linux"};
 static const char *const platforms[] = {NULL, NULL}; /* sources only */
 #endif
 
+/* ---- A zip archive in memory, by libzip; the same files give the same bytes, because none has a date ---- */
+
+typedef struct package {
+  zip_source_t *source; /* the archive */
+  zip_t *zip;
+} package;
+
+enum { NO_TIME = 0, NO_DATE = 1 << 5 | 1 }; /* 1980-01-01, the earliest that a zip archive knows */
+#define PLAIN_FILE ((zip_uint32_t)0100644 << 16)
+
+/* Begin; to be ended by write_package, or drop_package after an error.  Returns: LAB_OK, LAB_WORLD. */
+static int begin_package(package *p, lab_error *error)
+{
+  p->zip = NULL;
+  p->source = zip_source_buffer_create(NULL, 0, 0, NULL);
+  if (p->source)
+    p->zip = zip_open_from_source(p->source, ZIP_TRUNCATE, NULL);
+  if (p->zip) {
+    zip_source_keep(p->source);
+    return LAB_OK;
+  }
+  if (p->source)
+    zip_source_free(p->source);
+  p->source = NULL;
+  return lab_fail_memory(error, "the archive");
+}
+
+/* A source that owns a copy of the bytes; NULL without memory. */
+static zip_source_t *copy_in(const void *bytes, size_t size)
+{
+  zip_source_t *source = zip_source_buffer_create(NULL, 0, 0, NULL);
+  if (source && (zip_source_begin_write(source) || zip_source_write(source, bytes, size) != (zip_int64_t)size ||
+                 zip_source_commit_write(source))) {
+    zip_source_free(source);
+    return NULL;
+  }
+  return source;
+}
+
+/* Add a file.  In: bytes  copied.  Returns: LAB_OK, LAB_WORLD. */
+static int add_file(package *p, const char *name, const void *bytes, size_t size, lab_error *error)
+{
+  zip_source_t *source = copy_in(bytes, size);
+  zip_int64_t at;
+  if (!source)
+    return lab_fail_memory(error, name);
+  at = zip_file_add(p->zip, name, source, 0);
+  if (at < 0) {
+    zip_source_free(source);
+    return lab_fail(error, LAB_WORLD, "%s: cannot go into the archive: %s", name, zip_strerror(p->zip));
+  }
+  if (zip_file_set_dostime(p->zip, (zip_uint64_t)at, NO_TIME, NO_DATE, 0) ||
+      zip_file_set_external_attributes(p->zip, (zip_uint64_t)at, 0, ZIP_OPSYS_UNIX, PLAIN_FILE))
+    return lab_fail(error, LAB_WORLD, "%s: cannot go into the archive: %s", name, zip_strerror(p->zip));
+  return LAB_OK;
+}
+
+static int copy_out(zip_source_t *source, FILE *file)
+{
+  char part[16384];
+  zip_int64_t n;
+  if (zip_source_open(source))
+    return -1;
+  while ((n = zip_source_read(source, part, sizeof part)) > 0)
+    fwrite(part, 1, (size_t)n, file);
+  zip_source_close(source);
+  return n < 0 ? -1 : 0;
+}
+
+static void drop_package(package *p)
+{
+  if (p->zip)
+    zip_discard(p->zip);
+  if (p->source)
+    zip_source_free(p->source);
+  p->zip = NULL;
+  p->source = NULL;
+}
+
+/* Put the archive into a file, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
+static int write_package(package *p, const char *path, lab_error *error)
+{
+  lab_outfile out;
+  if (zip_close(p->zip)) {
+    lab_fail(error, LAB_WORLD, "the archive cannot be made: %s", zip_strerror(p->zip));
+    drop_package(p);
+    return error->status;
+  }
+  p->zip = NULL;
+  if (lab_out_open(&out, path, error) == LAB_OK) {
+    if (copy_out(p->source, out.file) == 0)
+      lab_out_close(&out, error);
+    else {
+      lab_out_abandon(&out);
+      lab_fail_memory(error, "the archive");
+    }
+  }
+  drop_package(p);
+  return error->status;
+}
+
+/* ---- What goes into it ---- */
+
 /* What is at hand while an FMU is made. */
 typedef struct maker {
   const lab_rig *rig;
@@ -27,7 +132,7 @@ typedef struct maker {
   fmu_list list;
   char identifier[LAB_NAME_TEXT + 1];
   fmu_description description;
-  fmu_package package;
+  package package;
 } maker;
 
 /* "37-13" is no name in C: "_37_13" is. */
@@ -48,7 +153,7 @@ static int add_xml(maker *m, const char *name, void (*describe)(fmu_xml *, const
   fmu_xml_begin(&xml);
   describe(&xml, &m->description);
   if (fmu_xml_end(&xml, &text, &size, error) == LAB_OK)
-    fmu_package_add(&m->package, name, text, size, error);
+    add_file(&m->package, name, text, size, error);
   free(text);
   return error->status;
 }
@@ -56,7 +161,7 @@ static int add_xml(maker *m, const char *name, void (*describe)(fmu_xml *, const
 static int add_carried(maker *m, const char *name, const char *carried, lab_error *error)
 {
   const fmu_file *file = fmu_carried_find(carried);
-  return fmu_package_add(&m->package, name, file->bytes, file->size, error);
+  return add_file(&m->package, name, file->bytes, file->size, error);
 }
 
 static int add_binary(maker *m, lab_error *error)
@@ -70,7 +175,7 @@ static int add_binary(maker *m, lab_error *error)
     return LAB_OK;
   snprintf(name, sizeof name, "binaries/%s/%s.so", platform, m->identifier);
   if (fmu_data_binary(&m->data, fmi, &bytes, &size, error) == LAB_OK)
-    fmu_package_add(&m->package, name, bytes, size, error);
+    add_file(&m->package, name, bytes, size, error);
   free(bytes);
   return error->status;
 }
@@ -80,7 +185,7 @@ static int add_header(maker *m, const char *name, lab_error *error)
   char *text;
   size_t size;
   if (fmu_data_header(m->rig, &m->data, &text, &size, error) == LAB_OK)
-    fmu_package_add(&m->package, name, text, size, error);
+    add_file(&m->package, name, text, size, error);
   free(text);
   return error->status;
 }
@@ -96,7 +201,7 @@ static int add_sources(maker *m, lab_error *error)
       continue;
     snprintf(name, sizeof name, "sources/%s", file->name);
     if (strstr(name, "/model_data.h") ? add_header(m, name, error)
-                                      : fmu_package_add(&m->package, name, file->bytes, file->size, error))
+                                      : add_file(&m->package, name, file->bytes, file->size, error))
       return error->status;
   }
   return LAB_OK;
@@ -112,42 +217,11 @@ static int add_model(maker *m, lab_error *error)
     return lab_fail_memory(error, "the model");
   lab_rig_write(file, m->rig, "The model of this FMU, for libpneu's programs.");
   if (fclose(file) == 0)
-    fmu_package_add(&m->package, "resources/model.cfg", text, size, error);
+    add_file(&m->package, "resources/model.cfg", text, size, error);
   else
     lab_fail_memory(error, "the model");
   free(text);
   return error->status;
-}
-
-static int add_page(maker *m, lab_error *error)
-{
-  static const char page[] =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Pneumatic "
-      "actuator</title></head><body>\n"
-      "<h1>Single-acting pneumatic actuator</h1>\n"
-      "<p>Chamber, transducer, spring-loaded stem with dry friction between two stops, by libpneu " PNEU_VERSION
-      "; the model file is resources/model.cfg. Units are SI, pressures are gauge but for ambient_pressure.</p>\n"
-      "<p><b>Inputs</b>: command u, supply pressure, external force. <b>Outputs</b>: pressure, temperature, position, "
-      "velocity, mass flow, what the sensors show, mode of the stem, whether flow is choked. x grows in the direction "
-      "in "
-      "which the air drives the stem.</p>\n"
-      "<p>Where the model file makes pressure an input, it is one here, in the place of command and supply; where "
-      "position is one, holding_force is an output. From the time at which it is set to the next it runs along a "
-      "straight line, with the slope pressure_rate or velocity. Without pressure_rate it holds, for a step of "
-      "co-simulation; velocity is needed always, since it pumps the gas.</p>\n"
-      "<p><b>Parameters</b> are fixed: they can be set before initialisation ends. The stem starts at rest, at "
-      "start_position with start_pressure. Built in are the laws of gas and flow, free terms, and which effects have a "
-      "state of their own: such an effect can be switched off here, but not on.</p>\n"
-      "<p><b>Model exchange</b>: states are those of the moving stem; while it rests, the derivatives of position and "
-      "velocity are 0. Break-away, reversal, stops and choking are state events. A dead time makes time events; a "
-      "command "
-      "that changes continuously is then kept step by step. <b>Co-simulation</b>: the library's own stepper, with "
-      "events "
-      "inside the communication step located to 1e-9 s; inputs hold during a step, but for pressure and position "
-      "whose slope is given.</p>\n"
-      "<p>Not applied: the effect channel_skew, the age of the position in a recorder. Derivatives by direction are "
-      "provided.</p>\n</body></html>\n";
-  return fmu_package_add(&m->package, "documentation/index.html", page, sizeof page - 1, error);
 }
 
 /* What only one version has. */
@@ -165,7 +239,7 @@ static int add_own(maker *m, lab_error *error)
 static int add_all(maker *m, lab_error *error)
 {
   if (add_xml(m, "modelDescription.xml", fmu_describe, error) || add_binary(m, error) || add_sources(m, error) ||
-      add_model(m, error) || add_page(m, error) ||
+      add_model(m, error) || add_carried(m, "documentation/index.html", "index.html", error) ||
       add_carried(m, "documentation/licenses/license.txt", "license.txt", error))
     return error->status;
   return add_own(m, error);
@@ -194,12 +268,12 @@ int fmu_export(const lab_rig *rig, int fmi, const char *path, lab_error *error)
   memset(&m, 0, sizeof m);
   m.rig = rig;
   error->status = LAB_OK;
-  if (prepare(&m, fmi, error) || fmu_package_begin(&m.package, error))
+  if (prepare(&m, fmi, error) || begin_package(&m.package, error))
     return error->status;
   if (add_all(&m, error)) {
-    fmu_package_drop(&m.package);
+    drop_package(&m.package);
     return error->status;
   }
   snprintf(own_path, sizeof own_path, "%s.fmu", m.identifier);
-  return fmu_package_write(&m.package, path ? path : own_path, error);
+  return write_package(&m.package, path ? path : own_path, error);
 }

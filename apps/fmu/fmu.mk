@@ -18,7 +18,7 @@ $(BUILD)/fmu2.so $(BUILD)/fmu3.so: $(FMU_FILES)
 	$(say) $(CC) $(FMU_FLAGS) $(CFLAGS) -shared -s $(LIB_C) $(filter-out $(OTHER),$(FMU_RUNTIME)) $(LDFLAGS) -lm -o $@
 
 FMU_CARRIED := $(foreach file,$(FMU_FILES),$(file)=$(file)) fmu2.so=$(BUILD)/fmu2.so fmu3.so=$(BUILD)/fmu3.so \
-               icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png license.txt=LICENSE
+               icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png index.html=apps/fmu/carried/index.html license.txt=LICENSE
 $(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(BUILD)/fmu2.so $(BUILD)/fmu3.so $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh
 	@mkdir -p $(@D)
 	$(say) sh apps/fmu/carry.sh $(FMU_CARRIED) > $@
