@@ -32,15 +32,6 @@ static void average_command(lab_log *log, size_t i, size_t end)
   u[i] = sum / (double)(end - i);
 }
 
-static void move_row(lab_log *log, size_t from, size_t to)
-{
-  int c;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (log->value[c])
-      log->value[c][to] = log->value[c][from];
-  log->line[to] = log->line[from];
-}
-
 /* Keep every step-th row of a run, and every change of command unless `busy`.  Returns: rows kept, to `to` on. */
 static size_t thin_run(lab_log *log, size_t run, size_t step, int busy, size_t to)
 {
@@ -52,7 +43,7 @@ static size_t thin_run(lab_log *log, size_t run, size_t step, int busy, size_t t
       continue;
     if (busy && whole)
       average_command(log, i, i + step < end ? i + step : end);
-    move_row(log, i, to + kept++);
+    lab_log_copy_row(log, i, to + kept++);
   }
   return kept;
 }

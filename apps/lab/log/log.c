@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "logheader.h"
-#include "loglong.h"
 #include "logshape.h"
 #include "../base/number.h"
 
@@ -362,4 +361,13 @@ int lab_log_command_changes(const lab_log *log, size_t first, size_t last)
     if (u[i + 1] != u[i])
       return 1;
   return 0;
+}
+
+void lab_log_copy_row(lab_log *log, size_t from, size_t to)
+{
+  int c;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (log->value[c])
+      log->value[c][to] = log->value[c][from];
+  log->line[to] = log->line[from];
 }

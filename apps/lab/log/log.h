@@ -36,6 +36,9 @@ int lab_log_read(const char *path, const lab_log_format *format, double ambient,
 
 void lab_log_free(lab_log *log);
 
+/* Put a row in the place of another. */
+void lab_log_copy_row(lab_log *log, size_t from, size_t to);
+
 /* The channel that commands: u, or else the set position sp of a positioner; -1 where there is neither. */
 int lab_log_command(const lab_log *log);
 

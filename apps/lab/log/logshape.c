@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "instants.h"
-
 /* ---- The way back of a loop ---- */
 
 static void swap_rows(lab_log *log, size_t a, size_t b)
@@ -47,77 +45,151 @@ static int reverse_way_back(lab_log *log, int channel, lab_error *error)
 static int keep_every(lab_log *log, size_t every, size_t offset, lab_error *error)
 {
   size_t run, i, n = 0;
-  int c;
   for (run = 0; run < log->n_runs; run++) {
     const size_t first = log->run[run];
     if (first + offset >= log->run[run + 1])
       return lab_fail(error, LAB_DATA, "%s:%d: expected more than the %zu rows before log.first in this run", log->path,
                       log->line[first], offset);
     log->run[run] = n;
-    for (i = first + offset; i < log->run[run + 1]; i += every, n++) {
-      log->line[n] = log->line[i];
-      for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-        if (log->value[c])
-          log->value[c][n] = log->value[c][i];
-    }
+    for (i = first + offset; i < log->run[run + 1]; i += every, n++)
+      lab_log_copy_row(log, i, n);
   }
   log->n = log->run[log->n_runs] = n;
   return LAB_OK;
 }
 
-/* ---- Many runs into one ---- */
+/* ---- Rows of one instant into one ---- */
 
-/* Mean of a channel over the rows of each instant, gaps left out; a command is that of the first row. */
-static void mean_channel(const lab_log *log, const lab_instant *order, int channel, double *mean)
+typedef struct instant {
+  double t; /* [s] */
+  size_t row;
+} instant;
+
+/* Rows of one instant stay in the order of the log. */
+static int by_time(const void *a, const void *b)
 {
-  const double *value = log->value[channel];
-  size_t i, k, n = 0;
-  for (i = 0; i < log->n; i = k) {
-    double sum = 0;
-    size_t there = 0;
-    for (k = i; k < log->n && order[k].t == order[i].t; k++)
-      if (!isnan(value[order[k].row])) {
-        sum += value[order[k].row];
-        there++;
-      }
-    mean[n++] = channel == lab_log_command(log) ? value[order[i].row] : sum / (double)there;
-  }
+  const instant *x = a, *y = b;
+  if (x->t != y->t)
+    return x->t < y->t ? -1 : 1;
+  return x->row < y->row ? -1 : x->row > y->row;
 }
 
-static size_t mean_lines(lab_log *log, const lab_instant *order, double *scratch)
+/* What becomes of a channel's values in n rows of one instant. */
+typedef int rule(const lab_log *log, const instant *at, size_t n, int channel, double *value, lab_error *error);
+
+/* The one value that is there. */
+static int take_only(const lab_log *log, const instant *at, size_t n, int channel, double *value, lab_error *error)
+{
+  size_t i;
+  *value = NAN;
+  for (i = 0; i < n; i++) {
+    const double now = log->value[channel][at[i].row];
+    if (!isnan(now) && !isnan(*value) && *value != now)
+      return lab_fail(error, LAB_DATA, "%s:%d: expected one value of %s at t = %g s, found another before", log->path,
+                      log->line[at[i].row], lab_channels[channel].key, at[i].t);
+    *value = isnan(now) ? *value : now;
+  }
+  return LAB_OK;
+}
+
+/* Gaps left out; a command is that of the first row. */
+static int take_mean(const lab_log *log, const instant *at, size_t n, int channel, double *value, lab_error *error)
+{
+  const double *all = log->value[channel];
+  double sum = 0;
+  size_t i, there = 0;
+  (void)error;
+  for (i = 0; i < n; i++)
+    if (!isnan(all[at[i].row])) {
+      sum += all[at[i].row];
+      there++;
+    }
+  *value = channel == lab_log_command(log) ? all[at[0].row] : sum / (double)there;
+  return LAB_OK;
+}
+
+/* Rows from the i-th on that are of its instant. */
+static size_t alike(const lab_log *log, const instant *order, size_t i)
+{
+  size_t n = 1;
+  while (i + n < log->n && order[i + n].t == order[i].t)
+    n++;
+  return n;
+}
+
+static int unite_channel(const lab_log *log, const instant *order, rule *take, int channel, double *made,
+                         lab_error *error)
 {
   size_t i, n = 0;
-  for (i = 0; i < log->n; i++)
-    if (i == 0 || order[i].t != order[i - 1].t)
-      scratch[n++] = log->line[order[i].row];
-  for (i = 0; i < n; i++)
-    log->line[i] = (int)scratch[i];
+  for (i = 0; i < log->n; i += alike(log, order, i))
+    if (take(log, &order[i], alike(log, order, i), channel, &made[n++], error))
+      return error->status;
+  memcpy(log->value[channel], made, n * sizeof *made);
+  return LAB_OK;
+}
+
+/* The line of an instant is that of its first row. */
+static size_t unite_lines(lab_log *log, const instant *order, double *scratch)
+{
+  size_t i, n = 0, k;
+  for (i = 0; i < log->n; i += alike(log, order, i))
+    scratch[n++] = log->line[order[i].row];
+  for (k = 0; k < n; k++)
+    log->line[k] = (int)scratch[k];
   return n;
+}
+
+static int unite_all(lab_log *log, instant *order, double *scratch, rule *take, lab_error *error)
+{
+  size_t i;
+  int c;
+  for (i = 0; i < log->n; i++)
+    order[i] = (instant){log->value[LAB_CHANNEL_TIME][i], i};
+  qsort(order, log->n, sizeof *order, by_time);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    if (log->value[c] && unite_channel(log, order, take, c, scratch, error))
+      return error->status;
+  log->n = unite_lines(log, order, scratch);
+  return LAB_OK;
+}
+
+static int unite(lab_log *log, rule *take, lab_error *error)
+{
+  instant *order = malloc(log->n * sizeof *order);
+  double *scratch = malloc(log->n * sizeof *scratch);
+  int status = order && scratch ? unite_all(log, order, scratch, take, error) : lab_fail_memory(error, log->path);
+  free(order);
+  free(scratch);
+  return status;
 }
 
 static int mean_of_runs(lab_log *log, lab_error *error)
 {
-  lab_instant *order = malloc(log->n * sizeof *order);
-  double *scratch = malloc(log->n * sizeof *scratch);
-  size_t n;
-  int c;
-  if (!order || !scratch) {
-    free(order);
-    free(scratch);
-    return lab_fail_memory(error, log->path);
-  }
-  lab_instants_of(log, order);
-  n = mean_lines(log, order, scratch);
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (log->value[c]) {
-      mean_channel(log, order, c, scratch);
-      memcpy(log->value[c], scratch, n * sizeof *scratch);
-    }
-  free(order);
-  free(scratch);
-  log->n = log->run[1] = n;
+  if (unite(log, take_mean, error))
+    return error->status;
+  log->run[1] = log->n;
   log->n_runs = 1;
   return LAB_OK;
+}
+
+/* A command holds until the next one. */
+static int hold_command(lab_log *log, lab_error *error)
+{
+  const int command = lab_log_command(log);
+  double *u = command < 0 ? NULL : log->value[command];
+  size_t i;
+  if (u && isnan(u[0]))
+    return lab_fail(error, LAB_DATA, "%s:%d: expected a command %s at the first instant, found none", log->path,
+                    log->line[0], lab_channels[command].key);
+  for (i = 1; u && i < log->n; i++)
+    if (isnan(u[i]))
+      u[i] = u[i - 1];
+  return LAB_OK;
+}
+
+int lab_log_join(lab_log *log, lab_error *error)
+{
+  return unite(log, take_only, error) ? error->status : hold_command(log, error);
 }
 
 /* ---- Rows before each run ---- */

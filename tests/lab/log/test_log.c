@@ -1,4 +1,4 @@
-/* apps/lab/log/log, and through it logformat, logheader, logcolumn, loglong, csv and text */
+/* apps/lab/log/log, and through it logformat, logheader, logcolumn, logshape, csv and text */
 #include "../../scratch.h"
 
 #include "../../../apps/lab/log/log.h"
