@@ -194,14 +194,6 @@ static void put_row(FILE *file, const char *name, const lab_done *done)
 
 /* ---- The page ---- */
 
-static int add_text(cJSON *page, const char *name, char *text)
-{
-  if (text)
-    cJSON_AddStringToObject(page, name, text);
-  free(text);
-  return text != NULL;
-}
-
 /* "12 error" and so on */
 static void add_counts(const lab_index *index, cJSON *page)
 {
@@ -227,12 +219,7 @@ static cJSON *values_of(const lab_index *index, const char *list)
   lab_json_put(page, "lines", "%d line%s", index->n, index->n == 1 ? "" : "s");
   cJSON_AddStringToObject(page, "version", PNEU_VERSION);
   add_counts(index, page);
-  if (add_text(page, "common_style", lab_page_text(LAB_PAGE_STYLE)) &&
-      add_text(page, "style", lab_page_text(LAB_PAGE_INDEX_STYLE)) &&
-      add_text(page, "script", lab_page_text(LAB_PAGE_INDEX_SCRIPT)))
-    return page;
-  cJSON_Delete(page);
-  return NULL;
+  return page;
 }
 
 static int put_rows(const lab_index *index, const char *folder, FILE *file, lab_error *error)
@@ -267,10 +254,10 @@ static int put_page(const lab_index *index, const cJSON *page, char *template, c
 
 int lab_index_write(lab_index *index, const char *list, const char *folder, lab_error *error)
 {
-  char path[LAB_PATH_TEXT + 160], *template = lab_page_text(LAB_PAGE_INDEX);
   cJSON *page = values_of(index, list);
+  char path[LAB_PATH_TEXT + 160], *template = lab_page_text("index", page);
   lab_outfile out;
-  int status = page && template ? LAB_OK : lab_fail_memory(error, "index.html");
+  int status = template ? LAB_OK : lab_fail_memory(error, "index.html");
   qsort(index->entry, (size_t)index->n, sizeof *index->entry, by_severity);
   snprintf(path, sizeof path, "%s/index.html", folder);
   if (status == LAB_OK && (status = lab_out_open(&out, path, error)) == LAB_OK)

@@ -1,4 +1,4 @@
-#include "effect_sentence.h"
+#include "report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -150,35 +150,27 @@ static const struct {
     {"leak_share", "%", leak_share},
 };
 
-static int find_size(const char *name, size_t length)
-{
-  int i;
-  for (i = 0; i < (int)(sizeof sizes / sizeof *sizes); i++)
-    if (strlen(sizes[i].name) == length && !strncmp(sizes[i].name, name, length))
-      return i;
-  return -1;
-}
-
-int lab_effect_size_is_known(const char *name, size_t length)
-{
-  return find_size(name, length) >= 0;
-}
-
-/* A size with its unit; "" for one that is not finite. */
+/* A size with its unit; "" for one that is not finite, and the name itself where it is none. */
 static void write_size(const about *a, const char *name, size_t length, char text[2 * LAB_FORMAT_TEXT])
 {
-  const int i = find_size(name, length);
-  const double size = i < 0 ? (double)NAN : sizes[i].size(a);
+  enum { SIZES = sizeof sizes / sizeof *sizes };
   char number[LAB_FORMAT_TEXT];
   pneu_param_info info;
-  *text = '\0';
-  if (!isfinite(size))
+  double size;
+  int i = 0;
+  while (i < SIZES && (strlen(sizes[i].name) != length || strncmp(sizes[i].name, name, length) != 0))
+    i++;
+  snprintf(text, 2 * LAB_FORMAT_TEXT, "{%.*s}", (int)length, name);
+  if (i == SIZES)
     return;
+  size = sizes[i].size(a);
   pneu_param_describe(a->param, &info);
   snprintf(text, 2 * LAB_FORMAT_TEXT, "%s",
            lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
   if (sizes[i].size == leak_normal)
     lab_append(text, 2 * LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
+  if (!isfinite(size))
+    *text = '\0';
 }
 
 /* One of the two words of {+more|less}. */

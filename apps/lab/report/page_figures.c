@@ -64,7 +64,7 @@ static int put_data(const lab_figures *figures, cJSON *page)
 
 int lab_page_figures(const page_context *t, cJSON *page)
 {
-  char *template = lab_page_text(LAB_PAGE_FIGURE);
+  char *template = lab_page_text("figure", NULL);
   int i, done = template && put_data(t->figures, page);
   for (i = 0; i < t->figures->n && done; i++)
     done = put_figure(&t->figures->figure[i], template, page);

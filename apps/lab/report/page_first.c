@@ -35,11 +35,6 @@ static void put_main(const page_context *t, cJSON *list)
   }
 }
 
-static double in_noise(const lab_errors *errors)
-{
-  return sqrt(errors->chi2 / (double)errors->n);
-}
-
 /* What is left, and where something without a name acts. */
 static void put_remainder(const page_context *t, cJSON *list)
 {
@@ -57,7 +52,7 @@ static void put_remainder(const page_context *t, cJSON *list)
   if (r->n_found > 0 || r->before.n == 0)
     return;
   item = lab_json_append(list);
-  lab_json_put(item, "value", "%s × noise", lab_format_number(in_noise(&r->after), 3, number));
+  lab_json_put(item, "value", "%s × noise", lab_format_number(lab_report_in_noise(&r->after), 3, number));
   lab_json_put(item, "words", "is the error of the declared model, fitted");
 }
 
@@ -113,11 +108,11 @@ static void say_held_out(const lab_report *report, cJSON *list)
     lab_json_say(list, "The model was not tested on a held-out log.");
   else if (report->result->n_found > 0)
     lab_json_say(list, "On a log that was not used for the fit, the error goes from %s to %s times the noise.",
-                 lab_format_number(in_noise(&report->holdout_before), 3, before),
-                 lab_format_number(in_noise(&report->holdout_after), 3, after));
+                 lab_format_number(lab_report_in_noise(&report->holdout_before), 3, before),
+                 lab_format_number(lab_report_in_noise(&report->holdout_after), 3, after));
   else
     lab_json_say(list, "On a log that was not used for the fit, the error is %s times the noise.",
-                 lab_format_number(in_noise(&report->holdout_before), 3, before));
+                 lab_format_number(lab_report_in_noise(&report->holdout_before), 3, before));
 }
 
 /* Whether what is left is noise: as the verdict has it. */
@@ -133,7 +128,7 @@ static void say_left(const page_context *t, cJSON *list)
     lab_json_say(list, "The residual is not white on %d of %d channels.", coloured, t->table->n_channels);
   else if (!lab_residual_stats_white(left))
     lab_json_say(list, "There are too few values to tell whether the residual is white.");
-  else if (r->verdict == LAB_VERDICT_UNDECIDED && !(t->report->limitations && t->report->limitations->doubt))
+  else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_doubt(t->report))
     lab_json_say(list, "The residual is white on every channel, but its size differs from the declared noise.");
   else
     lab_json_say(list, "The residual is white on every channel.");
@@ -150,7 +145,7 @@ static void say_undecided(const page_context *t, cJSON *list)
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (left[c].whiteness.n > 0)
       p = fmin(p, left[c].whiteness.p_value);
-  if (t->report->limitations && t->report->limitations->doubt)
+  if (lab_report_doubt(t->report))
     lab_json_say(list, "No effect is named, because the log and the rig file contradict each other.");
   else if (lab_residual_stats_coloured(left) > 0)
     lab_json_say(
@@ -159,7 +154,7 @@ static void say_undecided(const page_context *t, cJSON *list)
   else
     lab_json_say(list,
                  "Something is missing: the residual is %s times the noise. Which effect it is, the log does not tell.",
-                 lab_format_number(in_noise(&r->after), 3, text));
+                 lab_format_number(lab_report_in_noise(&r->after), 3, text));
 }
 
 static void put_sure(const page_context *t, cJSON *list)
@@ -187,7 +182,7 @@ static void put_todo(const page_context *t, const cJSON *next, cJSON *list)
   const cJSON *first = cJSON_GetArrayItem(next, 0);
   char where[LAB_WHERE_TEXT];
   int i;
-  if (t->report->limitations && t->report->limitations->doubt)
+  if (lab_report_doubt(t->report))
     lab_json_say(list, "Correct the log or the rig file first: no effect is named while they contradict each other.");
   for (i = 0; i < r->n_found && r->verdict != LAB_VERDICT_UNDECIDED; i++)
     if (r->found[i].effect >= 0)

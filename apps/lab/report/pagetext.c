@@ -1,5 +1,8 @@
 #include "pagetext.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "../base/template.h"
 
 /* In pieces; made by make. */
@@ -37,11 +40,35 @@ static const char *const index_js[] = {
 #include "apps/lab/report/page/index.js.inc"
     NULL};
 
-static const char *const *const texts[LAB_PAGE_TEXTS] = {common_css,  page_html, page_css,  page_js,
-                                                         figure_html, uplot_js,  uplot_css, uplot_licence,
-                                                         index_html,  index_css, index_js};
+/* By page, and by the name that its template has for them; the template itself has none. */
+static const struct {
+  const char *page, *name;
+  const char *const *piece;
+} texts[] = {{"report", NULL, page_html},
+             {"report", "common_style", common_css},
+             {"report", "style", page_css},
+             {"report", "script", page_js},
+             {"report", "plot", uplot_js},
+             {"report", "plot_style", uplot_css},
+             {"report", "plot_licence", uplot_licence},
+             {"figure", NULL, figure_html},
+             {"index", NULL, index_html},
+             {"index", "common_style", common_css},
+             {"index", "style", index_css},
+             {"index", "script", index_js}};
 
-char *lab_page_text(int which)
+char *lab_page_text(const char *page, cJSON *values)
 {
-  return lab_template_text(texts[which]);
+  char *template = NULL;
+  size_t i;
+  for (i = 0; i < sizeof texts / sizeof *texts; i++) {
+    char *text = strcmp(texts[i].page, page) ? NULL : lab_template_text(texts[i].piece);
+    if (text && !texts[i].name) {
+      template = text;
+    } else if (text) {
+      cJSON_AddStringToObject(values, texts[i].name, text);
+      free(text);
+    }
+  }
+  return template;
 }

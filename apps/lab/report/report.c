@@ -63,3 +63,14 @@ double lab_report_refit_explains(const lab_search_result *r, const lab_score *sc
       return (r->step[0].chi2 - r->step[i].chi2) / fmax(r->step[0].chi2 - (double)r->before.n, 1);
   return (double)NAN;
 }
+
+const char *lab_report_doubt(const lab_report *report)
+{
+  const lab_limitations *l = report->limitations;
+  return l && l->doubt ? l->text[l->doubt - 1] : NULL;
+}
+
+double lab_report_in_noise(const lab_errors *errors)
+{
+  return sqrt(errors->chi2 / (double)errors->n);
+}

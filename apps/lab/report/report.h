@@ -58,6 +58,12 @@ void lab_report_undetermined(const lab_report *report, char text[LAB_FIT_UNDETER
  * determine. */
 void lab_report_limits(const lab_report *report, cJSON *list);
 
+/* The limitation for which no effect may be named; NULL: there is none. */
+const char *lab_report_doubt(const lab_report *report);
+
+/* The root mean square of all errors over the noise. */
+double lab_report_in_noise(const lab_errors *errors);
+
 /* Share of the excess over the noise that an effect explains by itself, as its refit beside the declared model found
  * it; NaN where there was none, or none row by row. */
 double lab_report_refit_explains(const lab_search_result *result, const lab_score *score);
@@ -68,6 +74,15 @@ double lab_report_refit_explains(const lab_search_result *result, const lab_scor
 void lab_report_headline(const lab_report *report, char *text, size_t size);
 void lab_report_evidence(const lab_report *report, char *text, size_t size);
 void lab_report_sentence(const lab_report *report, char *text, size_t size);
+
+enum { LAB_EFFECT_SENTENCE = 256 };
+
+/* An effect in the words of a person, from pneu_effect_sentence: "The chamber leaks: 0.0137 mm², 1.5 % of the fill
+ * orifice, 36 Nl/h at 4 bar supply." A part between commas whose size is not finite is left out.
+ * In:      rig    with the effect
+ *          param  the parameter of the effect that has its size, as in pneu_param_describe
+ * Out:     text   Returns: text */
+const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char text[LAB_EFFECT_SENTENCE]);
 
 /* What has changed since the baseline: "condition" and "changes" of report.json; a sentence with a space behind it. */
 void lab_report_changes(const lab_changes *changes, cJSON *root);

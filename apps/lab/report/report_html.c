@@ -6,26 +6,6 @@
 #include "page_private.h"
 #include "pagetext.h"
 
-static const struct {
-  const char *name;
-  int which;
-} carried[] = {
-    {"common_style", LAB_PAGE_STYLE},    {"style", LAB_PAGE_REPORT_STYLE},   {"plot", LAB_PAGE_PLOT},
-    {"plot_style", LAB_PAGE_PLOT_STYLE}, {"script", LAB_PAGE_REPORT_SCRIPT}, {"plot_licence", LAB_PAGE_PLOT_LICENCE}};
-
-static int put_carried(cJSON *page)
-{
-  size_t i;
-  for (i = 0; i < sizeof carried / sizeof *carried; i++) {
-    char *text = lab_page_text(carried[i].which);
-    if (!text)
-      return 0;
-    cJSON_AddStringToObject(page, carried[i].name, text);
-    free(text);
-  }
-  return 1;
-}
-
 static cJSON *values_of(const page_context *t)
 {
   cJSON *page = cJSON_CreateObject();
@@ -40,7 +20,7 @@ static cJSON *values_of(const page_context *t)
   lab_page_whiteness(t, page);
   lab_page_candidates(t, page);
   lab_page_merit(t, page);
-  if (lab_page_figures(t, page) && put_carried(page))
+  if (lab_page_figures(t, page))
     return page;
   cJSON_Delete(page);
   return NULL;
@@ -51,11 +31,7 @@ static int write_page(const cJSON *page, const char *text, const char *folder, l
   lab_outfile out;
   if (lab_report_file_open(folder, "report.html", &out, error))
     return error->status;
-  if (lab_template_write(out.file, text, page, error)) {
-    lab_out_abandon(&out);
-    return error->status;
-  }
-  return lab_out_close(&out, error);
+  return lab_out_end(&out, lab_template_write(out.file, text, page, error), error);
 }
 
 int lab_report_html(const lab_report *report, const lab_residual_table *table, const lab_figures *figures,
@@ -63,8 +39,8 @@ int lab_report_html(const lab_report *report, const lab_residual_table *table, c
 {
   const page_context t = {report, table, figures};
   cJSON *page = values_of(&t);
-  char *text = lab_page_text(LAB_PAGE_REPORT);
-  const int status = page && text ? write_page(page, text, folder, error) : lab_fail_memory(error, "report.html");
+  char *text = page ? lab_page_text("report", page) : NULL;
+  const int status = text ? write_page(page, text, folder, error) : lab_fail_memory(error, "report.html");
   cJSON_Delete(page);
   free(text);
   return status;

@@ -267,8 +267,8 @@ static cJSON *json_of(const lab_report *report)
   lab_report_sentence(report, sentence, sizeof sentence);
   cJSON_AddStringToObject(root, "verdict", lab_verdict_text(result->verdict));
   cJSON_AddStringToObject(root, "sentence", sentence);
-  if (report->limitations && report->limitations->doubt)
-    cJSON_AddStringToObject(root, "doubt", report->limitations->text[report->limitations->doubt - 1]);
+  if (lab_report_doubt(report))
+    cJSON_AddStringToObject(root, "doubt", lab_report_doubt(report));
   cJSON_AddBoolToObject(root, "complete", !result->cut_short);
   if (report->changes)
     lab_report_changes(report->changes, root);

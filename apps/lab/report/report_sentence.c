@@ -7,7 +7,6 @@
 
 #include "../base/format.h"
 #include "../trace/freeterms.h"
-#include "effect_sentence.h"
 #include "report.h"
 
 enum { DEVIATIONS_TOLD = 3 };
@@ -141,12 +140,6 @@ static const char *nothing(const lab_report *report, int deviates)
              : "Nothing is missing.";
 }
 
-static const char *doubt(const lab_report *report)
-{
-  const lab_limitations *l = report->limitations;
-  return l && l->doubt ? l->text[l->doubt - 1] : NULL;
-}
-
 void lab_report_headline(const lab_report *report, char *text, size_t size)
 {
   const words w = {text, size};
@@ -155,8 +148,8 @@ void lab_report_headline(const lab_report *report, char *text, size_t size)
   *text = '\0';
   if (report->changes)
     lab_report_change_sentence(report->changes, text, size);
-  if (doubt(report)) {
-    add(&w, "Undecided: %s", doubt(report));
+  if (lab_report_doubt(report)) {
+    add(&w, "Undecided: %s", lab_report_doubt(report));
     return;
   }
   deviates = add_deviations(&w, &report->deviations) > 0;
@@ -173,11 +166,6 @@ void lab_report_headline(const lab_report *report, char *text, size_t size)
 
 /* ---- What that does to the error ---- */
 
-static double in_noise(const lab_errors *errors)
-{
-  return sqrt(errors->chi2 / (double)errors->n);
-}
-
 /* "laminar_leak, heat_transfer and a free term" */
 static void add_names(const words *w, const lab_search_result *r)
 {
@@ -189,7 +177,7 @@ static void add_names(const words *w, const lab_search_result *r)
 
 static void add_undecided(const words *w, const lab_search_result *r)
 {
-  const double before = in_noise(&r->before), after = in_noise(&r->after);
+  const double before = lab_report_in_noise(&r->before), after = lab_report_in_noise(&r->after);
   if (r->n_found == 0) {
     add(w, "The residual is %.2f times the noise, and no effect of the catalogue explains it.", after);
     return;
@@ -213,7 +201,7 @@ void lab_report_evidence(const lab_report *report, char *text, size_t size)
   const lab_search_result *r = report->result;
   const char *with = r->n_found > 1 ? "With them" : "With it";
   *text = '\0';
-  if (doubt(report))
+  if (lab_report_doubt(report))
     return;
   if (r->verdict == LAB_VERDICT_UNDECIDED)
     add_undecided(&w, r);
@@ -221,9 +209,10 @@ void lab_report_evidence(const lab_report *report, char *text, size_t size)
     add(&w, "%s the stem sticks and slips as it does in the log; the instants of single slips cannot be predicted.",
         with);
   else if (r->n_found > 0)
-    add(&w, "%s the error falls from %.2f to %.2f times the noise.", with, in_noise(&r->before), in_noise(&r->after));
+    add(&w, "%s the error falls from %.2f to %.2f times the noise.", with, lab_report_in_noise(&r->before),
+        lab_report_in_noise(&r->after));
   else
-    add(&w, "The declared model leaves %.2f times the noise.", in_noise(&r->after));
+    add(&w, "The declared model leaves %.2f times the noise.", lab_report_in_noise(&r->after));
   if (r->verdict == LAB_VERDICT_NONE && is_small(r))
     add_small(&w, r);
   if (r->cut_short)

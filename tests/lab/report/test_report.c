@@ -210,11 +210,14 @@ static void test_lab_report_html__leak__needs_nothing_from_outside(void **state)
 /* What is carried inside arrives as it is, long lines and all. */
 static void test_lab_page_text__library__is_the_file(void **state)
 {
-  char *carried = lab_page_text(LAB_PAGE_PLOT), *file = scratch_read("apps/lab/report/page/uplot/uPlot.iife.min.js");
+  cJSON *values = cJSON_CreateObject();
+  char *template = lab_page_text("report", values),
+       *file = scratch_read("apps/lab/report/page/uplot/uPlot.iife.min.js");
   (void)state;
-  assert_non_null(carried);
-  assert_string_equal(carried, file);
-  free(carried);
+  assert_non_null(template);
+  assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(values, "plot")), file);
+  cJSON_Delete(values);
+  free(template);
   free(file);
 }
 

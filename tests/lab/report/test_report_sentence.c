@@ -3,7 +3,6 @@
 
 #include "../../check.h"
 
-#include "../../../apps/lab/report/effect_sentence.h"
 #include "../../../apps/lab/report/report.h"
 
 static char text[LAB_SENTENCE_TEXT];
@@ -28,10 +27,6 @@ static void test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence(void
   int e, k, count;
   (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
-    const char *at = pneu_effect_sentence(e);
-    check_note("%s", pneu_effect_at(e)->name);
-    while ((at = strchr(at, '{')) && at++)
-      assert_true(*at == '+' || lab_effect_size_is_known(at, strcspn(at, "}")));
     pneu_effect_params(e, &count);
     for (k = 0; k < count; k++) {
       const pneu_param_info *info = &pneu_effect_at(e)->param[k];
