@@ -52,25 +52,32 @@ FMI2_EXPORT(fmi2Status, fmi2SetupExperiment,
   return (fmi2Status)fmu_setup(c, has_tolerance ? tolerance : 0, start, has_stop ? stop : HUGE_VAL);
 }
 
-FMI2_EXPORT(fmi2Status, fmi2EnterInitializationMode, (fmi2Component c))
-{
-  return (fmi2Status)fmu_enter_initialization(c);
-}
+/* ---- Functions of the instance alone ---- */
 
-FMI2_EXPORT(fmi2Status, fmi2ExitInitializationMode, (fmi2Component c))
-{
-  return (fmi2Status)fmu_exit_initialization(c);
-}
+#define OF_INSTANCE(name, call)                                                                                        \
+  FMI2_EXPORT(fmi2Status, name, (fmi2Component c))                                                                     \
+  {                                                                                                                    \
+    return (fmi2Status)call(c);                                                                                        \
+  }
+OF_INSTANCE(fmi2EnterInitializationMode, fmu_enter_initialization)
+OF_INSTANCE(fmi2ExitInitializationMode, fmu_exit_initialization)
+OF_INSTANCE(fmi2Terminate, fmu_terminate)
+OF_INSTANCE(fmi2Reset, fmu_reset)
+OF_INSTANCE(fmi2EnterEventMode, fmu_enter_event)
+OF_INSTANCE(fmi2EnterContinuousTimeMode, fmu_enter_continuous)
 
-FMI2_EXPORT(fmi2Status, fmi2Terminate, (fmi2Component c))
-{
-  return (fmi2Status)fmu_terminate(c);
-}
+/* ---- Functions of the states ---- */
 
-FMI2_EXPORT(fmi2Status, fmi2Reset, (fmi2Component c))
-{
-  return (fmi2Status)fmu_reset(c);
-}
+#define OF_VECTOR(name, type, call)                                                                                    \
+  FMI2_EXPORT(fmi2Status, name, (fmi2Component c, type value[], size_t n))                                             \
+  {                                                                                                                    \
+    return (fmi2Status)call(c, value, n);                                                                              \
+  }
+OF_VECTOR(fmi2SetContinuousStates, const fmi2Real, fmu_set_states)
+OF_VECTOR(fmi2GetDerivatives, fmi2Real, fmu_get_rates)
+OF_VECTOR(fmi2GetEventIndicators, fmi2Real, fmu_get_indicators)
+OF_VECTOR(fmi2GetContinuousStates, fmi2Real, fmu_get_states)
+OF_VECTOR(fmi2GetNominalsOfContinuousStates, fmi2Real, fmu_get_nominals)
 
 /* ---- Values ---- */
 
@@ -144,11 +151,6 @@ FMI2_EXPORT(fmi2Status, fmi2GetDirectionalDerivative,
 
 /* ---- Model exchange ---- */
 
-FMI2_EXPORT(fmi2Status, fmi2EnterEventMode, (fmi2Component c))
-{
-  return (fmi2Status)fmu_enter_event(c);
-}
-
 FMI2_EXPORT(fmi2Status, fmi2NewDiscreteStates, (fmi2Component c, fmi2EventInfo *info))
 {
   fmu_event event;
@@ -162,11 +164,6 @@ FMI2_EXPORT(fmi2Status, fmi2NewDiscreteStates, (fmi2Component c, fmi2EventInfo *
   return fmi2OK;
 }
 
-FMI2_EXPORT(fmi2Status, fmi2EnterContinuousTimeMode, (fmi2Component c))
-{
-  return (fmi2Status)fmu_enter_continuous(c);
-}
-
 FMI2_EXPORT(fmi2Status, fmi2CompletedIntegratorStep,
             (fmi2Component c, fmi2Boolean no_set_before, fmi2Boolean *enter_event, fmi2Boolean *terminate))
 {
@@ -178,31 +175,6 @@ FMI2_EXPORT(fmi2Status, fmi2CompletedIntegratorStep,
 FMI2_EXPORT(fmi2Status, fmi2SetTime, (fmi2Component c, fmi2Real time))
 {
   return (fmi2Status)fmu_set_time(c, time);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2SetContinuousStates, (fmi2Component c, const fmi2Real x[], size_t n))
-{
-  return (fmi2Status)fmu_set_states(c, x, n);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2GetDerivatives, (fmi2Component c, fmi2Real dx[], size_t n))
-{
-  return (fmi2Status)fmu_get_rates(c, dx, n);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2GetEventIndicators, (fmi2Component c, fmi2Real z[], size_t n))
-{
-  return (fmi2Status)fmu_get_indicators(c, z, n);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2GetContinuousStates, (fmi2Component c, fmi2Real x[], size_t n))
-{
-  return (fmi2Status)fmu_get_states(c, x, n);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2GetNominalsOfContinuousStates, (fmi2Component c, fmi2Real x[], size_t n))
-{
-  return (fmi2Status)fmu_get_nominals(c, x, n);
 }
 
 /* ---- Co-simulation ---- */

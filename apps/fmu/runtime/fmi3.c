@@ -68,20 +68,31 @@ FMI3_EXPORT(fmi3EnterInitializationMode, (fmi3Instance c, fmi3Boolean has_tolera
   return (fmi3Status)(status == FMU_OK ? fmu_enter_initialization(c) : status);
 }
 
-FMI3_EXPORT(fmi3ExitInitializationMode, (fmi3Instance c))
-{
-  return (fmi3Status)fmu_exit_initialization(c);
-}
+/* ---- Functions of the instance alone ---- */
 
-FMI3_EXPORT(fmi3Terminate, (fmi3Instance c))
-{
-  return (fmi3Status)fmu_terminate(c);
-}
+#define OF_INSTANCE(name, call)                                                                                        \
+  FMI3_EXPORT(name, (fmi3Instance c))                                                                                  \
+  {                                                                                                                    \
+    return (fmi3Status)call(c);                                                                                        \
+  }
+OF_INSTANCE(fmi3ExitInitializationMode, fmu_exit_initialization)
+OF_INSTANCE(fmi3Terminate, fmu_terminate)
+OF_INSTANCE(fmi3Reset, fmu_reset)
+OF_INSTANCE(fmi3EnterEventMode, fmu_enter_event)
+OF_INSTANCE(fmi3EnterContinuousTimeMode, fmu_enter_continuous)
 
-FMI3_EXPORT(fmi3Reset, (fmi3Instance c))
-{
-  return (fmi3Status)fmu_reset(c);
-}
+/* ---- Functions of the states ---- */
+
+#define OF_VECTOR(name, type, call)                                                                                    \
+  FMI3_EXPORT(name, (fmi3Instance c, type value[], size_t n))                                                          \
+  {                                                                                                                    \
+    return (fmi3Status)call(c, value, n);                                                                              \
+  }
+OF_VECTOR(fmi3SetContinuousStates, const fmi3Float64, fmu_set_states)
+OF_VECTOR(fmi3GetContinuousStateDerivatives, fmi3Float64, fmu_get_rates)
+OF_VECTOR(fmi3GetEventIndicators, fmi3Float64, fmu_get_indicators)
+OF_VECTOR(fmi3GetContinuousStates, fmi3Float64, fmu_get_states)
+OF_VECTOR(fmi3GetNominalsOfContinuousStates, fmi3Float64, fmu_get_nominals)
 
 /* ---- Values: all are scalars ---- */
 
@@ -145,11 +156,6 @@ FMI3_EXPORT(fmi3DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], si
 
 /* ---- Model exchange ---- */
 
-FMI3_EXPORT(fmi3EnterEventMode, (fmi3Instance c))
-{
-  return (fmi3Status)fmu_enter_event(c);
-}
-
 FMI3_EXPORT(fmi3UpdateDiscreteStates,
             (fmi3Instance c, fmi3Boolean *update_again, fmi3Boolean *terminate, fmi3Boolean *nominals_changed,
              fmi3Boolean *states_changed, fmi3Boolean *has_next_time, fmi3Float64 *next_time))
@@ -163,11 +169,6 @@ FMI3_EXPORT(fmi3UpdateDiscreteStates,
   *has_next_time = event.next_time < HUGE_VAL;
   *next_time = event.next_time < HUGE_VAL ? event.next_time : 0;
   return fmi3OK;
-}
-
-FMI3_EXPORT(fmi3EnterContinuousTimeMode, (fmi3Instance c))
-{
-  return (fmi3Status)fmu_enter_continuous(c);
 }
 
 FMI3_EXPORT(fmi3CompletedIntegratorStep,
@@ -184,31 +185,6 @@ FMI3_EXPORT(fmi3CompletedIntegratorStep,
 FMI3_EXPORT(fmi3SetTime, (fmi3Instance c, fmi3Float64 time))
 {
   return (fmi3Status)fmu_set_time(c, time);
-}
-
-FMI3_EXPORT(fmi3SetContinuousStates, (fmi3Instance c, const fmi3Float64 x[], size_t n))
-{
-  return (fmi3Status)fmu_set_states(c, x, n);
-}
-
-FMI3_EXPORT(fmi3GetContinuousStateDerivatives, (fmi3Instance c, fmi3Float64 dx[], size_t n))
-{
-  return (fmi3Status)fmu_get_rates(c, dx, n);
-}
-
-FMI3_EXPORT(fmi3GetEventIndicators, (fmi3Instance c, fmi3Float64 z[], size_t n))
-{
-  return (fmi3Status)fmu_get_indicators(c, z, n);
-}
-
-FMI3_EXPORT(fmi3GetContinuousStates, (fmi3Instance c, fmi3Float64 x[], size_t n))
-{
-  return (fmi3Status)fmu_get_states(c, x, n);
-}
-
-FMI3_EXPORT(fmi3GetNominalsOfContinuousStates, (fmi3Instance c, fmi3Float64 x[], size_t n))
-{
-  return (fmi3Status)fmu_get_nominals(c, x, n);
 }
 
 FMI3_EXPORT(fmi3GetNumberOfEventIndicators, (fmi3Instance c, size_t *n))
