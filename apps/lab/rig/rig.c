@@ -29,7 +29,7 @@ const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT])
   return name;
 }
 
-/* ---- One reader a kind of key ---- */
+/* ---- Keys ---- */
 
 /* A parameter, within its bounds. */
 static int read_param(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
@@ -43,9 +43,8 @@ static int read_param(const config_setting_t *setting, int param, lab_rig *rig, 
   return LAB_OK;
 }
 
-static int read_name(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+static int read_name(const config_setting_t *setting, lab_rig *rig, lab_error *error)
 {
-  (void)param;
   if (lab_config_text(setting, rig->name, sizeof rig->name, error))
     return error->status;
   if (*rig->name && lab_is_plain(rig->name))
@@ -54,60 +53,15 @@ static int read_name(const config_setting_t *setting, int param, lab_rig *rig, l
                              error);
 }
 
-static int read_action(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
+static int read_key(const config_setting_t *setting, const lab_key *key, lab_rig *rig, lab_error *error)
 {
-  (void)param;
-  return lab_config_choice(setting, lab_action_words, 2, sizeof lab_action_words[0], &rig->action, error);
+  if (key->kind == LAB_KEY_PARAM)
+    return read_param(setting, key->param, rig, error);
+  if (key->kind == LAB_KEY_NAME)
+    return read_name(setting, rig, error);
+  return lab_config_choice(setting, key->words, (size_t)key->n, sizeof *key->words, (int *)((char *)rig + key->member),
+                           error);
 }
-
-static int read_gas(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
-{
-  static const char *const words[PNEU_GAS_COUNT] = {
-#define X(name, key, text) key,
-      PNEU_GAS_LIST(X)
-#undef X
-  };
-  (void)param;
-  return lab_config_choice(setting, words, PNEU_GAS_COUNT, sizeof words[0], &rig->laws.gas, error);
-}
-
-static int read_flow(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
-{
-  static const char *const words[PNEU_FLOW_COUNT] = {
-#define X(name, key, text) key,
-      PNEU_FLOW_LIST(X)
-#undef X
-  };
-  (void)param;
-  return lab_config_choice(setting, words, PNEU_FLOW_COUNT, sizeof words[0], &rig->laws.flow, error);
-}
-
-/* A friction law is an effect at its usual size. */
-static int read_friction(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
-{
-  const char *effect;
-  int i, first, count;
-  (void)param;
-  if (lab_config_choice(setting, lab_friction_words, LAB_FRICTION_COUNT, sizeof lab_friction_words[0], &rig->friction,
-                        error))
-    return error->status;
-  effect = lab_friction_words[rig->friction].effect;
-  if (!effect)
-    return LAB_OK;
-  if (pneu_effect_find(effect) < 0)
-    return lab_config_fail(setting, error, "this build of the library has no effect %s", effect);
-  first = pneu_effect_params(pneu_effect_find(effect), &count);
-  for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    *pneu_param_at(&rig->params, i) = info.value;
-  }
-  return LAB_OK;
-}
-
-/* Indexed by enum lab_key_kind. */
-static int (*const read_kind[])(const config_setting_t *, int, lab_rig *,
-                                lab_error *) = {read_param, read_name, read_action, read_gas, read_flow, read_friction};
 
 /* ---- Groups ---- */
 
@@ -145,9 +99,31 @@ static int read_keys(const config_setting_t *group, lab_rig *rig, lab_error *err
     row = key_row(config_setting_name(group), config_setting_name(setting));
     if (row < 0)
       return unknown_key(setting, config_setting_name(group), error);
-    status = read_kind[lab_keys[row].kind](setting, lab_keys[row].param, rig, error);
+    status = read_key(setting, &lab_keys[row], rig, error);
   }
   return status;
+}
+
+/* A friction law is an effect at its usual size. */
+static int read_laws(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  const char *effect;
+  int i, first, count;
+  if (read_keys(group, rig, error))
+    return error->status;
+  effect = lab_friction_effects[rig->friction];
+  if (!effect)
+    return LAB_OK;
+  if (pneu_effect_find(effect) < 0)
+    return lab_config_fail(config_setting_get_member((config_setting_t *)group, "friction"), error,
+                           "this build of the library has no effect %s", effect);
+  first = pneu_effect_params(pneu_effect_find(effect), &count);
+  for (i = first; i < first + count; i++) {
+    pneu_param_info info;
+    pneu_param_describe(i, &info);
+    *pneu_param_at(&rig->params, i) = info.value;
+  }
+  return LAB_OK;
 }
 
 /* The parameters of one effect. */
@@ -327,7 +303,7 @@ static const struct section {
     {"supply", read_keys},
     {"ambient", read_keys},
     {"gas", read_keys},
-    {"laws", read_keys},
+    {"laws", read_laws},
     {"fit", read_fit},
     {"fit_per_log", read_fit_per_log},
     {"noise", read_noise},

@@ -1,13 +1,33 @@
 #include "rigkeys.h"
 
+#include <stddef.h>
+
+static const char *const actions[] = {"normal", "reverse"};
+static const char *const gases[] = {
+#define X(name, key, text) key,
+    PNEU_GAS_LIST(X)
+#undef X
+};
+static const char *const flows[] = {
+#define X(name, key, text) key,
+    PNEU_FLOW_LIST(X)
+#undef X
+};
+static const char *const frictions[LAB_FRICTION_COUNT] = {"coulomb", "stribeck", "lugre"};
+const char *const lab_friction_effects[LAB_FRICTION_COUNT] = {NULL, "stribeck_friction", "presliding"};
+
 #define PARAM(group, key, name)                                                                                        \
   {                                                                                                                    \
-    key, group, LAB_KEY_PARAM, PNEU_PARAM_##name                                                                       \
+    key, group, LAB_KEY_PARAM, PNEU_PARAM_##name, NULL, 0, 0                                                           \
+  }
+#define WORD(group, key, words, member)                                                                                \
+  {                                                                                                                    \
+    key, group, LAB_KEY_WORD, 0, words, sizeof words / sizeof *words, offsetof(lab_rig, member)                        \
   }
 
 const lab_key lab_keys[] = {
-    {"name", "actuator", LAB_KEY_NAME, 0},
-    {"action", "actuator", LAB_KEY_ACTION, 0},
+    {"name", "actuator", LAB_KEY_NAME, 0, NULL, 0, 0},
+    WORD("actuator", "action", actions, action),
     PARAM("actuator", "area", area),
     PARAM("actuator", "dead_volume", dead_volume),
     PARAM("actuator", "swept_ratio", swept_ratio),
@@ -31,12 +51,8 @@ const lab_key lab_keys[] = {
     PARAM("gas", "gas_constant", gas_constant),
     PARAM("gas", "heat_ratio", heat_ratio),
     PARAM("gas", "polytropic_index", polytropic_index),
-    {"gas", "laws", LAB_KEY_GAS, 0},
-    {"flow", "laws", LAB_KEY_FLOW, 0},
-    {"friction", "laws", LAB_KEY_FRICTION, 0},
+    WORD("laws", "gas", gases, laws.gas),
+    WORD("laws", "flow", flows, laws.flow),
+    WORD("laws", "friction", frictions, friction),
 };
 const int lab_key_count = sizeof lab_keys / sizeof lab_keys[0];
-
-const lab_word lab_action_words[2] = {{"normal", NULL}, {"reverse", NULL}};
-const lab_word lab_friction_words[LAB_FRICTION_COUNT] = {
-    {"coulomb", NULL}, {"stribeck", "stribeck_friction"}, {"lugre", "presliding"}};

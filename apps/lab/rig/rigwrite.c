@@ -22,34 +22,16 @@ static void write_param(FILE *file, const lab_rig *rig, const char *key, int par
     fprintf(file, "%*s%s = \"%s %s\";\n", indent, "", key, number, info.unit);
 }
 
-static void write_word(FILE *file, const char *key, const char *word)
-{
-  fprintf(file, "  %s = \"%s\";\n", key, word);
-}
-
 static void write_key(FILE *file, const lab_rig *rig, const lab_key *key)
 {
-  switch (key->kind) {
-  case LAB_KEY_PARAM:
+  if (key->kind == LAB_KEY_PARAM) {
     write_param(file, rig, key->key, key->param, 2);
-    break;
-  case LAB_KEY_NAME:
+  } else if (key->kind == LAB_KEY_NAME) {
     fprintf(file, "  %s = ", key->key);
     lab_put_config(file, rig->name);
     fputs(";\n", file);
-    break;
-  case LAB_KEY_ACTION:
-    write_word(file, key->key, lab_action_words[rig->action].word);
-    break;
-  case LAB_KEY_GAS:
-    write_word(file, key->key, pneu_gas_key(rig->laws.gas));
-    break;
-  case LAB_KEY_FLOW:
-    write_word(file, key->key, pneu_flow_key(rig->laws.flow));
-    break;
-  case LAB_KEY_FRICTION:
-    write_word(file, key->key, lab_friction_words[rig->friction].word);
-    break;
+  } else {
+    fprintf(file, "  %s = \"%s\";\n", key->key, key->words[*(const int *)((const char *)rig + key->member)]);
   }
 }
 
@@ -103,7 +85,7 @@ static void write_inputs(FILE *file, const lab_rig *rig)
 /* An effect is written if it acts, or if the friction law would switch it on. */
 static int is_written(const lab_rig *rig, int effect)
 {
-  const char *law = lab_friction_words[rig->friction].effect;
+  const char *law = lab_friction_effects[rig->friction];
   pneu_params p = rig->params;
   int i, count, first = pneu_effect_params(effect, &count);
   for (i = first; i < first + count; i++) {

@@ -150,14 +150,8 @@ static void put_keys(FILE *file)
       put_param(file, key->key, key->param);
     else if (key->kind == LAB_KEY_NAME && draw(2))
       put_text(file, key->key, odd_text());
-    else if (key->kind == LAB_KEY_ACTION && draw(2))
-      put_text(file, key->key, lab_action_words[draw(2)].word);
-    else if (key->kind == LAB_KEY_GAS)
-      put_text(file, key->key, pneu_gas_key(draw(PNEU_GAS_COUNT)));
-    else if (key->kind == LAB_KEY_FLOW)
-      put_text(file, key->key, pneu_flow_key(draw(PNEU_FLOW_COUNT)));
-    else if (key->kind == LAB_KEY_FRICTION)
-      put_text(file, key->key, lab_friction_words[draw(LAB_FRICTION_COUNT)].word);
+    else if (key->kind == LAB_KEY_WORD && draw(8))
+      put_text(file, key->key, key->words[draw(key->n)]);
   }
   fputs(" };\n", file);
 }
