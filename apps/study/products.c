@@ -166,7 +166,7 @@ static uint64_t hash_inputs(const study *s)
 
 static int make_table(maker *m, const struct product *p, lab_error *error)
 {
-  lab_progress_show(&m->progress, ++m->count, PRODUCTS + FIGURES);
+  lab_progress_count(&m->progress, ++m->count, PRODUCTS + FIGURES, 0);
   if (is_fresh(m, p->name, m->inputs))
     return LAB_OK;
   m->saved.names[0] = 0;
@@ -185,7 +185,7 @@ static int make_figure(maker *m, const char *name, lab_error *error)
   char folder[STUDY_PATH_TEXT], script[PATH_TEXT], needed[PATH_TEXT], out[PATH_TEXT], product[64], file[64];
   uint64_t key = m->inputs;
   int i;
-  lab_progress_show(&m->progress, ++m->count, PRODUCTS + FIGURES);
+  lab_progress_count(&m->progress, ++m->count, PRODUCTS + FIGURES, 0);
   study_folder(m->s, folder);
   for (i = 0; i < 3; i++) {
     snprintf(script, sizeof script, "%s/figures/%s.gp", folder, scripts[i]);

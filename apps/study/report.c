@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/base/outfile.h"
 #include "../lab/base/json.h"
 #include "../lab/base/template.h"
 #include "conclusions.h"
@@ -428,25 +427,14 @@ static int put_all(const study *s, cJSON *page, lab_error *error)
   return LAB_OK;
 }
 
-static int write_page(const cJSON *page, FILE *file, lab_error *error)
-{
-  char *text = lab_template_text(template);
-  const int status = text ? lab_template_write(file, text, page, error) : lab_fail_memory(error, "the report");
-  free(text);
-  return status;
-}
-
 int report_make(const study *s, lab_error *error)
 {
   cJSON *page = cJSON_CreateObject();
   char path[STUDY_PATH_TEXT + 16];
-  lab_outfile out;
   int status = put_all(s, page, error);
   snprintf(path, sizeof path, "%s/REPORT.md", s->results);
   if (status == LAB_OK)
-    status = lab_out_open(&out, path, error);
-  if (status == LAB_OK)
-    status = lab_out_end(&out, write_page(page, out.file, error), error);
+    status = lab_template_file(path, template, page, error);
   cJSON_Delete(page);
   if (status == LAB_OK)
     study_note_saved(s, "REPORT.md");

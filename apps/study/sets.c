@@ -1,4 +1,4 @@
-#include "sets_read.h"
+#include "sets.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,14 +5,13 @@
 #include <string.h>
 
 #include "../lab/base/config.h"
-#include "../lab/base/outfile.h"
 #include "../lab/base/json.h"
 #include "../lab/base/template.h"
 #include "../lab/base/text.h"
 #include "../lab/base/units.h"
 #include "../lab/log/channel.h"
 #include "../lab/rig/rig.h"
-#include "sets_read.h"
+#include "sets.h"
 
 static const char *const template[] = {
 #include "study/measured/report.md.inc"
@@ -614,15 +613,11 @@ static int put_all(const sets_result *result, int n, const char *out_dir, cJSON 
 int sets_report(const sets_result *result, int n, const char *out_dir, lab_error *error)
 {
   cJSON *page = cJSON_CreateObject();
-  char path[PATH_TEXT], *text = lab_template_text(template);
-  lab_outfile out;
-  int status = text ? put_all(result, n, out_dir, page, error) : lab_fail_memory(error, "the report");
+  char path[PATH_TEXT];
+  int status = put_all(result, n, out_dir, page, error);
   snprintf(path, sizeof path, "%s/REPORT.md", out_dir);
   if (status == LAB_OK)
-    status = lab_out_open(&out, path, error);
-  if (status == LAB_OK)
-    status = lab_out_end(&out, lab_template_write(out.file, text, page, error), error);
+    status = lab_template_file(path, template, page, error);
   cJSON_Delete(page);
-  free(text);
   return status;
 }

@@ -193,7 +193,7 @@ static int run_all(int quiet, blind_journal *journal, lab_error *error)
         status = failed;
         *error = mine;
       }
-      lab_progress_show(&progress, ++done, left);
+      lab_progress_count(&progress, ++done, left, 0);
     }
   }
   lab_progress_end(&progress);

@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "../../apps/study/sets.h"
-#include "../../apps/study/sets_read.h"
 #include "../../apps/study/table.h"
 
 static lab_error error;

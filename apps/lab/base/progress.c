@@ -24,20 +24,6 @@ static int is_due(lab_progress *progress, double t)
   return 1;
 }
 
-void lab_progress_show(lab_progress *progress, double done, double total)
-{
-  double t, gone;
-  if (!progress->stream || !(done > 0) || !(total >= done))
-    return;
-  t = lab_clock();
-  if (!is_due(progress, t))
-    return;
-  gone = t - progress->start;
-  fprintf(progress->stream, "\r%s: %3.0f %%, %.1f s, %.1f s to go \033[K", progress->what, 100 * done / total, gone,
-          gone * (total - done) / done);
-  fflush(progress->stream);
-}
-
 /* "45 s", "12 min", "3 h 20 min" */
 static void duration(double s, char text[40])
 {

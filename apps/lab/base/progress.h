@@ -15,12 +15,8 @@ typedef struct lab_progress {
 /* Begin; nothing will be shown if `quiet` or if stderr is not a terminal.  In: what  kept */
 void lab_progress_begin(lab_progress *progress, const char *what, int quiet);
 
-/* Show that `done` of `total` is done; at most ten times a second. Not reentrant: call it from one thread at a
- * time (an OpenMP critical section). */
-void lab_progress_show(lab_progress *progress, double done, double total);
-
 /* Show how many of `total` are done, how fast, and how long it will take; `before` of them were done at the beginning.
- */
+ * At most ten times a second; not reentrant: call it from one thread at a time (an OpenMP critical section). */
 void lab_progress_count(lab_progress *progress, int done, int total, int before);
 
 /* Say what is being done, where nobody can tell how much of it is left.  In: what  not kept */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "escape.h"
+#include "outfile.h"
 
 /* Objects from the innermost outwards. */
 typedef struct scope {
@@ -148,4 +149,15 @@ char *lab_template_text(const char *const *piece)
     return text;
   free(text);
   return NULL;
+}
+
+int lab_template_file(const char *path, const char *const *piece, const cJSON *values, lab_error *error)
+{
+  char *text = lab_template_text(piece);
+  lab_outfile out;
+  int status = text ? lab_out_open(&out, path, error) : lab_fail_memory(error, path);
+  if (status == LAB_OK)
+    status = lab_out_end(&out, lab_template_write(out.file, text, values, error), error);
+  free(text);
+  return status;
 }

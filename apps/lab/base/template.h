@@ -22,6 +22,11 @@
  * Returns: LAB_OK; LAB_DATA for a tag that is not closed. */
 int lab_template_write(FILE *file, const char *template, const cJSON *values, lab_error *error);
 
+/* Write it into a file, whole or not at all.
+ * In:      piece  of the template, as in lab_template_text
+ * Returns: LAB_OK; LAB_DATA for a tag that is not closed; LAB_WORLD. */
+int lab_template_file(const char *path, const char *const *piece, const cJSON *values, lab_error *error);
+
 /* A template or another text that a program carries inside, from its pieces, which end with NULL.
  * Returns: to be freed; NULL without memory. */
 char *lab_template_text(const char *const *piece);

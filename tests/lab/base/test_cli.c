@@ -187,13 +187,13 @@ static void test_lab_cli_read__version__names_program_and_library(void **state)
   free(shown);
 }
 
-static void test_lab_progress_show__no_terminal_or_quiet__writes_nothing(void **state)
+static void test_lab_progress_count__no_terminal_or_quiet__writes_nothing(void **state)
 {
   lab_progress progress;
   (void)state;
   lab_progress_begin(&progress, "fit", 1);
   assert_null(progress.stream);
-  lab_progress_show(&progress, 1, 2);
+  lab_progress_count(&progress, 1, 2, 0);
   lab_progress_end(&progress);
   assert_int_equal(progress.written, 0);
   lab_progress_begin(&progress, "fit", 0);
@@ -211,7 +211,7 @@ static lab_progress begin_in(FILE *file)
   return progress;
 }
 
-static void test_lab_progress_show__half_done__tells_time_to_go_and_clears(void **state)
+static void test_lab_progress_count__half_done__tells_time_to_go_and_clears(void **state)
 {
   char path[512], *shown;
   FILE *file;
@@ -221,12 +221,12 @@ static void test_lab_progress_show__half_done__tells_time_to_go_and_clears(void 
   file = fopen(path, "w");
   assert_non_null(file);
   progress = begin_in(file);
-  lab_progress_show(&progress, 50, 100);
-  lab_progress_show(&progress, 51, 100); /* too soon */
+  lab_progress_count(&progress, 50, 100, 0);
+  lab_progress_count(&progress, 51, 100, 0); /* too soon */
   lab_progress_end(&progress);
   fclose(file);
   shown = scratch_read(path);
-  assert_string_equal(shown, "\rfit:  50 %, 1.0 s, 1.0 s to go \033[K\r\033[K");
+  assert_string_equal(shown, "\rfit: 50 of 100, 50 a second, 1 s to go \033[K\r\033[K");
   free(shown);
 }
 
@@ -245,8 +245,8 @@ int main(void)
       cmocka_unit_test(test_lab_cli_read__wrong_number_of_operands__is_said),
       cmocka_unit_test(test_lab_cli_read__help__lists_every_option),
       cmocka_unit_test(test_lab_cli_read__version__names_program_and_library),
-      cmocka_unit_test(test_lab_progress_show__no_terminal_or_quiet__writes_nothing),
-      cmocka_unit_test(test_lab_progress_show__half_done__tells_time_to_go_and_clears),
+      cmocka_unit_test(test_lab_progress_count__no_terminal_or_quiet__writes_nothing),
+      cmocka_unit_test(test_lab_progress_count__half_done__tells_time_to_go_and_clears),
   };
   return cmocka_run_group_tests_name("cli", tests, scratch_open, scratch_close);
 }
