@@ -8,19 +8,45 @@
 
 /* ---- The run ---- */
 
-/* A ramp is a staircase of so many steps at most, none shorter than 2 ms. */
-enum { STAIRS = 400 };
-static const double shortest = 2e-3;
+/* A ramp is a staircase with a step a millisecond, the positioner's cycle: coarser steps would each be a kick to its
+ * derivative, which no row of the log shows. */
+static const double stair = 1e-3;
+
+static size_t stairs_of(const blind_move *m)
+{
+  return m->ramp > stair ? (size_t)(m->ramp / stair) : 1;
+}
 
 static size_t add_move(const blind_move *m, double from, double *t, double *u)
 {
-  const int stairs = m->ramp > 0 ? (int)fmax(1, fmin(STAIRS, m->ramp / shortest)) : 1;
-  int i;
+  const size_t stairs = stairs_of(m);
+  size_t i;
   for (i = 0; i < stairs; i++) {
-    t[i] = m->t + m->ramp * i / stairs;
-    u[i] = from + (m->to - from) * (i + 1) / stairs;
+    t[i] = m->t + m->ramp * (double)i / (double)stairs;
+    u[i] = from + (m->to - from) * (double)(i + 1) / (double)stairs;
   }
-  return (size_t)stairs;
+  return stairs;
+}
+
+/* The moves of a run as steps of the command.  Out: course  its t_cmd is to be freed, and keeps u_cmd */
+static int add_moves(const blind_recorded *r, second_course *course, lab_error *error)
+{
+  double *t, *u, from = 0;
+  size_t n = 0;
+  int i;
+  for (i = 0; i < r->n_moves; i++)
+    n += stairs_of(&r->move[i]);
+  t = malloc((2 * n + 1) * sizeof *t);
+  if (!t)
+    return lab_fail_memory(error, "a course");
+  u = t + n;
+  for (i = 0; i < r->n_moves; i++) {
+    course->n += add_move(&r->move[i], from, t + course->n, u + course->n);
+    from = r->move[i].to;
+  }
+  course->t_cmd = t;
+  course->u_cmd = u;
+  return LAB_OK;
 }
 
 /* Command or set position at t, as it is meant. */
@@ -66,25 +92,26 @@ int blind_run_recorded(const blind_recorded *r, const second_rig *first, const s
                        blind_fine *f, lab_error *error)
 {
   static const int halvings = 4;
-  double t[BLIND_PIECES * STAIRS], u[BLIND_PIECES * STAIRS], from = 0;
-  second_course course = {.t_cmd = t, .u_cmd = u, .change = r->onset};
+  second_course course = {.change = r->onset};
   second_log log;
   second_audit audit;
-  int i;
-  if (open_fine(r, f, error))
+  int i, done = 0;
+  if (add_moves(r, &course, error))
     return error->status;
-  log = (second_log){.t = f->rows.t, .u = f->rows.u, .p = f->rows.p, .x = f->rows.x, .T = f->rows.T};
-  for (i = 0; i < r->n_moves; i++) {
-    course.n += add_move(&r->move[i], from, t + course.n, u + course.n);
-    from = r->move[i].to;
+  if (open_fine(r, f, error)) {
+    free((double *)course.t_cmd);
+    return error->status;
   }
+  log = (second_log){.t = f->rows.t, .u = f->rows.u, .p = f->rows.p, .x = f->rows.x, .T = f->rows.T};
   course.positioner = r->loop == BLIND_OPEN ? NULL : &r->positioner;
-  for (i = 0; i <= halvings; i++, step /= 2) {
+  for (i = 0; i <= halvings && !done; i++, step /= 2) {
     const second_rig a = silent(first, step), b = silent(later, step);
     course.later = isnan(r->onset) ? NULL : &b;
-    if (!second_follow(&a, &course, r->end, f->spacing, &log, &audit) && audit.forced == 0)
-      return LAB_OK;
+    done = !second_follow(&a, &course, r->end, f->spacing, &log, &audit) && audit.forced == 0;
   }
+  free((double *)course.t_cmd);
+  if (done)
+    return LAB_OK;
   blind_fine_free(f);
   return lab_fail(error, LAB_NUMERIC, "the virtual rig cannot follow its events, whatever the step");
 }

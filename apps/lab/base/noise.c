@@ -55,28 +55,3 @@ int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *
   free(size);
   return LAB_OK;
 }
-
-double lab_noise_memory(const double *value, size_t n)
-{
-  enum { FEW = 50 };
-  double sum = 0, square = 0, product = 0, mean, memory;
-  size_t i, m = 0, pairs = 0;
-  for (i = 0; i < n; i++)
-    if (!isnan(value[i])) {
-      sum += value[i];
-      m++;
-    }
-  if (m < FEW)
-    return 0;
-  mean = sum / (double)m;
-  for (i = 0; i < n; i++)
-    if (!isnan(value[i])) {
-      square += (value[i] - mean) * (value[i] - mean);
-      if (i > 0 && !isnan(value[i - 1])) {
-        product += (value[i] - mean) * (value[i - 1] - mean);
-        pairs++;
-      }
-    }
-  memory = square > 0 && pairs > 0 ? product / square * ((double)(m - 1) / (double)pairs) : 0;
-  return fabs(memory) < 4 / sqrt((double)pairs + 1) ? 0 : fmin(fmax(memory, -0.9), 0.9);
-}

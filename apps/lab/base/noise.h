@@ -15,12 +15,6 @@
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *error);
 
-/* Correlation of the noise from one row to the next, from a stretch in which nothing moves.
- * In:      value  n values; NaN is a gap
- * Returns: -0.9 .. 0.9; 0 for fewer than 50 values, or where it is not told from 0 (four standard errors). A pair of
- * which either is a gap does not count. */
-double lab_noise_memory(const double *value, size_t n);
-
 /* Smallest difference between neighbouring values that is not zero: the step of the converter or of the digits
  * written.  Returns: 0 if all are equal. */
 double lab_smallest_step(const double *value, size_t n);

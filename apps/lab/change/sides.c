@@ -111,12 +111,13 @@ static void take_as_noise(const lab_unknowns *then, const double *z, int channel
         if (e >= c->first)
           c->run[e].sigma[k] = fmax(c->run[e].sigma[k], least);
         c->run[e].sigma[k] *= decided ? fmax(scale, 1) : scale;
-        c->run[e].memory[k] = decided ? c->run[e].memory[k] : memory;
+        if (!decided)
+          c->run[e].colour[k] = (lab_colour){memory, 1};
         c->white[e].sigma[k] = c->run[e].sigma[k];
-        c->white[e].memory[k] = 0;
-        if (beyond && c->run[e].memory[k] < wanders) { /* white noise is still of size 1 */
+        c->white[e].colour[k] = (lab_colour){0, 0};
+        if (beyond && c->run[e].colour[k].memory < wanders) { /* white noise is still of size 1 */
           c->run[e].sigma[k] *= sqrt((1 + wanders * wanders) / (1 - wanders * wanders));
-          c->run[e].memory[k] = wanders;
+          c->run[e].colour[k] = (lab_colour){wanders, 1};
         }
       }
 }
@@ -162,10 +163,13 @@ int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error)
 
 int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c, lab_error *error)
 {
+  int e;
   if (then->n_runs + n_now > LAB_FIT_MAX)
     return lab_fail(error, LAB_DATA, "more than %d runs to compare", (int)LAB_FIT_MAX);
   memcpy(c->run, then->run, (size_t)then->n_runs * sizeof *c->run);
   memcpy(c->run + then->n_runs, now, (size_t)n_now * sizeof *c->run);
+  for (e = 0; e < then->n_runs + n_now; e++)
+    c->run[e].drift = NULL; /* from one day to the next a sensor is off by what add_repeats allows */
   memcpy(c->white, c->run, sizeof c->white);
   c->u = *then;
   c->first = then->n_runs;

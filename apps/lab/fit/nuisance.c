@@ -5,22 +5,23 @@
 #include <string.h>
 
 #include "../base/array.h"
+#include "drift.h"
 
-/* The column of one value: its slope over its spread, and -1 in its own row, without the columns before it. */
-static void add_column(lab_nuisance *h, const lab_unknown *x, const double *slope)
+/* The column of one value: its slope over its reach, and -1 in its own row, without the columns before it. */
+static void add_column(lab_nuisance *h, const lab_unknown *x, double reach, const double *slope)
 {
   const size_t stride = h->n_data + LAB_FIT_MAX, rows = h->n_data + (size_t)h->n + 1;
   double *column = h->basis + (size_t)h->n * stride, length;
   size_t i;
   for (i = 0; i < h->n_data; i++)
-    column[i] = slope[i] * x->spread;
+    column[i] = slope[i] * reach;
   memset(column + h->n_data, 0, LAB_FIT_MAX * sizeof *column);
   column[rows - 1] = -1;
   length = lab_project_out(h->basis, h->n, stride, rows, column);
   for (i = 0; i < rows; i++)
     column[i] /= length;
   h->of[h->n] = *x;
-  h->off[h->n++] = (x->prior - x->value) / x->spread;
+  h->off[h->n++] = (x->prior - x->value) / reach;
 }
 
 /* Slopes of all that has a prior; 0 where one cannot be simulated. */
@@ -54,7 +55,7 @@ static void take_out(lab_unknowns *u, const double *slopes, lab_nuisance *h)
   int j, k;
   for (j = k = 0; j < u->n; j++)
     if (lab_unknown_is_known(&u->unknown[j]))
-      add_column(h, &u->unknown[j], slopes + (size_t)j * m);
+      add_column(h, &u->unknown[j], lab_unknown_reach(u, &u->unknown[j]), slopes + (size_t)j * m);
     else
       u->unknown[k++] = u->unknown[j];
   u->n = k;
@@ -69,6 +70,7 @@ int lab_nuisance_open(lab_unknowns *u, lab_nuisance *h, lab_error *error)
   int status;
   memset(h, 0, sizeof *h);
   h->n_data = u->n_data;
+  h->misfit = u->misfit;
   h->basis = malloc((n * (h->n_data + LAB_FIT_MAX) + 1) * sizeof *h->basis);
   status = r && h->basis ? find_slopes(u, r, r + u->m, error) : lab_fail_memory(error, "slopes");
   if (status == LAB_OK)
@@ -100,17 +102,15 @@ int lab_nuisance_holds(const lab_nuisance *h, int param)
 int lab_nuisance_strain(const lab_unknowns *u, double *strain, lab_error *error)
 {
   const lab_nuisance *h = u->nuisance;
-  double *r = h ? malloc((u->m + 1) * sizeof *r) : NULL;
-  int j, status = LAB_OK;
-  *strain = 0;
+  double *r = malloc((u->m + 1) * sizeof *r);
+  int j, status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  *strain = u->window == 0 && status == LAB_OK ? lab_drift_strain(u, r) : 0;
   for (j = 0; j < u->n; j++)
     if (lab_unknown_is_held(&u->unknown[j]))
       *strain = fmax(*strain, fabs(u->unknown[j].value - u->unknown[j].prior) / u->unknown[j].spread);
-  if (h)
-    status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
   for (j = 0; h && status == LAB_OK && j < h->n; j++)
     if (lab_unknown_is_held(&h->of[j]) && lab_unknowns_find(u, h->of[j].index) < 0)
-      *strain = fmax(*strain, fabs(r[h->n_data + (size_t)j]));
+      *strain = fmax(*strain, fabs(r[h->n_data + (size_t)j]) / h->misfit);
   free(r);
   return status;
 }
@@ -122,7 +122,7 @@ int lab_nuisance_return(lab_unknowns *u, lab_error *error)
   int k, status = r ? lab_unknowns_residuals(u, NULL, r, error) : lab_fail_memory(error, "residuals");
   for (k = 0; status == LAB_OK && k < h->n && u->n < LAB_FIT_MAX; k++) {
     lab_unknown x = h->of[k];
-    const double value = x.value + (h->off[k] - r[h->n_data + (size_t)k]) * x.spread;
+    const double value = x.value + (h->off[k] - r[h->n_data + (size_t)k]) * lab_unknown_reach(u, &x);
     if (x.kind == LAB_UNKNOWN_PARAM && lab_unknowns_find(u, x.index) >= 0)
       continue;
     x.value = fmin(fmax(value, x.lower), x.upper);

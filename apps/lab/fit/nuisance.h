@@ -13,7 +13,8 @@
 typedef struct lab_nuisance {
   int n;
   lab_unknown of[LAB_FIT_MAX]; /* as unknowns, where they were */
-  double off[LAB_FIT_MAX];     /* prior less value, over spread */
+  double off[LAB_FIT_MAX];     /* prior less value, over how far it may vary (lab_unknown_reach) */
+  double misfit;               /* of the unknowns at that time */
   size_t n_data;               /* residuals of the data, in the view at hand */
   double *basis;               /* orthonormal: n columns of n_data + LAB_FIT_MAX entries */
 } lab_nuisance;

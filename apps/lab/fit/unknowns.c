@@ -55,6 +55,11 @@ int lab_unknown_is_held(const lab_unknown *x)
   return x->tolerance > 0 && x->spread > 0;
 }
 
+double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
+{
+  return lab_unknown_is_held(x) ? x->spread / u->misfit : x->spread;
+}
+
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
 {
   const int held = lab_unknowns_find(u, param);
@@ -284,6 +289,7 @@ void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_u
   u->n_runs = n_runs;
   u->rig = *rig;
   u->declared = rig->params;
+  u->misfit = 1;
   for (e = 0; e < n_runs; e++)
     u->n_rows += run[e].n * (size_t)run[e].n_channels;
   lab_unknowns_view(u, 0);

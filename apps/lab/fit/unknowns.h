@@ -41,6 +41,7 @@ typedef struct lab_unknowns {
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
   double tol;       /* of the stepper; 0: as in response.h */
+  double misfit;    /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
   double until;     /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
   size_t n_rows;    /* rows times channels, gaps among them */
   size_t window;    /* rows of a window where the residuals are those of coarse.h; 0: row by row */
@@ -62,6 +63,13 @@ int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_un
  * what is not fitted becomes an unknown about its declared value.
  * Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_hold(lab_unknowns *u, lab_error *error);
+
+/* Take the misfit for what the present model leaves: beside an error of 60 times the noise, a value that is 100
+ * tolerances off would weigh nothing.  Returns: as lab_unknowns_residuals. */
+int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error);
+
+/* How far what is known of an unknown lets it vary: its spread, less where the model leaves more than noise. */
+double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x);
 
 /* Hold no longer: what was held stays in the model as it is.
  * In/out:  result  intervals of the unknowns, from which it is taken out; NULL: none */

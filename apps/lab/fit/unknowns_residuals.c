@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
+#include "drift.h"
 #include "windowed.h"
 #include "nuisance.h"
 
@@ -84,18 +86,13 @@ static void weigh_rows(const lab_run *e, double *r)
     r[i] *= e->weight[i];
 }
 
-/* Take the memory out of the noise: what is left of each error after the part that the row before it predicts. */
+/* Take the memory out of the noise. */
 static void whiten(const lab_run *e, double *r)
 {
   int c;
-  size_t i;
-  for (c = 0; c < e->n_channels; c++) {
-    const double memory = e->memory[c], fresh = 1 / sqrt(1 - memory * memory);
-    double *channel = r + (size_t)c * e->n;
-    for (i = memory != 0 ? e->n - 1 : 0; i > 0; i--)
-      if (channel[i] != 0 && channel[i - 1] != 0)
-        channel[i] = fresh * (channel[i] - memory * channel[i - 1]);
-  }
+  for (c = 0; c < e->n_channels; c++)
+    if (e->colour[c].memory != 0)
+      lab_colour_whiten(&e->colour[c], r + (size_t)c * e->n, e->n);
 }
 
 /* The instants within a run at which a change begins or ends, in order, each once.  Returns: their number */
@@ -172,6 +169,7 @@ static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *
   if (view == AS_FITTED) {
     weigh_rows(&u->run[e], r);
     whiten(&u->run[e], r);
+    lab_drift_take_out(&u->run[e], r);
   }
   return LAB_OK;
 }
@@ -244,7 +242,7 @@ static int residuals_at(const lab_unknowns *u, const lab_rig *model, const doubl
     lab_nuisance_apply(u->nuisance, all);
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    all[before_unknowns(u) + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / x->spread : 0;
+    all[before_unknowns(u) + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / lab_unknown_reach(u, x) : 0;
   }
   return LAB_OK;
 }
@@ -284,6 +282,16 @@ int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, doubl
   double now[LAB_FIT_MAX];
   present(u, now);
   return residuals_at(u, rig, now, -1, r, error);
+}
+
+int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error)
+{
+  double *r = malloc((u->m + 1) * sizeof *r);
+  int status = r ? lab_unknowns_residuals(u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK)
+    u->misfit = fmax(1, sqrt(lab_dot(r, r, u->n_data) / fmax((double)u->n_values, 1)));
+  free(r);
+  return status;
 }
 
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)

@@ -6,17 +6,20 @@
 
 #include "../base/array.h"
 #include "../base/format.h"
+#include "drift.h"
 
 static const double median_of_square = 0.45493642311957283; /* of a normal value */
 static const double still = 0.01;                           /* square of what a row changes, in noise */
+static const double at_rest = 0.25; /* times the noise: what a prediction changes over a stretch at rest */
 static const double white = 0.15; /* by which variances from first and from second differences of white noise differ */
 static const double larger = 1.2; /* times the declared noise, from where on the log is believed */
 static const double certain = 5, likely = 2; /* deviations: of all rows, and of those in which little changes */
 static const double usual_change = 16;       /* square of what changes in these, in noise */
 static const double steps = 1.5;             /* times the noise, from where on the resolution shows */
+static const double hidden = 2.5;            /* times the noise, up to which a resolution is rounded to at random */
 static const double share_of_row = 0.5;      /* the longest error of a time */
 static const double reach = 3;               /* deviations that a command may be outside of its rows */
-enum { FEWEST = 100 };
+enum { FEWEST = 100, SHORTEST = 32 };
 
 /* Rows of all runs and channels: squares of second differences over their expectation, were there noise alone; mean
  * square of the slope over noise in the same rows [1/s2]; the same for the change a row. */
@@ -66,6 +69,40 @@ static double second(const double *r, size_t i)
   return square(r[i + 1] - 2 * r[i] + r[i - 1]) / 6;
 }
 
+/* Rows from i on in which the prediction of a channel stays where it is. */
+static size_t rows_at_rest(const lab_run *x, int c, const double *r, size_t i)
+{
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  size_t k;
+  for (k = i; k < x->n; k++) {
+    const double predicted = lab_run_measured(x, c, k) / x->sigma[c] - r[k];
+    low = fmin(low, predicted); /* which leave out a gap */
+    high = fmax(high, predicted);
+    if (high - low > at_rest)
+      break;
+  }
+  return k - i;
+}
+
+/* Stretches at rest of one channel of a run.
+ * Out:     value  n, with gaps as NaN
+ *          rest   at most n / SHORTEST
+ * Returns: their number */
+static int find_rest(const lab_run *x, int c, const double *r, double *value, lab_stretch *rest)
+{
+  size_t i, k, many;
+  int n = 0;
+  for (i = 0; i < x->n; i += many) {
+    many = rows_at_rest(x, c, r, i);
+    for (k = i; k < i + many; k++)
+      value[k] = isnan(lab_run_measured(x, c, k)) ? (double)NAN : r[k];
+    k = i > 0 ? many / 2 : 0; /* what the model lacks may still move at first */
+    if (many - k >= SHORTEST)
+      rest[n++] = (lab_stretch){value + i + k, many - k};
+  }
+  return n;
+}
+
 static double deviation(double *size, size_t n)
 {
   return sqrt(lab_median(size, n) / median_of_square);
@@ -75,6 +112,38 @@ static double deviation(double *size, size_t n)
 static int shows_steps(const lab_run *x, int c)
 {
   return x->resolution[c] > steps * x->sigma[c];
+}
+
+/* The noise of a channel is so many times what it counted as.  In/out: r  errors over noise */
+static void set_level(lab_run *x, int c, double level, double *r)
+{
+  size_t i;
+  x->sigma[c] *= level;
+  for (i = 0; i < x->n; i++)
+    r[i] /= level;
+}
+
+/* ---- The colour of the noise ---- */
+
+/* In/out: r  errors over noise  In: value  room for a run  Returns: whether some noise has memory */
+static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
+{
+  lab_stretch *rest = malloc((x->n / SHORTEST + 1) * sizeof *rest);
+  int c, any = 0, status = rest ? LAB_OK : lab_fail_memory(error, "stretches");
+  for (c = 0; c < x->n_channels && status == LAB_OK; c++, r += x->n) {
+    double level = 1;
+    if (x->resolution[c] > hidden * x->sigma[c])
+      continue;
+    status = lab_colour_estimate(rest, find_rest(x, c, r, value, rest), &x->colour[c], &level, error);
+    if (x->colour[c].memory == 0)
+      continue;
+    any = 1;
+    x->level[c] = level;
+    if (isnan(x->rig->noise[x->channel[c]]) || level > larger)
+      set_level(x, c, level, r);
+  }
+  free(rest);
+  return any;
 }
 
 /* ---- The level of the noise ---- */
@@ -90,7 +159,7 @@ static double level_of(const lab_run *x, int c, const double *r, double *first, 
       first[n] = square(r[i] - r[i - 1]) / 2;
       room[n++] = second(r, i);
     }
-  if (n < FEWEST || x->memory[c] != 0)
+  if (n < FEWEST)
     return 0;
   by_first = deviation(first, n);
   by_second = deviation(room, n);
@@ -101,14 +170,13 @@ static double level_of(const lab_run *x, int c, const double *r, double *first, 
 static int set_levels(lab_run *x, double *r, double *first, double *room)
 {
   int c, any = 0;
-  size_t i;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
+    if (x->colour[c].memory != 0)
+      continue;
     x->level[c] = level_of(x, c, r, first, room);
     if (isnan(x->rig->noise[x->channel[c]]) || !(x->level[c] > larger))
       continue;
-    x->sigma[c] *= x->level[c];
-    for (i = 0; i < x->n; i++)
-      r[i] /= x->level[c];
+    set_level(x, c, x->level[c], r);
     any = 1;
   }
   return any;
@@ -126,7 +194,7 @@ static void collect(const lab_run *x, const double *r, rows *to)
       const double slope2 = has_row(x, c, i) ? slope2_at(x, c, r, i) : 0;
       if (!(slope2 > 0))
         continue;
-      to->square[to->n] = second(r, i);
+      to->square[to->n] = second(r, i) / lab_colour_second_difference(&x->colour[c]);
       to->slope2[to->n] = slope2;
       to->change2[to->n++] = slope2 * square(spacing_at(x, i));
     }
@@ -221,6 +289,7 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   if (lab_unknowns_errors(u, r, error))
     return 0;
   for (e = 0; e < u->n_runs; e++) {
+    any |= set_colours(&run[e], at, a->square, error);
     any |= set_levels(&run[e], at, a->square, a->slope2);
     at += run[e].n * (size_t)run[e].n_channels;
   }
@@ -228,6 +297,8 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
     collect(&run[e], at, a);
     at += run[e].n * (size_t)run[e].n_channels;
   }
+  if (error->status != LAB_OK)
+    return 0;
   jitter = jitter_of(a, share_of_row * shortest_row(u));
   for (at = r, e = 0; jitter > 0 && e < u->n_runs; e++) {
     weigh(&run[e], at, jitter);
@@ -235,6 +306,8 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   }
   if (jitter > 0)
     widen(u, jitter);
+  for (e = 0; e < u->n_runs && error->status == LAB_OK; e++)
+    lab_drift_open(&run[e], error);
   return any || jitter > 0;
 }
 
@@ -280,9 +353,10 @@ static double undeclared_step(const lab_run *x, int c)
   return isnan(x->rig->noise[x->channel[c]]) && shows_steps(x, c) ? x->resolution[c] : 0;
 }
 
+/* Correlation of the noise from row to row, by size. */
 static double memory_of(const lab_run *x, int c)
 {
-  return fabs(x->memory[c]);
+  return fabs(x->colour[c].memory) * x->colour[c].share;
 }
 
 static double jitter_seen(const lab_run *x, int c)

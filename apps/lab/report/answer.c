@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "../base/clock.h"
+#include "../fit/drift.h"
 #include "../fit/weights.h"
 #include "../metrics/recording.h"
 #include "../trace/search.h"
@@ -105,7 +106,10 @@ static double for_search(double budget, double fit)
 /* Fit the declared model; once more where the logs show another noise or clock than is declared. */
 static int fit_declared(lab_logs *logs, lab_unknowns *declared, lab_error *error)
 {
-  int any;
+  int e, any;
+  for (e = 0; e < logs->n; e++)
+    if (lab_drift_open(&logs->run[e], error))
+      return error->status;
   if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) || lab_weigh_runs(declared, logs->run, &any, error))
     return error->status;
   lab_weights_say(logs->run, logs->n, &logs->limitations);
@@ -153,7 +157,9 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, l
     return decline(&c->completed, &c->result, error);
   if (lab_search_run(&c->completed, &how, &c->result, error))
     return error->status;
-  return lab_search_without_outliers(&how, &c->logs, &c->declared, &c->completed, &c->result, error);
+  if (lab_search_without_outliers(&how, &c->logs, &c->declared, &c->completed, &c->result, error))
+    return error->status;
+  return lab_drift_say(&c->completed, &c->logs.limitations, error);
 }
 
 /* What has changed since the baseline, which is asked before the new logs are traced. Where the logs of either side are

@@ -116,7 +116,7 @@ static void add_log(cJSON *root, const lab_unknowns *u)
       lab_json_numbers(channel, (const lab_json_named[]){{"noise", x->sigma[c]},
                                                          {"noise_declared", x->rig->noise[at]},
                                                          {"resolution", x->resolution[c]},
-                                                         {"correlation", x->memory[c]},
+                                                         {"correlation", x->colour[c].memory * x->colour[c].share},
                                                          {"hum", x->log->hum[at].amplitude},
                                                          {"hum_hz", x->log->hum[at].frequency},
                                                          {NULL, 0}});

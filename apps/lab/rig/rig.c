@@ -328,7 +328,7 @@ void lab_rig_default(lab_rig *rig)
   rig->input[LAB_CHANNEL_U] = 1;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++)
     rig->noise[i] = NAN;
-  for (i = 0; i < LAB_PARAM_COUNT; i++)
+  for (i = 0; i < LAB_TOLERANCE_COUNT; i++)
     rig->tolerance[i] = NAN;
   lab_log_format_default(&rig->log);
   tell_log(rig);

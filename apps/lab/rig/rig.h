@@ -28,6 +28,9 @@
 enum {
   LAB_PARAM_ORIFICE_AREA = PNEU_PARAM_COUNT, /* in lab_rig.fit: scales fill_area and vent_area together */
   LAB_PARAM_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
+  LAB_PRESSURE_DRIFT = LAB_PARAM_COUNT,      /* in lab_rig.tolerance alone: of a sensor, over a run */
+  LAB_POSITION_DRIFT,
+  LAB_TOLERANCE_COUNT,
   LAB_TERM_MAX = 4,
   LAB_NAME_TEXT = 64,
   LAB_PARAM_NAME_TEXT = 96, /* bytes of a name from lab_fit_name */
@@ -50,7 +53,7 @@ typedef struct lab_rig {
   int n_fit;
   int fit[LAB_PARAM_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_PARAM_ORIFICE_AREA */
   unsigned char fit_per_log[LAB_PARAM_COUNT]; /* 1: every log has its own value */
-  double tolerance[LAB_PARAM_COUNT];          /* with which a value is known, SI; NaN: see tolerance.h */
+  double tolerance[LAB_TOLERANCE_COUNT];      /* with which a value is known, SI; NaN: see tolerance.h */
   int others_are_exact;                       /* the file says so of tolerances that it does not give */
   double noise[LAB_CHANNEL_COUNT];            /* standard deviation, SI; NaN: estimate it from the log */
   unsigned char input[LAB_CHANNEL_COUNT];     /* 1: drives the model; u always does */

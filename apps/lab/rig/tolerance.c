@@ -48,6 +48,8 @@ static const struct kind {
     {"position_gain", "position_gain", 0, OF_VALUE, 0, 0.0025},
     {"position_lag", "position_lag", 0, OF_VALUE, 0, 5e-3},
     {"clock", "channel_skew", 0, OF_VALUE, 0, 5e-3},
+    {"pressure_drift", NULL, LAB_PRESSURE_DRIFT, OF_SUPPLY, 0.0025, 0},
+    {"position_drift", NULL, LAB_POSITION_DRIFT, OF_STROKE, 0.0025, 0},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -70,6 +72,19 @@ static double whole_of(const struct kind *k, const lab_rig *rig)
   if (k->effect || k->param == LAB_PARAM_ORIFICE_AREA)
     return 1;
   return fabs((double)*pneu_param_at((pneu_params *)&rig->params, k->param));
+}
+
+/* The unit of a kind's tolerance, SI. */
+static const char *unit_of(const struct kind *k)
+{
+  pneu_param_info info = {.unit = "1"};
+  if (k->span == OF_SUPPLY)
+    return "Pa";
+  if (k->span == OF_STROKE)
+    return "m";
+  if (param_of(k) < PNEU_PARAM_COUNT)
+    pneu_param_describe(param_of(k), &info);
+  return info.unit;
 }
 
 static double usual(const struct kind *k, const lab_rig *rig)
@@ -96,18 +111,17 @@ static int is_share(const config_setting_t *setting, const char *unit)
 static int read_one(const config_setting_t *setting, const struct kind *k, lab_rig *rig, lab_error *error)
 {
   const int param = param_of(k);
-  pneu_param_info info = {.unit = "1"};
+  const char *unit;
   double value;
   int status;
   if (param < 0)
     return LAB_OK;
-  if (param < PNEU_PARAM_COUNT)
-    pneu_param_describe(param, &info);
-  if (is_share(setting, info.unit)) {
+  unit = unit_of(k);
+  if (is_share(setting, unit)) {
     status = lab_config_quantity(setting, "1", 0, INFINITY, &value, error);
     value *= whole_of(k, rig);
   } else {
-    status = lab_config_difference(setting, info.unit, &value, error);
+    status = lab_config_difference(setting, unit, &value, error);
     if (status == LAB_OK && !(value >= 0))
       status = lab_config_expected(setting, "a standard deviation, 0 or more", error);
   }
@@ -153,13 +167,10 @@ void lab_tolerance_write(FILE *file, const lab_rig *rig)
     fputs("tolerance = {\n  others = 0;\n", file);
   for (i = 0; i < KINDS; i++) {
     const int param = param_of(&kinds[i]);
-    pneu_param_info info = {.unit = "1"};
     if (param < 0 || isnan(rig->tolerance[param]))
       continue;
-    if (param < PNEU_PARAM_COUNT)
-      pneu_param_describe(param, &info);
     fprintf(file, "%s  %s = \"%s %s\";\n", any++ ? "" : "tolerance = {\n", kinds[i].name,
-            lab_number_write(rig->tolerance[param], number), info.unit);
+            lab_number_write(rig->tolerance[param], number), unit_of(&kinds[i]));
   }
   if (any)
     fputs("};\n", file);

@@ -10,53 +10,11 @@
 
 static const int most_steps = 20000; /* from one change of input to the next: a model that takes more chatters */
 static const double pi = 3.141592653589793;
-static const double off = 6; /* times the scatter at rest: a value so far off is no noise */
 
 static int is_predicted(int channel)
 {
   return channel == LAB_CHANNEL_P || channel == LAB_CHANNEL_X || channel == LAB_CHANNEL_T ||
          channel == LAB_CHANNEL_FORCE;
-}
-
-/* Rows before the command first changes. */
-static size_t rows_at_rest(const lab_run *e)
-{
-  const int command = lab_log_command(e->log);
-  const double *u = command < 0 ? NULL : e->log->value[command];
-  size_t n = 1;
-  while (n < e->n && (!u || u[e->first + n] == u[e->first]))
-    n++;
-  return u ? n : 0;
-}
-
-/* Of these, those before the channel moves all the same: a sensor may be ahead of the command. Moving is what is far
- * beyond the scatter of the first half.
- * In:      n  rows before the command first changes */
-static size_t rows_still(const double *value, size_t n)
-{
-  double sum = 0, sum2 = 0, count = 0, mean, scatter;
-  size_t i;
-  for (i = 0; i < n / 2; i++)
-    if (!isnan(value[i])) {
-      const double v = value[i] - value[0];
-      sum += v;
-      sum2 += v * v;
-      count++;
-    }
-  if (!(count > 1))
-    return 0;
-  mean = sum / count;
-  scatter = sqrt(fmax(sum2 / count - mean * mean, 0));
-  for (i = 0; i < n && !(fabs(value[i] - value[0] - mean) > off * scatter); i++)
-    ;
-  return i;
-}
-
-/* Second differences of noise with memory r have the variance of white noise times 1 - 4 r/3 + r^2/3, and so has what
- * was estimated from them. */
-static double for_memory(double sigma, double r)
-{
-  return sigma / sqrt(1 - 4 * r / 3 + r * r / 3);
 }
 
 /* Variance of the error that all values share which noise of deviation sigma is rounded to, as long as what is measured
@@ -98,13 +56,12 @@ static void weigh_steps(const double *value, size_t n, double sigma, double inne
 static int add_channel(lab_run *e, int channel, lab_error *error)
 {
   const double *value = e->log->value[channel] + e->first;
-  const double memory = lab_noise_memory(value, rows_still(value, rows_at_rest(e)));
   const double q = lab_resolution(value, e->n), rounding = q * q / 12;
   double sigma = e->rig->noise[channel], inner = sigma;
   if (isnan(sigma)) {
     if (lab_noise_estimate(value, e->n, &sigma, error))
       return error->status;
-    sigma = fmax(for_memory(sigma, memory), sqrt(rounding));
+    sigma = fmax(sigma, sqrt(rounding));
     inner = sqrt(fmax(sigma * sigma - rounding, 0));
   } else if (sigma > 0)
     sigma = sqrt(sigma * sigma + rounding);
@@ -114,7 +71,6 @@ static int add_channel(lab_run *e, int channel, lab_error *error)
                     "noise of the rig file",
                     e->log->path, lab_channels[channel].key);
   e->channel[e->n_channels] = channel;
-  e->memory[e->n_channels] = memory;
   e->resolution[e->n_channels] = q;
   weigh_steps(value, e->n, sigma, inner, q, e->weight + (size_t)e->n_channels * e->n);
   e->sigma[e->n_channels++] = sigma;
@@ -192,6 +148,7 @@ void lab_run_close(lab_run *e)
   lab_inputs_free(&e->inputs);
   free(e->bracket);
   free(e->weight);
+  free(e->drift);
   memset(e, 0, sizeof *e);
 }
 

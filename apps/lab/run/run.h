@@ -3,6 +3,7 @@
 #ifndef LAB_RUN_H
 #define LAB_RUN_H
 
+#include "../base/colour.h"
 #include "../log/log.h"
 #include "../rig/rig.h"
 #include "schedule.h"
@@ -14,11 +15,12 @@ typedef struct lab_run {
   int n_channels;                       /* measured channels that the model predicts */
   int channel[LAB_CHANNEL_COUNT];       /* enum lab_channel of each */
   double sigma[LAB_CHANNEL_COUNT];      /* their noise, SI */
-  double memory[LAB_CHANNEL_COUNT];     /* of the noise: its correlation from row to row, 0 where it is white */
+  lab_colour colour[LAB_CHANNEL_COUNT]; /* of the noise (weights.h); at first it is white */
   double resolution[LAB_CHANNEL_COUNT]; /* smallest step between values, SI; its variance is part of sigma */
   double level[LAB_CHANNEL_COUNT]; /* scatter at rest over the noise that was declared (weights.h); 0: not looked at */
   double jitter;                   /* [s] deviation of the times of rows, where it shows (weights.h) */
   double *weight;                  /* n_channels * n: noise over that of a row; at first 1 but for coarse steps */
+  double *drift;                   /* n_channels * n: what a drift of the sensor adds (drift.h); NULL: there is none */
   lab_inputs inputs;               /* schedule of inputs, as the log shows them */
   size_t n_instants;               /* changes of the command whose instant the log brackets; 0 if other inputs change */
   double *bracket; /* [s] n_instants: time from the row before each change to the row that shows it; 0 on a ramp */

@@ -553,6 +553,7 @@ static int move_to(const lab_nuisance *h, lab_candidate *c, lab_error *error)
   if (!c->quality.fitted)
     return LAB_OK;
   c->u.nuisance = h;
+  c->u.misfit = h->misfit;
   for (k = 0; k < h->n; k++)
     if (h->of[k].kind == LAB_UNKNOWN_PARAM && h->of[k].run == LAB_ALL_RUNS)
       *pneu_param_at(&c->u.rig.params, h->of[k].index) = (pneu_real)h->of[k].value;
@@ -566,8 +567,8 @@ static int linearise_again(search *s, lab_error *error)
 {
   lab_nuisance h;
   int i, status = unfold(s, error);
-  if (status != LAB_OK)
-    return status;
+  if (status != LAB_OK || lab_unknowns_weigh_held(&s->beam[0].u, error))
+    return error->status;
   status = lab_nuisance_open(&s->beam[0].u, &h, error);
   lab_nuisance_close(&s->nuisance);
   s->nuisance = h;
@@ -684,6 +685,25 @@ static double enough(double until, double start)
   return until > 0 ? fmin(until, end) : end;
 }
 
+/* Fit with what is declared within its tolerances; once more where that leaves much less.  Returns: LAB_OK, LAB_WORLD.
+ */
+static int hold(lab_candidate *c, lab_error *error)
+{
+  static const double less = 0.7;
+  double before;
+  int status = lab_unknowns_weigh_held(&c->u, error);
+  if (status == LAB_OK)
+    status = lab_unknowns_hold(&c->u, error);
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  before = c->u.misfit;
+  if (status == LAB_OK)
+    status = lab_unknowns_weigh_held(&c->u, error);
+  if (status == LAB_OK && c->u.misfit < less * before)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
  * something may be missing from a rig that is as declared: if an effect explains them and needs no deviations beside,
  * none are looked for; else the better model of the two searches is the answer.
@@ -698,9 +718,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
     return lab_fail_memory(error, "the search");
   *exact = *whole;
   whole->best.u = *u;
-  status = lab_unknowns_hold(&whole->best.u, error);
-  if (status == LAB_OK && lab_candidate_fit(&whole->best, LAB_ROUNDS_ALL, error) == LAB_WORLD)
-    status = LAB_WORLD;
+  status = hold(&whole->best, error);
   whole->declared = whole->best.u;
   if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
     status = search_exactly(u, &whole->best.quality, options, exact, error);

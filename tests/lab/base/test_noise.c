@@ -1,4 +1,4 @@
-/* How noisy a channel is: noise of known size and memory, steps of converters, gaps, too few values. */
+/* How noisy a channel is: noise of known size, steps of converters, gaps, too few values. */
 #include "../../fixture.h"
 
 #include "../../../apps/lab/base/noise.h"
@@ -29,15 +29,6 @@ static void fill_white(double sigma, uint64_t seed)
   int i;
   for (i = 0; i < N; i++)
     y[i] = sigma * normal(&seed);
-}
-
-/* Noise of unit variance of which each value keeps a share of the one before. */
-static void fill_with_memory(double memory, uint64_t seed)
-{
-  int i;
-  y[0] = normal(&seed);
-  for (i = 1; i < N; i++)
-    y[i] = memory * y[i - 1] + sqrt(1 - memory * memory) * normal(&seed);
 }
 
 /* ---- Estimate ---- */
@@ -155,148 +146,6 @@ static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
   assert_close(noise_of(y, N), 0, 0, 0);
 }
 
-/* ---- Memory ---- */
-
-/* Its standard error is sqrt((1 - a^2)/n), at most 0.016: four of them. */
-static void test_lab_noise_memory__noise_with_memory__is_its_coefficient(void **state)
-{
-  static const double memory[] = {-0.8, -0.4, 0.2, 0.5, 0.85};
-  int k;
-  (void)state;
-  for (k = 0; k < COUNT(memory); k++) {
-    fill_with_memory(memory[k], (uint64_t)k + 10);
-    check_note("memory %g", memory[k]);
-    assert_close(lab_noise_memory(y, N), memory[k], 4 * sqrt((1 - memory[k] * memory[k]) / N), 0);
-  }
-}
-
-static void test_lab_noise_memory__on_a_level__is_the_same(void **state)
-{
-  double zero;
-  int i;
-  (void)state;
-  fill_with_memory(0.5, 15);
-  zero = lab_noise_memory(y, N);
-  for (i = 0; i < N; i++)
-    y[i] = 1e3 + 2 * y[i];
-  assert_close(lab_noise_memory(y, N), zero, 1e-9, 0);
-}
-
-static void test_lab_noise_memory__white_noise__is_none(void **state)
-{
-  int k;
-  (void)state;
-  for (k = 0; k < 20; k++) {
-    fill_white(3, (uint64_t)k + 20);
-    assert_close(lab_noise_memory(y, N), 0, 0, 0);
-  }
-}
-
-/* Two values and two others: 0.5 but for the ends; with 50 such rows that is less than four standard errors. */
-static void test_lab_noise_memory__few_values__needs_more_of_it(void **state)
-{
-  int i;
-  (void)state;
-  for (i = 0; i < N; i++)
-    y[i] = i % 8 < 4 ? 1 : -1;
-  assert_close(lab_noise_memory(y, 800), 0.5, 1.0 / 800, 0);
-  assert_close(lab_noise_memory(y, 56), 0, 0, 0);
-}
-
-static void test_lab_noise_memory__less_than_fifty_values__says_nothing(void **state)
-{
-  double gap[50];
-  int i;
-  (void)state;
-  for (i = 0; i < 50; i++)
-    y[i] = i;
-  memcpy(gap, y, sizeof gap);
-  gap[20] = NAN;
-  assert_true(lab_noise_memory(y, 50) > 0.8);
-  assert_close(lab_noise_memory(y, 49), 0, 0, 0);
-  assert_close(lab_noise_memory(y, 0), 0, 0, 0);
-  assert_close(lab_noise_memory(gap, 50), 0, 0, 0);
-}
-
-/* What hardly changes from row to row has no more than 0.9, or a fit would live on its differences alone. */
-static void test_lab_noise_memory__next_to_one__is_held_at_nine_tenths(void **state)
-{
-  int i;
-  (void)state;
-  for (i = 0; i < N; i++)
-    y[i] = sin(1e-2 * i);
-  assert_close(lab_noise_memory(y, N), 0.9, 0, 0);
-  for (i = 0; i < N; i++)
-    y[i] = i % 2;
-  assert_close(lab_noise_memory(y, N), -0.9, 0, 0);
-}
-
-static void test_lab_noise_memory__one_value_for_ever__is_none(void **state)
-{
-  int i;
-  (void)state;
-  for (i = 0; i < N; i++)
-    y[i] = 7;
-  assert_close(lab_noise_memory(y, N), 0, 0, 0);
-}
-
-/* A stretch of a tenth that is missing takes one pair of neighbours. */
-static void test_lab_noise_memory__one_long_gap__changes_nothing(void **state)
-{
-  int i;
-  (void)state;
-  fill_with_memory(0.6, 16);
-  for (i = N / 2; i < N / 2 + N / 10; i++)
-    y[i] = NAN;
-  assert_close(lab_noise_memory(y, N), 0.6, 4 * sqrt((1 - 0.36) / (0.9 * N)), 0);
-}
-
-/* Every third value is missing, and with it two pairs of three; or values at random. Four standard errors of the pairs
- * that are left. */
-static void test_lab_noise_memory__scattered_gaps__change_nothing(void **state)
-{
-  static const double memory[] = {-0.6, 0.6};
-  uint64_t seed = 5;
-  int i, k;
-  (void)state;
-  for (k = 0; k < COUNT(memory); k++) {
-    const double error = 4 * sqrt((1 - memory[k] * memory[k]) / N);
-    check_note("memory %g", memory[k]);
-    fill_with_memory(memory[k], (uint64_t)k + 17);
-    for (i = 0; i < N; i += 3)
-      y[i] = NAN;
-    assert_close(lab_noise_memory(y, N), memory[k], error * sqrt(3), 0);
-    fill_with_memory(memory[k], (uint64_t)k + 19);
-    for (i = 0; i < N; i++)
-      if (fixture_random(&seed, 0, 1) < 0.5)
-        y[i] = NAN;
-    assert_close(lab_noise_memory(y, N), memory[k], error * 2, 0);
-  }
-}
-
-/* Fewer pairs, larger standard error: of 2000 values with 400 pairs, 0.15 is no longer told from 0. */
-static void test_lab_noise_memory__scattered_gaps__need_more_of_it(void **state)
-{
-  int i;
-  (void)state;
-  fill_with_memory(0.15, 21);
-  assert_true(lab_noise_memory(y, N) > 0.08);
-  for (i = 0; i < N; i++)
-    if (i % 2 && i % 10 != 1)
-      y[i] = NAN;
-  assert_close(lab_noise_memory(y, N), 0, 0, 0);
-}
-
-static void test_lab_noise_memory__no_two_neighbours__says_nothing(void **state)
-{
-  int i;
-  (void)state;
-  fill_with_memory(0.9, 22);
-  for (i = 0; i < N; i += 2)
-    y[i] = NAN;
-  assert_close(lab_noise_memory(y, N), 0, 0, 0);
-}
-
 /* ---- Smallest step ---- */
 
 static void test_lab_smallest_step__values_on_a_grid__is_its_step(void **state)
@@ -360,17 +209,6 @@ int main(void)
       cmocka_unit_test(test_lab_noise_estimate__gaps__do_not_count),
       cmocka_unit_test(test_lab_noise_estimate__fewer_than_eight_differences__says_nothing),
       cmocka_unit_test(test_lab_noise_estimate__one_value_for_ever__is_none),
-      cmocka_unit_test(test_lab_noise_memory__noise_with_memory__is_its_coefficient),
-      cmocka_unit_test(test_lab_noise_memory__on_a_level__is_the_same),
-      cmocka_unit_test(test_lab_noise_memory__white_noise__is_none),
-      cmocka_unit_test(test_lab_noise_memory__few_values__needs_more_of_it),
-      cmocka_unit_test(test_lab_noise_memory__less_than_fifty_values__says_nothing),
-      cmocka_unit_test(test_lab_noise_memory__next_to_one__is_held_at_nine_tenths),
-      cmocka_unit_test(test_lab_noise_memory__one_value_for_ever__is_none),
-      cmocka_unit_test(test_lab_noise_memory__one_long_gap__changes_nothing),
-      cmocka_unit_test(test_lab_noise_memory__scattered_gaps__change_nothing),
-      cmocka_unit_test(test_lab_noise_memory__scattered_gaps__need_more_of_it),
-      cmocka_unit_test(test_lab_noise_memory__no_two_neighbours__says_nothing),
       cmocka_unit_test(test_lab_smallest_step__values_on_a_grid__is_its_step),
       cmocka_unit_test(test_lab_smallest_step__gaps__are_no_steps),
       cmocka_unit_test(test_lab_smallest_step__nothing_changes__is_none),

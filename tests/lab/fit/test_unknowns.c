@@ -204,6 +204,33 @@ static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_
   assert_false(lab_unknown_is_held(&u.unknown[lab_unknowns_find(&u, PNEU_PARAM_dry_friction)])); /* it is fitted */
 }
 
+/* Beside an error of many times the noise, priors of what is held count as if that were the noise; others do not. */
+static void test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left(void **state)
+{
+  double theta[LAB_FIT_MAX], misfit;
+  int j, k;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_weigh_held(&u, &error), LAB_OK);
+  assert_close(u.misfit, 1, 0, 0);
+  for (j = 0; j < RUNS * ROWS; j++)
+    x[j] += 30 * sigma_x * (j % 2 ? 1 : -1);
+  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  misfit = size_of(r, DATA);
+  assert_true(misfit > 10);
+  assert_int_equal(lab_unknowns_weigh_held(&u, &error), LAB_OK);
+  assert_close(u.misfit, misfit, 0, 1e-12);
+  values(theta);
+  j = lab_unknowns_find(&u, PNEU_PARAM_moving_mass);
+  theta[j] += 0.5 * u.unknown[j].spread;
+  theta[SWITCH_1] = u.unknown[SWITCH_1].prior + u.unknown[SWITCH_1].spread;
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  for (k = 0; k < u.n; k++)
+    assert_close(r[DATA + k], k == j ? -0.5 * misfit : k == SWITCH_1 ? -1 : 0, 1e-9, 0);
+}
+
 static void test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone(void **state)
 {
   (void)state;
@@ -698,7 +725,8 @@ static void test_lab_unknowns_residuals__commands_that_were_early__are_matched_b
   assert_all_zero(r, DATA);
 }
 
-/* The second channel of the second run remembers 0.6: r_i = (e_i - 0.6 e_(i-1))/0.8, but not over a gap. */
+/* The second channel of the second run remembers 0.6: r_i = (e_i - 0.6 e_(i-1))/0.8, over a gap 0.36 of the row before
+ * it. */
 static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **state)
 {
   enum { GAP = 33 };
@@ -713,14 +741,15 @@ static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **
     x[ROWS + i] += fixture_random(&seed, -sigma_x, sigma_x);
   }
   x[ROWS + GAP] = NAN;
-  run[1].memory[1] = 0.6;
+  run[1].colour[1] = (lab_colour){0.6, 1};
   assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
   assert_int_equal(lab_unknowns_errors(&u, other, &error), LAB_OK);
   assert_memory_equal(r, other, 3 * ROWS * sizeof *r);
   for (i = 1; i < ROWS; i++) {
-    const int alone = i <= FIRST_SWITCH || i == GAP || i == GAP + 1;
+    const int before = i == GAP + 1 ? 2 : 1;
+    const double memory = i == GAP || i <= FIRST_SWITCH ? 0 : pow(0.6, before);
     check_note("row %d", i);
-    assert_close(white[i], alone ? error_of[i] : (error_of[i] - 0.6 * error_of[i - 1]) / 0.8, 1e-9, 0);
+    assert_close(white[i], (error_of[i] - memory * error_of[i - before]) / sqrt(1 - memory * memory), 1e-9, 0);
   }
 }
 
@@ -1009,6 +1038,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
       cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
+      cmocka_unit_test(test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left),
       cmocka_unit_test(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone),
       cmocka_unit_test(test_lab_unknowns_open__command_that_changes_often__has_one_timing),
       cmocka_unit_test(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing),

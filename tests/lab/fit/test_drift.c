@@ -1,0 +1,133 @@
+/* Sensors that drift: a line within its tolerance is taken out of a residual as its prior says. */
+#include "../../fixture.h"
+
+#include "../../../apps/lab/fit/drift.h"
+
+enum { ROWS = 41, GAP = 7 };
+static const double sigma = 300, tolerance = 350; /* [Pa] of the R1-400's default: 0.25 % of 140 kPa */
+
+static lab_error error;
+static lab_rig rig;
+static lab_log one_log;
+static lab_run run;
+static double t[ROWS], command[ROWS], p[ROWS], weight[ROWS];
+
+static void open_run(void)
+{
+  static size_t first[2] = {0, ROWS};
+  static char path[] = "log.csv";
+  int i;
+  lab_rig_default(&rig);
+  rig.params.supply_pressure = 140000;
+  memset(&one_log, 0, sizeof one_log);
+  one_log.path = path;
+  one_log.n = ROWS;
+  one_log.n_runs = 1;
+  one_log.run = first;
+  one_log.value[LAB_CHANNEL_TIME] = t;
+  one_log.value[LAB_CHANNEL_U] = command;
+  one_log.value[LAB_CHANNEL_P] = p;
+  for (i = 0; i < ROWS; i++) {
+    t[i] = 0.1 * i + 3;
+    p[i] = i == GAP ? NAN : 0;
+    weight[i] = 1;
+  }
+  memset(&run, 0, sizeof run);
+  run.rig = &rig;
+  run.log = &one_log;
+  run.n = ROWS;
+  run.n_channels = 1;
+  run.channel[0] = LAB_CHANNEL_P;
+  run.sigma[0] = sigma;
+  run.weight = weight;
+  assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
+}
+
+static void close_run(void)
+{
+  free(run.drift);
+  run.drift = NULL;
+}
+
+/* w: what a drift of one tolerance adds, over the noise. */
+static double line(int i)
+{
+  return i == GAP ? 0 : tolerance / sigma * ((double)i / (ROWS - 1) - 0.5);
+}
+
+static double dot(const double *a, double (*b)(int), const double *c)
+{
+  double sum = 0;
+  int i;
+  for (i = 0; i < ROWS; i++)
+    sum += a[i] * (b ? b(i) : c[i]);
+  return sum;
+}
+
+/* r'(1 + w w')^-1 r = r'r - (w'r)^2/(1 + w'w), by Sherman and Morrison. */
+static void test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives(void **state)
+{
+  double r[ROWS], before[ROWS], w[ROWS], along, length2;
+  uint64_t seed = 4;
+  int i;
+  (void)state;
+  open_run();
+  for (i = 0; i < ROWS; i++) {
+    r[i] = before[i] = i == GAP ? 0 : fixture_random(&seed, -2, 3);
+    w[i] = line(i);
+  }
+  along = dot(before, line, NULL);
+  length2 = dot(w, line, NULL);
+  lab_drift_take_out(&run, r);
+  assert_close(dot(r, NULL, r), dot(before, NULL, before) - along * along / (1 + length2), 0, 1e-12);
+  assert_close(r[GAP], 0, 0, 0);
+  close_run();
+}
+
+/* All of it but 1/(1 + w'w), which the prior takes. */
+static void test_lab_drift_strain__drift_of_seven_tolerances__is_found(void **state)
+{
+  lab_unknowns *u = calloc(1, sizeof *u);
+  double r[ROWS], w[ROWS], length2;
+  int i;
+  (void)state;
+  open_run();
+  assert_non_null(u);
+  u->run = &run;
+  u->n_runs = 1;
+  for (i = 0; i < ROWS; i++) {
+    w[i] = line(i);
+    r[i] = 7 * w[i];
+  }
+  length2 = dot(w, line, NULL);
+  lab_drift_take_out(&run, r);
+  assert_close(lab_drift_strain(u, r), 7 * length2 / (1 + length2), 0, 1e-10);
+  close_run();
+  assert_close(lab_drift_strain(u, r), 0, 0, 0); /* without lines there is no drift */
+  free(u);
+}
+
+static void test_lab_drift_open__no_tolerance__takes_nothing(void **state)
+{
+  double r[ROWS], before[ROWS];
+  int i;
+  (void)state;
+  open_run();
+  rig.tolerance[LAB_PRESSURE_DRIFT] = 0;
+  assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
+  for (i = 0; i < ROWS; i++)
+    r[i] = before[i] = i;
+  lab_drift_take_out(&run, r);
+  assert_memory_equal(r, before, sizeof r);
+  close_run();
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives),
+      cmocka_unit_test(test_lab_drift_strain__drift_of_seven_tolerances__is_found),
+      cmocka_unit_test(test_lab_drift_open__no_tolerance__takes_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
