@@ -63,7 +63,6 @@ static int slope(void *context, const double *theta, const double *r, int j, dou
 static int run(pursuit *p, double *apart, lab_error *error)
 {
   double theta[LAB_NORMAL_MAX] = {0}, lower[LAB_NORMAL_MAX], upper[LAB_NORMAL_MAX];
-  unsigned char lasting[LAB_NORMAL_MAX];
   const lab_fit_problem problem = {.n = p->model->n,
                                    .m = p->m + (size_t)p->model->n + 1,
                                    .lower = lower,
@@ -71,15 +70,12 @@ static int run(pursuit *p, double *apart, lab_error *error)
                                    .context = p,
                                    .residuals = residuals,
                                    .slope = slope,
-                                   .lasting = lasting,
                                    .enough = near_enough,
                                    .enough_share = near_enough};
   double chi2;
   int j;
-  for (j = 0; j < p->model->n; j++) {
+  for (j = 0; j < p->model->n; j++)
     lab_forecast_bounds(&p->model->params, p->model->param[j], p->model->scale[j], &lower[j], &upper[j]);
-    lasting[j] = 1;
-  }
   if (lab_fit(&problem, theta, &chi2, error))
     return error->status;
   *apart = sqrt(chi2);

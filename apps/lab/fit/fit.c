@@ -19,6 +19,7 @@ typedef struct descent {
   const lab_fit_problem *problem;
   double theta[N], trial[N];
   double *r, *r_trial; /* m */
+  double *off;         /* m: where the linear model was wrong */
   double *J;           /* m * n, column by column */
   double A[N][N];      /* J'J */
   double g[N];         /* J'r */
@@ -39,17 +40,16 @@ int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, d
   return lab_fail(error, LAB_NUMERIC, "residual %zu of %zu is not finite", i + 1, p->m);
 }
 
-int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, const int *wanted, double *J,
-                   lab_error *error)
+int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, double *J, lab_error *error)
 {
   int j, status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < p->n; j++) {
     lab_error mine;
     double *column = J + (size_t)j * p->m;
-    const int wants = !wanted || wanted[j], spent = lab_cpu_is_spent(p->until);
-    const int at = wants && !spent ? p->slope(p->context, theta, r, j, column, &mine) : LAB_OK;
-    if (at == LAB_NUMERIC || (wants && spent))
+    const int spent = lab_cpu_is_spent(p->until);
+    const int at = spent ? LAB_NUMERIC : p->slope(p->context, theta, r, j, column, &mine);
+    if (at == LAB_NUMERIC)
       memset(column, 0, p->m * sizeof *column);
     else if (at != LAB_OK) {
 #pragma omp critical(fit_error)
@@ -59,26 +59,20 @@ int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *
   return status;
 }
 
-/* Renew the slopes, all of them or only those that do not last, and what follows from them. */
-static int renew(descent *d, int all, lab_error *error)
+/* What follows from the slopes. */
+static void multiply(descent *d)
 {
   const lab_fit_problem *p = d->problem;
-  int fresh[N], j, k;
-  for (j = 0; j < p->n; j++)
-    fresh[j] = all || !p->lasting || !p->lasting[j];
-  if (lab_fit_slopes(p, d->theta, d->r, fresh, d->J, error))
-    return error->status;
+  int j, k;
 #pragma omp parallel for schedule(dynamic) private(k)
   for (j = 0; j < p->n; j++) {
     d->g[j] = lab_dot(d->J + (size_t)j * p->m, d->r, p->m);
     for (k = 0; k <= j; k++)
-      if (fresh[j] || fresh[k])
-        d->A[j][k] = lab_dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
+      d->A[j][k] = lab_dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
   }
   for (j = 0; j < p->n; j++)
     for (k = 0; k < j; k++)
       d->A[k][j] = d->A[j][k];
-  return LAB_OK;
 }
 
 /* Damped step for the unknowns in `of`, the others moved by `step` already. */
@@ -150,6 +144,29 @@ static double promise(const descent *d, const double *step)
   return sum;
 }
 
+/* What a step has shown of the slopes: the least change of them that agrees with it, each slope over its size. */
+static void learn(descent *d)
+{
+  const lab_fit_problem *p = d->problem;
+  double step[N], length2 = 0;
+  size_t i;
+  int j;
+  for (j = 0; j < p->n; j++) {
+    step[j] = d->trial[j] - d->theta[j];
+    length2 += d->A[j][j] * step[j] * step[j];
+  }
+  for (i = 0; i < p->m; i++)
+    d->off[i] = d->r_trial[i] - d->r[i];
+  for (j = 0; j < p->n; j++)
+    for (i = 0; step[j] != 0 && i < p->m; i++)
+      d->off[i] -= d->J[(size_t)j * p->m + i] * step[j];
+  for (j = 0; j < p->n; j++) {
+    const double share = length2 > 0 ? d->A[j][j] * step[j] / length2 : 0;
+    for (i = 0; share != 0 && i < p->m; i++)
+      d->J[(size_t)j * p->m + i] += share * d->off[i];
+  }
+}
+
 static void accept(descent *d, double chi2)
 {
   double *keep = d->r;
@@ -189,6 +206,7 @@ static int step_down(descent *d, double *quality, int *done, lab_error *error)
       *quality = gain / promised;
       *done = gain < least;
       d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
+      learn(d);
       accept(d, chi2);
       return LAB_OK;
     }
@@ -206,7 +224,10 @@ static int descend(descent *d, lab_error *error)
   if (lab_fit_evaluate(p, d->theta, d->r, &d->chi2, error))
     return error->status;
   for (i = 0; i < steps && !lab_cpu_is_spent(p->until); i++) {
-    if (renew(d, all, error) || step_down(d, &quality, &done, error))
+    if (all && lab_fit_slopes(p, d->theta, d->r, d->J, error))
+      return error->status;
+    multiply(d);
+    if (step_down(d, &quality, &done, error))
       return error->status;
     if (done && all)
       break;
@@ -219,7 +240,7 @@ int lab_fit(const lab_fit_problem *problem, double *theta, double *chi2, lab_err
 {
   const size_t m = problem->m, n = (size_t)problem->n;
   descent *d = calloc(1, sizeof *d);
-  double *memory = malloc((n + 2) * m * sizeof *memory);
+  double *memory = malloc((n + 3) * m * sizeof *memory);
   int status = d && memory ? LAB_OK : lab_fail_memory(error, "a fit");
   if (status == LAB_OK) {
     d->problem = problem;
@@ -228,7 +249,8 @@ int lab_fit(const lab_fit_problem *problem, double *theta, double *chi2, lab_err
     d->lambda = 1e-6;
     d->r = memory;
     d->r_trial = memory + m;
-    d->J = memory + 2 * m;
+    d->off = memory + 2 * m;
+    d->J = memory + 3 * m;
     memcpy(d->theta, theta, n * sizeof *theta);
     if (problem->search > 0)
       status = lab_fit_search(problem, d->theta, error);

@@ -1,7 +1,7 @@
 /* Least squares within bounds, for models whose every evaluation is a simulation: where a fit may have more than one
  * basin, a search of the whole box by NLopt; then the method of Levenberg and Marquardt on the normal equations, with
- * two savings that a general package does not have. Slopes in what hardly bends the model (the instants of commands)
- * are kept from step to step for as long as they predict well, and a step that runs into bounds is finished inside them
+ * two savings that a general package does not have. Slopes are kept for as long as they predict well, corrected by what
+ * each step shows of them (Broyden 1965, Math. Comp. 19:577), and a step that runs into bounds is finished inside them
  * instead of being started again.
  *
  * SPDX-License-Identifier: MIT */
@@ -25,12 +25,11 @@ typedef struct lab_fit_problem {
    * the unknown stays where it is. */
   int (*slope)(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
   /* 0 is the default of what follows. */
-  const unsigned char *lasting; /* not 0: its slope is kept while it predicts well; NULL: none is */
-  int steps;                    /* downhill, at most; 0: 40 */
-  int search;                   /* evaluations of the search, for which the bounds are finite; 0: there is none */
-  double enough;                /* of chi-square: it ends where the linear model promises less; 0: 0.02 */
-  double enough_share;          /* the same as a share of chi-square, if that is more; 0: 1e-6 */
-  double until;                 /* [s] of CPU time, after which it ends where it is; 0: there is no end */
+  int steps;           /* downhill, at most; 0: 40 */
+  int search;          /* evaluations of the search, for which the bounds are finite; 0: there is none */
+  double enough;       /* of chi-square: it ends where the linear model promises less; 0: 0.02 */
+  double enough_share; /* the same as a share of chi-square, if that is more; 0: 1e-6 */
+  double until;        /* [s] of CPU time, after which it ends where it is; 0: there is no end */
 } lab_fit_problem;
 
 /* Fit from theta. However little time is left, the model is evaluated once.
@@ -45,10 +44,8 @@ int lab_fit(const lab_fit_problem *problem, double *theta, double *chi2, lab_err
 int lab_fit_evaluate(const lab_fit_problem *problem, const double *theta, double *r, double *chi2, lab_error *error);
 
 /* Columns of the slopes, in parallel; 0 where one is not to be had.
- * In:      wanted  n flags of the columns to compute; NULL: all
- * Out:     J       m * n, column by column */
-int lab_fit_slopes(const lab_fit_problem *problem, const double *theta, const double *r, const int *wanted, double *J,
-                   lab_error *error);
+ * Out:     J  m * n, column by column */
+int lab_fit_slopes(const lab_fit_problem *problem, const double *theta, const double *r, double *J, lab_error *error);
 
 /* The best point of problem->search evaluations in the box and of theta.  In/out: theta  Returns: as lab_fit. */
 int lab_fit_search(const lab_fit_problem *problem, double *theta, lab_error *error);

@@ -94,7 +94,6 @@ static int central_slope(void *context, const double *theta, const double *r, in
 /* The problem that the unknowns pose, and its memory. */
 typedef struct posed {
   double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX];
-  unsigned char lasting[LAB_FIT_MAX];
   lab_fit_problem problem;
 } posed;
 
@@ -106,7 +105,6 @@ static void pose(lab_unknowns *u, posed *p)
     p->theta[j] = u->unknown[j].value;
     p->lower[j] = u->unknown[j].lower;
     p->upper[j] = u->unknown[j].upper;
-    p->lasting[j] = lab_unknown_is_known(&u->unknown[j]);
   }
   p->problem = (lab_fit_problem){.n = u->n,
                                  .m = u->m,
@@ -114,8 +112,7 @@ static void pose(lab_unknowns *u, posed *p)
                                  .upper = p->upper,
                                  .context = u,
                                  .residuals = lab_unknowns_residuals,
-                                 .slope = lab_unknowns_slope,
-                                 .lasting = p->lasting};
+                                 .slope = lab_unknowns_slope};
 }
 
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)

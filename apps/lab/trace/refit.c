@@ -171,14 +171,15 @@ static double least_chi2(const lab_candidate *c, int n)
 }
 
 /* Fit those to the end that are in the running after a brief fit: whatever is nearly as good as the best, and the best
- * few; of these only rivals where one leaves nothing to explain. */
-static void fit_finalists(lab_candidate *c, int n, lab_error *all)
+ * few rivals.
+ * In:      best  chi-square that they are to keep up with */
+static void fit_finalists(lab_candidate *c, int n, double best, lab_error *all)
 {
-  double bar, reach;
+  const double reach = lab_constant(LAB_RIVAL) * best;
+  double bar;
   int i;
   qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
-  bar = n > 0 ? lab_constant(LAB_NEARLY) * c[0].quality.bic : 0;
-  reach = lab_any(c, n, lab_is_clean) ? lab_constant(LAB_RIVAL) * least_chi2(c, n) : (double)INFINITY;
+  bar = n > 0 ? fmin(lab_constant(LAB_NEARLY) * c[0].quality.bic, reach) : 0;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     const lab_quality *q = &c[i].quality;
@@ -188,9 +189,10 @@ static void fit_finalists(lab_candidate *c, int n, lab_error *all)
 }
 
 /* Refit effects from one start, in parallel: a few steps, and more for those that keep up with the best.
- * In/out:  c  the best candidate of each so far */
+ * In/out:  c     the best candidate of each so far
+ *          best  least chi-square of all candidates so far */
 static void race(const lab_candidate *base, const lab_score *score, int n, enum start start, lab_candidate *c,
-                 lab_error *all)
+                 double *best, lab_error *all)
 {
   lab_candidate *mine = malloc(((size_t)n + 1) * sizeof *mine);
   double reach;
@@ -202,7 +204,8 @@ static void race(const lab_candidate *base, const lab_score *score, int n, enum 
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)
     begin_refit(base, &score[i], start, &mine[i], all);
-  reach = lab_constant(LAB_RIVAL) * least_chi2(mine, n);
+  *best = fmin(*best, least_chi2(mine, n));
+  reach = lab_constant(LAB_RIVAL) * *best;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     const lab_quality *q = &mine[i].quality;
@@ -211,21 +214,23 @@ static void race(const lab_candidate *base, const lab_score *score, int n, enum 
     if (q->fitted && (!c[i].quality.fitted || q->chi2 < c[i].quality.chi2))
       c[i] = mine[i];
   }
+  *best = fmin(*best, least_chi2(c, n));
   free(mine);
 }
 
 /* Refit the leaders: the foremost from the first start, the rest unless one of these leaves nothing that they could
  * explain, and all from the other starts for as long as none leaves only noise. */
-static void refit_leaders(const lab_candidate *base, const lab_score *leader, int n, lab_candidate *c, lab_error *all)
+static void refit_leaders(const lab_candidate *base, const lab_score *leader, int n, lab_candidate *c, double *best,
+                          lab_error *all)
 {
   const int starts = base->n_found == 0 ? STARTS : FROM_USUAL, first = count_near(leader, n, LAB_FOREMOST_SHARE);
   int start;
-  race(base, leader, first, FROM_SLOPE, c, all);
+  race(base, leader, first, FROM_SLOPE, c, best, all);
   if (!lab_any(c, n, lab_is_clean))
-    race(base, leader + first, n - first, FROM_SLOPE, c + first, all);
+    race(base, leader + first, n - first, FROM_SLOPE, c + first, best, all);
   for (start = FROM_SLOPE + 1; start < starts && !lab_any(c, n, lab_is_noise); start++)
-    race(base, leader, n, (enum start)start, c, all);
-  fit_finalists(c, n, all);
+    race(base, leader, n, (enum start)start, c, best, all);
+  fit_finalists(c, n, *best, all);
 }
 
 /* What was not refitted yet and may all the same be missing: what passes, though it explains little, and effects whose
@@ -251,14 +256,14 @@ static int list_bent(const lab_scores *scores, double level, int n, int room, la
  * In:      n  candidates so far
  * Returns: how many there are then */
 static int refit_bent(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int n,
-                      lab_error *error)
+                      double *best, lab_error *error)
 {
   lab_score bent[LAB_REFIT_MAX] = {{0}};
   const int all = n + list_bent(scores, level, n, LAB_REFIT_MAX - n, bent);
   int i;
-  race(base, bent, all - n, FROM_DECLARED, c + n, error);
-  race(base, bent, all - n, FROM_BOUND, c + n, error);
-  fit_finalists(c + n, all - n, error);
+  race(base, bent, all - n, FROM_DECLARED, c + n, best, error);
+  race(base, bent, all - n, FROM_BOUND, c + n, best, error);
+  fit_finalists(c + n, all - n, *best, error);
   for (i = n; i < all; i++) {
     lab_found *found = c[i].quality.fitted ? &c[i].found[c[i].n_found - 1] : NULL;
     if (found && found->statistic == 0) {
@@ -281,6 +286,7 @@ static int all_are_poor(const lab_candidate *declared, const lab_candidate *c, i
 int lab_refit_effects(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
                       lab_error *error)
 {
+  double best = INFINITY;
   const lab_score *score = scores->of;
   int i, all = 0;
   for (i = 0; i < LAB_REFIT_MAX; i++)
@@ -289,15 +295,15 @@ int lab_refit_effects(const lab_candidate *base, const lab_scores *scores, doubl
     all++;
   *n = count_near(score, all < LAB_LEADERS_MAX ? all : LAB_LEADERS_MAX, LAB_LEADER_SHARE);
   error->status = LAB_OK;
-  refit_leaders(base, score, *n, c, error);
+  refit_leaders(base, score, *n, c, &best, error);
   if (base->n_found > 0 || lab_is_noise(&base->quality))
     return error->status;
   if (error->status == LAB_OK && all_are_poor(base, c, *n)) {
-    refit_leaders(base, score + *n, all - *n, c + *n, error);
+    refit_leaders(base, score + *n, all - *n, c + *n, &best, error);
     *n = all;
   }
   if (error->status == LAB_OK && !lab_any(c, *n, lab_is_noise))
-    *n = refit_bent(base, scores, level, c, *n, error);
+    *n = refit_bent(base, scores, level, c, *n, &best, error);
   return error->status;
 }
 
