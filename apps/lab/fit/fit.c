@@ -231,7 +231,7 @@ static int descend(descent *d, lab_error *error)
       return error->status;
     if (done && all)
       break;
-    all = done || quality < poor; /* before it ends, once more with slopes that are all new */
+    all = done || quality < poor || p->is_rough; /* before it ends, once more with slopes that are all new */
   }
   return LAB_OK;
 }

@@ -25,6 +25,7 @@ typedef struct lab_fit_problem {
    * the unknown stays where it is. */
   int (*slope)(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
   /* 0 is the default of what follows. */
+  int is_rough;        /* its slopes change from place to place: they are taken anew at every step */
   int steps;           /* downhill, at most; 0: 40 */
   int search;          /* evaluations of the search, for which the bounds are finite; 0: there is none */
   double enough;       /* of chi-square: it ends where the linear model promises less; 0: 0.02 */

@@ -112,7 +112,8 @@ static void pose(lab_unknowns *u, posed *p)
                                  .upper = p->upper,
                                  .context = u,
                                  .residuals = lab_unknowns_residuals,
-                                 .slope = lab_unknowns_slope};
+                                 .slope = lab_unknowns_slope,
+                                 .is_rough = u->window > 0};
 }
 
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)

@@ -356,6 +356,25 @@ static void test_lab_fit__kept_slopes__end_where_new_ones_would(void **state)
     }
 }
 
+static void test_lab_fit__rough_model__has_new_slopes_at_every_step(void **state)
+{
+  trial c = {3, {0}, {0}, decay, 1000, LAB_NUMERIC, -1, {0}, 0}, again;
+  lab_fit_problem p = problem_of(&c);
+  double theta[] = {1, 3, 0.5}, other[] = {1, 3, 0.5}, chi2;
+  int i;
+  (void)state;
+  for (i = 0; i < ROWS; i++) {
+    c.t[i] = 0.1 * i;
+    c.y[i] = 2 * exp(-0.07 * i);
+  }
+  again = c;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  p.context = &again;
+  p.is_rough = 1;
+  assert_int_equal(lab_fit(&p, other, &chi2, &error), LAB_OK);
+  assert_true(again.asked[0] > c.asked[0]);
+}
+
 /* ---- The search before the descent ---- */
 
 /* y = theta^2, of which -1 would do as well as 1, but for a second row that likes 1 better. */
@@ -522,6 +541,7 @@ int main(void)
       cmocka_unit_test(test_lab_fit__any_other_failure__ends_it),
       cmocka_unit_test(test_lab_fit__slope_fails__leaves_that_unknown_where_it_is),
       cmocka_unit_test(test_lab_fit__kept_slopes__end_where_new_ones_would),
+      cmocka_unit_test(test_lab_fit__rough_model__has_new_slopes_at_every_step),
       cmocka_unit_test(test_lab_fit__two_wells__search_finds_the_deeper),
       cmocka_unit_test(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds),
       cmocka_unit_test(test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more),
