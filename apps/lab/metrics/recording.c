@@ -232,24 +232,15 @@ static void rig_of(const lab_unknowns *u, int run, lab_rig *rig)
   lab_unknowns_apply(u, theta, run, rig);
 }
 
-static int predict_run(const lab_unknowns *u, int run, lab_recording *recording, lab_error *error)
+int lab_run_respond(const lab_unknowns *u, int run, lab_response *response, lab_error *error)
 {
   const lab_run *x = &u->run[run];
   pneu_model model;
-  lab_response response;
   lab_rig rig;
-  const lab_prediction following = {.rig = &rig,
-                                    .log = x->log,
-                                    .run = x->run,
-                                    .t = channel_of(x, LAB_CHANNEL_TIME),
-                                    .n = x->n,
-                                    .options = {.tol = u->tol}};
+  const lab_prediction following = {.rig = &rig, .log = x->log, .run = x->run, .options = {.tol = u->tol}};
   rig_of(u, run, &rig);
-  if (lab_rig_model(&rig, &model, error) || lab_predict_log(&model, &following, &response, error))
-    return error->status;
-  lab_recording_add_response(recording, &response);
-  lab_response_free(&response);
-  return LAB_OK;
+  return lab_rig_model(&rig, &model, error) || lab_predict_log(&model, &following, response, error) ? error->status
+                                                                                                    : LAB_OK;
 }
 
 static int record_predicted(const lab_unknowns *u, lab_recording *recording, lab_error *error)
@@ -260,9 +251,13 @@ static int record_predicted(const lab_unknowns *u, lab_recording *recording, lab
   take_command(u->run[0].log, recording);
   if (u->rig.laws.pressure_input) /* the pressure is the measured one */
     recording->record.noise_p = noise_of(u, LAB_CHANNEL_P);
-  for (e = 0; e < u->n_runs; e++)
-    if (predict_run(u, e, recording, error))
+  for (e = 0; e < u->n_runs; e++) {
+    lab_response response;
+    if (lab_run_respond(u, e, &response, error))
       return error->status;
+    lab_recording_add_response(recording, &response);
+    lab_response_free(&response);
+  }
   return LAB_OK;
 }
 

@@ -29,8 +29,13 @@ void lab_recording_add_response(lab_recording *recording, const lab_response *re
 int lab_recording_simulate(const pneu_model *model, const lab_rig *rig, const lab_log *log, lab_recording *recording,
                            lab_error *error);
 
+/* What a fitted model does at the rows of a run, with commands that act at the rows that show them.
+ * Out:     response  to be freed with lab_response_free
+ * Returns: as lab_predict_log. */
+int lab_run_respond(const lab_unknowns *u, int run, lab_response *response, lab_error *error);
+
 /* Figures of merit of the runs of a fit, as they were measured, and as the fitted model does them at the same times,
- * with commands that act at the rows that show them. A model that cannot follow the runs has no figures, and its error
+ * by lab_run_respond. A model that cannot follow the runs has no figures, and its error
  * is the reason.
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_metrics_compare(const lab_unknowns *u, lab_metrics *measured, lab_metrics *predicted, lab_error *error);

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../run/response.h"
-#include "../run/start.h"
+#include "../metrics/recording.h"
 
 static const double space_between_runs = 0.02; /* of the first run's length */
 
@@ -101,20 +100,14 @@ static void lay_out_time(const lab_unknowns *u, lab_residual_table *v)
 
 /* Arguments of one run: the model's response, with the commands at the rows that show them, which is near enough for
  * sorting a residual into bins; gaps where the model cannot be followed with those. */
-static int respond(const lab_unknowns *u, const lab_run *x, lab_residual_table *v, size_t row, lab_error *error)
+static int respond(const lab_unknowns *u, int run, lab_residual_table *v, lab_error *error)
 {
-  const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
+  const lab_run *x = &u->run[run];
+  const size_t row = v->first[run];
   const double *column[LAB_ARGUMENT_COUNT];
-  pneu_model model;
-  pneu_state start;
   lab_response response;
-  const lab_simulation task = {
-      .start = &start, .schedule = &x->inputs.schedule, .t = t, .n = x->n, .options = {.tol = u->tol}};
   int i;
-  if (lab_rig_model(&u->rig, &model, error) ||
-      lab_run_initial_state(&model, x->inputs.input, x->log, x->run, &start, error))
-    return error->status;
-  if (lab_response_run(&model, &task, &response, error))
+  if (lab_run_respond(u, run, &response, error))
     return error->status == LAB_NUMERIC ? LAB_OK : error->status;
   column[LAB_ARGUMENT_P] = response.p;
   column[LAB_ARGUMENT_X] = response.x;
@@ -170,7 +163,7 @@ int lab_residual_table_collect(const lab_report *report, lab_residual_table *v, 
     return error->status;
   lay_out_time(u, v);
   for (e = 0; e < u->n_runs; e++)
-    if (respond(u, &u->run[e], v, v->first[e], error))
+    if (respond(u, e, v, error))
       return error->status;
   return collect_residuals(report->declared, LAB_STAGE_BEFORE, v, error) ||
                  collect_residuals(report->completed, LAB_STAGE_AFTER, v, error)
