@@ -60,12 +60,15 @@ static void put_remainder(const page_context *t, cJSON *list)
 static void say_chance(const page_context *t, const lab_found *found, cJSON *list)
 {
   char p[LAB_FORMAT_TEXT], statistic[LAB_FORMAT_TEXT], threshold[LAB_FORMAT_TEXT];
-  lab_json_say(list, "The %s%s is significant: p-value %s (score %s, threshold %s).",
-               found->effect < 0 ? "free term" : "effect ",
-               found->effect < 0 ? "" : lab_page_effect_name(found->effect),
-               lab_format_p(found->effect < 0 ? lab_chi2_tail(found->statistic, found->degrees) : found->p_value, p),
-               lab_format_number(found->statistic, 3, statistic),
-               lab_format_number(lab_chi2_threshold(t->report->result->level), 3, threshold));
+  lab_format_p(lab_report_chance(t->report, found), p);
+  lab_format_number(found->statistic, 3, statistic);
+  if (found->effect < 0)
+    lab_json_say(list, "The free term is significant: p-value %s (score %s over %d values).", p, statistic,
+                 found->degrees);
+  else
+    lab_json_say(list, "The effect %s is significant: p-value %s (score %s, threshold %s).",
+                 lab_page_effect_name(found->effect), p, statistic,
+                 lab_format_number(lab_chi2_threshold(t->report->result->level), 3, threshold));
 }
 
 static int count_alike(const lab_search_result *r)

@@ -32,6 +32,16 @@ static void put_sentence(const page_context *t, const lab_found *found, cJSON *i
   lab_json_put(item, "sentence", "%s", sentence);
 }
 
+/* How much it explains, and how far that is from chance. */
+static void put_strength(const page_context *t, const lab_found *found, cJSON *item)
+{
+  lab_page_put_share(item, "explained", found->explained);
+  lab_page_put_number(item, "statistic", found->statistic, 3);
+  if (found->effect >= 0) /* that of a free term depends on its values */
+    lab_page_put_number(item, "threshold", lab_chi2_threshold(t->report->result->level), 3);
+  lab_page_put_p(item, "p_value", lab_report_chance(t->report, found));
+}
+
 /* What was found and has no name. */
 static void put_unlisted(const page_context *t, const lab_found *found, cJSON *list)
 {
@@ -44,10 +54,7 @@ static void put_unlisted(const page_context *t, const lab_found *found, cJSON *l
   lab_json_put(item, "source", "A free term was added; its values are in model.cfg.");
   lab_json_put(item, "equation", "%s", lab_free_term_equation(term));
   cJSON_AddArrayToObject(item, "sizes");
-  lab_page_put_share(item, "explained", found->explained);
-  lab_page_put_number(item, "statistic", found->statistic, 3);
-  lab_page_put_number(item, "threshold", lab_chi2_threshold(t->report->result->level), 3);
-  lab_page_put_p(item, "p_value", lab_chi2_tail(found->statistic, found->degrees));
+  put_strength(t, found, item);
 }
 
 static void put_found(const page_context *t, const lab_found *found, cJSON *list)
@@ -70,10 +77,7 @@ static void put_found(const page_context *t, const lab_found *found, cJSON *list
     if (!strcmp(equations[i].key, effect->equation))
       lab_json_put(item, "equation", "%s: %s", effect->equation, equations[i].words);
   put_sizes(t, found->effect, cJSON_AddArrayToObject(item, "sizes"));
-  lab_page_put_share(item, "explained", found->explained);
-  lab_page_put_number(item, "statistic", found->statistic, 3);
-  lab_page_put_number(item, "threshold", lab_chi2_threshold(t->report->result->level), 3);
-  lab_page_put_p(item, "p_value", found->p_value);
+  put_strength(t, found, item);
 }
 
 /* Why nothing was added, or nothing more. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/escape.h"
+#include "../trace/freeterms.h"
 
 int lab_report_file_open(const char *folder, const char *name, lab_outfile *out, lab_error *error)
 {
@@ -73,4 +74,11 @@ const char *lab_report_doubt(const lab_report *report)
 double lab_report_in_noise(const lab_errors *errors)
 {
   return sqrt(errors->chi2 / (double)errors->n);
+}
+
+double lab_report_chance(const lab_report *report, const lab_found *found)
+{
+  return found->effect >= 0
+             ? found->p_value
+             : lab_free_term_p_value(&report->completed->rig.term[found->term], found->statistic, found->degrees);
 }

@@ -64,6 +64,9 @@ const char *lab_report_doubt(const lab_report *report);
 /* The root mean square of all errors over the noise. */
 double lab_report_in_noise(const lab_errors *errors);
 
+/* The chance of a score as large as that of something found, if nothing is missing. */
+double lab_report_chance(const lab_report *report, const lab_found *found);
+
 /* Share of the excess over the noise that an effect explains by itself, as its refit beside the declared model found
  * it; NaN where there was none, or none row by row. */
 double lab_report_refit_explains(const lab_search_result *result, const lab_score *score);

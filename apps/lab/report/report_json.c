@@ -70,12 +70,11 @@ static void add_unlisted(cJSON *to, const lab_report *report, const lab_found *f
   cJSON_AddStringToObject(o, "what", lab_free_term_what(term));
   cJSON_AddStringToObject(o, "where", lab_free_term_where(term, where));
   add_sentence(o, report, found);
-  lab_json_numbers(o,
-                   (const lab_json_named[]){{"statistic", found->statistic},
-                                            {"degrees", found->degrees},
-                                            {"p_value", lab_free_term_p_value(term, found->statistic, found->degrees)},
-                                            {"explained", found->explained},
-                                            {NULL, 0}});
+  lab_json_numbers(o, (const lab_json_named[]){{"statistic", found->statistic},
+                                               {"degrees", found->degrees},
+                                               {"p_value", lab_report_chance(report, found)},
+                                               {"explained", found->explained},
+                                               {NULL, 0}});
 }
 
 static void add_errors(cJSON *to, const char *name, const lab_errors *errors)

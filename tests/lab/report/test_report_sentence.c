@@ -185,6 +185,23 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
                             "(dead_time).");
 }
 
+/* Of many cycles the best is tried: page and report.json tell the chance over all of them. */
+static void test_lab_report_chance__cycle__counts_what_was_looked_at(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_UNLISTED, 0);
+  const lab_found free_term = {.effect = -1, .term = 0, .statistic = 40, .degrees = 3};
+  const lab_found effect = {.effect = 0, .p_value = 0.25};
+  double once;
+  (void)state;
+  completed.rig.n_terms = 1;
+  completed.rig.term[0].argument = PNEU_TERM_OVER_POSITION;
+  once = lab_report_chance(&report, &free_term);
+  assert_true(once > 0 && once < 1e-6);
+  completed.rig.term[0].argument = PNEU_TERM_OVER_CYCLE;
+  assert_close(lab_report_chance(&report, &free_term), 1000 * once, 0, 1e-12);
+  assert_true(lab_report_chance(&report, &effect) == 0.25);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -193,6 +210,7 @@ int main(void)
       cmocka_unit_test(test_lab_effect_sentence__size_without_a_number__is_left_out),
       cmocka_unit_test(test_lab_report_sentence__verdicts__what_is_missing_then_the_error),
       cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
+      cmocka_unit_test(test_lab_report_chance__cycle__counts_what_was_looked_at),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
