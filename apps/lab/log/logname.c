@@ -171,7 +171,6 @@ static const struct name_word {
     {"sp", LAB_CHANNEL_SP},
     {"command", LAB_CHANNEL_U},
     {"cmd", LAB_CHANNEL_U},
-
     {"solenoid", LAB_CHANNEL_U},
     {"befehl", LAB_CHANNEL_U},
     {"valve signal", LAB_CHANNEL_U},

@@ -9,6 +9,34 @@ static const double band_noise = 6;     /* a measured pressure has left its leve
 static const double band_share = 0.002; /* and this share of its span */
 static const double drift = 0.25;       /* share of the step by which a level may drift */
 
+/* ---- Parts of a hold ---- */
+
+enum { PARTS = 8 };
+
+typedef struct portion {
+  size_t n;
+  double mean;
+} portion;
+
+/* Mean of the finite values over the k-th of the parts of equal time of rows begin..end. */
+static portion mean_of_part(const lab_record *r, const double *value, size_t begin, size_t end, int k)
+{
+  const double from = r->t[begin], whole = r->t[end - 1] - from;
+  portion part = {0, 0};
+  size_t i;
+  for (i = begin; i < end; i++) {
+    const double share = whole > 0 ? (r->t[i] - from) / whole : 1;
+    if (isnan(value[i]) || (int)fmin(PARTS * share, PARTS - 1) != k)
+      continue;
+    part.mean += value[i];
+    part.n++;
+  }
+  part.mean = part.n ? part.mean / (double)part.n : (double)NAN;
+  return part;
+}
+
+/* ---- Levels of the command ---- */
+
 /* A command is constant from row to row. */
 static size_t held_until(const double *u, size_t i, size_t end)
 {
@@ -73,8 +101,8 @@ static void pressures_of_run(lab_metrics_work *m, int run)
 static int drifts(const lab_metrics_work *m, size_t k)
 {
   const lab_hold *hold = &m->hold[k], *other = k > 0 ? hold - 1 : hold + 1;
-  const lab_part first = lab_part_mean(m->record, m->record->p, hold->begin, hold->end, 0);
-  const lab_part last = lab_part_mean(m->record, m->record->p, hold->begin, hold->end, LAB_PARTS - 1);
+  const portion first = mean_of_part(m->record, m->record->p, hold->begin, hold->end, 0);
+  const portion last = mean_of_part(m->record, m->record->p, hold->begin, hold->end, PARTS - 1);
   return m->n_holds > 1 && fabs(last.mean - first.mean) > drift * fabs(hold->level - other->level);
 }
 
@@ -116,26 +144,10 @@ int lab_holds_find(lab_metrics_work *m, lab_error *error)
 
 /* ---- Rest ---- */
 
-lab_part lab_part_mean(const lab_record *r, const double *value, size_t begin, size_t end, int k)
-{
-  const double from = r->t[begin], whole = r->t[end - 1] - from;
-  lab_part part = {0, 0};
-  size_t i;
-  for (i = begin; i < end; i++) {
-    const double share = whole > 0 ? (r->t[i] - from) / whole : 1;
-    if (isnan(value[i]) || (int)fmin(LAB_PARTS * share, LAB_PARTS - 1) != k)
-      continue;
-    part.mean += value[i];
-    part.n++;
-  }
-  part.mean = part.n ? part.mean / (double)part.n : (double)NAN;
-  return part;
-}
-
 lab_rest lab_rest_of(const lab_record *r, const double *value, size_t begin, size_t end, double noise)
 {
-  const lab_part before = lab_part_mean(r, value, begin, end, LAB_PARTS - 2);
-  const lab_part last = lab_part_mean(r, value, begin, end, LAB_PARTS - 1);
+  const portion before = mean_of_part(r, value, begin, end, PARTS - 2);
+  const portion last = mean_of_part(r, value, begin, end, PARTS - 1);
   lab_rest rest = {(double)NAN, (double)NAN, (double)NAN};
   if (last.n == 0 || before.n == 0)
     return rest;

@@ -53,16 +53,7 @@ typedef struct lab_metrics_work {
   lab_path rows; /* every row as a point of pressure and position */
 } lab_metrics_work;
 
-/* Mean of a part of some rows. */
-typedef struct lab_part {
-  size_t n;
-  double mean;
-} lab_part;
-
-enum {
-  LAB_PARTS = 8, /* in which a hold is looked at */
-  LAB_SEEN = 4   /* standard deviations from which on a movement is seen */
-};
+enum { LAB_SEEN = 4 }; /* standard deviations from which on a movement is seen */
 
 /* Set a figure. */
 void lab_metric_set(lab_metrics_work *m, int metric, double value, double uncertainty, const char *format, ...)
@@ -79,9 +70,6 @@ int lab_is_off_stops(const lab_metrics_work *m, double x);
 
 /* How far apart the ends of a leg are [m]. */
 double lab_leg_travel(const lab_path *path, const lab_leg *leg);
-
-/* Mean of the finite values over the k-th of the parts of equal time of rows begin..end. */
-lab_part lab_part_mean(const lab_record *r, const double *value, size_t begin, size_t end, int k);
 
 /* How a channel stands at the end of some rows. */
 typedef struct lab_rest {

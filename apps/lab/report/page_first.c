@@ -16,22 +16,12 @@ static const char *size_heading(const lab_search_result *r)
 /* The size of each effect that was found, with its interval. */
 static void put_main(const page_context *t, cJSON *list)
 {
-  const lab_unknowns *u = t->report->completed;
   const lab_search_result *r = t->report->result;
   int i;
   for (i = 0; i < r->n_found; i++) {
-    const int j = r->found[i].effect < 0 ? -1 : lab_unknowns_find(u, r->found[i].param);
-    pneu_param_info info;
-    cJSON *item;
-    if (j < 0)
-      continue;
-    pneu_param_describe(r->found[i].param, &info);
-    item = lab_json_append(list);
-    lab_json_put(item, "name", "%s", lab_page_effect_name(r->found[i].effect));
-    lab_json_put(item, "meaning", "%s", info.meaning);
-    lab_page_put_quantity(item, "value", u->unknown[j].value, lab_page_unit(&u->unknown[j]), lab_page_digits(t, j));
-    lab_json_put(item, "unit", "%s", lab_format_as(lab_page_unit(&u->unknown[j])).unit);
-    lab_page_put_interval(t, j, item);
+    cJSON *item = r->found[i].effect < 0 ? NULL : lab_page_put_size(t, r->found[i].param, list);
+    if (item)
+      lab_json_put(item, "name", "%s", lab_page_effect_name(r->found[i].effect));
   }
 }
 

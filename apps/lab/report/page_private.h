@@ -41,6 +41,10 @@ int lab_page_digits(const page_context *t, int j);
 /* "0.0136 .. 0.0138", or why there is none */
 void lab_page_put_interval(const page_context *t, int j, cJSON *to);
 
+/* Add a parameter of an effect to a list: what it means, how large it is, with unit and interval.
+ * Returns: the item; NULL where it was not fitted */
+cJSON *lab_page_put_size(const page_context *t, int param, cJSON *list);
+
 /* ---- Sections ---- */
 
 void lab_page_head(const page_context *t, cJSON *page);    /* verdict and model, and the table of errors */

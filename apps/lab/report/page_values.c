@@ -110,3 +110,19 @@ void lab_page_put_interval(const page_context *t, int j, cJSON *to)
     lab_json_put(to, "interval", "%s", state);
   }
 }
+
+cJSON *lab_page_put_size(const page_context *t, int param, cJSON *list)
+{
+  const lab_unknowns *u = t->report->completed;
+  const int j = lab_unknowns_find(u, param);
+  pneu_param_info info;
+  cJSON *item = j < 0 ? NULL : lab_json_append(list);
+  if (!item)
+    return NULL;
+  pneu_param_describe(param, &info);
+  lab_json_put(item, "meaning", "%s", info.meaning);
+  lab_page_put_quantity(item, "value", u->unknown[j].value, lab_page_unit(&u->unknown[j]), lab_page_digits(t, j));
+  lab_json_put(item, "unit", "%s", lab_format_as(lab_page_unit(&u->unknown[j])).unit);
+  lab_page_put_interval(t, j, item);
+  return item;
+}

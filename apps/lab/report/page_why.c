@@ -9,20 +9,9 @@
 /* All parameters of an effect that were fitted. */
 static void put_sizes(const page_context *t, int effect, cJSON *list)
 {
-  const lab_unknowns *u = t->report->completed;
   int i, count, first = pneu_effect_params(effect, &count);
-  for (i = first; i < first + count; i++) {
-    const int j = lab_unknowns_find(u, i);
-    pneu_param_info info;
-    cJSON *item;
-    if (j < 0)
-      continue;
-    pneu_param_describe(i, &info);
-    item = lab_json_append(list);
-    lab_json_put(item, "meaning", "%s", info.meaning);
-    lab_page_put_quantity(item, "value", u->unknown[j].value, lab_page_unit(&u->unknown[j]), lab_page_digits(t, j));
-    lab_page_put_interval(t, j, item);
-  }
+  for (i = first; i < first + count; i++)
+    lab_page_put_size(t, i, list);
 }
 
 static void put_sentence(const page_context *t, const lab_found *found, cJSON *item)

@@ -315,12 +315,13 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
     }
 }
 
+/* Members that stand in a group of their own. */
 static void put_inner(FILE *file, const draft *d, const char *key, const char *group)
 {
   char members[SHEET_TEXT] = "";
   put_members(d, group, members, sizeof members);
   if (*members)
-    fprintf(file, "  %s = { %s}; // sheet\n", key, members);
+    fprintf(file, "%s = { %s}; // sheet\n", key, members);
 }
 
 static void put_group(FILE *file, const draft *d, const char *group)
@@ -334,8 +335,8 @@ static void put_group(FILE *file, const draft *d, const char *group)
   if (set && strcmp(group, "actuator") == 0)
     fprintf(file, "  bench_set = %s; // sheet, in place of spring_rate and spring_preload\n", set->value);
   if (strcmp(group, "transducer") == 0) {
-    put_inner(file, d, "fill", "transducer.fill");
-    put_inner(file, d, "vent", "transducer.vent");
+    put_inner(file, d, "  fill", "transducer.fill");
+    put_inner(file, d, "  vent", "transducer.vent");
   }
   fputs("};\n", file);
 }
@@ -346,14 +347,6 @@ static void put_laws(FILE *file, const draft *d)
   char members[SHEET_TEXT] = "";
   put_members(d, "laws", members, sizeof members);
   fprintf(file, "laws = { %s%s};\n", find_word(d, "laws", "flow") ? "" : "flow = \"choked\"; ", members);
-}
-
-static void put_tube(FILE *file, const draft *d)
-{
-  char members[SHEET_TEXT] = "";
-  put_members(d, "tube", members, sizeof members);
-  if (*members)
-    fprintf(file, "tube = { %s}; // sheet\n", members);
 }
 
 /* What the log can determine: orifices by p or x, supply and dead volume by p, spring and friction by both p and x. */
@@ -463,7 +456,7 @@ static void put_all(FILE *file, const draft *d)
     put_group(file, d, "ambient");
   if (find_word(d, "gas", NULL))
     put_group(file, d, "gas");
-  put_tube(file, d);
+  put_inner(file, d, "tube", "tube");
   put_laws(file, d);
   put_drive(file, d);
   put_fit(file, d);
