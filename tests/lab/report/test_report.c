@@ -4,6 +4,7 @@
 #include "../../second/rig.h"
 
 #include "../../../apps/lab/metrics/recording.h"
+#include "../../../apps/lab/fit/weights.h"
 #include "../../../apps/lab/report/pagetext.h"
 #include "../../../apps/lab/report/report_html.h"
 #include "../../../apps/lab/report/signature.h"
@@ -567,11 +568,15 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   lab_log log;
   lab_unknowns after;
   char *text;
+  int any;
   (void)state;
   lab_search_options_default(&options);
   assert_int_equal(lab_log_read(write_log_with_memory("memory.csv"), &rig.log, 101325, &log, &error), LAB_OK);
   assert_int_equal(lab_run_open(&rig, &log, 0, &own, &error), LAB_OK);
   assert_int_equal(lab_unknowns_open(&rig, &own, 1, &fitted, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  assert_int_equal(lab_weigh_runs(&fitted, &own, &any, &error), LAB_OK);
+  assert_true(any);
   assert_int_equal(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   after = fitted;
   assert_int_equal(lab_search_run(&after, &options, &outcome, &error), LAB_OK);
