@@ -20,7 +20,7 @@ static void put_change(const lab_change *change, cJSON *list)
   lab_page_put_p(item, "p_value", change->p_value);
 }
 
-/* "As well as by chamber_leak the log is explained by laminar_leak, porous_leak." */
+/* "The logs are explained by laminar_leak, porous_leak as well as by chamber_leak." */
 static void say_alike(const lab_change *change, cJSON *list)
 {
   char name[LAB_PARAM_NAME_TEXT], names[LAB_CHANGE_LEADERS * LAB_PARAM_NAME_TEXT] = "";
@@ -28,7 +28,7 @@ static void say_alike(const lab_change *change, cJSON *list)
   for (i = 0; i < change->n_alike; i++)
     lab_append(names, sizeof names, "%s%s", i ? ", " : "", lab_change_name(change->alike[i], name));
   if (change->n_alike)
-    lab_json_say(list, "As well as by %s the logs are explained by %s.", lab_change_name(change->param, name), names);
+    lab_json_say(list, "The logs are explained by %s as well as by %s.", names, lab_change_name(change->param, name));
 }
 
 /* "chamber_leak acts since 14.2 s (95 %: 14.1 .. 14.3)." */

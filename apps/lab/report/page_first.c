@@ -86,8 +86,8 @@ static void say_alike(const lab_search_result *r, cJSON *list)
     const lab_found *found = &r->found[i];
     named += found->effect >= 0;
     if (found->n_alike > 0)
-      lab_json_say(list, "But the log cannot tell them apart: %s explains it as well as %s%s.",
-                   lab_page_effect_name(found->alike[0]), lab_page_effect_name(found->effect),
+      lab_json_say(list, "The log cannot tell %s from %s: each explains it equally well%s.",
+                   lab_page_effect_name(found->effect), lab_page_effect_name(found->alike[0]),
                    found->n_alike > 1 ? ", and so do others, see below" : "");
   }
   if (named > 0 && count_alike(r) == 0)

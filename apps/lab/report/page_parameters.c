@@ -55,13 +55,13 @@ void lab_page_parameters(const page_context *t, cJSON *page)
   if (switches > 0)
     lab_json_say(
         list,
-        "Fitted as well: the instants of %d changes of command, each between the two rows that bracket it. On logs "
+        "Also fitted: the instants of %d changes of command, each between the two rows that bracket it. On logs "
         "held out a command changes at the row that shows it.",
         switches);
   if (clocks > 0)
     lab_json_say(
         list,
-        "Fitted as well: by what share of a row the command is ahead of the log, one for each of %d runs in which it "
+        "Also fitted: by what share of a row the command is ahead of the log, one for each of %d runs in which it "
         "changes often. On logs held out a command changes at the row that shows it.",
         clocks);
 }
