@@ -170,15 +170,6 @@ static int fail_in_header(const lab_csv *csv, const lab_guess *guess, lab_error 
   return lab_fail_in(error, "%s:%d", csv->path, guess->header ? guess->header : csv->line);
 }
 
-static int is_any_named(const lab_heading *heading, int n)
-{
-  int i;
-  for (i = 0; i < n; i++)
-    if (lab_column_is_named(heading[i].text))
-      return 1;
-  return 0;
-}
-
 /* Neither a header as documented nor numbers. */
 static int fail_without_rows(const lab_csv *csv, lab_error *error)
 {
@@ -201,8 +192,8 @@ static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *g
                      : read_first(csv, format, heading, &n, error))
     return error->status;
   if (lab_map_columns(heading, n, guess->guessed, format, ambient, header, said, error))
-    return is_any_named(heading, n) || guess->guessed ? fail_in_header(csv, guess, error)
-                                                      : fail_without_rows(csv, error);
+    return lab_map_is_named(heading, n) || guess->guessed ? fail_in_header(csv, guess, error)
+                                                          : fail_without_rows(csv, error);
   for (i = 0; i < n; i++)
     scale_column(format, &header->column[i]);
   if (guess->guessed)
@@ -214,13 +205,11 @@ static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *g
 
 static int skip_lines(lab_csv *csv, int n, lab_error *error)
 {
-  int more = 1;
-  while (csv->line < n && more)
-    if (lab_csv_line(csv, &more, error))
-      return error->status;
-  return more ? LAB_OK
-              : lab_fail(error, LAB_DATA, "%s: expected more than the %d lines to skip, found %d", csv->path, n,
-                         csv->line);
+  if (go_to(csv, n, error))
+    return error->status;
+  return csv->line >= n ? LAB_OK
+                        : lab_fail(error, LAB_DATA, "%s: expected more than the %d lines to skip, found %d", csv->path,
+                                   n, csv->line);
 }
 
 /* Columns as the rig file lists them, with the words of a long file. */

@@ -319,11 +319,11 @@ static void set_date(const naming *m, lab_log_format *format)
       format->date = m->heading[i].stamp.order;
 }
 
-static int is_any_named(const naming *m)
+int lab_map_is_named(const lab_heading *heading, int n)
 {
   int i;
-  for (i = 0; i < m->n; i++)
-    if (lab_column_is_named(m->heading[i].text))
+  for (i = 0; i < n; i++)
+    if (lab_column_is_named(heading[i].text))
       return 1;
   return 0;
 }
@@ -389,7 +389,8 @@ int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_form
     header->column[i] = (lab_column){LAB_COLUMN_IGNORED, 1, 0, 0};
     snprintf(header->text[i], LAB_COLUMN_TEXT, "%s", heading[i].text);
   }
-  m.is_strict = (is_any_named(&m) || !guessed) && !is_any_mapped(&m) ? guessed ? LENIENT : STRICT : NOT_STRICT;
+  m.is_strict =
+      (lab_map_is_named(heading, n) || !guessed) && !is_any_mapped(&m) ? guessed ? LENIENT : STRICT : NOT_STRICT;
   if (name_all(&m))
     return error->status;
   set_date(&m, format);

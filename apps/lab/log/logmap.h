@@ -25,4 +25,7 @@ typedef struct lab_heading {
 int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_format *format, double ambient,
                     lab_header *header, char said[LAB_MAP_TEXT], lab_error *error);
 
+/* Whether one of n headings is named as interface.md says. */
+int lab_map_is_named(const lab_heading *heading, int n);
+
 #endif

@@ -97,45 +97,42 @@ static passed flow_of_c(const lab_rig *rig, double c, double b)
   return p;
 }
 
-/* Read a member of an orifice's group, if it is there. */
-static int read_word(const config_setting_t *group, const char *key, const char *unit, double upper, double *value,
-                     lab_error *error)
-{
-  const config_setting_t *setting = member(group, key);
-  if (!setting)
-    return LAB_OK;
-  if (lab_config_quantity(setting, unit, 0, upper, value, error))
-    return error->status;
-  return strncmp(key, "p", 1) == 0 || *value > 0 ? LAB_OK : lab_config_expected(setting, "more than 0", error);
-}
+/* What a sheet says of an orifice. */
+enum { KV, CV, C, B, QN, XT, P1, P2, WORDS };
+static const struct {
+  const char *key, *unit;
+  double upper;
+} words[WORDS] = {{"Kv", "m3/h", 1e6}, {"Cv", "1", 1e6}, {"C", "m3/(s.Pa)", 1}, {"b", "1", 0.99},
+                  {"Qn", "m3/s", 1e3}, {"xT", "1", 1},   {"p1", "Pa", 1e9},     {"p2", "Pa", 1e9}};
 
-typedef struct orifice_words {
-  double Kv, Cv, C, b, Qn, xT, p1, p2;
-} orifice_words;
-
-static int read_words(const config_setting_t *group, orifice_words *w, lab_error *error)
+/* Read those that are there over w. */
+static int read_words(const config_setting_t *group, double w[WORDS], lab_error *error)
 {
-  static const char *const keys[] = {"Kv", "Cv", "C", "b", "Qn", "xT", "p1", "p2"};
-  if (lab_config_known(group, keys, sizeof keys / sizeof keys[0], sizeof keys[0], error))
+  int i;
+  if (lab_config_known(group, words, WORDS, sizeof words[0], error))
     return error->status;
-  if (read_word(group, "Kv", "m3/h", 1e6, &w->Kv, error) || read_word(group, "Cv", "1", 1e6, &w->Cv, error) ||
-      read_word(group, "C", "m3/(s.Pa)", 1, &w->C, error) || read_word(group, "b", "1", 0.99, &w->b, error) ||
-      read_word(group, "Qn", "m3/s", 1e3, &w->Qn, error) || read_word(group, "xT", "1", 1, &w->xT, error) ||
-      read_word(group, "p1", "Pa", 1e9, &w->p1, error) || read_word(group, "p2", "Pa", 1e9, &w->p2, error))
-    return error->status;
-  if ((w->Kv > 0) + (w->Cv > 0) + (w->C > 0) + (w->Qn > 0) != 1)
+  for (i = 0; i < WORDS; i++) {
+    const config_setting_t *setting = member(group, words[i].key);
+    if (!setting)
+      continue;
+    if (lab_config_quantity(setting, words[i].unit, 0, words[i].upper, &w[i], error))
+      return error->status;
+    if (i < P1 && !(w[i] > 0))
+      return lab_config_expected(setting, "more than 0", error);
+  }
+  if ((w[KV] > 0) + (w[CV] > 0) + (w[C] > 0) + (w[QN] > 0) != 1)
     return lab_config_fail(group, error, "expected one of Kv, Cv, C and Qn");
-  if (!(w->p2 < w->p1))
-    return lab_config_fail(group, error, "expected p1 above p2, found %g Pa and %g Pa", w->p1, w->p2);
+  if (!(w[P2] < w[P1]))
+    return lab_config_fail(group, error, "expected p1 above p2, found %g Pa and %g Pa", w[P1], w[P2]);
   return LAB_OK;
 }
 
-static passed flow_of(const lab_rig *rig, const orifice_words *w)
+static passed flow_of(const lab_rig *rig, const double w[WORDS])
 {
-  const passed nominal = {atmosphere + w->p1, atmosphere + w->p2, 1.293 * w->Qn};
-  if (w->Qn > 0)
+  const passed nominal = {atmosphere + w[P1], atmosphere + w[P2], 1.293 * w[QN]};
+  if (w[QN] > 0)
     return nominal;
-  return w->C > 0 ? flow_of_c(rig, w->C, w->b) : flow_of_kv(rig, w->Kv > 0 ? w->Kv : 0.865 * w->Cv, w->xT);
+  return w[C] > 0 ? flow_of_c(rig, w[C], w[B]) : flow_of_kv(rig, w[KV] > 0 ? w[KV] : 0.865 * w[CV], w[XT]);
 }
 
 /* The area [m2] through which the declared law passes as much air. */
@@ -183,14 +180,14 @@ static int read_orifice(const config_setting_t *transducer, const char *key, con
                         lab_error *error)
 {
   const config_setting_t *group = member(transducer, key);
-  orifice_words w = {.b = (double)rig->params.critical_ratio, .xT = usual_xT, .p1 = 6 * bar, .p2 = 5 * bar};
+  double w[WORDS] = {[B] = (double)rig->params.critical_ratio, [XT] = usual_xT, [P1] = 6 * bar, [P2] = 5 * bar};
   double area;
   passed p;
   if (!group)
     return LAB_OK;
-  if (read_words(group, &w, error))
+  if (read_words(group, w, error))
     return error->status;
-  p = flow_of(rig, &w);
+  p = flow_of(rig, w);
   if (area_of(rig, &p, &area, error))
     return error->status;
   return put(group, param, area, member(transducer, same), rig, error);
