@@ -3,9 +3,35 @@
 #include <unistd.h>
 
 #include "answer.h"
-#include "report_html.h"
+#include "figures.h"
 #include "../base/interrupt.h"
 #include "../base/outfile.h"
+
+/* Files of an answer, the extent from which on each is always there, and what writes it. */
+static const struct {
+  const char *name;
+  int extent;
+  int rows; /* 1: it needs table and figures */
+  lab_report_writer *write;
+} files[] = {{"model.cfg", LAB_WRITE_PLAIN, 0, lab_report_model},
+             {"model.h", LAB_WRITE_PLAIN, 0, lab_report_header},
+             {"effects.def", LAB_WRITE_PLAIN, 0, lab_report_catalogue},
+             {"report.json", LAB_WRITE_JSON, 0, lab_report_json},
+             {"residual.csv", LAB_WRITE_PLAIN, 1, lab_report_residual},
+             {"report.html", LAB_WRITE_PLAIN, 1, lab_report_html},
+             {"response.svg", LAB_WRITE_FIGURES, 1, NULL},
+             {"residual.svg", LAB_WRITE_FIGURES, 1, NULL}};
+
+/* Those that need rows, or those that do not; figures are drawn by lab_figures_draw. */
+static int write_some(const lab_sources *from, int rows, const char *folder, int extent, lab_error *error)
+{
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++)
+    if (files[i].write && files[i].rows == rows && files[i].extent <= extent &&
+        lab_report_file(folder, files[i].name, files[i].write, from, error))
+      return error->status;
+  return LAB_OK;
+}
 
 /* The page and the drawings of the same figures, and the rows behind them. */
 static int write_rows(const lab_report *report, const char *folder, int extent, lab_error *error)
@@ -14,11 +40,9 @@ static int write_rows(const lab_report *report, const char *folder, int extent, 
   lab_figures *figures = NULL;
   int status = lab_residual_table_collect(report, &table, error);
   if (status == LAB_OK)
-    status = lab_report_residual(report, &table, folder, error);
-  if (status == LAB_OK)
     status = lab_figures_make(report, &table, &figures, error);
   if (status == LAB_OK)
-    status = lab_report_html(report, &table, figures, folder, error);
+    status = write_some(&(lab_sources){report, &table, figures}, 1, folder, extent, error);
   if (status == LAB_OK)
     status = lab_figures_draw(extent >= LAB_WRITE_DRAWN ? figures : NULL, folder, extent == LAB_WRITE_FIGURES, error);
   lab_figures_free(figures);
@@ -28,13 +52,7 @@ static int write_rows(const lab_report *report, const char *folder, int extent, 
 
 static int write_files(const lab_report *report, const char *folder, int extent, lab_error *error)
 {
-  if (lab_make_folder(folder, error))
-    return error->status;
-  if (extent >= LAB_WRITE_PLAIN &&
-      (lab_report_model(report, folder, error) || lab_report_header(report, folder, error) ||
-       lab_report_catalogue(report, folder, error)))
-    return error->status;
-  if (lab_report_json(report, folder, error))
+  if (lab_make_folder(folder, error) || write_some(&(lab_sources){report, NULL, NULL}, 0, folder, extent, error))
     return error->status;
   return extent >= LAB_WRITE_PLAIN ? write_rows(report, folder, extent, error) : LAB_OK;
 }
@@ -47,14 +65,6 @@ int lab_answer_write(const lab_answer *answer, const char *folder, int extent, l
   lab_interrupt_release();
   return status;
 }
-
-/* Files of an answer, and the extent from which on each is always there. */
-static const struct {
-  const char *name;
-  int extent;
-} files[] = {{"report.json", LAB_WRITE_JSON},     {"report.html", LAB_WRITE_PLAIN},   {"model.cfg", LAB_WRITE_PLAIN},
-             {"model.h", LAB_WRITE_PLAIN},        {"effects.def", LAB_WRITE_PLAIN},   {"residual.csv", LAB_WRITE_PLAIN},
-             {"response.svg", LAB_WRITE_FIGURES}, {"residual.svg", LAB_WRITE_FIGURES}};
 
 static void path_in(const char *folder, const char *name, char path[LAB_PATH_TEXT + 32])
 {

@@ -5,7 +5,7 @@
 #include "../base/format.h"
 #include "page_private.h"
 
-void lab_page_whiteness(const page_context *t, cJSON *page)
+void lab_page_whiteness(const lab_sources *t, cJSON *page)
 {
   cJSON *list = cJSON_AddArrayToObject(page, "whiteness");
   const lab_search_result *r = t->report->result;
@@ -29,7 +29,7 @@ void lab_page_whiteness(const page_context *t, cJSON *page)
 }
 
 /* The bar of a statistic: how long, in per cent on a scale of logarithms, and what became of its effect. */
-static void put_bar(const page_context *t, const lab_score *c, double threshold, cJSON *item)
+static void put_bar(const lab_sources *t, const lab_score *c, double threshold, cJSON *item)
 {
   const lab_search_result *result = t->report->result;
   const double least = 0.5, most = fmax(threshold, result->scores.of[0].statistic);
@@ -48,7 +48,7 @@ static void put_refit(double explained, cJSON *item)
     lab_page_put_share(item, "explained", explained);
 }
 
-void lab_page_candidates(const page_context *t, cJSON *page)
+void lab_page_candidates(const lab_sources *t, cJSON *page)
 {
   const lab_scores *scores = &t->report->result->scores;
   cJSON *list = cJSON_AddArrayToObject(page, "candidates");

@@ -41,7 +41,7 @@ static void say_when(const lab_change *change, const lab_onset *onset, const cha
                  lab_format_number(onset->high, 5, high));
 }
 
-void lab_page_changes(const page_context *t, cJSON *page)
+void lab_page_changes(const lab_sources *t, cJSON *page)
 {
   const lab_changes *changes = t->report->changes;
   cJSON *list;

@@ -62,7 +62,7 @@ static int put_data(const lab_figures *figures, cJSON *page)
   return cJSON_GetObjectItem(page, "curves") != NULL;
 }
 
-int lab_page_figures(const page_context *t, cJSON *page)
+int lab_page_figures(const lab_sources *t, cJSON *page)
 {
   char *template = lab_page_text("figure", NULL);
   int i, done = template && put_data(t->figures, page);

@@ -14,7 +14,7 @@ static const char *size_heading(const lab_search_result *r)
 }
 
 /* The size of each effect that was found, with its interval. */
-static void put_main(const page_context *t, cJSON *list)
+static void put_main(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   int i;
@@ -26,7 +26,7 @@ static void put_main(const page_context *t, cJSON *list)
 }
 
 /* What is left, and where something without a name acts. */
-static void put_remainder(const page_context *t, cJSON *list)
+static void put_remainder(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   char where[LAB_WHERE_TEXT], number[LAB_FORMAT_TEXT];
@@ -47,7 +47,7 @@ static void put_remainder(const page_context *t, cJSON *list)
 }
 
 /* How much more than chance one thing is that was added. */
-static void say_chance(const page_context *t, const lab_found *found, cJSON *list)
+static void say_chance(const lab_sources *t, const lab_found *found, cJSON *list)
 {
   char p[LAB_FORMAT_TEXT], statistic[LAB_FORMAT_TEXT], threshold[LAB_FORMAT_TEXT];
   lab_format_p(lab_report_chance(t->report, found), p);
@@ -109,7 +109,7 @@ static void say_held_out(const lab_report *report, cJSON *list)
 }
 
 /* Whether what is left is noise: as the verdict has it. */
-static void say_left(const page_context *t, cJSON *list)
+static void say_left(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   const lab_residual_stats *left = r->left[LAB_STAGE_AFTER];
@@ -128,7 +128,7 @@ static void say_left(const page_context *t, cJSON *list)
 }
 
 /* Of an undecided verdict: what is certain, and what is not. */
-static void say_undecided(const page_context *t, cJSON *list)
+static void say_undecided(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   const lab_residual_stats *left = r->left[LAB_STAGE_AFTER];
@@ -150,7 +150,7 @@ static void say_undecided(const page_context *t, cJSON *list)
                  lab_format_number(lab_report_in_noise(&r->after), 3, text));
 }
 
-static void put_sure(const page_context *t, cJSON *list)
+static void put_sure(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   char statistic[LAB_FORMAT_TEXT], threshold[LAB_FORMAT_TEXT];
@@ -169,7 +169,7 @@ static void put_sure(const page_context *t, cJSON *list)
   say_left(t, list);
 }
 
-static void put_todo(const page_context *t, const cJSON *next, cJSON *list)
+static void put_todo(const lab_sources *t, const cJSON *next, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   const cJSON *first = cJSON_GetArrayItem(next, 0);
@@ -196,7 +196,7 @@ static void put_todo(const page_context *t, const cJSON *next, cJSON *list)
     lab_json_say(list, "%s", first->valuestring);
 }
 
-void lab_page_first(const page_context *t, const cJSON *next, cJSON *page)
+void lab_page_first(const lab_sources *t, const cJSON *next, cJSON *page)
 {
   lab_json_put(page, "size_heading", "%s", size_heading(t->report->result));
   put_main(t, cJSON_AddArrayToObject(page, "main"));

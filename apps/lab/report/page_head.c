@@ -6,7 +6,7 @@
 #include "../base/text.h"
 #include "page_private.h"
 
-static void put_verdict(const page_context *t, cJSON *page)
+static void put_verdict(const lab_sources *t, cJSON *page)
 {
   static const char *const badge[] = {"nothing missing", "effect found", "not in the catalogue", "undecided"};
   const lab_report *report = t->report;
@@ -29,7 +29,7 @@ static void put_verdict(const page_context *t, cJSON *page)
 }
 
 /* "5356 rows in 2 runs of a.csv, b.csv" */
-static void put_logs(const page_context *t, cJSON *page)
+static void put_logs(const lab_sources *t, cJSON *page)
 {
   const lab_unknowns *u = t->report->completed;
   const lab_log *last = NULL;
@@ -65,7 +65,7 @@ static double largest_of(const column *columns, size_t n, int channel)
   return largest;
 }
 
-static void put_errors(const page_context *t, cJSON *page)
+static void put_errors(const lab_sources *t, cJSON *page)
 {
   const lab_report *report = t->report;
   const int both = lab_page_has_completed(t), held = report->has_holdout;
@@ -99,7 +99,7 @@ static void put_errors(const page_context *t, cJSON *page)
   }
 }
 
-void lab_page_head(const page_context *t, cJSON *page)
+void lab_page_head(const lab_sources *t, cJSON *page)
 {
   put_verdict(t, page);
   put_logs(t, page);

@@ -8,7 +8,7 @@
 
 static const double rough = 0.1; /* half an interval over the value, from which on it is worth a word */
 
-static void put_rough(const page_context *t, cJSON *list)
+static void put_rough(const lab_sources *t, cJSON *list)
 {
   const lab_unknowns *u = t->report->completed;
   const lab_fit_result *fit = &t->report->result->fit;
@@ -49,7 +49,7 @@ static void put_invisible(const lab_scores *scores, cJSON *list)
     lab_json_say(list, "With the declared laws this log cannot show these effects: %s.", names);
 }
 
-void lab_page_limits(const page_context *t, cJSON *page)
+void lab_page_limits(const lab_sources *t, cJSON *page)
 {
   cJSON *list = cJSON_AddArrayToObject(page, "limits");
   const lab_search_result *r = t->report->result;
@@ -65,7 +65,7 @@ void lab_page_limits(const page_context *t, cJSON *page)
     lab_json_say(list, "There is no limitation: every parameter is determined, and no two effects look alike.");
 }
 
-const cJSON *lab_page_next(const page_context *t, cJSON *page)
+const cJSON *lab_page_next(const lab_sources *t, cJSON *page)
 {
   cJSON *list = cJSON_AddArrayToObject(page, "next");
   const lab_search_result *r = t->report->result;

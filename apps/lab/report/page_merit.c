@@ -5,13 +5,13 @@
 #include "../metrics/metricstext.h"
 #include "page_private.h"
 
-static const char *merit_model(const page_context *t)
+static const char *merit_model(const lab_sources *t)
 {
   return lab_page_has_completed(t) ? "completed model" : "declared model, fitted";
 }
 
 /* A figure, as measured and as the model has it. */
-static void put_figure(const page_context *t, int i, cJSON *list)
+static void put_figure(const lab_sources *t, int i, cJSON *list)
 {
   const lab_metric *const both[] = {&t->report->measured->metric[i], &t->report->predicted->metric[i]};
   const lab_metric_info *info = &lab_metric_infos[i];
@@ -34,7 +34,7 @@ static void put_figure(const page_context *t, int i, cJSON *list)
   }
 }
 
-void lab_page_merit(const page_context *t, cJSON *page)
+void lab_page_merit(const lab_sources *t, cJSON *page)
 {
   const lab_metrics *measured = t->report->measured;
   cJSON *list, *missing;

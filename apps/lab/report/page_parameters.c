@@ -3,7 +3,7 @@
 #include "page_private.h"
 
 /* The same unknown before anything was added, if it was fitted then. */
-static void put_before(const page_context *t, const lab_unknown *x, double scale, int digits, cJSON *item)
+static void put_before(const lab_sources *t, const lab_unknown *x, double scale, int digits, cJSON *item)
 {
   const lab_unknowns *u = t->report->declared;
   int j;
@@ -12,7 +12,7 @@ static void put_before(const page_context *t, const lab_unknown *x, double scale
       lab_page_put_number(item, "before", scale * u->unknown[j].value, digits);
 }
 
-static void put_parameter(const page_context *t, int j, cJSON *list)
+static void put_parameter(const lab_sources *t, int j, cJSON *list)
 {
   const lab_unknown *x = &t->report->completed->unknown[j];
   const lab_format shown = lab_format_as(lab_page_unit(x));
@@ -38,7 +38,7 @@ static void put_parameter(const page_context *t, int j, cJSON *list)
   }
 }
 
-void lab_page_parameters(const page_context *t, cJSON *page)
+void lab_page_parameters(const lab_sources *t, cJSON *page)
 {
   const lab_unknowns *u = t->report->completed;
   cJSON *list = cJSON_AddArrayToObject(page, "parameters"), *knots = cJSON_AddArrayToObject(page, "knots");

@@ -17,7 +17,7 @@ static void put_row(const char *name, const double *value, int n, const char *un
 }
 
 /* Numbers of each model, a row a kind. */
-void lab_page_signature(const page_context *t, cJSON *page)
+void lab_page_signature(const lab_sources *t, cJSON *page)
 {
   lab_signature_model model[LAB_SIGNATURE_MODELS];
   double value[4][LAB_SIGNATURE_MODELS];
@@ -50,7 +50,7 @@ static void put_tolerance(const lab_deviation *d, cJSON *row)
     lab_page_put_quantity(row, "tolerance", d->tolerance, d->unit, 3);
 }
 
-void lab_page_deviations(const page_context *t, cJSON *page)
+void lab_page_deviations(const lab_sources *t, cJSON *page)
 {
   const lab_deviations *all = &t->report->deviations;
   cJSON *list = cJSON_AddArrayToObject(page, "deviations");

@@ -67,7 +67,7 @@ const char *lab_page_effect_name(int effect)
   return pneu_effect_at(effect)->name;
 }
 
-int lab_page_has_completed(const page_context *t)
+int lab_page_has_completed(const lab_sources *t)
 {
   return t->report->result->n_found > 0 || t->report->rig->n_fit == 0;
 }
@@ -79,7 +79,7 @@ const char *lab_page_unit(const lab_unknown *x)
   return is_listed && pneu_param_describe(x->index, &info) == PNEU_OK ? info.unit : x->unit;
 }
 
-int lab_page_digits(const page_context *t, int j)
+int lab_page_digits(const lab_sources *t, int j)
 {
   const lab_fit_result *fit = &t->report->result->fit;
   const double value = fabs(t->report->completed->unknown[j].value), width = fit->high[j] - fit->low[j];
@@ -88,7 +88,7 @@ int lab_page_digits(const page_context *t, int j)
   return (int)fmin(fmax(4, 2 + ceil(log10(value / width))), 9);
 }
 
-void lab_page_put_interval(const page_context *t, int j, cJSON *to)
+void lab_page_put_interval(const lab_sources *t, int j, cJSON *to)
 {
   const lab_fit_result *fit = &t->report->result->fit;
   const double scale = lab_format_as(lab_page_unit(&t->report->completed->unknown[j])).scale;
@@ -111,7 +111,7 @@ void lab_page_put_interval(const page_context *t, int j, cJSON *to)
   }
 }
 
-cJSON *lab_page_put_size(const page_context *t, int param, cJSON *list)
+cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list)
 {
   const lab_unknowns *u = t->report->completed;
   const int j = lab_unknowns_find(u, param);

@@ -7,14 +7,14 @@
 #include "page_private.h"
 
 /* All parameters of an effect that were fitted. */
-static void put_sizes(const page_context *t, int effect, cJSON *list)
+static void put_sizes(const lab_sources *t, int effect, cJSON *list)
 {
   int i, count, first = pneu_effect_params(effect, &count);
   for (i = first; i < first + count; i++)
     lab_page_put_size(t, i, list);
 }
 
-static void put_sentence(const page_context *t, const lab_found *found, cJSON *item)
+static void put_sentence(const lab_sources *t, const lab_found *found, cJSON *item)
 {
   char sentence[LAB_FOUND_SENTENCE];
   lab_report_found_sentence(t->report, found, sentence);
@@ -22,7 +22,7 @@ static void put_sentence(const page_context *t, const lab_found *found, cJSON *i
 }
 
 /* How much it explains, and how far that is from chance. */
-static void put_strength(const page_context *t, const lab_found *found, cJSON *item)
+static void put_strength(const lab_sources *t, const lab_found *found, cJSON *item)
 {
   lab_page_put_share(item, "explained", found->explained);
   lab_page_put_number(item, "statistic", found->statistic, 3);
@@ -32,7 +32,7 @@ static void put_strength(const page_context *t, const lab_found *found, cJSON *i
 }
 
 /* What was found and has no name. */
-static void put_unlisted(const page_context *t, const lab_found *found, cJSON *list)
+static void put_unlisted(const lab_sources *t, const lab_found *found, cJSON *list)
 {
   const pneu_term *term = &t->report->completed->rig.term[found->term];
   char where[LAB_WHERE_TEXT];
@@ -46,7 +46,7 @@ static void put_unlisted(const page_context *t, const lab_found *found, cJSON *l
   put_strength(t, found, item);
 }
 
-static void put_found(const page_context *t, const lab_found *found, cJSON *list)
+static void put_found(const lab_sources *t, const lab_found *found, cJSON *list)
 {
   static const struct {
     const char *key, *words;
@@ -70,7 +70,7 @@ static void put_found(const page_context *t, const lab_found *found, cJSON *list
 }
 
 /* Why nothing was added, or nothing more. */
-static void put_reasons(const page_context *t, cJSON *list)
+static void put_reasons(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   char statistic[LAB_FORMAT_TEXT], threshold[LAB_FORMAT_TEXT], where[LAB_WHERE_TEXT];
@@ -96,7 +96,7 @@ static void put_reasons(const page_context *t, cJSON *list)
               "where it arises.");
 }
 
-void lab_page_why(const page_context *t, cJSON *page)
+void lab_page_why(const lab_sources *t, cJSON *page)
 {
   const lab_search_result *r = t->report->result;
   cJSON *list = cJSON_AddArrayToObject(page, "found");

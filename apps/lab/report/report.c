@@ -7,33 +7,32 @@
 #include "../base/escape.h"
 #include "../trace/freeterms.h"
 
-int lab_report_file_open(const char *folder, const char *name, lab_outfile *out, lab_error *error)
+int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
+                    lab_error *error)
 {
   char path[LAB_PATH_TEXT + 32];
+  lab_outfile out;
   if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
     return lab_fail(error, LAB_DATA, "%.80s...: the path is too long", folder);
-  return lab_out_open(out, path, error);
+  if (lab_out_open(&out, path, error))
+    return error->status;
+  return lab_out_end(&out, write(out.file, from, error), error);
 }
 
-int lab_report_model(const lab_report *report, const char *folder, lab_error *error)
+int lab_report_model(FILE *file, const lab_sources *from, lab_error *error)
 {
-  lab_rig rig = *report->rig;
-  lab_outfile out;
-  if (lab_report_file_open(folder, "model.cfg", &out, error))
-    return error->status;
-  rig = report->completed->rig;
+  lab_rig rig = from->report->completed->rig;
+  (void)error;
   rig.friction = LAB_FRICTION_COULOMB; /* its effects are written with their sizes */
-  lab_rig_write(out.file, &rig, "The completed model, by closeloop.");
-  return lab_out_close(&out, error);
+  lab_rig_write(file, &rig, "The completed model, by closeloop.");
+  return LAB_OK;
 }
 
-int lab_report_header(const lab_report *report, const char *folder, lab_error *error)
+int lab_report_header(FILE *file, const lab_sources *from, lab_error *error)
 {
-  lab_outfile out;
-  if (lab_report_file_open(folder, "model.h", &out, error))
-    return error->status;
-  fputs("/* The completed model of ", out.file);
-  lab_put_comment(out.file, report->rig->name);
+  (void)error;
+  fputs("/* The completed model of ", file);
+  lab_put_comment(file, from->report->rig->name);
   fputs(
       ", by closeloop; for libpneu " PNEU_VERSION ".\n"
       " * const pneu_params p = MODEL_PARAMS; const pneu_laws law = MODEL_LAWS;\n"
@@ -41,19 +40,17 @@ int lab_report_header(const lab_report *report, const char *folder, lab_error *e
       " * -DPNEU_EFFECTS_FILE='\"FOLDER/effects.def\"', FOLDER as seen from a folder given with -I, and the same for\n"
       " * the library. With any other it does not compile. */\n"
       "#include \"pneu.h\"\n",
-      out.file);
-  lab_rig_write_c(out.file, &report->completed->rig, 0);
-  return lab_out_close(&out, error);
+      file);
+  lab_rig_write_c(file, &from->report->completed->rig, 0);
+  return LAB_OK;
 }
 
-int lab_report_catalogue(const lab_report *report, const char *folder, lab_error *error)
+int lab_report_catalogue(FILE *file, const lab_sources *from, lab_error *error)
 {
-  lab_outfile out;
-  if (lab_report_file_open(folder, "effects.def", &out, error))
-    return error->status;
-  fputs("/* The effects that model.h beside this file needs, by closeloop: see there. */\n", out.file);
-  lab_rig_write_catalogue(out.file, &report->completed->rig);
-  return lab_out_close(&out, error);
+  (void)error;
+  fputs("/* The effects that model.h beside this file needs, by closeloop: see there. */\n", file);
+  lab_rig_write_catalogue(file, &from->report->completed->rig);
+  return LAB_OK;
 }
 
 double lab_report_refit_explains(const lab_search_result *r, const lab_score *score)

@@ -1,7 +1,9 @@
-/* What closeloop writes: report.json, model.cfg, model.h, effects.def, residual.csv.
+/* What closeloop writes: report.json, report.html, model.cfg, model.h, effects.def, residual.csv.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_REPORT_H
 #define LAB_REPORT_H
+
+#include <stdio.h>
 
 #include <cjson/cJSON.h>
 
@@ -42,14 +44,24 @@ typedef struct lab_report {
   const lab_rig *baseline;              /* as the rig was; NULL: unknown */
 } lab_report;
 
-/* Open one file in a folder.  Returns: as lab_out_open */
-int lab_report_file_open(const char *folder, const char *name, lab_outfile *out, lab_error *error);
+/* What the files of an answer are written from. */
+typedef struct lab_sources {
+  const lab_report *report;
+  const struct lab_residual_table *table; /* NULL where only report.json and the model are written */
+  const struct lab_figures *figures;      /* the same */
+} lab_sources;
 
-/* Each writes one file into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD, LAB_NUMERIC. */
-int lab_report_json(const lab_report *report, const char *folder, lab_error *error);
-int lab_report_model(const lab_report *report, const char *folder, lab_error *error);
-int lab_report_header(const lab_report *report, const char *folder, lab_error *error);
-int lab_report_catalogue(const lab_report *report, const char *folder, lab_error *error);
+/* Write a file that has been opened; errors of the stream are left to lab_out_close.
+ * Returns: LAB_OK, LAB_WORLD without memory. */
+typedef int lab_report_writer(FILE *file, const lab_sources *from, lab_error *error);
+
+lab_report_writer lab_report_json, lab_report_model, lab_report_header, lab_report_catalogue;
+lab_report_writer lab_report_residual; /* residual.csv: every row fitted, beside what both models make of it */
+lab_report_writer lab_report_html;     /* a page that needs nothing else, figures inside */
+
+/* Write one of them into a folder, whole or not at all.  Returns: LAB_OK; LAB_DATA for a path too long; LAB_WORLD. */
+int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
+                    lab_error *error);
 
 /* What the fit could not determine, in words; "" where all is well.  Out: text */
 void lab_report_undetermined(const lab_report *report, char text[LAB_FIT_UNDETERMINED_TEXT]);

@@ -1,12 +1,10 @@
-#include "report_html.h"
-
 #include <stdlib.h>
 
 #include "../base/template.h"
 #include "page_private.h"
 #include "pagetext.h"
 
-static cJSON *values_of(const page_context *t)
+static cJSON *values_of(const lab_sources *t)
 {
   cJSON *page = cJSON_CreateObject();
   lab_page_head(t, page);
@@ -26,21 +24,11 @@ static cJSON *values_of(const page_context *t)
   return NULL;
 }
 
-static int write_page(const cJSON *page, const char *text, const char *folder, lab_error *error)
+int lab_report_html(FILE *file, const lab_sources *from, lab_error *error)
 {
-  lab_outfile out;
-  if (lab_report_file_open(folder, "report.html", &out, error))
-    return error->status;
-  return lab_out_end(&out, lab_template_write(out.file, text, page, error), error);
-}
-
-int lab_report_html(const lab_report *report, const lab_residual_table *table, const lab_figures *figures,
-                    const char *folder, lab_error *error)
-{
-  const page_context t = {report, table, figures};
-  cJSON *page = values_of(&t);
+  cJSON *page = values_of(from);
   char *text = page ? lab_page_text("report", page) : NULL;
-  const int status = text ? write_page(page, text, folder, error) : lab_fail_memory(error, "report.html");
+  const int status = text ? lab_template_write(file, text, page, error) : lab_fail_memory(error, "report.html");
   cJSON_Delete(page);
   free(text);
   return status;

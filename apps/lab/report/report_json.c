@@ -306,10 +306,7 @@ static cJSON *json_of(const lab_report *report)
   return root;
 }
 
-int lab_report_json(const lab_report *report, const char *folder, lab_error *error)
+int lab_report_json(FILE *file, const lab_sources *from, lab_error *error)
 {
-  lab_outfile out;
-  if (lab_report_file_open(folder, "report.json", &out, error))
-    return error->status;
-  return lab_out_end(&out, lab_json_write(out.file, json_of(report), "report.json", error), error);
+  return lab_json_write(file, json_of(from->report), "report.json", error);
 }

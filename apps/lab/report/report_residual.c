@@ -41,14 +41,12 @@ static void put_run(FILE *file, const lab_residual_table *v, int run, const lab_
   }
 }
 
-int lab_report_residual(const lab_report *report, const lab_residual_table *table, const char *folder, lab_error *error)
+int lab_report_residual(FILE *file, const lab_sources *from, lab_error *error)
 {
-  lab_outfile out;
   int run;
-  if (lab_report_file_open(folder, "residual.csv", &out, error))
-    return error->status;
-  put_head(out.file, table);
-  for (run = 0; run < table->n_runs; run++)
-    put_run(out.file, table, run, &report->completed->run[run]);
-  return lab_out_close(&out, error);
+  (void)error;
+  put_head(file, from->table);
+  for (run = 0; run < from->table->n_runs; run++)
+    put_run(file, from->table, run, &from->report->completed->run[run]);
+  return LAB_OK;
 }

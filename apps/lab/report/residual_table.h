@@ -38,10 +38,6 @@ void lab_residual_table_free(lab_residual_table *table);
 /* A channel of the table (enum lab_channel), NULL if no run measures it. */
 const lab_residual_channel *lab_residual_table_channel(const lab_residual_table *table, int channel);
 
-/* Write residual.csv into a folder, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
-int lab_report_residual(const lab_report *report, const lab_residual_table *table, const char *folder,
-                        lab_error *error);
-
 /* Key ("p") and unit of an argument. */
 const char *lab_argument_key(int argument);
 const char *lab_argument_unit(const lab_report *report, int argument);
