@@ -176,17 +176,18 @@ static void accept(descent *d, double chi2)
   d->chi2 = chi2;
 }
 
-/* One step downhill, damped until it is one.
- * Out:     quality  gain over promise
- *          done     1 when no step is worth taking */
-static int step_down(descent *d, double *quality, int *done, lab_error *error)
+/* One step downhill, damped until it is one. By slopes that were kept there is one try: where that fails, it is they
+ * that are wrong. In:      fresh    whether the slopes are those of this place Out:     quality  gain over promise done
+ * 1 when no step is worth taking */
+static int step_down(descent *d, int fresh, double *quality, int *done, lab_error *error)
 {
+  const int most = fresh ? TRIES : 1;
   const lab_fit_problem *p = d->problem;
   const double least = fmax(d->enough, d->enough_share * d->chi2);
   double step[N];
   int j, tries;
   *done = 1;
-  for (tries = 0; tries < TRIES && !lab_cpu_is_spent(p->until); tries++) {
+  for (tries = 0; tries < most && !lab_cpu_is_spent(p->until); tries++) {
     double promised, chi2, gain;
     int status;
     if (bounded_step(d, step)) {
@@ -210,7 +211,7 @@ static int step_down(descent *d, double *quality, int *done, lab_error *error)
       accept(d, chi2);
       return LAB_OK;
     }
-    d->lambda = fmax(8 * d->lambda, 1e-3);
+    d->lambda = fresh ? fmax(8 * d->lambda, 1e-3) : d->lambda;
   }
   return LAB_OK;
 }
@@ -227,7 +228,7 @@ static int descend(descent *d, lab_error *error)
     if (all && lab_fit_slopes(p, d->theta, d->r, d->J, error))
       return error->status;
     multiply(d);
-    if (step_down(d, &quality, &done, error))
+    if (step_down(d, all, &quality, &done, error))
       return error->status;
     if (done && all)
       break;

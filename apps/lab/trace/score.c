@@ -223,13 +223,22 @@ int lab_score_can_be_missing(const lab_rig *rig, int effect)
   return strncmp(pneu_effect_at(effect)->name, "positioner", strlen("positioner")) != 0 || lab_rig_has_positioner(rig);
 }
 
+/* Whether the logs measure what an effect sets apart: the skew of channels takes two. */
+static int is_measured(const lab_unknowns *u, int effect)
+{
+  int e, several = strcmp(pneu_effect_at(effect)->name, "channel_skew") != 0;
+  for (e = 0; e < u->n_runs; e++)
+    several |= u->run[e].n_channels > 1;
+  return several;
+}
+
 /* Every parameter that switches on an effect which the model does not have. */
 static void list_effects(const lab_unknowns *u, lab_scores *scores)
 {
   int e, i, count, shape;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     const int first = pneu_effect_params(e, &count);
-    if (!is_absent(u, first, count, &shape) || !lab_score_can_be_missing(&u->rig, e))
+    if (!is_absent(u, first, count, &shape) || !lab_score_can_be_missing(&u->rig, e) || !is_measured(u, e))
       continue;
     for (i = first; i < first + count && scores->n < LAB_SCORES_MAX; i++) {
       pneu_param_info info;

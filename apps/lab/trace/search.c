@@ -184,9 +184,15 @@ static int extend(search *s, const lab_candidate *base, lab_error *error)
   return status;
 }
 
+/* Whether something found is an error of a sensor. */
+static int is_of_sensor(const lab_found *found)
+{
+  return found->effect >= 0 && strcmp(pneu_effect_at(found->effect)->equation, "sensor") == 0;
+}
+
 /* Whether the best extension lowers the error of some channel by as much as is asked for, or declared values need no
- * longer be beyond their tolerances for it; where the log is seen coarsely, the error of all channels together counts.
- */
+ * longer be beyond their tolerances for it, and not because a sensor is; where the log is seen coarsely, the error of
+ * all channels together counts. */
 static int measure_gain(const search *s, int *enough, lab_error *error)
 {
   const lab_candidate *a = &s->beam[0], *b = &s->pool[0];
@@ -198,7 +204,8 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   for (c = 0; !a->u.window && c < LAB_CHANNEL_COUNT; c++)
     if (before.rmse[c] > 0)
       gain = fmax(gain, 1 - after.rmse[c] / before.rmse[c]);
-  *enough = !(gain < s->options->min_gain) || (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality));
+  *enough = !(gain < s->options->min_gain) ||
+            (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) && !is_of_sensor(&b->found[b->n_found - 1]));
   return LAB_OK;
 }
 
@@ -563,11 +570,12 @@ static int move_to(const lab_nuisance *h, lab_candidate *c, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-static int linearise_again(search *s, lab_error *error)
+/* About the best model, and all others about the same values. */
+static int linearise_about(search *s, lab_error *error)
 {
   lab_nuisance h;
-  int i, status = unfold(s, error);
-  if (status != LAB_OK || lab_unknowns_weigh_held(&s->beam[0].u, error))
+  int i, status;
+  if (lab_unknowns_weigh_held(&s->beam[0].u, error))
     return error->status;
   status = lab_nuisance_open(&s->beam[0].u, &h, error);
   lab_nuisance_close(&s->nuisance);
@@ -580,6 +588,21 @@ static int linearise_again(search *s, lab_error *error)
   if (status == LAB_OK)
     status = move_to(&s->nuisance, &s->free_term, error);
   return status == LAB_OK ? move_to(&s->nuisance, &s->declared, error) : status;
+}
+
+/* Where the best model cannot be simulated beside its values, it is where the search ends. */
+static int linearise_again(search *s, lab_error *error)
+{
+  int status = unfold(s, error);
+  if (status != LAB_OK)
+    return status;
+  s->whole = s->beam[0];
+  status = linearise_about(s, error);
+  if (status != LAB_NUMERIC)
+    return status;
+  s->beam[0] = s->whole;
+  s->over = 1;
+  return error->status = LAB_OK;
 }
 
 static int search_all(search *s, lab_error *error)
@@ -744,7 +767,7 @@ static int has_found_cause(const lab_candidate *c)
 {
   int i, any = 0;
   for (i = 0; i < c->n_found; i++)
-    any |= c->found[i].effect >= 0 && strcmp(pneu_effect_at(c->found[i].effect)->equation, "sensor") != 0;
+    any |= c->found[i].effect >= 0 && !is_of_sensor(&c->found[i]);
   return any;
 }
 
