@@ -17,7 +17,7 @@ static double bic(const lab_unknowns *u, double chi2)
 {
   int j, n = 0;
   for (j = 0; j < u->n; j++)
-    n += !lab_unknown_is_held(&u->unknown[j]);
+    n += !lab_unknown_is_known(&u->unknown[j]);
   return chi2 + n * log((double)u->n_values) + lab_constant(LAB_TERM_BIC) * u->rig.n_terms;
 }
 

@@ -184,6 +184,21 @@ static int extend(search *s, const lab_candidate *base, lab_error *error)
   return status;
 }
 
+/* Errors of a candidate with what varies unseen at its best values. */
+static int errors_of(const lab_candidate *c, lab_errors *errors, lab_error *error)
+{
+  lab_unknowns *u = malloc(sizeof *u);
+  int status = u ? LAB_OK : lab_fail_memory(error, "the errors of a model");
+  if (u)
+    *u = c->u;
+  if (status == LAB_OK && u->nuisance)
+    status = lab_nuisance_return(u, error);
+  if (status == LAB_OK)
+    status = lab_fitted_errors(u, errors, error);
+  free(u);
+  return status;
+}
+
 /* Whether something found is an error of a sensor. */
 static int is_of_sensor(const lab_found *found)
 {
@@ -199,7 +214,7 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   lab_errors before, after;
   double gain = a->u.window ? 1 - sqrt(b->quality.chi2 / a->quality.chi2) : 0;
   int c;
-  if (lab_fitted_errors(&a->u, &before, error) || lab_fitted_errors(&b->u, &after, error))
+  if (errors_of(a, &before, error) || errors_of(b, &after, error))
     return error->status;
   for (c = 0; !a->u.window && c < LAB_CHANNEL_COUNT; c++)
     if (before.rmse[c] > 0)

@@ -1,0 +1,75 @@
+/* What a candidate costs, whichever way its fit is done. */
+#include <math.h>
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/fit/nuisance.h"
+#include "../../../apps/lab/trace/refit.h"
+
+enum { ROWS = 501, COMMANDS = 3 };
+
+static void write_log(const char *path)
+{
+  static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.501}, u_cmd[COMMANDS] = {1, -1, 0.5};
+  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  second_rig g = second_rig_default_r1_400();
+  second_log log = {.t = t, .u = u, .p = p, .x = x};
+  FILE *file = fopen(path, "w");
+  int i;
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  assert_int_equal(second_run(&g, t_cmd, u_cmd, COMMANDS, 5, 0.01, &log, NULL), 0);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
+  fclose(file);
+}
+
+/* Instants of commands are known to their rows: they cost nothing, whether they are fitted or vary unseen. With
+ * friction alone to count, the price is the logarithm of the number of values. */
+static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way(void **state)
+{
+  static lab_rig rig;
+  static lab_log recorded;
+  static lab_run run;
+  static lab_candidate whole, folded;
+  static lab_nuisance nuisance;
+  const char *path = scratch_path("log.csv");
+  const double price = log(2 * ROWS);
+  lab_error error = {0, ""};
+  (void)state;
+  write_log(path);
+  lab_rig_default(&rig);
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  rig.params.dead_volume = (pneu_real)4e-5;
+  rig.noise[LAB_CHANNEL_P] = 320;
+  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &recorded, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &recorded, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &whole.u, &error), LAB_OK);
+  assert_int_equal(whole.u.n, 1 + COMMANDS);
+  assert_int_equal(lab_candidate_fit(&whole, LAB_ROUNDS_ALL, &error), LAB_OK);
+  folded.u = whole.u;
+  assert_int_equal(lab_nuisance_open(&folded.u, &nuisance, &error), LAB_OK);
+  assert_int_equal(folded.u.n, 1);
+  assert_int_equal(lab_candidate_fit(&folded, LAB_ROUNDS_ALL, &error), LAB_OK);
+  assert_close(whole.quality.bic - whole.quality.chi2, price, 1e-6, 0);
+  assert_close(folded.quality.bic - folded.quality.chi2, price, 1e-6, 0);
+  lab_nuisance_close(&nuisance);
+  lab_run_close(&run);
+  lab_log_free(&recorded);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
