@@ -57,18 +57,27 @@ static const struct {
              {"index", "style", index_css},
              {"index", "script", index_js}};
 
+/* Returns: 0 without memory */
+static int carry(const char *name, const char *const *piece, cJSON *values)
+{
+  char *text = lab_template_text(piece);
+  const int done = text && cJSON_AddStringToObject(values, name, text);
+  free(text);
+  return done;
+}
+
 char *lab_page_text(const char *page, cJSON *values)
 {
   char *template = NULL;
   size_t i;
-  for (i = 0; i < sizeof texts / sizeof *texts; i++) {
-    char *text = strcmp(texts[i].page, page) ? NULL : lab_template_text(texts[i].piece);
-    if (text && !texts[i].name) {
-      template = text;
-    } else if (text) {
-      cJSON_AddStringToObject(values, texts[i].name, text);
-      free(text);
-    }
-  }
-  return template;
+  int done = 1;
+  for (i = 0; i < sizeof texts / sizeof *texts && done; i++)
+    if (strcmp(texts[i].page, page) == 0 && texts[i].name)
+      done = carry(texts[i].name, texts[i].piece, values);
+    else if (strcmp(texts[i].page, page) == 0)
+      done = (template = lab_template_text(texts[i].piece)) != NULL;
+  if (done)
+    return template;
+  free(template);
+  return NULL;
 }
