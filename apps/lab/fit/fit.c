@@ -8,7 +8,7 @@
 #include "../base/clock.h"
 #include "normal.h"
 
-enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12 };
+enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12, KEPT_TRIES = 3 };
 
 static const double usual_enough = 0.02; /* of chi-square: no decision hangs on it */
 static const double usual_share = 1e-6;  /* of chi-square */
@@ -176,12 +176,14 @@ static void accept(descent *d, double chi2)
   d->chi2 = chi2;
 }
 
-/* One step downhill, damped until it is one. By slopes that were kept there is one try: where that fails, it is they
- * that are wrong. In:      fresh    whether the slopes are those of this place Out:     quality  gain over promise done
- * 1 when no step is worth taking */
+/* One step downhill, damped until it is one. Of kept slopes there are few tries: where these fail, it is they that are
+ * wrong.
+ * In:      fresh    whether the slopes are those of this place
+ * Out:     quality  gain over promise
+ *          done     1 when no step is worth taking */
 static int step_down(descent *d, int fresh, double *quality, int *done, lab_error *error)
 {
-  const int most = fresh ? TRIES : 1;
+  const int most = fresh ? TRIES : KEPT_TRIES;
   const lab_fit_problem *p = d->problem;
   const double least = fmax(d->enough, d->enough_share * d->chi2);
   double step[N];
@@ -211,7 +213,7 @@ static int step_down(descent *d, int fresh, double *quality, int *done, lab_erro
       accept(d, chi2);
       return LAB_OK;
     }
-    d->lambda = fresh ? fmax(8 * d->lambda, 1e-3) : d->lambda;
+    d->lambda = fmax(8 * d->lambda, 1e-3);
   }
   return LAB_OK;
 }
@@ -219,20 +221,21 @@ static int step_down(descent *d, int fresh, double *quality, int *done, lab_erro
 static int descend(descent *d, lab_error *error)
 {
   const lab_fit_problem *p = d->problem;
-  const int steps = p->steps > 0 ? p->steps : STEPS;
-  int i, done = 0, all = 1;
+  const int most = p->steps > 0 ? p->steps : STEPS;
+  int steps = 0, done = 0, fresh = 1;
   double quality = 1;
   if (lab_fit_evaluate(p, d->theta, d->r, &d->chi2, error))
     return error->status;
-  for (i = 0; i < steps && !lab_cpu_is_spent(p->until); i++) {
-    if (all && lab_fit_slopes(p, d->theta, d->r, d->J, error))
+  while (steps < most && !lab_cpu_is_spent(p->until)) {
+    if (fresh && lab_fit_slopes(p, d->theta, d->r, d->J, error))
       return error->status;
     multiply(d);
-    if (step_down(d, all, &quality, &done, error))
+    if (step_down(d, fresh, &quality, &done, error))
       return error->status;
-    if (done && all)
+    if (done && fresh)
       break;
-    all = done || quality < poor || p->is_rough; /* before it ends, once more with slopes that are all new */
+    steps += !done;                                /* that kept slopes lead nowhere is no step */
+    fresh = done || quality < poor || p->is_rough; /* before it ends, once more with slopes that are all new */
   }
   return LAB_OK;
 }

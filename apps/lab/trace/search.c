@@ -205,9 +205,9 @@ static int is_of_sensor(const lab_found *found)
   return found->effect >= 0 && strcmp(pneu_effect_at(found->effect)->equation, "sensor") == 0;
 }
 
-/* Whether the best extension lowers the error of some channel by as much as is asked for, or declared values need no
- * longer be beyond their tolerances for it, and not because a sensor is; where the log is seen coarsely, the error of
- * all channels together counts. */
+/* Whether the best extension lowers the error of some channel by as much as is asked for, or it explains the logs and
+ * declared values need no longer be beyond their tolerances for it, and not because a sensor is; where the log is seen
+ * coarsely, the error of all channels together counts. */
 static int measure_gain(const search *s, int *enough, lab_error *error)
 {
   const lab_candidate *a = &s->beam[0], *b = &s->pool[0];
@@ -219,8 +219,8 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   for (c = 0; !a->u.window && c < LAB_CHANNEL_COUNT; c++)
     if (before.rmse[c] > 0)
       gain = fmax(gain, 1 - after.rmse[c] / before.rmse[c]);
-  *enough = !(gain < s->options->min_gain) ||
-            (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) && !is_of_sensor(&b->found[b->n_found - 1]));
+  *enough = !(gain < s->options->min_gain) || (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) &&
+                                               lab_is_noise(&b->quality) && !is_of_sensor(&b->found[b->n_found - 1]));
   return LAB_OK;
 }
 
@@ -888,13 +888,13 @@ typedef struct outcome {
   lab_search_result result;
 } outcome;
 
-/* How much there is to explain or to doubt: each effect counts, a free term more than all of these, and not to know
- * most. */
+/* How much there is to explain or to doubt: what is too small to be added, each effect more, a free term more than all
+ * of these, and not to know most. */
 static int doubt(const lab_search_result *result)
 {
   static const int of_verdict[] = {
       [LAB_VERDICT_UNLISTED] = LAB_EFFECTS_MAX, [LAB_VERDICT_UNDECIDED] = 2 * LAB_EFFECTS_MAX + 1};
-  return of_verdict[result->verdict] + result->n_found;
+  return 2 * (of_verdict[result->verdict] + result->n_found) + (result->n_listed > 0 || result->has_small);
 }
 
 /* Whether the values can be accidents. What an effect does comes back with every change of the command, or with every
