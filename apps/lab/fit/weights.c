@@ -125,6 +125,18 @@ static void set_level(lab_run *x, int c, double level, double *r)
 
 /* ---- The colour of the noise ---- */
 
+/* By all rests; else by the one before any command, where nothing can be missing. */
+static int colour_of(lab_run *x, int c, const double *r, double *value, lab_stretch *rest, double *level,
+                     lab_error *error)
+{
+  const int n = find_rest(x, c, r, value, rest);
+  const lab_stretch first = n > 0 ? rest[0] : (lab_stretch){NULL, 0};
+  if (lab_colour_estimate(rest, n, &x->colour[c], level, error) || x->colour[c].memory != 0 || first.value != value)
+    return error->status;
+  rest[0] = first;
+  return lab_colour_estimate(rest, 1, &x->colour[c], level, error);
+}
+
 /* In/out: r  errors over noise  In: value  room for a run  Returns: whether some noise has memory */
 static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
 {
@@ -134,7 +146,7 @@ static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
     double level = 1;
     if (x->resolution[c] > hidden * x->sigma[c])
       continue;
-    status = lab_colour_estimate(rest, find_rest(x, c, r, value, rest), &x->colour[c], &level, error);
+    status = colour_of(x, c, r, value, rest, &level, error);
     if (x->colour[c].memory == 0)
       continue;
     any = 1;
@@ -309,6 +321,24 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   for (e = 0; e < u->n_runs && error->status == LAB_OK; e++)
     lab_drift_open(&run[e], error);
   return any || jitter > 0;
+}
+
+int lab_weigh_colours(const lab_unknowns *u, lab_run *run, int *any, lab_error *error)
+{
+  double *memory = malloc(2 * (u->n_rows + 1) * sizeof *memory), *at = memory;
+  int e, status = memory ? lab_unknowns_errors(u, memory, error) : lab_fail_memory(error, "weights");
+  for (*any = 0, e = 0; e < u->n_runs && status == LAB_OK; e++) {
+    int c, coloured = 0;
+    for (c = 0; c < run[e].n_channels; c++)
+      coloured |= run[e].colour[c].memory != 0;
+    if (coloured) {
+      *any |= set_colours(&run[e], at, memory + u->n_rows + 1, error);
+      status = error->status == LAB_OK ? lab_drift_open(&run[e], error) : error->status;
+    }
+    at += run[e].n * (size_t)run[e].n_channels;
+  }
+  free(memory);
+  return status;
 }
 
 int lab_weigh_runs(lab_unknowns *u, lab_run *run, int *any, lab_error *error)

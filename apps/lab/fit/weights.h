@@ -19,6 +19,12 @@
  * Returns: LAB_OK; LAB_NUMERIC, LAB_WORLD. */
 int lab_weigh_runs(lab_unknowns *u, lab_run *run, int *any, lab_error *error);
 
+/* Where noise has memory, tell it again from the residual of a better model: what was missing was a part of it.
+ * In/out:  run  those of u: colour, sigma, level and drift change
+ * Out:     any  whether some noise has memory
+ * Returns: LAB_OK; LAB_NUMERIC, LAB_WORLD. */
+int lab_weigh_colours(const lab_unknowns *u, lab_run *run, int *any, lab_error *error);
+
 /* Say in a sentence each what was recognised: another noise than declared, values recorded in steps that the noise does
  * not hide, noise with memory, rows whose time is uncertain. */
 void lab_weights_say(const lab_run *run, int n, lab_limitations *limitations);

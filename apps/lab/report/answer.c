@@ -141,6 +141,22 @@ static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *tim
   return status;
 }
 
+/* Search; where noise with memory was told beside something that is missing, once more with that told again. */
+static int search_with_colours(const lab_search_options *how, lab_completion *c, lab_error *error)
+{
+  int any = 0;
+  if (lab_search_run(&c->completed, how, &c->result, error))
+    return error->status;
+  if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.n_found == 0 || c->result.cut_short)
+    return LAB_OK;
+  if (lab_weigh_colours(&c->completed, c->logs.run, &any, error) || !any)
+    return error->status;
+  if (lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error))
+    return error->status;
+  c->completed = c->declared;
+  return lab_search_run(&c->completed, how, &c->result, error);
+}
+
 /* Add what the fitted model lacks.  In: fit_s  of fit_to */
 static int complete(const lab_request *q, const allowance *time, double fit_s, lab_completion *c, lab_error *error)
 {
@@ -155,7 +171,7 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, l
   c->completed = c->declared;
   if (c->logs.limitations.doubt)
     return decline(&c->completed, &c->result, error);
-  if (lab_search_run(&c->completed, &how, &c->result, error))
+  if (search_with_colours(&how, c, error))
     return error->status;
   if (lab_search_without_outliers(&how, &c->logs, &c->declared, &c->completed, &c->result, error))
     return error->status;
