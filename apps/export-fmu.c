@@ -4,6 +4,7 @@
  * with its sources. An export puts the model's numbers into the place that the library keeps for them, and the same
  * numbers into a header among the sources, for importers that compile on another platform. So it needs neither a
  * compiler nor any file but the model's, and the same model gives the same bytes. SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdio.h>
 
 #include "fmu/export.h"
@@ -23,9 +24,12 @@ static const lab_program program = {
 
 static int run(const lab_cli *cli, lab_error *error)
 {
-  lab_rig rig;
+  lab_rig file, rig;
   pneu_model model;
-  if (lab_rig_read(cli->operand[0], &rig, error) || lab_rig_model(&rig, &model, error))
+  if (lab_rig_read(cli->operand[0], &file, error))
+    return error->status;
+  lab_rig_at(&file, INFINITY, &rig);
+  if (lab_rig_model(&rig, &model, error))
     return error->status;
   if (model.position_skew != 0)
     fprintf(stderr, "%s: note: %s: channel_skew is the recorder's; the FMU shows the position as it is\n", program.name,

@@ -7,6 +7,7 @@
 #include "../base/escape.h"
 #include "../base/names.h"
 #include "rigkeys.h"
+#include "rigonset.h"
 #include "rigterm.h"
 #include "sheet.h"
 #include "tolerance.h"
@@ -311,6 +312,7 @@ static const struct section {
     {"positioner", read_positioner},
     {"effects", read_effects},
     {"unlisted", read_unlisted},
+    {"onset", lab_onsets_read},
     {"tolerance", lab_tolerance_read},
     {"tube", read_later},
     {"log", read_log},
@@ -400,10 +402,12 @@ static int check_terms_act(const lab_rig *rig, const pneu_model *model, lab_erro
 /* What is set but cannot act under the declared laws is a mistake, not a remark. */
 static int check_all_acts(const lab_rig *rig, lab_error *error)
 {
+  lab_rig last;
   pneu_model model;
-  if (lab_rig_model(rig, &model, error) || check_effects_act(rig, &model, error))
+  if (lab_rig_model(rig, &model, error) || check_effects_act(rig, &model, error) || check_terms_act(rig, &model, error))
     return error->status;
-  return check_terms_act(rig, &model, error);
+  lab_rig_at(rig, INFINITY, &last);
+  return lab_rig_model(&last, &model, error) ? error->status : check_effects_act(&last, &model, error);
 }
 
 static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
@@ -449,6 +453,25 @@ int lab_rig_parse(const char *text, const char *path, lab_rig *rig, lab_error *e
   config_t config;
   begin(path, rig);
   return take_config(&config, lab_config_parse(&config, text, path, error), rig, error);
+}
+
+static void begin_onset(const lab_rig_onset *onset, pneu_params *params)
+{
+  if (onset->param != LAB_PARAM_ORIFICE_AREA) {
+    *pneu_param_at(params, onset->param) = (pneu_real)onset->value;
+    return;
+  }
+  params->fill_area *= (pneu_real)onset->value;
+  params->vent_area *= (pneu_real)onset->value;
+}
+
+void lab_rig_at(const lab_rig *rig, double t, lab_rig *now)
+{
+  int i;
+  *now = *rig;
+  now->n_onsets = 0;
+  for (i = 0; i < rig->n_onsets && rig->onset[i].from <= t; i++)
+    begin_onset(&rig->onset[i], &now->params);
 }
 
 int lab_rig_has_positioner(const lab_rig *rig)

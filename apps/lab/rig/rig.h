@@ -12,7 +12,7 @@
  * its equation is supply, force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p, u
  * or t, and numbers are in SI where no unit is given. Over t the values are the amplitudes of cosine and sine of the
  * period to - from, of its half and so on. Between [ and ] libconfig wants all numbers with a point or none; ( and )
- * take both. The groups log and tolerance are described in logformat.h and tolerance.h, the
+ * take both. The groups log, tolerance and onset are described in logformat.h, tolerance.h and rigonset.h, the
  * words of a data sheet in sheet.h.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_RIG_H
@@ -32,6 +32,7 @@ enum {
   LAB_POSITION_DRIFT,
   LAB_TOLERANCE_COUNT,
   LAB_TERM_MAX = 4,
+  LAB_ONSETS_MAX = 3,
   LAB_NAME_TEXT = 64,
   LAB_PARAM_NAME_TEXT = 96, /* bytes of a name from lab_fit_name */
   LAB_PATH_TEXT = 1024
@@ -39,6 +40,13 @@ enum {
 
 enum lab_action { LAB_ACTION_NORMAL, LAB_ACTION_REVERSE };
 enum lab_friction { LAB_FRICTION_COULOMB, LAB_FRICTION_STRIBECK, LAB_FRICTION_LUGRE, LAB_FRICTION_COUNT };
+
+/* A parameter that has another value from some time of a log on. */
+typedef struct lab_rig_onset {
+  int param;    /* as in pneu_param_describe, or LAB_PARAM_ORIFICE_AREA */
+  double from;  /* [s] */
+  double value; /* from then on; of LAB_PARAM_ORIFICE_AREA a factor on both areas */
+} lab_rig_onset;
 
 /* Plain data: copy it freely. */
 typedef struct lab_rig {
@@ -50,6 +58,8 @@ typedef struct lab_rig {
   pneu_laws laws;
   pneu_term term[LAB_TERM_MAX]; /* free terms: what acts without a name */
   int n_terms;
+  int n_onsets;
+  lab_rig_onset onset[LAB_ONSETS_MAX]; /* in the order of time */
   int n_fit;
   int fit[LAB_PARAM_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_PARAM_ORIFICE_AREA */
   unsigned char fit_per_log[LAB_PARAM_COUNT]; /* 1: every log has its own value */
@@ -84,10 +94,14 @@ void lab_rig_write_c(FILE *file, const lab_rig *rig, int whole);
 /* Write the catalogue that a rig needs, in the form of lib/effects.def: its effects that are not neutral. */
 void lab_rig_write_catalogue(FILE *file, const lab_rig *rig);
 
-/* The library's model of a rig. It uses the rig's free terms where they lie: the rig must outlive it, unmoved.
- * Out:     model
- * Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
+/* The library's model of a rig, before any onset. It uses the rig's free terms where they lie: the rig must outlive it,
+ * unmoved. Out:     model Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
+
+/* A rig as it is at some time of a log, whose model the library has.
+ * In:      t    [s]; infinite: when all that begins has begun
+ * Out:     now  without onsets */
+void lab_rig_at(const lab_rig *rig, double t, lab_rig *now);
 
 /* Whether the rig file declares a positioner. */
 int lab_rig_has_positioner(const lab_rig *rig);

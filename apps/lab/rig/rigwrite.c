@@ -6,6 +6,7 @@
 #include "../base/escape.h"
 #include "../base/number.h"
 #include "rigkeys.h"
+#include "rigonset.h"
 #include "rigterm.h"
 #include "tolerance.h"
 
@@ -149,6 +150,7 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
   write_positioner(file, rig);
   write_effects(file, rig);
   lab_terms_write(file, rig->term, rig->n_terms);
+  lab_onsets_write(file, rig);
   lab_log_format_write(file, &rig->log);
 }
 

@@ -165,70 +165,7 @@ static const double *column_of(const lab_response *response, int channel)
                                     : response->force;
 }
 
-/* The schedule of a run with its changes at other instants, cut where another model begins, and its memory. */
-typedef struct staged {
-  lab_schedule schedule;
-  double *t;
-  pneu_input *input;
-  const pneu_model **of; /* each row */
-  pneu_model *model;     /* of each episode */
-} staged;
-
-static void staged_close(staged *s)
-{
-  free(s->t);
-  free(s->input);
-  free(s->of);
-  free(s->model);
-}
-
-static int staged_open(size_t rows, const lab_episode *episode, int n, staged *s, lab_error *error)
-{
-  int k;
-  memset(s, 0, sizeof *s);
-  s->t = malloc(rows * sizeof *s->t);
-  s->input = malloc(rows * sizeof *s->input);
-  s->of = malloc(rows * sizeof *s->of);
-  s->model = malloc((size_t)n * sizeof *s->model);
-  if (!s->t || !s->input || !s->of || !s->model)
-    return lab_fail_memory(error, "a schedule");
-  for (k = 0; k < n; k++)
-    if (lab_rig_model(episode[k].rig, &s->model[k], error))
-      return error->status;
-  return LAB_OK;
-}
-
-static void add_row(const lab_run *e, double t, const pneu_input *input, const lab_episode *episode, int which,
-                    staged *s)
-{
-  const size_t i = s->schedule.n++;
-  s->t[i] = t;
-  s->input[i] = *input;
-  s->of[i] = &s->model[which];
-  if (!(episode[which].rig->input[LAB_CHANNEL_PS] && e->log->value[LAB_CHANNEL_PS]))
-    s->input[i].supply_pressure = episode[which].rig->params.supply_pressure; /* of the rig where it is not measured */
-}
-
-static void stage(const lab_run *e, const lab_episode *episode, int n, const double *early, staged *s)
-{
-  const lab_schedule *logged = &e->inputs.schedule;
-  size_t i;
-  int k = 0;
-  while (k + 1 < n && episode[k + 1].from <= logged->t[0])
-    k++;
-  for (i = 0; i < logged->n; i++) {
-    const double t = logged->t[i] - (early && i > 0 && i <= e->n_instants ? early[i - 1] : 0);
-    for (; k + 1 < n && episode[k + 1].from < t; k++)
-      add_row(e, episode[k + 1].from, &logged->input[i - 1], episode, k + 1, s);
-    add_row(e, t, &logged->input[i], episode, k, s);
-  }
-  for (; k + 1 < n; k++)
-    add_row(e, episode[k + 1].from, &logged->input[logged->n - 1], episode, k + 1, s);
-  s->schedule.t = s->t;
-  s->schedule.input = s->input;
-}
-
-static int respond(const lab_run *e, const staged *s, double tol, lab_response *response, lab_error *error)
+static int respond(const lab_run *e, const lab_staging *s, double tol, lab_response *response, lab_error *error)
 {
   pneu_state start;
   const lab_simulation task = {.start = &start,
@@ -246,15 +183,13 @@ int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n
                              double *y, lab_error *error)
 {
   lab_response response;
-  staged s;
-  int c, status = staged_open(e->inputs.schedule.n + (size_t)n, episode, n, &s, error);
-  if (status == LAB_OK) {
-    stage(e, episode, n, early, &s);
+  lab_staging s;
+  int c, status = lab_staging_open(e->log, &e->inputs.schedule, early, e->n_instants, episode, n, &s, error);
+  if (status == LAB_OK)
     status = respond(e, &s, tol, &response, error);
-  } else if (status == LAB_DATA) {
+  else if (status == LAB_DATA)
     status = error->status = LAB_NUMERIC;
-  }
-  staged_close(&s);
+  lab_staging_close(&s);
   if (status != LAB_OK)
     return status;
   for (c = 0; c < e->n_channels; c++)

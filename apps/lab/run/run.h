@@ -6,7 +6,7 @@
 #include "../base/colour.h"
 #include "../log/log.h"
 #include "../rig/rig.h"
-#include "schedule.h"
+#include "staging.h"
 
 typedef struct lab_run {
   const lab_rig *rig;
@@ -41,12 +41,6 @@ void lab_run_close(lab_run *e);
  * Out:     y       n_channels * n values, SI, channel by channel
  * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
 int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error);
-
-/* A model, and the time of the log from which it acts [s]. */
-typedef struct lab_episode {
-  double from;
-  const lab_rig *rig;
-} lab_episode;
 
 enum { LAB_EPISODES_MAX = 9 };
 
