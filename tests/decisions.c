@@ -8,11 +8,10 @@
 
 static int rules(void)
 {
-  static const char *const phase[] = {[LAB_PHASE_SCORED] = "effects are scored",
-                                      [LAB_PHASE_REFITTED] = "they are refitted",
-                                      [LAB_PHASE_ROUND] = "the round is over",
-                                      [LAB_PHASE_END] = "all rounds are over",
-                                      [LAB_PHASE_VERDICT] = "verdict"};
+  static const char *const phase[] = {
+      [LAB_PHASE_SCORED] = "effects are scored",  [LAB_PHASE_LED] = "the leaders are refitted",
+      [LAB_PHASE_REFITTED] = "they are refitted", [LAB_PHASE_ROUND] = "the round is over",
+      [LAB_PHASE_END] = "all rounds are over",    [LAB_PHASE_VERDICT] = "verdict"};
   int i;
   puts("| asked when | if | then |\n|---|---|---|");
   for (i = 0; i < lab_rule_count; i++)

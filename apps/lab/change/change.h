@@ -8,7 +8,7 @@
 #ifndef LAB_CHANGE_H
 #define LAB_CHANGE_H
 
-#include "onset.h"
+#include "../trace/onset.h"
 
 enum lab_since { LAB_SINCE_CANNOT_TELL, LAB_SINCE_UNCHANGED, LAB_SINCE_CHANGED };
 

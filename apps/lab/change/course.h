@@ -7,7 +7,7 @@
 #ifndef LAB_COURSE_H
 #define LAB_COURSE_H
 
-#include "onset.h"
+#include "../trace/onset.h"
 
 typedef struct lab_course {
   int n_free;           /* levels and instants that were fitted; 0: it does not fail */

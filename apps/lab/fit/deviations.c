@@ -14,10 +14,20 @@ const char *lab_condition_text(int condition)
   return words[condition];
 }
 
-/* Whether the unknown is a declared value, and not a part of what was added. */
-static int is_declared(const lab_rig *rig, const lab_unknown *x)
+static int is_value(int param)
 {
+  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
+}
+
+/* Whether unknown j is a declared value, and not a part of what was added; of two in a row the later one. */
+static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
+{
+  const lab_unknown *x = &u->unknown[j];
   int i, fitted = 0;
+  if (x->kind == LAB_UNKNOWN_ONSET)
+    return is_value(u->rig.onset[x->index].param);
+  if (is_value(x->index) && lab_unknowns_find_onset(u, x->index) >= 0)
+    return 0;
   for (i = 0; i < rig->n_fit; i++)
     fitted |= rig->fit[i] == x->index;
   return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&
@@ -29,7 +39,7 @@ static int count_compared(const lab_rig *rig, const lab_unknowns *u)
 {
   int j, n = 0;
   for (j = 0; j < u->n; j++)
-    n += is_declared(rig, &u->unknown[j]);
+    n += is_declared(rig, u, j);
   return n;
 }
 
@@ -42,16 +52,28 @@ static int is_told(const lab_unknown *x, const lab_fit_result *fit, int j, doubl
   return fit->state[j] != LAB_STATE_UNDETERMINED && fabs(x->value - declared) > wider * half;
 }
 
-/* The deviation of unknown j.  Returns: its size over the tolerance */
-static double compare(const lab_rig *rig, const lab_unknown *x, const lab_fit_result *fit, int j, lab_deviation *d)
+/* What a later value is over: the areas before, if these were fitted; else 1. */
+static double earlier_factor(const lab_unknowns *u, const lab_unknown *x)
 {
-  const double tolerance = x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, x->index);
-  d->declared = x->index == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&rig->params, x->index);
-  snprintf(d->name, sizeof d->name, "%s", lab_tolerance_name(x->index));
+  const int j = x->kind == LAB_UNKNOWN_ONSET && u->rig.onset[x->index].param == LAB_PARAM_ORIFICE_AREA
+                    ? lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA)
+                    : -1;
+  return j < 0 ? 1 : u->unknown[j].value;
+}
+
+/* The deviation of unknown j.  Returns: its size over the tolerance */
+static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d)
+{
+  const lab_unknown *x = &u->unknown[j];
+  const int param = d->param = x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param : x->index;
+  const double tolerance = x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, param);
+  const double unit = earlier_factor(u, x);
+  d->declared = param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
+  snprintf(d->name, sizeof d->name, "%s", lab_tolerance_name(param));
   snprintf(d->unit, sizeof d->unit, "%s", x->unit);
-  d->found = x->value;
-  d->lower = fit->low[j];
-  d->upper = fit->high[j];
+  d->found = unit * x->value;
+  d->lower = unit * fit->low[j];
+  d->upper = unit * fit->high[j];
   d->ratio = d->declared != 0 ? d->found / d->declared : (double)NAN;
   d->tolerance = d->declared != 0 ? tolerance / fabs(d->declared) : tolerance;
   d->held = lab_unknown_is_held(x);
@@ -81,10 +103,10 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
   memset(all, 0, sizeof *all);
   for (j = 0; j < u->n; j++) {
     lab_deviation *d = &found[n].deviation;
-    if (!is_declared(rig, &u->unknown[j]))
+    if (!is_declared(rig, u, j))
       continue;
     all->condition = all->condition == LAB_CONDITION_DEVIATES ? all->condition : (int)LAB_CONDITION_AS_DECLARED;
-    found[n].size = compare(rig, &u->unknown[j], fit, j, d);
+    found[n].size = compare(rig, u, fit, j, d);
     if (!is_told(&u->unknown[j], fit, j, d->declared, compared))
       continue;
     if (d->beyond)

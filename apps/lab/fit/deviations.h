@@ -17,6 +17,7 @@ const char *lab_condition_text(int condition);
 typedef struct lab_deviation {
   char name[LAB_PARAM_NAME_TEXT]; /* "spring_rate", "pressure_gain": as in a rig file */
   char unit[32];                  /* as in pneu_param_describe */
+  int param;                      /* as there, or LAB_PARAM_ORIFICE_AREA */
   double declared, found;         /* [unit] */
   double lower, upper;            /* [unit] 95 % interval of `found` */
   double ratio;                   /* found over declared; NaN where declared is 0 */
@@ -34,7 +35,8 @@ typedef struct lab_deviations {
 } lab_deviations;
 
 /* What a fit says of the declared values: those whose interval leaves out what was declared, all compared values being
- * wrong together once in twenty (Bonferroni), and whether one of them is beyond its tolerance.
+ * wrong together once in twenty (Bonferroni), and whether one of them is beyond its tolerance. Of a value that is
+ * another from some time on, the later one counts.
  * In:      rig  as declared
  *          u    fitted, with what is held
  *          fit  its intervals

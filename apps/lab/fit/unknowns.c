@@ -150,6 +150,72 @@ int lab_unknowns_add_term(lab_unknowns *u, const pneu_term *term, double scale, 
   return LAB_OK;
 }
 
+int lab_unknowns_add_onset(lab_unknowns *u, int param, double from, double value, lab_error *error)
+{
+  lab_unknown *x = u->rig.n_onsets < LAB_ONSETS_MAX ? append(u) : NULL;
+  const size_t room = sizeof x->name - sizeof " later";
+  if (!x)
+    return no_room(error);
+  describe_param(x, param);
+  x->name[strlen(x->name) < room ? strlen(x->name) : room] = '\0';
+  strcat(x->name, " later");
+  x->kind = LAB_UNKNOWN_ONSET;
+  x->index = u->rig.n_onsets;
+  x->value = x->first = fmin(fmax(value, x->lower), x->upper);
+  if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
+    x->scale = fabs(x->value);
+  u->rig.onset[u->rig.n_onsets++] = (lab_rig_onset){param, from, x->value};
+  return LAB_OK;
+}
+
+/* A slope is taken over a thousandth of the scale: a row. */
+int lab_unknowns_add_since(lab_unknowns *u, lab_error *error)
+{
+  const double *t = u->run[0].log->value[LAB_CHANNEL_TIME] + u->run[0].first;
+  const size_t rows = u->run[0].n;
+  lab_unknown *x = append(u);
+  if (!x)
+    return no_room(error);
+  x->kind = LAB_UNKNOWN_SINCE;
+  x->index = u->rig.n_onsets - 1;
+  snprintf(x->name, sizeof x->name, "onset");
+  snprintf(x->unit, sizeof x->unit, "s");
+  x->value = x->first = u->rig.onset[x->index].from;
+  x->lower = t[0];
+  x->upper = t[rows - 1];
+  x->scale = 1000 * (t[rows - 1] - t[0]) / (double)rows;
+  return LAB_OK;
+}
+
+/* Drop the unknowns of one kind that belong to the last onset. */
+static void drop_of_onset(lab_unknowns *u, int kind)
+{
+  int j, k;
+  for (j = k = 0; j < u->n; j++)
+    if (u->unknown[j].kind != kind || u->unknown[j].index != u->rig.n_onsets - 1)
+      u->unknown[k++] = u->unknown[j];
+  u->n = k;
+}
+
+void lab_unknowns_drop_since(lab_unknowns *u)
+{
+  drop_of_onset(u, LAB_UNKNOWN_SINCE);
+}
+
+void lab_unknowns_drop_onset(lab_unknowns *u)
+{
+  drop_of_onset(u, LAB_UNKNOWN_ONSET);
+  u->rig.n_onsets--;
+}
+
+int lab_unknowns_find_onset(const lab_unknowns *u, int param)
+{
+  int j = u->n;
+  while (--j >= 0 && (u->unknown[j].kind != LAB_UNKNOWN_ONSET || u->rig.onset[u->unknown[j].index].param != param))
+    ;
+  return j;
+}
+
 void lab_unknowns_drop(lab_unknowns *u, int param)
 {
   pneu_param_info info;

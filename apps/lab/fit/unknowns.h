@@ -14,6 +14,8 @@ enum lab_unknown_kind {
   LAB_UNKNOWN_KNOT,    /* index: knot of free term `term` */
   LAB_UNKNOWN_PERIOD,  /* of free term `term` over a cycle */
   LAB_UNKNOWN_INSTANT, /* how early: index: which change of command of its experiment [s], or LAB_ALL_INSTANTS [row] */
+  LAB_UNKNOWN_ONSET,   /* index: which onset of the model: the value from then on */
+  LAB_UNKNOWN_SINCE,   /* index: which onset of the model: when that is [s] */
   LAB_UNKNOWN_CHANGE   /* index: as of LAB_UNKNOWN_PARAM: what is added to it, or the share by which orifice_area grows,
                           from run `run` to the last */
 };
@@ -102,6 +104,24 @@ int lab_unknowns_join(lab_unknowns *u, const lab_run *run, int n_runs, lab_error
  *          spread  of what is known of the change beforehand, about 0; 0: nothing is
  * Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_add_change(lab_unknowns *u, int param, int run, double spread, lab_error *error);
+
+/* Take up a parameter that has another value from some time on, starting from `value`.
+ * In:      param  as in pneu_param_describe, or LAB_PARAM_ORIFICE_AREA, whose value is then a factor
+ *          from   [s] of the log; no earlier than that of an onset before it
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_add_onset(lab_unknowns *u, int param, double from, double value, lab_error *error);
+
+/* Take up when the last onset is, starting from where it is: between the first and the last row of the only run; and
+ * drop it again, wherever it is.
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_add_since(lab_unknowns *u, lab_error *error);
+void lab_unknowns_drop_since(lab_unknowns *u);
+
+/* Drop the last onset. */
+void lab_unknowns_drop_onset(lab_unknowns *u);
+
+/* Place among the unknowns of the value that a parameter has from an onset on, -1 if it has none. */
+int lab_unknowns_find_onset(const lab_unknowns *u, int param);
 
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);

@@ -27,6 +27,10 @@ static void apply_one(const lab_unknown *x, double value, const pneu_params *dec
 {
   if (x->kind == LAB_UNKNOWN_KNOT) {
     rig->term[x->term].value[x->index] = (pneu_real)value;
+  } else if (x->kind == LAB_UNKNOWN_ONSET) {
+    rig->onset[x->index].value = value;
+  } else if (x->kind == LAB_UNKNOWN_SINCE) {
+    rig->onset[x->index].from = value;
   } else if (x->kind == LAB_UNKNOWN_PERIOD) {
     rig->term[x->term].to = rig->term[x->term].from + (pneu_real)value;
   } else if (x->kind == LAB_UNKNOWN_PARAM && x->index == LAB_PARAM_ORIFICE_AREA) {

@@ -62,6 +62,11 @@ static int convinces(const lab_quality *with_term, const lab_quality *other, dou
          (lab_is_noise(with_term) || excess(with_term) < share * excess(other));
 }
 
+int lab_onset_convinces(const lab_quality *with, const lab_quality *without)
+{
+  return convinces(with, without, lab_constant(LAB_ONSET_CONVINCING));
+}
+
 /* ---- Rules ---- */
 
 /* Whether declared values within their tolerances explain much of what the values as declared leave. */
@@ -75,9 +80,30 @@ static int tolerances_are_better(const lab_facts *f)
   return f->within.fitted && f->within.bic < f->best.bic;
 }
 
+static int something_may_begin(const lab_facts *f)
+{
+  return f->n_found == 0 && f->can_begin && !lab_is_noise(&f->best);
+}
+
+static int an_onset_stands_out(const lab_facts *f)
+{
+  return something_may_begin(f) && f->begins > lab_constant(LAB_ONSET_CLEAR) * f->throughout;
+}
+
+static int no_leader_is_enough(const lab_facts *f)
+{
+  return something_may_begin(f) && !f->onset.fitted && f->begins > lab_constant(LAB_ONSET_SHARE) * f->throughout;
+}
+
+static int an_onset_convinces(const lab_facts *f)
+{
+  return f->can_begin && lab_onset_convinces(&f->onset, &f->best) &&
+         (!f->extended.fitted || lab_onset_convinces(&f->onset, &f->extended));
+}
+
 static int no_effect_explains_it(const lab_facts *f)
 {
-  return f->n_found == 0 && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
+  return !f->has_begun && f->n_found == 0 && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
          lab_constant(LAB_TERM_ALONE) * f->effect < f->excess;
 }
 
@@ -89,6 +115,11 @@ static int a_term_stands_out(const lab_facts *f)
 static int is_better_by_bic(const lab_facts *f)
 {
   return f->extended.fitted && f->extended.bic < f->best.bic;
+}
+
+static int onset_needs_tolerances(const lab_facts *f)
+{
+  return f->has_begun && f->within.fitted && !lab_is_noise(&f->best);
 }
 
 static int is_noise_coarsely(const lab_facts *f)
@@ -156,6 +187,13 @@ static int has_found_nothing(const lab_facts *f)
 }
 
 const lab_rule lab_rules[] = {
+    {LAB_PHASE_SCORED, "The declared model leaves more than noise, and the logs are one run.", something_may_begin,
+     "Score what may begin within it.", LAB_DO_SCORE_ONSETS},
+    {LAB_PHASE_SCORED, "Something that may begin scores above ONSET_CLEAR times all that acts throughout.",
+     an_onset_stands_out, "Refit those that do, and find when they begin.", LAB_DO_FIT_CLEAR_ONSET},
+    {LAB_PHASE_SCORED,
+     "The best of these has a lower BIC and leaves only noise, or less than ONSET_CONVINCING of the excess.",
+     an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,
      "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "
      "and TERM_ALONE times the best score is below its excess.",
@@ -163,6 +201,15 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
      a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
      LAB_DO_FIT_SCORED_TERM},
+
+    {LAB_PHASE_LED,
+     "No refit of a leader leaves only noise, no onset was refitted, and something that may begin scores above "
+     "ONSET_SHARE times all that acts throughout.",
+     no_leader_is_enough, "Refit those that do, and find when they begin.", LAB_DO_FIT_ONSET},
+    {LAB_PHASE_LED,
+     "The best of these has a lower BIC than the declared model and the leaders, and leaves only noise, or less than "
+     "ONSET_CONVINCING of their excess.",
+     an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
 
     {LAB_PHASE_REFITTED, "The best extension has a lower BIC than the best model.", is_better_by_bic,
      "Note the effects alike. If the error of some channel falls by MIN_GAIN, go on from the best BEAM extensions; "
@@ -172,6 +219,8 @@ const lab_rule lab_rules[] = {
 
     {LAB_PHASE_ROUND, "The log is seen coarsely, and the best model leaves only noise.", is_noise_coarsely,
      "End: a coarse view does not see fine differences.", LAB_DO_END},
+    {LAB_PHASE_ROUND, "Values as declared: what begins was taken, and more than noise is left.", onset_needs_tolerances,
+     "End: the search goes on from there, with values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_ROUND,
      "Values as declared: the declared model within its tolerances has a lower BIC than the best model.",
      tolerances_are_better, "End: the search goes on from values within their tolerances.", LAB_DO_END},

@@ -52,6 +52,9 @@ int lab_is_clean(const lab_quality *q);
 /* Whether a model could not be fitted, or explains little of what the declared one leaves. */
 int lab_is_poor(const lab_quality *declared, const lab_quality *q);
 
+/* Whether a model in which something begins is to be preferred to one without. */
+int lab_onset_convinces(const lab_quality *with, const lab_quality *without);
+
 /* ---- Rules ---- */
 
 /* What was concluded. */
@@ -61,10 +64,21 @@ enum lab_verdict { LAB_VERDICT_NONE, LAB_VERDICT_EFFECT, LAB_VERDICT_UNLISTED, L
 const char *lab_verdict_text(int verdict);
 
 /* When a rule is asked. */
-enum lab_phase { LAB_PHASE_SCORED, LAB_PHASE_REFITTED, LAB_PHASE_ROUND, LAB_PHASE_END, LAB_PHASE_VERDICT };
+enum lab_phase {
+  LAB_PHASE_SCORED,
+  LAB_PHASE_LED,
+  LAB_PHASE_REFITTED,
+  LAB_PHASE_ROUND,
+  LAB_PHASE_END,
+  LAB_PHASE_VERDICT
+};
 
 /* What the search does by a rule. */
 enum lab_rule_action {
+  LAB_DO_SCORE_ONSETS,
+  LAB_DO_FIT_CLEAR_ONSET,
+  LAB_DO_FIT_ONSET,
+  LAB_DO_TAKE_ONSET,
   LAB_DO_SCORE_TERMS,
   LAB_DO_FIT_SCORED_TERM,
   LAB_DO_ADD_EFFECT,
@@ -87,11 +101,15 @@ typedef struct lab_facts {
   lab_quality declared;  /* the declared model */
   lab_quality best;      /* the best model so far */
   int n_found, n_terms;  /* what was added to it; free terms in it, declared ones among them */
+  int has_begun;         /* something that begins within the run was taken up in this round */
   int found_term;        /* a free term was added to it */
+  int can_begin;         /* the logs are one run, of which nothing is known to begin within it */
+  lab_quality onset;     /* the declared model with what begins within its run; not fitted: not tried yet, or nothing */
   lab_quality free_term; /* the declared model with the best free term; not fitted: not tried yet, or none */
   lab_quality extended;  /* the best extension of the best model; not fitted: none */
   double excess;         /* of the best model's chi-square over the data, and */
   double effect, term;   /* the largest scores there, of an effect and of a free term */
+  double begins, throughout; /* the same of what begins within the run, and of all that acts throughout */
 } lab_facts;
 
 typedef struct lab_rule {

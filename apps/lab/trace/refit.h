@@ -5,6 +5,8 @@
 
 #include "decide.h"
 #include "freeterms.h"
+#include "onset_score.h"
+#include "onset.h"
 
 /* What was added: an effect, or a free term where nothing that has a name would do. */
 typedef struct lab_found {
@@ -23,6 +25,7 @@ typedef struct lab_candidate {
   lab_quality quality;
   int n_found;
   lab_found found[LAB_EFFECTS_MAX];
+  lab_onset begin[LAB_ONSETS_MAX]; /* of the onsets of u.rig */
 } lab_candidate;
 
 /* Fit from its present values.
@@ -44,9 +47,7 @@ int lab_candidate_by_bic(const void *x, const void *y);
 
 enum { LAB_REFIT_MAX = 40 };
 
-/* Refit the leaders by score, in parallel, from several starts; where none of them is any good beside the declared
- * model, which what is missing may have bent beyond the reach of slopes, all that pass; and while none leaves only
- * noise, what the bent fit has hidden.
+/* Refit the leaders by score, in parallel, from several starts.
  * In:      base   fitted
  *          level  p-value that a score has to pass
  * Out:     c      room for LAB_REFIT_MAX; each has one effect more, fitted or not
@@ -54,6 +55,34 @@ enum { LAB_REFIT_MAX = 40 };
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_refit_effects(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
                       lab_error *error);
+
+/* Where no leader leaves only noise: if none of them is any good beside the declared model, which what is missing may
+ * have bent beyond the reach of slopes, refit all that pass; and while none leaves only noise, what the bent fit has
+ * hidden.
+ * In:      base   to which nothing was added
+ * In/out:  c, n   of lab_refit_effects
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_hidden(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
+                     lab_error *error);
+
+/* Refit the leaders among what may begin within the only run, find when each begins, and keep the best. One that
+ * explains no more than if it acted throughout is none.
+ * In:      base   fitted, seen row by row
+ *          level  p-value that a score has to pass
+ *          bar    statistic that it has to exceed
+ * Out:     best   fitted or not
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, double level, double bar,
+                    lab_candidate *best, lab_error *error);
+
+/* Refit the leaders among what may begin in place of what does in a candidate, at the same time; at another where that
+ * leaves more than noise.
+ * In:      c      to which what begins was added last
+ *          level  as of lab_refit_onset
+ * Out:     other  room for LAB_REFIT_MAX; n of them, fitted or not
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_instead(const lab_candidate *c, const lab_onset_scores *scores, double level, lab_candidate *other,
+                      int *n, lab_error *error);
 
 /* Refit the best free terms, in parallel: briefly, then the best few of them to the end; a term that acts on a short
  * stretch gets its knots there.

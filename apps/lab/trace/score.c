@@ -40,7 +40,8 @@ static void orthonormalise(lab_projection *p, int columns)
   }
 }
 
-int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error)
+/* With the slopes of the first n unknowns. */
+static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error)
 {
   double theta[LAB_FIT_MAX];
   int j, status = LAB_OK;
@@ -57,7 +58,7 @@ int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error)
   if (lab_unknowns_residuals(u, theta, p->r, error))
     return error->status;
 #pragma omp parallel for schedule(dynamic)
-  for (j = 0; j < u->n; j++) {
+  for (j = 0; j < n; j++) {
     lab_error mine;
     double *column = p->basis + (size_t)j * p->m;
     const int at = lab_cpu_is_spent(u->until) ? LAB_NUMERIC : lab_unknowns_slope(u, theta, p->r, j, column, &mine);
@@ -71,9 +72,19 @@ int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error)
   if (status == LAB_OK && lab_cpu_is_spent(u->until))
     return fail_spent(error);
   if (status == LAB_OK)
-    orthonormalise(p, u->n);
+    orthonormalise(p, n);
   p->excess = lab_dot(p->r, p->r, u->n_data) - (double)u->n_values;
   return status;
+}
+
+int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error)
+{
+  return open_with(u, u->n, p, error);
+}
+
+int lab_projection_open_rest(lab_unknowns *u, lab_projection *p, lab_error *error)
+{
+  return open_with(u, u->n - 1, p, error);
 }
 
 void lab_projection_close(lab_projection *p)
@@ -210,7 +221,8 @@ static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
     const int held = j >= 0 ? lab_unknown_is_held(&u->unknown[j]) : u->nuisance && lab_nuisance_holds(u->nuisance, i);
     pneu_param_info info;
     pneu_param_describe(i, &info);
-    if (!held && (j >= 0 || (!info.shape && *pneu_param_at((pneu_params *)&u->rig.params, i) != info.neutral)))
+    if (lab_unknowns_find_onset(u, i) >= 0 ||
+        (!held && (j >= 0 || (!info.shape && *pneu_param_at((pneu_params *)&u->rig.params, i) != info.neutral))))
       return 0;
     if (info.shape)
       *shape = i;

@@ -27,6 +27,10 @@ typedef struct lab_projection {
  * Out:     p  to be closed, also after an error
  * Returns: LAB_OK; LAB_NUMERIC, also when the time of u is spent; LAB_WORLD. */
 int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error);
+
+/* The same without the slope of the last unknown. */
+int lab_projection_open_rest(lab_unknowns *u, lab_projection *p, lab_error *error);
+
 void lab_projection_close(lab_projection *p);
 
 /* What another model would change in the residuals.

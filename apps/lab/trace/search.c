@@ -14,6 +14,7 @@ typedef struct search {
   const lab_search_options *options;
   lab_search_result *result;
   lab_candidate declared;             /* the declared model, fitted */
+  lab_candidate onset;                /* the declared model with what begins within its run; as free_term */
   lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */
   const lab_quality *within;          /* the declared model with its values within tolerances; NULL: that is it */
   lab_candidate without;              /* what is left when an effect is left out */
@@ -23,10 +24,14 @@ typedef struct search {
   lab_candidate pool[LAB_BEAM_WIDTH * LAB_REFIT_MAX]; /* extensions of them */
   int n_pool;
   int round, added, rounds_over, over;
+  int has_begun;                    /* something that begins was taken up in this round */
   int has_extended;                 /* pool[0] is the best extension of the best candidate */
   lab_nuisance nuisance;            /* what is declared, within its tolerances */
   const lab_projection *projection; /* of the declared model, while it is open */
-  double best_effect;               /* largest score of an effect there */
+  lab_onset_scores begins;          /* of what may begin within the run, there */
+  const lab_candidate *leaders;     /* first refits of effects, while they are looked at */
+  int n_leaders;
+  double best_effect; /* largest score of an effect there */
   lab_term_score term[LAB_TERM_SCORES_MAX];
   int n_terms; /* scores of free terms there, best first */
 } search;
@@ -98,6 +103,7 @@ static int is_as_good(const lab_quality *better, const lab_quality *q)
 static void note_alike(lab_candidate *c, int which, const lab_candidate *pool, int n)
 {
   lab_found *found = &c->found[which];
+  lab_rig end;
   int i, k;
   found->n_alike = 0;
   for (i = 0; found->effect >= 0 && i < n; i++) {
@@ -107,8 +113,10 @@ static void note_alike(lab_candidate *c, int which, const lab_candidate *pool, i
       known |= found->alike[k] == effect;
     if (known || !is_as_good(&c->quality, &pool[i].quality) || !is_alike_but(c, which, &pool[i], last))
       continue;
-    if (found->n_alike < LAB_LEADERS_MAX)
-      found->alike_params[found->n_alike] = pool[i].u.rig.params;
+    if (found->n_alike < LAB_LEADERS_MAX) {
+      lab_rig_at(&pool[i].u.rig, HUGE_VAL, &end);
+      found->alike_params[found->n_alike] = end.params;
+    }
     found->alike[found->n_alike++] = effect;
   }
 }
@@ -139,6 +147,24 @@ static void rank(search *s)
 
 /* ---- Extensions ---- */
 
+/* Refit what scores best; the refits join the pool.  Out: n  of them */
+static int refit_scored(search *s, const lab_candidate *base, const lab_scores *scores, double level, int *n,
+                        lab_error *error)
+{
+  lab_candidate *c = s->pool + s->n_pool;
+  on_progress(s, "refitting the best candidates");
+  if (lab_refit_effects(base, scores, level, c, n, error))
+    return error->status;
+  if (base->n_found > 0 || lab_is_noise(&base->quality) || lab_any(c, *n, lab_is_noise))
+    return LAB_OK;
+  s->leaders = c;
+  s->n_leaders = *n;
+  if (follow_rules(s, LAB_PHASE_LED, error))
+    return error->status;
+  s->n_leaders = 0;
+  return s->has_begun ? LAB_OK : lab_refit_hidden(base, scores, level, c, n, error);
+}
+
 /* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
 static int extend_scored(search *s, const lab_candidate *base, const lab_projection *p, double start, lab_error *error)
 {
@@ -159,11 +185,12 @@ static int extend_scored(search *s, const lab_candidate *base, const lab_project
     status = follow_rules(s, LAB_PHASE_SCORED, error);
     s->projection = NULL;
   }
-  if (status != LAB_OK)
+  if (status != LAB_OK || s->has_begun)
     return status;
-  on_progress(s, "refitting the best candidates");
-  if (!lab_is_noise(&s->free_term.quality) && lab_refit_effects(base, &scores, level, s->pool + s->n_pool, &n, error))
-    return error->status;
+  if (!lab_is_noise(&s->free_term.quality))
+    status = refit_scored(s, base, &scores, level, &n, error);
+  if (status != LAB_OK || s->has_begun)
+    return status;
   s->n_pool += n;
   if (first) {
     r->scores = scores;
@@ -314,11 +341,12 @@ static int advance(search *s, lab_error *error)
 {
   const double reach = lab_constant(LAB_RIVAL) * s->beam[0].quality.chi2;
   int i, status = LAB_OK;
-  s->added = s->n_pool = 0;
+  s->added = s->n_pool = s->has_begun = 0;
   for (i = 0; status == LAB_OK && i < s->n_beam; i++)
-    if (i == 0 || (!is_settled(s) && s->beam[i].quality.chi2 < reach))
+    if (i == 0 || (!s->has_begun && !is_settled(s) && s->beam[i].quality.chi2 < reach))
       status = extend(s, &s->beam[i], error);
-  if (status != LAB_OK)
+  s->added = s->has_begun;
+  if (status != LAB_OK || s->has_begun)
     return status;
   rank(s);
   if (rank_unfolded(s, error))
@@ -334,6 +362,8 @@ static int advance(search *s, lab_error *error)
 static void drop_found(lab_candidate *c, int which)
 {
   int k;
+  if (lab_unknowns_find_onset(&c->u, c->found[which].param) >= 0)
+    lab_unknowns_drop_onset(&c->u);
   if (c->found[which].shape >= 0)
     lab_unknowns_drop(&c->u, c->found[which].shape);
   lab_unknowns_drop(&c->u, c->found[which].param);
@@ -346,12 +376,14 @@ static void drop_found(lab_candidate *c, int which)
 static void drop_neutral(lab_candidate *c)
 {
   int i = c->n_found;
+  lab_rig last;
+  lab_rig_at(&c->u.rig, HUGE_VAL, &last);
   while (i-- > 0) {
     pneu_param_info info;
     if (c->found[i].effect < 0)
       continue;
     pneu_param_describe(c->found[i].param, &info);
-    if (*pneu_param_at(&c->u.rig.params, c->found[i].param) == info.neutral)
+    if (*pneu_param_at(&last.params, c->found[i].param) == info.neutral)
       drop_found(c, i);
   }
 }
@@ -407,6 +439,32 @@ static int exchange(search *s, lab_error *error)
       note_alike(best, i, s->pool, s->n_pool);
   }
   return status;
+}
+
+/* ---- What begins within the run ---- */
+
+/* The p-value that a score of what begins has to pass. */
+static double onset_level(const search *s)
+{
+  return s->options->alpha / (s->begins.tests > 0 ? s->begins.tests : 1);
+}
+
+/* The best of what may begin, of those that score above a share of what acts throughout. */
+static int fit_onset(search *s, enum lab_constant share, lab_error *error)
+{
+  const lab_onset_scores *all = &s->begins;
+  const double bar = lab_constant(share) * fmax(all->throughout, s->best_effect);
+  on_progress(s, "looking for what begins within the log");
+  return lab_refit_onset(&s->beam[0], all, onset_level(s), bar, &s->onset, error);
+}
+
+static void take_onset(search *s)
+{
+  s->beam[0] = s->onset;
+  s->n_beam = 1;
+  s->has_begun = 1;
+  note_step(s->result, &s->beam[0]);
+  note_way(s->result, &s->beam[0]);
 }
 
 /* ---- Free terms ---- */
@@ -473,6 +531,7 @@ static lab_facts facts_of(const search *s)
   f.round = s->round;
   f.coarse = best->u.window > 0;
   f.added = s->added;
+  f.has_begun = s->has_begun;
   f.declared = s->declared.quality;
   if (s->within)
     f.within = *s->within;
@@ -481,9 +540,16 @@ static lab_facts facts_of(const search *s)
   f.n_terms = best->u.rig.n_terms;
   for (i = 0; i < best->n_found; i++)
     f.found_term |= best->found[i].term >= 0;
+  f.can_begin = s->options->may_begin && best->u.n_runs == 1 && best->u.window == 0 && best->u.rig.n_onsets == 0;
+  f.onset = s->onset.quality;
   f.free_term = s->free_term.quality;
   if (s->has_extended)
     f.extended = s->pool[0].quality;
+  for (i = 0; i < s->n_leaders; i++)
+    if (s->leaders[i].quality.fitted && (!f.extended.fitted || s->leaders[i].quality.bic < f.extended.bic))
+      f.extended = s->leaders[i].quality;
+  f.begins = s->begins.n > 0 ? s->begins.of[0].statistic : 0;
+  f.throughout = fmax(s->begins.throughout, s->best_effect);
   f.excess = s->projection ? s->projection->excess : 0;
   f.effect = s->best_effect;
   f.term = s->n_terms > 0 ? s->term[0].statistic : 0;
@@ -493,6 +559,15 @@ static lab_facts facts_of(const search *s)
 static int act(search *s, int action, lab_error *error)
 {
   switch (action) {
+  case LAB_DO_SCORE_ONSETS:
+    return lab_onset_scores_find(s->projection, &s->begins, error);
+  case LAB_DO_FIT_CLEAR_ONSET:
+    return fit_onset(s, LAB_ONSET_CLEAR, error);
+  case LAB_DO_FIT_ONSET:
+    return fit_onset(s, LAB_ONSET_SHARE, error);
+  case LAB_DO_TAKE_ONSET:
+    take_onset(s);
+    break;
   case LAB_DO_SCORE_TERMS:
     return lab_score_free_terms(s->projection, s->term, &s->n_terms, error);
   case LAB_DO_FIT_SCORED_TERM:
@@ -568,6 +643,27 @@ static int unfold(search *s, lab_error *error)
   return status;
 }
 
+/* Whether something was found that begins. */
+static int has_onset(const lab_candidate *c)
+{
+  const int n = c->u.rig.n_onsets;
+  return n > 0 && c->begin[n - 1].known;
+}
+
+/* About other values what begins may begin elsewhere. */
+static int place_again(lab_candidate *c, lab_error *error)
+{
+  const int k = c->u.rig.n_onsets - 1;
+  int j, status;
+  if (!has_onset(c))
+    return LAB_OK;
+  j = lab_unknowns_find_onset(&c->u, c->u.rig.onset[k].param);
+  status = lab_onset_settle(&c->u, j, &c->quality.chi2, &c->begin[k], error);
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* A model about the same values as another: what the nuisance holds is where it is there. */
 static int move_to(const lab_nuisance *h, lab_candidate *c, lab_error *error)
 {
@@ -609,6 +705,8 @@ static int linearise_about(search *s, lab_error *error)
 static int linearise_again(search *s, lab_error *error)
 {
   int status = unfold(s, error);
+  if (status == LAB_OK)
+    status = place_again(&s->beam[0], error);
   if (status != LAB_OK)
     return status;
   s->whole = s->beam[0];
@@ -620,6 +718,30 @@ static int linearise_again(search *s, lab_error *error)
   return error->status = LAB_OK;
 }
 
+/* A fit that is bent ranks alike things by chance: now that it is known when one of them begins, the others again. */
+static int try_instead(search *s, lab_error *error)
+{
+  lab_candidate *best = &s->beam[0];
+  int i, n, status = lab_refit_instead(best, &s->begins, onset_level(s), s->pool, &s->n_pool, error);
+  if (status != LAB_OK)
+    return status;
+  rank(s);
+  if (s->n_pool > 0 && s->pool[0].quality.bic < best->quality.bic) {
+    s->without = *best;
+    *best = s->pool[0];
+    s->pool[0] = s->without;
+    if (best->n_found > 0)
+      lab_candidate_explain(best, s->declared.quality.chi2);
+    status = s->nuisance.n > 0 ? linearise_again(s, error) : place_again(best, error);
+  }
+  for (i = n = 0; i < s->n_pool; i++)
+    if (s->pool[i].n_found > 0)
+      s->pool[n++] = s->pool[i];
+  if (best->n_found > 0)
+    note_alike(best, best->n_found - 1, s->pool, n);
+  return status;
+}
+
 static int search_all(search *s, lab_error *error)
 {
   for (s->round = 0, s->added = 1; s->added && !s->rounds_over && s->round < s->options->max_effects; s->round++) {
@@ -627,6 +749,8 @@ static int search_all(search *s, lab_error *error)
     if (advance(s, error))
       return error->status;
     if (s->added && s->nuisance.n > 0 && linearise_again(s, error))
+      return error->status;
+    if (s->has_begun && try_instead(s, error))
       return error->status;
     chi2 = s->beam[0].quality.chi2;
     if (follow_rules(s, LAB_PHASE_ROUND, error))
@@ -639,12 +763,23 @@ static int search_all(search *s, lab_error *error)
   return follow_rules(s, LAB_PHASE_END, error);
 }
 
+/* What begins is known already. */
+static int go_on_from(search *s, const lab_candidate *begun, lab_error *error)
+{
+  s->beam[0] = *begun;
+  note_step(s->result, begun);
+  note_way(s->result, begun);
+  return linearise_again(s, error);
+}
+
 /* The search from a declared model, fitted, in the view that the unknowns have.
- * In:      within  the same with its values within tolerances, which the search is to beat; may be NULL
+ * In:      begun   it with what begins, fitted as well, from which to go on; may be NULL
+ *          within  the same with its values within tolerances, which the search is to beat; may be NULL
  * Out:     best    with what was added
  *          result  all but the errors, the fit and what was found */
-static int search_from(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
-                       lab_search_result *result, lab_candidate *best, lab_error *error)
+static int search_from(const lab_unknowns *u, const lab_candidate *begun, const lab_quality *within,
+                       const lab_search_options *options, lab_search_result *result, lab_candidate *best,
+                       lab_error *error)
 {
   search *s = calloc(1, sizeof *s);
   int status;
@@ -663,12 +798,18 @@ static int search_from(const lab_unknowns *u, const lab_quality *within, const l
     s->beam[0] = s->declared;
     s->n_beam = 1;
     note_step(result, &s->declared);
+    if (begun)
+      status = go_on_from(s, begun, error);
+  }
+  if (status == LAB_OK) {
     status = search_all(s, error);
   }
   if (status == LAB_NUMERIC && lab_cpu_is_spent(u->until))
     status = s->beam[0].quality.fitted ? LAB_OK : status;
   if (status == LAB_OK)
     status = unfold(s, error);
+  if (status == LAB_OK && !lab_cpu_is_spent(u->until))
+    status = place_again(&s->beam[0], error);
   if (status == LAB_OK) {
     lab_facts f;
     drop_neutral(&s->beam[0]);
@@ -689,13 +830,19 @@ typedef struct finding {
   lab_search_result result;
 } finding;
 
+/* Whether a search has explained the logs. */
+static int explains(const finding *f)
+{
+  return (f->best.n_found > 0 || has_onset(&f->best)) && lab_is_noise(&f->best.quality);
+}
+
 /* The search from the declared values as they stand; what it finds is then fitted with tolerances. */
 static int search_exactly(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
                           finding *f, lab_error *error)
 {
-  if (search_from(u, within, options, &f->result, &f->best, error))
+  if (search_from(u, NULL, within, options, &f->result, &f->best, error))
     return error->status;
-  if (!lab_is_noise(&f->best.quality) || f->best.n_found == 0)
+  if (!explains(f))
     return LAB_OK;
   f->gain = f->best.quality.chi2;
   if (lab_unknowns_hold(&f->best.u, error) || lab_candidate_fit(&f->best, LAB_ROUNDS_ALL, error))
@@ -704,16 +851,12 @@ static int search_exactly(const lab_unknowns *u, const lab_quality *within, cons
   return LAB_OK;
 }
 
-/* Whether a search that explains the logs by effects needs no deviations beside. */
+/* Whether a search that explains the logs by effects, or by what begins, needs no deviations beside. */
 static int is_enough(const finding *f)
 {
-  return f->result.verdict == LAB_VERDICT_EFFECT && f->gain < lab_constant(LAB_DEVIATIONS_GAIN);
-}
-
-/* Whether a search has explained the logs. */
-static int explains(const finding *f)
-{
-  return f->best.n_found > 0 && lab_is_noise(&f->best.quality);
+  const int explained =
+      f->result.verdict == LAB_VERDICT_EFFECT || (f->result.verdict == LAB_VERDICT_NONE && has_onset(&f->best));
+  return explained && f->gain < lab_constant(LAB_DEVIATIONS_GAIN);
 }
 
 /* When to stop where there is an answer already: after as long again, and a second. */
@@ -742,6 +885,24 @@ static int hold(lab_candidate *c, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
+/* What a search from exact values says begins, with values within their tolerances.
+ * In:      tolerant  the declared model with these, without anything that begins
+ * In/out:  c         fitted
+ * Out:     begins    whether it convinces
+ * Returns: LAB_OK, LAB_WORLD */
+static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *begins, lab_error *error)
+{
+  int status;
+  *begins = 0;
+  if (!has_onset(c) || lab_cpu_is_spent(c->u.until))
+    return LAB_OK;
+  status = hold(c, error);
+  if (status == LAB_OK)
+    status = place_again(c, error);
+  *begins = status == LAB_OK && lab_onset_convinces(&c->quality, tolerant);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
 /* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
  * something may be missing from a rig that is as declared: if an effect explains them and needs no deviations beside,
  * none are looked for; else the better model of the two searches is the answer.
@@ -751,7 +912,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
 {
   const double start = lab_cpu_time();
   finding *exact = malloc(sizeof *exact);
-  int status, is_exact = 0;
+  int status, is_exact = 0, begins = 0;
   if (!exact)
     return lab_fail_memory(error, "the search");
   *exact = *whole;
@@ -761,11 +922,14 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
     status = search_exactly(u, &whole->best.quality, options, exact, error);
     is_exact = status == LAB_OK && explains(exact);
+    if (status == LAB_OK && !is_exact)
+      status = tolerate_onset(&exact->best, &whole->best.quality, &begins, error);
   }
   if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
     if (is_exact)
       whole->declared.until = enough(u->until, start);
-    status = search_from(&whole->declared, NULL, options, &whole->result, &whole->best, error);
+    status =
+        search_from(&whole->declared, begins ? &exact->best : NULL, NULL, options, &whole->result, &whole->best, error);
     is_exact = is_exact && (status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic);
   }
   if (is_exact) {
@@ -797,7 +961,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   if (result->window == 0)
     return LAB_OK;
   lab_unknowns_view(&coarse, result->window);
-  if (search_from(&coarse, NULL, options, result, best, error))
+  if (search_from(&coarse, NULL, NULL, options, result, best, error))
     return error->status;
   *done = lab_is_noise(&best->quality) && has_found_cause(best);
   if (!*done) {
@@ -814,6 +978,7 @@ void lab_search_options_default(lab_search_options *options)
   options->alpha = lab_constant(LAB_ALPHA);
   options->min_gain = lab_constant(LAB_MIN_GAIN);
   options->max_effects = LAB_EFFECTS_MAX;
+  options->may_begin = 1;
 }
 
 int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_result *result, lab_error *error)
@@ -840,6 +1005,7 @@ static int conclude(finding *f, lab_unknowns *u, lab_search_result *result, lab_
   *result = f->result;
   result->n_found = f->best.n_found;
   memcpy(result->found, f->best.found, sizeof result->found);
+  memcpy(result->begin, f->best.begin, sizeof result->begin);
   result->cut_short = lab_cpu_is_spent(u->until);
   status = lab_unknowns_intervals(u, &result->fit, error);
   if (status == LAB_OK)

@@ -14,6 +14,7 @@ typedef struct lab_search_options {
   double alpha;    /* chance of naming anything when nothing is missing */
   double min_gain; /* share by which an addition must lower the error of some channel */
   int max_effects;
+  int may_begin;                                        /* not 0: something may begin within the only run */
   void (*on_progress)(void *context, const char *what); /* told what is being done; may be NULL */
   void *context;
 } lab_search_options;
@@ -43,6 +44,7 @@ typedef struct lab_search_result {
   lab_errors before, after;
   lab_residual_stats left[LAB_STAGE_COUNT]
                          [LAB_CHANNEL_COUNT]; /* row by row, by which the verdict and every text speak */
+  lab_onset begin[LAB_ONSETS_MAX];            /* of the onsets of the final model */
   lab_fit_result fit;                         /* of the final model */
   lab_scores scores;                          /* of effects, on the declared model: what was tried */
   double score_s;                             /* [s] that these took */

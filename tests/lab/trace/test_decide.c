@@ -115,6 +115,45 @@ static void test_rules__values_as_declared__end_where_tolerances_alone_are_bette
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
 }
 
+static void test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.begins = 121;
+  f.throughout = 100;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  f.can_begin = 1;
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
+  f.begins = 119;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  assert_true(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
+  f.begins = 49;
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
+  f.onset = quality(299, 1199); /* more than noise, but less than a tenth of the excess */
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
+  f.onset = quality(330, 1199);
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
+  f.onset = quality(220, 400);
+  f.extended = quality(230, 399);
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_TAKE_ONSET, &f));
+  f.extended = quality(230, 401);
+  assert_true(holds(LAB_PHASE_LED, LAB_DO_TAKE_ONSET, &f));
+  f.best = quality(319, 500);
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+}
+
+static void test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.within = quality(1100, 1201);
+  f.has_begun = 1;
+  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  f.best = quality(300, 350);
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+}
+
 static void test_rules__extension__is_added_by_bic(void **state)
 {
   lab_facts f = declared_alone();
@@ -240,6 +279,8 @@ int main(void)
       cmocka_unit_test(test_lab_is_poor__half_of_the_excess__is_the_limit),
       cmocka_unit_test(test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it),
       cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_alone_are_better),
+      cmocka_unit_test(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces),
+      cmocka_unit_test(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left),
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),

@@ -1,9 +1,9 @@
-/* When a change begins within a log.
+/* When a change, or what was found, begins within a log.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_ONSET_H
 #define LAB_ONSET_H
 
-#include "../trace/score.h"
+#include "score.h"
 
 /* An instant [s of the log], with its 95 % interval. */
 typedef struct lab_onset {
@@ -13,9 +13,13 @@ typedef struct lab_onset {
 
 enum { LAB_ONSET_PLACES = 8 }; /* stretches of a run between which a change may begin or end, at first sight */
 
-/* Find the row from which a change acts: that with the largest score, and the interval in which the score stays within
- * what 95 % allow. Where that is no better than acting throughout, the change acts throughout.
- * In:      change  place of a fitted LAB_UNKNOWN_CHANGE that the last run alone has, seen row by row
+/* Find when a change begins, and fit again, until it stays where it is; what is found begins between rows.
+ * In/out, Out, Returns: as lab_onset_find */
+int lab_onset_settle(lab_unknowns *u, int change, double *chi2, lab_onset *begin, lab_error *error);
+
+/* The same; where that is no better than acting throughout, the change acts throughout.
+ * In:      change  place of a fitted LAB_UNKNOWN_CHANGE that the last run alone has, or of a LAB_UNKNOWN_ONSET of the
+ *                  only run, seen row by row
  *          level   p-value that the improvement has to pass
  * In/out:  u       fitted again
  *          chi2    of it

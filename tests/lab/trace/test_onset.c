@@ -1,0 +1,185 @@
+/* When what is found begins within a log of the independent rig. */
+#include <math.h>
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/fit/deviations.h"
+#include "../../../apps/lab/trace/search.h"
+
+enum { ROWS = 1401, COMMANDS = 8 };
+static const double end = 14, spacing = 0.01; /* [s] */
+static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.201, 4.507, 6.204, 8.002, 9.503, 11.507};
+static const double u_cmd[COMMANDS] = {1, 0, -1, 0, 0.8, -0.6, 1, -1};
+
+static lab_rig rig;
+static lab_log log_read;
+static lab_run run;
+static lab_unknowns u;
+static lab_search_result result;
+static lab_deviations all;
+
+static second_rig true_rig(void)
+{
+  second_rig g = second_rig_default_r1_400();
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = 11;
+  return g;
+}
+
+/* A log of a rig that is another from some time on. */
+static void write_log(const second_rig *first, const second_rig *later, double change)
+{
+  static double t[ROWS], u_sent[ROWS], p[ROWS], x[ROWS];
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS, .later = later, .change = change};
+  const second_log log = {.t = t, .u = u_sent, .p = p, .x = x};
+  FILE *file = fopen(scratch_path("log.csv"), "w");
+  int i;
+  assert_int_equal(second_samples(end, spacing), ROWS);
+  assert_int_equal(second_follow(first, &course, end, spacing, &log, NULL), 0);
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u_sent[i], p[i], x[i]);
+  fclose(file);
+}
+
+static void declare(void)
+{
+  static const char *const fitted[] = {"spring_rate", "spring_preload"};
+  int i;
+  lab_rig_default(&rig);
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  rig.params.dead_volume = (pneu_real)4e-5;
+  rig.params.spring_rate = (pneu_real)3.9e5;
+  rig.noise[LAB_CHANNEL_P] = 320;
+  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  for (i = 0; i < 2; i++)
+    rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
+}
+
+static void close_loop(const second_rig *first, const second_rig *later, double change)
+{
+  lab_search_options options;
+  lab_error error = {0, ""};
+  write_log(first, later, change);
+  declare();
+  lab_search_options_default(&options);
+  options.max_effects = 1;
+  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log_read, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
+  assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, &all, &error), LAB_OK);
+}
+
+static void close_log(void)
+{
+  lab_run_close(&run);
+  lab_log_free(&log_read);
+}
+
+/* The only onset is that of a parameter: it holds the truth, and the fit of its value as well. */
+static void assert_begins(const char *name, double change, double value)
+{
+  const int param = pneu_param_find(name), j = lab_unknowns_find_onset(&u, param);
+  const lab_onset *begin = &result.begin[0];
+  assert_int_equal(u.rig.n_onsets, 1);
+  assert_true(j >= 0);
+  assert_true(begin->known);
+  check_note("%s since %g [%g, %g], truth %g", name, begin->t, begin->low, begin->high, change);
+  assert_between(change, begin->low, begin->high);
+  assert_between(begin->t, begin->low, begin->high);
+  assert_close(begin->t, u.rig.onset[0].from, 0, 0);
+  assert_close(u.unknown[j].value, value, 0, 0.05);
+}
+
+/* Whether an effect is the one that was found, or one that the log cannot tell from it. */
+static int is_said(const char *name)
+{
+  const lab_found *found = &result.found[0];
+  int i, said = !strcmp(pneu_effect_at(found->effect)->name, name);
+  for (i = 0; i < found->n_alike; i++)
+    said |= !strcmp(pneu_effect_at(found->alike[i])->name, name);
+  return said;
+}
+
+static void test_lab_search_run__leak_that_begins__is_named_since_when(void **state)
+{
+  const second_rig first = true_rig();
+  second_rig later = first;
+  (void)state;
+  later.leak_area = 6e-8;
+  close_loop(&first, &later, 5.43);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_true(is_said("chamber_leak"));
+  assert_int_equal(u.rig.onset[0].param, result.found[0].param);
+  assert_between(5.43, result.begin[0].low, result.begin[0].high);
+  assert_true(result.begin[0].high - result.begin[0].low < 0.5);
+  close_log();
+}
+
+/* The stem is at rest as its friction rises: when it does shows at the next move only. */
+static void test_lab_search_run__friction_that_rises__deviates_since_then(void **state)
+{
+  const second_rig first = true_rig();
+  second_rig later = first;
+  (void)state;
+  later.dry_friction = 1300;
+  close_loop(&first, &later, 7.61);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(result.n_found, 0);
+  assert_begins("dry_friction", 7.61, 1300);
+  assert_int_equal(all.condition, LAB_CONDITION_DEVIATES);
+  assert_string_equal(all.of[0].name, "dry_friction");
+  assert_close(all.of[0].ratio, 1300.0 / 480, 0.05, 0);
+  assert_int_equal(all.of[0].param, pneu_param_find("dry_friction"));
+  close_log();
+}
+
+static void test_lab_search_run__supply_that_falls__deviates_since_then(void **state)
+{
+  const second_rig first = true_rig();
+  second_rig later = first;
+  (void)state;
+  later.supply = 0.8 * first.supply;
+  close_loop(&first, &later, 6.57);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_begins("supply_pressure", 6.57, 0.8 * 4e5);
+  assert_string_equal(all.of[0].name, "supply_pressure");
+  close_log();
+}
+
+static void test_lab_search_run__nothing_begins__has_no_onset(void **state)
+{
+  second_rig g = true_rig();
+  (void)state;
+  close_loop(&g, NULL, 0);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(u.rig.n_onsets, 0);
+  close_log();
+  g.leak_area = 2e-8;
+  close_loop(&g, NULL, 0);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(u.rig.n_onsets, 0);
+  close_log();
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_search_run__leak_that_begins__is_named_since_when),
+      cmocka_unit_test(test_lab_search_run__friction_that_rises__deviates_since_then),
+      cmocka_unit_test(test_lab_search_run__supply_that_falls__deviates_since_then),
+      cmocka_unit_test(test_lab_search_run__nothing_begins__has_no_onset),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
