@@ -40,7 +40,7 @@ static void put_name(FILE *file, const lab_answer *a, const lab_found *found)
 static void put_size(FILE *file, const lab_answer *a, const lab_found *found)
 {
   char where[LAB_WHERE_TEXT];
-  const int j = found->effect >= 0 ? lab_unknowns_find(&a->now.completed, found->param) : -1;
+  const int j = found->effect >= 0 ? lab_report_size(&a->report, found->param) : -1;
   if (found->effect < 0)
     fputs(lab_free_term_where(&a->now.completed.rig.term[found->term], where), file);
   else if (j >= 0)

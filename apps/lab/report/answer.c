@@ -80,6 +80,16 @@ static void begin_report(lab_answer *a)
   a->report.limitations = &a->now.logs.limitations;
 }
 
+/* Only deviations that begin within the log. */
+static void keep_onsets(const lab_report *report, lab_deviations *all)
+{
+  int i, n = 0;
+  for (i = 0; i < all->n; i++)
+    if (lab_report_onset(report, all->of[i].param))
+      all->of[n++] = all->of[i];
+  all->n = n;
+}
+
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
@@ -88,7 +98,7 @@ static int conclude(lab_answer *a, lab_error *error)
     return error->status;
   if (a->now.result.verdict == LAB_VERDICT_UNDECIDED) { /* the values stand in for what is not known */
     all->condition = LAB_CONDITION_CANNOT_TELL;
-    all->n = 0;
+    keep_onsets(&a->report, all);
   }
   lab_unknowns_settle(&a->now.completed, &a->now.result.fit);
   return LAB_OK;
@@ -147,7 +157,8 @@ static int search_with_colours(const lab_search_options *how, lab_completion *c,
   int any = 0;
   if (lab_search_run(&c->completed, how, &c->result, error))
     return error->status;
-  if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.n_found == 0 || c->result.cut_short)
+  if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.cut_short ||
+      c->result.n_found + c->completed.rig.n_onsets == 0)
     return LAB_OK;
   if (lab_weigh_colours(&c->completed, c->logs.run, &any, error) || !any)
     return error->status;
@@ -157,8 +168,11 @@ static int search_with_colours(const lab_search_options *how, lab_completion *c,
   return lab_search_run(&c->completed, how, &c->result, error);
 }
 
-/* Add what the fitted model lacks.  In: fit_s  of fit_to */
-static int complete(const lab_request *q, const allowance *time, double fit_s, lab_completion *c, lab_error *error)
+/* Add what the fitted model lacks.
+ * In:      fit_s      of fit_to
+ *          may_begin  whether it may begin within the log: a baseline is what it is throughout */
+static int complete(const lab_request *q, const allowance *time, double fit_s, int may_begin, lab_completion *c,
+                    lab_error *error)
 {
   lab_search_options how;
   lab_search_options_default(&how);
@@ -166,6 +180,7 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, l
   how.context = q->context;
   how.alpha = q->alpha;
   how.min_gain = q->min_gain;
+  how.may_begin = may_begin;
   if (!c->logs.limitations.doubt)
     c->declared.until = until(time, fit_s);
   c->completed = c->declared;
@@ -196,7 +211,7 @@ static int compare(const lab_request *q, const allowance *time, lab_answer *a, l
     return LAB_OK;
   }
   on_progress(q, "completing the model of the baseline");
-  if (fit_to(q, &a->rig, &own, then, &fit_s, error) || complete(q, &own, fit_s, then, error))
+  if (fit_to(q, &a->rig, &own, then, &fit_s, error) || complete(q, &own, fit_s, 0, then, error))
     return error->status;
   lab_unknowns_settle(&then->completed, &then->result.fit);
   a->report.baseline = &then->completed.rig;
@@ -224,7 +239,7 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
   if (fit_to(q, &a->rig, &time, &a->now, &fit_s, error))
     return error->status;
   a->report.fit_s = lab_clock() - start;
-  if (compare(q, &time, a, error) || complete(q, &time, fit_s, &a->now, error) || conclude(a, error) ||
+  if (compare(q, &time, a, error) || complete(q, &time, fit_s, 1, &a->now, error) || conclude(a, error) ||
       leave_as_declared(a, error))
     return error->status;
   a->report.trace_s = a->now.result.score_s;

@@ -45,14 +45,15 @@ int lab_answer_advise(lab_answer *a, lab_error *error)
   const lab_search_result *r = report->result;
   int fit[LAB_PARAM_COUNT], i, alike = 0;
   lab_advice_request q;
+  lab_rig last;
+  lab_rig_at(&report->completed->rig, INFINITY, &last);
   inquire(report, &q);
   if (!can_foresee(&q))
     return LAB_OK;
   for (i = 0; i < r->n_found; i++) {
     const lab_found *found = &r->found[i];
     alike += found->n_alike;
-    if (found->n_alike > 0 &&
-        lab_discriminate(&q, &report->completed->rig.params, &found->alike_params[0], &report->separate[i], error))
+    if (found->n_alike > 0 && lab_discriminate(&q, &last.params, &found->alike_params[0], &report->separate[i], error))
       return error->status;
   }
   if (alike > 0 || r->window > 0 || report->completed->rig.n_terms > 0)
@@ -61,5 +62,5 @@ int lab_answer_advise(lab_answer *a, lab_error *error)
   for (i = 0; i < r->n_found; i++)
     fit[q.n_fit++] = r->found[i].param;
   q.fit = fit;
-  return lab_advise_precision(&q, &report->completed->rig.params, &report->next, error);
+  return lab_advise_precision(&q, &last.params, &report->next, error);
 }

@@ -79,6 +79,10 @@ static int hold_out(lab_answer *a, lab_error *error)
   int i, status;
   if (held->n == 0)
     return LAB_OK;
+  if (a->now.completed.rig.n_onsets > a->rig.n_onsets)
+    lab_limitation(&a->now.logs.limitations,
+                   "what begins at %.6g s of the log begins at the same time of a held-out log",
+                   a->now.completed.rig.onset[a->rig.n_onsets].from);
   status = judge(&a->now.declared.rig, held->run, held->n, 0, &report->holdout_before, error);
   if (status == LAB_OK)
     status = judge(&a->now.completed.rig, held->run, held->n, 0, &report->holdout_after, error);

@@ -61,6 +61,20 @@ static void say_chance(const lab_sources *t, const lab_found *found, cJSON *list
                  lab_format_number(lab_chi2_threshold(t->report->result->level), 3, threshold));
 }
 
+/* When it began, of whatever did not act from the start. */
+static void say_onsets(const lab_sources *t, cJSON *list)
+{
+  const lab_rig *rig = &t->report->completed->rig;
+  char name[LAB_PARAM_NAME_TEXT], since[LAB_SINCE_TEXT];
+  int k;
+  for (k = 0; k < rig->n_onsets; k++) {
+    const lab_onset *onset = lab_report_onset(t->report, rig->onset[k].param);
+    if (onset)
+      lab_json_say(list, "It did not act from the start: %s has another value%s, the interval being that of 95 %%.",
+                   lab_fit_name(rig->onset[k].param, name), lab_report_since(onset, since));
+  }
+}
+
 static int count_alike(const lab_search_result *r)
 {
   int i, n = 0;
@@ -164,6 +178,7 @@ static void put_sure(const lab_sources *t, cJSON *list)
                  lab_page_effect_name(r->scores.of[0].effect),
                  lab_format_number(r->scores.of[0].statistic, 3, statistic),
                  lab_format_number(lab_chi2_threshold(r->level), 3, threshold));
+  say_onsets(t, list);
   say_alike(r, list);
   say_held_out(t->report, list);
   say_left(t, list);

@@ -58,7 +58,7 @@ void lab_page_deviations(const lab_sources *t, cJSON *page)
   for (i = 0; i < all->n; i++) {
     const lab_deviation *d = &all->of[i];
     const double scale = lab_format_as(d->unit).scale;
-    char low[LAB_FORMAT_TEXT], high[LAB_FORMAT_TEXT];
+    char low[LAB_FORMAT_TEXT], high[LAB_FORMAT_TEXT], since[LAB_SINCE_TEXT];
     cJSON *row = lab_json_append(list);
     lab_json_put(row, "name", "%s", d->name);
     lab_page_put_quantity(row, "declared", d->declared, d->unit, 4);
@@ -70,6 +70,7 @@ void lab_page_deviations(const lab_sources *t, cJSON *page)
     lab_json_put(row, "mood", "%s", d->beyond ? "bad" : "good");
     lab_json_put(row, "words", "%s", d->beyond ? "beyond" : "within");
     lab_json_put(row, "held", "%s", d->held ? "yes" : "");
+    lab_json_put(row, "since", "%s", lab_report_since(lab_report_onset(t->report, d->param), since));
   }
   lab_json_put(page, "has_deviations", "%s", all->n ? "yes" : "");
 }

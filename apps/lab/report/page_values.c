@@ -69,7 +69,7 @@ const char *lab_page_effect_name(int effect)
 
 int lab_page_has_completed(const lab_sources *t)
 {
-  return t->report->result->n_found > 0 || t->report->rig->n_fit == 0;
+  return t->report->result->n_found > 0 || t->report->completed->rig.n_onsets > 0 || t->report->rig->n_fit == 0;
 }
 
 const char *lab_page_unit(const lab_unknown *x)
@@ -114,7 +114,7 @@ void lab_page_put_interval(const lab_sources *t, int j, cJSON *to)
 cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list)
 {
   const lab_unknowns *u = t->report->completed;
-  const int j = lab_unknowns_find(u, param);
+  const int j = lab_report_size(t->report, param);
   pneu_param_info info;
   cJSON *item = j < 0 ? NULL : lab_json_append(list);
   if (!item)

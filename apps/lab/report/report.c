@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/escape.h"
+#include "../base/format.h"
 #include "../trace/freeterms.h"
 
 int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
@@ -30,7 +31,9 @@ int lab_report_model(FILE *file, const lab_sources *from, lab_error *error)
 
 int lab_report_header(FILE *file, const lab_sources *from, lab_error *error)
 {
+  lab_rig last;
   (void)error;
+  lab_rig_at(&from->report->completed->rig, INFINITY, &last);
   fputs("/* The completed model of ", file);
   lab_put_comment(file, from->report->rig->name);
   fputs(
@@ -41,16 +44,43 @@ int lab_report_header(FILE *file, const lab_sources *from, lab_error *error)
       " * the library. With any other it does not compile. */\n"
       "#include \"pneu.h\"\n",
       file);
-  lab_rig_write_c(file, &from->report->completed->rig, 0);
+  lab_rig_write_c(file, &last, 0);
   return LAB_OK;
 }
 
 int lab_report_catalogue(FILE *file, const lab_sources *from, lab_error *error)
 {
+  lab_rig last;
   (void)error;
+  lab_rig_at(&from->report->completed->rig, INFINITY, &last);
   fputs("/* The effects that model.h beside this file needs, by closeloop: see there. */\n", file);
-  lab_rig_write_catalogue(file, &from->report->completed->rig);
+  lab_rig_write_catalogue(file, &last);
   return LAB_OK;
+}
+
+int lab_report_size(const lab_report *report, int param)
+{
+  const int j = lab_unknowns_find_onset(report->completed, param);
+  return j >= 0 ? j : lab_unknowns_find(report->completed, param);
+}
+
+const lab_onset *lab_report_onset(const lab_report *report, int param)
+{
+  const int j = lab_unknowns_find_onset(report->completed, param);
+  const lab_onset *begin = j < 0 ? NULL : &report->result->begin[report->completed->unknown[j].index];
+  return begin && begin->known ? begin : NULL;
+}
+
+const char *lab_report_since(const lab_onset *onset, char text[LAB_SINCE_TEXT])
+{
+  const double width = onset ? fmax(onset->high - onset->low, 1e-9) : 1, size = onset ? fabs(onset->high) : 1;
+  const int digits = (int)fmin(fmax(3, 1 + ceil(log10(fmax(size / width, 1)))), 9);
+  char at[LAB_FORMAT_TEXT], low[LAB_FORMAT_TEXT], high[LAB_FORMAT_TEXT];
+  *text = '\0';
+  if (onset)
+    snprintf(text, LAB_SINCE_TEXT, " since %s s (%s to %s s)", lab_format_number(onset->t, digits, at),
+             lab_format_number(onset->low, digits, low), lab_format_number(onset->high, digits, high));
+  return text;
 }
 
 double lab_report_refit_explains(const lab_search_result *r, const lab_score *score)

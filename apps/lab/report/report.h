@@ -63,6 +63,18 @@ lab_report_writer lab_report_html;     /* a page that needs nothing else, figure
 int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
                     lab_error *error);
 
+/* The unknown that is the size of something found: from its onset on, where it has one.
+ * In:      param  as in pneu_param_describe
+ * Returns: its place among those of the completed model, -1 if it was not fitted */
+int lab_report_size(const lab_report *report, int param);
+
+/* When a parameter of the completed model takes another value.  Returns: NULL if it has one throughout */
+const lab_onset *lab_report_onset(const lab_report *report, int param);
+
+/* " since 12.3 s (12.29 to 12.31 s)", "" without an onset.  Out: text  Returns: text */
+enum { LAB_SINCE_TEXT = 128 };
+const char *lab_report_since(const lab_onset *onset, char text[LAB_SINCE_TEXT]);
+
 /* What the fit could not determine, in words; "" where all is well.  Out: text */
 void lab_report_undetermined(const lab_report *report, char text[LAB_FIT_UNDETERMINED_TEXT]);
 
@@ -101,6 +113,7 @@ const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char 
 
 /* What has changed since the baseline: "condition" and "changes" of report.json; a sentence with a space behind it. */
 void lab_report_changes(const lab_changes *changes, cJSON *root);
+void lab_report_onset_json(cJSON *object, const char *name, const lab_onset *onset); /* NULL: nothing */
 void lab_report_change_sentence(const lab_changes *changes, char *text, size_t size);
 
 /* What one thing that was found does, as in the first line but without its name.  Out: text */

@@ -8,10 +8,10 @@
 #include "report.h"
 
 /* "onset" or "end", where there is one. */
-static void add_onset(cJSON *o, const char *name, const lab_onset *onset)
+void lab_report_onset_json(cJSON *o, const char *name, const lab_onset *onset)
 {
   cJSON *at;
-  if (!onset->known)
+  if (!onset || !onset->known)
     return;
   at = cJSON_AddObjectToObject(o, name);
   cJSON_AddNumberToObject(at, "t", onset->t);
@@ -34,8 +34,8 @@ static void add_change(cJSON *list, const lab_change *change)
     lab_json_say(alike, "%s", lab_change_name(change->alike[i], name));
   lab_json_numbers(o,
                    (const lab_json_named[]){{"statistic", change->statistic}, {"p_value", change->p_value}, {NULL, 0}});
-  add_onset(o, "onset", &change->begin);
-  add_onset(o, "end", &change->end);
+  lab_report_onset_json(o, "onset", &change->begin);
+  lab_report_onset_json(o, "end", &change->end);
 }
 
 void lab_report_changes(const lab_changes *changes, cJSON *root)

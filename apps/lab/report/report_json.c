@@ -23,7 +23,7 @@ static void add_interval(cJSON *to, const char *name, double value, const char *
 
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
-  const int j = param < 0 ? -1 : lab_unknowns_find(report->completed, param);
+  const int j = param < 0 ? -1 : lab_report_size(report, param);
   pneu_param_info info;
   if (j < 0)
     return;
@@ -51,6 +51,7 @@ static void add_found(cJSON *to, const lab_report *report, int which)
   list = cJSON_AddObjectToObject(o, "parameters");
   add_effect_param(list, report, found->param);
   add_effect_param(list, report, found->shape);
+  lab_report_onset_json(o, "onset", lab_report_onset(report, found->param));
   lab_json_numbers(
       o, (const lab_json_named[]){
              {"statistic", found->statistic}, {"p_value", found->p_value}, {"explained", found->explained}, {NULL, 0}});
@@ -216,6 +217,7 @@ static void add_condition(cJSON *root, const lab_report *report)
     lab_json_numbers(o, (const lab_json_named[]){{"ratio", d->ratio}, {"tolerance", d->tolerance}, {NULL, 0}});
     cJSON_AddBoolToObject(o, "beyond", d->beyond);
     cJSON_AddBoolToObject(o, "held", d->held);
+    lab_report_onset_json(o, "onset", lab_report_onset(report, d->param));
   }
 }
 

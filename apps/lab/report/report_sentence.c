@@ -58,7 +58,7 @@ static void add_ratio(const words *w, const lab_deviation *d, const char *less, 
     add(w, "%.2g %% %s its sheet", fabs(percent), percent < 0 ? "below" : "above");
 }
 
-static void add_deviation(const words *w, const lab_deviation *d, int first)
+static void add_ratio_of(const words *w, const lab_deviation *d, int first)
 {
   const char *verb = first ? "is " : "";
   char name[LAB_PARAM_NAME_TEXT];
@@ -77,9 +77,17 @@ static void add_deviation(const words *w, const lab_deviation *d, int first)
   add_ratio(w, d, NULL, NULL);
 }
 
-/* Those beyond their tolerance.  Returns: their number */
-static int add_deviations(const words *w, const lab_deviations *all)
+static void add_deviation(const words *w, const lab_report *report, const lab_deviation *d, int first)
 {
+  char since[LAB_SINCE_TEXT];
+  add_ratio_of(w, d, first);
+  add(w, "%s", lab_report_since(lab_report_onset(report, d->param), since));
+}
+
+/* Those beyond their tolerance.  Returns: their number */
+static int add_deviations(const words *w, const lab_report *report)
+{
+  const lab_deviations *all = &report->deviations;
   char *begin = w->text + strlen(w->text);
   int i, n = 0, told = 0;
   for (i = 0; i < all->n; i++)
@@ -87,7 +95,7 @@ static int add_deviations(const words *w, const lab_deviations *all)
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
     if (all->of[i].beyond) {
       add(w, "%s", told ? ", " : "");
-      add_deviation(w, &all->of[i], told++ == 0);
+      add_deviation(w, report, &all->of[i], told++ == 0);
     }
   if (n > told)
     add(w, ", and %d more", n - told);
@@ -99,11 +107,15 @@ static int add_deviations(const words *w, const lab_deviations *all)
 
 void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
 {
-  char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT];
+  char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT], since[LAB_SINCE_TEXT];
   const lab_rig *rig = &report->completed->rig;
-  if (found->effect >= 0)
-    snprintf(text, LAB_FOUND_SENTENCE, "%s", lab_effect_sentence(rig, found->effect, found->param, sentence));
-  else
+  lab_rig last;
+  lab_rig_at(rig, INFINITY, &last);
+  if (found->effect >= 0) {
+    lab_effect_sentence(&last, found->effect, found->param, sentence);
+    lab_report_since(lab_report_onset(report, found->param), since);
+    snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
+  } else
     snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
              lab_free_term_what(&rig->term[found->term]), lab_free_term_where(&rig->term[found->term], where));
 }
@@ -152,7 +164,7 @@ void lab_report_headline(const lab_report *report, char *text, size_t size)
     add(&w, "Undecided: %s", lab_report_doubt(report));
     return;
   }
-  deviates = add_deviations(&w, &report->deviations) > 0;
+  deviates = add_deviations(&w, report) > 0;
   if (r->verdict == LAB_VERDICT_NONE) {
     add(&w, "%s", nothing(report, deviates));
     return;

@@ -1,14 +1,18 @@
 #include "signature.h"
 
+#include <math.h>
+
 #include "figures.h"
 
 int lab_signature_make(const lab_rig *rig, lab_signature *s, lab_error *error)
 {
   enum { LAST = LAB_SIGNATURE_POINTS - 1 };
+  lab_rig last;
   pneu_model model;
   pneu_input input;
   int i, line;
-  if (lab_rig_model(rig, &model, error))
+  lab_rig_at(rig, INFINITY, &last);
+  if (lab_rig_model(&last, &model, error))
     return error->status;
   if (!(model.p.stroke > 0))
     return lab_fail(error, LAB_DATA, "a vessel has no travel");

@@ -202,9 +202,23 @@ static void test_lab_report_chance__cycle__counts_what_was_looked_at(void **stat
   assert_true(lab_report_chance(&report, &effect) == 0.25);
 }
 
+/* ---- Since when ---- */
+
+static void test_lab_report_since__interval__gives_its_digits(void **state)
+{
+  const lab_onset sharp = {1, 12.3006, 12.29, 12.31}, blunt = {1, 9.42, 9.31, 11.25}, late = {1, 3620.4, 3601, 3655};
+  char since[LAB_SINCE_TEXT];
+  (void)state;
+  assert_string_equal(lab_report_since(&sharp, since), " since 12.30 s (12.29 to 12.31 s)");
+  assert_string_equal(lab_report_since(&blunt, since), " since 9.42 s (9.31 to 11.2 s)");
+  assert_string_equal(lab_report_since(&late, since), " since 3620 s (3600 to 3660 s)");
+  assert_string_equal(lab_report_since(NULL, since), "");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_report_since__interval__gives_its_digits),
       cmocka_unit_test(test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence),
       cmocka_unit_test(test_lab_effect_sentence__sizes__by_hand),
       cmocka_unit_test(test_lab_effect_sentence__size_without_a_number__is_left_out),
