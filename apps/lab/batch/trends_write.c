@@ -65,7 +65,10 @@ static void put_row(FILE *file, const lab_trend *t)
                            lab_line_scatter(&t->line)};
   size_t i;
   lab_put_users_cell(file, t->last->rig);
-  fprintf(file, ",%s,%s,%d,%s,%s", t->last->parameter, t->last->unit, t->line.n, t->first->date, t->last->date);
+  fprintf(file, ",%s,%s,%d,", t->last->parameter, t->last->unit, t->line.n);
+  lab_put_cell(file, t->first->date);
+  fputc(',', file);
+  lab_put_cell(file, t->last->date);
   for (i = 0; i < sizeof number / sizeof *number; i++)
     fprintf(file, isfinite(number[i]) ? ",%.6g" : ",", number[i]);
   fputc('\n', file);

@@ -25,7 +25,7 @@ static void add(const char *rig, int day, const char *json)
   lab_fleet_entry line = {0};
   char text[2000], folder[400];
   snprintf(line.rig, sizeof line.rig, "%s", rig);
-  snprintf(line.date, sizeof line.date, "day %d", day);
+  snprintf(line.date, sizeof line.date, "day, %d", day);
   line.day = DAYS + day;
   snprintf(text, sizeof text, "{%s}", json);
   snprintf(folder, sizeof folder, "%s", scratch_path("line"));
@@ -105,8 +105,8 @@ static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
   find();
   assert_int_equal(trends.n, 1);
   assert_int_equal(trends.of[0].line.n, 3);
-  assert_string_equal(trends.of[0].first->date, "day 0");
-  assert_string_equal(trends.of[0].last->date, "day 40");
+  assert_string_equal(trends.of[0].first->date, "day, 0");
+  assert_string_equal(trends.of[0].last->date, "day, 40");
   assert_close(trends.of[0].slope, 1, 0, 1e-9);
   assert_close(trends.of[0].half, 1.959963984540054 * 2 / sqrt(800), 0, 1e-6);
   assert_true(trends.of[0].drifts);
@@ -193,10 +193,11 @@ static void test_lab_trends__written__table_and_page(void **state)
   find();
   assert_int_equal(lab_trends_write(&trends, scratch_path("trends.csv"), &error), LAB_OK);
   text = scratch_read(scratch_path("trends.csv"));
-  assert_string_equal(text, "rig,parameter,unit,n,first_date,last_date,slope_per_day,slope_low,slope_high,days_left,"
-                            "days_left_low,days_left_high,last_value,declared,tolerance,scatter\n"
-                            "\"'=r,1\",spring_rate,N/m,2,day 0,day 40,1,0.86141,1.13859,60,49.921,73.2124,1040,1000,"
-                            "0.1,0\n");
+  assert_string_equal(
+      text, "rig,parameter,unit,n,first_date,last_date,slope_per_day,slope_low,slope_high,days_left,"
+            "days_left_low,days_left_high,last_value,declared,tolerance,scatter\n"
+            "\"'=r,1\",spring_rate,N/m,2,\"day, 0\",\"day, 40\",1,0.86141,1.13859,60,49.921,73.2124,1040,1000,"
+            "0.1,0\n");
   free(text);
   lab_trends_page(&trends, page);
   text = cJSON_PrintUnformatted(page);
