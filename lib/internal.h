@@ -105,10 +105,15 @@ enum pneu_extent {
   PNEU_EXTENT_SLOPES /* with the slopes of the flows, for the Jacobian */
 };
 
-/* Evaluate the terms at a packed vector.  Out: terms; rate: of the effects' states (may be NULL).
+/* Evaluate the terms at a packed vector.  Out: terms; rate: of the effects' states; NULL: not asked for, and the terms
+ * have what the sensors show.
  * Returns: PNEU_OK or PNEU_RETRY_STATE. */
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   int extent, pneu_terms *terms, pneu_real *rate);
+
+/* The same of what the sensors show alone, at a state that is physical, where no free term stands before it. */
+void pneu_evaluate_sensors(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                           const pneu_real *y, pneu_terms *terms);
 
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);

@@ -82,9 +82,15 @@ static void base_jacobian(const pneu_terms *t, int i_x, int n, const pneu_real *
     stem_rows(t, i_x, jac);
 }
 
+/* Effects stand in the order of their stages: what a sensor adds to what it shows acts on no rate. */
+static int has_rates(const pneu_model *model)
+{
+  return model->n_active > 0 && pneu_effect_at(model->active[0])->stage <= PNEU_STAGE_LAG;
+}
+
 static int is_analytic(const pneu_model *model)
 {
-  return model->n_active == 0 && model->n_terms == 0 && model->p.proportional_band <= 0 && !model->law.pressure_input;
+  return !has_rates(model) && model->n_terms == 0 && model->p.proportional_band <= 0 && !model->law.pressure_input;
 }
 
 int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,

@@ -46,13 +46,24 @@ int pneu_is_physical(const pneu_model *model, const pneu_state *state)
          (model->law.pressure_input || pneu_volume(model, state->x) > 0);
 }
 
+/* Whether what is shown hangs on no more than the state and the sensors. */
+static int is_of_sensors(const pneu_model *model)
+{
+  int i, all = !model->law.position_input;
+  for (i = 0; i < model->n_terms; i++)
+    all &= model->term[i].equation < PNEU_TERM_SHOWN_PRESSURE;
+  return all;
+}
+
 /* What stands before the sensors asks for no flow. */
 static int show_by_sensors(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_shown *shown)
 {
   pneu_terms t;
   pneu_real y[PNEU_STATE_MAX];
   pneu_pack(model, state, y);
-  if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
+  if (is_of_sensors(model) && pneu_is_physical(model, state))
+    pneu_evaluate_sensors(model, state, input, y, &t);
+  else if (pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
     return PNEU_RETRY_STATE;
   shown->pressure = t.p_shown;
   shown->temperature = t.T_shown;

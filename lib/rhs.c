@@ -82,6 +82,17 @@ static void add_terms(pneu_terms *t, int first, int last)
     pneu_add_terms(t, first, last);
 }
 
+/* What the sensors show. Rates depend on no more than the lags among them. */
+static void add_sensors(pneu_terms *t, const pneu_real *y, int *next, pneu_real *rate)
+{
+  t->p_shown = t->p - t->model->p.ambient_pressure;
+  t->T_shown = t->T;
+  t->x_shown = t->x;
+  add_effects(t, y, rate ? PNEU_STAGE_LAG : PNEU_STAGE_SENSOR, next, rate);
+  if (!rate)
+    add_terms(t, PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_SHOWN_POSITION);
+}
+
 int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   int extent, pneu_terms *t, pneu_real *rate)
 {
@@ -103,12 +114,19 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
   add_effects(t, y, PNEU_STAGE_FORCE, &next, rate);
   add_terms(t, PNEU_TERM_FORCE, PNEU_TERM_HEAT);
   add_effects(t, y, PNEU_STAGE_BRISTLE, &next, rate);
-  t->p_shown = t->p - model->p.ambient_pressure;
-  t->T_shown = t->T;
-  t->x_shown = t->x;
-  add_effects(t, y, PNEU_STAGE_SENSOR, &next, rate);
-  add_terms(t, PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_SHOWN_POSITION);
+  add_sensors(t, y, &next, rate);
   return PNEU_OK;
+}
+
+void pneu_evaluate_sensors(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                           const pneu_real *y, pneu_terms *t)
+{
+  int next = 0;
+  begin(model, state, input, y, t);
+  t->extent = PNEU_EXTENT_FORCES;
+  while (next < model->n_active && pneu_effect_at(model->active[next])->stage < PNEU_STAGE_LAG)
+    next++;
+  add_sensors(t, y, &next, NULL);
 }
 
 void pneu_rates(const pneu_terms *t, int mode, pneu_real *dydt)
