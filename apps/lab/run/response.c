@@ -47,10 +47,13 @@ void lab_response_free(lab_response *response)
   memset(response, 0, sizeof *response);
 }
 
-/* What the sampler writes into. */
+/* What the sampler writes into. Where the position is skewed there are twice as many samples as rows. */
 typedef struct recorder {
   lab_response *response;
   const pneu_model *const *model; /* the one that acts */
+  double *t;                      /* [s] of the samples */
+  size_t *row;                    /* of each sample, plus response->n where it is of the position; NULL: not skewed */
+  void (*take)(void *context, size_t i, const pneu_state *state, const pneu_input *input); /* a row */
 } recorder;
 
 static void record(void *context, size_t i, const pneu_state *state, const pneu_input *input)
@@ -63,7 +66,8 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   response->u[i] = input->u;
   response->opening[i] = out.opening;
   response->p[i] = out.shown_pressure;
-  response->x[i] = out.shown_position;
+  if (!r->row)
+    response->x[i] = out.shown_position;
   response->v[i] = out.velocity;
   response->T[i] = out.shown_temperature;
   response->m[i] = out.mass;
@@ -82,9 +86,52 @@ static void record_shown(void *context, size_t i, const pneu_state *state, const
   if (pneu_show(*r->model, state, input, &shown) != PNEU_OK)
     memset(&shown, 0xff, sizeof shown); /* every number NaN */
   r->response->p[i] = (double)shown.pressure;
-  r->response->x[i] = (double)shown.position;
+  if (!r->row)
+    r->response->x[i] = (double)shown.position;
   r->response->T[i] = (double)shown.temperature;
   r->response->force[i] = (double)shown.force;
+}
+
+static void record_position(void *context, size_t i, const pneu_state *state, const pneu_input *input)
+{
+  recorder *r = context;
+  pneu_shown shown = {0, 0, 0, 0};
+  pneu_show(*r->model, state, input, &shown);
+  r->response->x[i] = (double)shown.position;
+}
+
+static void record_skewed(void *context, size_t i, const pneu_state *state, const pneu_input *input)
+{
+  recorder *r = context;
+  const size_t n = r->response->n, at = r->row[i];
+  (at < n ? r->take : record_position)(r, at < n ? at : at - n, state, input);
+}
+
+/* Samples at the rows, and where the position is skewed, of it at t - skew, all in the order of time. */
+static int recorder_open(recorder *r, double skew, lab_error *error)
+{
+  const size_t n = r->response->n;
+  const double *t = r->response->t;
+  size_t i = 0, j = 0;
+  r->t = malloc((2 * n + 1) * sizeof *r->t);
+  r->row = skew != 0 ? malloc((2 * n + 1) * sizeof *r->row) : NULL;
+  if (!r->t || (skew != 0 && !r->row))
+    return lab_fail_memory(error, "a response");
+  if (skew == 0)
+    memcpy(r->t, t, n * sizeof *t);
+  while (skew != 0 && i + j < 2 * n) {
+    const int is_position = i == n || (j < n && t[j] - skew < t[i]);
+    r->t[i + j] = is_position ? t[j] - skew : t[i];
+    r->row[i + j] = is_position ? n + j : i;
+    *(is_position ? &j : &i) += 1;
+  }
+  return LAB_OK;
+}
+
+static void recorder_close(recorder *r)
+{
+  free(r->t);
+  free(r->row);
 }
 
 static int sample_step(void *context, const pneu_step_view *view)
@@ -222,45 +269,21 @@ static int run_schedule(engine *e, double t_end, lab_sampler *sampler, lab_error
   return status;
 }
 
-static void record_position(void *context, size_t i, const pneu_state *state, const pneu_input *input)
+/* Through the schedule, with samples if there is a response. */
+static int run_sampled(engine *e, lab_response *response, lab_error *error)
 {
-  recorder *r = context;
-  pneu_shown shown = {0, 0, 0, 0};
-  pneu_show(*r->model, state, input, &shown);
-  r->response->x[i] = (double)shown.position;
-}
-
-/* One pass through the schedule: samples at t - skew, handed to `take`. */
-static int pass(engine *e, double skew, void (*take)(void *, size_t, const pneu_state *, const pneu_input *),
-                lab_response *response, lab_error *error)
-{
-  recorder r = {response, &e->model};
-  lab_sampler sampler = {0};
-  double *t = NULL;
-  size_t i;
-  int status;
-  sampler.take = take;
-  sampler.context = &r;
+  const double skew = response ? (double)e->model->position_skew : 0;
+  recorder r = {response, &e->model, NULL, NULL, e->task->options.shown_only ? record_shown : record};
+  lab_sampler sampler = {.context = &r};
+  int status = response ? recorder_open(&r, skew, error) : LAB_OK;
   if (response) {
-    if (!(t = malloc((response->n ? response->n : 1) * sizeof *t)))
-      return lab_fail_memory(error, "a response");
-    for (i = 0; i < response->n; i++)
-      t[i] = response->t[i] - skew;
-    sampler.t = t;
-    sampler.n = response->n;
+    sampler.take = r.row ? record_skewed : r.take;
+    sampler.t = r.t;
+    sampler.n = r.row ? 2 * response->n : response->n;
   }
-  status = run_schedule(e, skew < 0 ? e->t_end - skew : e->t_end, &sampler, error);
-  free(t);
-  return status;
-}
-
-/* Pressure and the rest in one pass; position, where it is skewed, in another. */
-static int passes(engine *e, lab_response *response, lab_error *error)
-{
-  const double skew = (double)e->model->position_skew;
-  int status = pass(e, 0, e->task->options.shown_only ? record_shown : record, response, error);
-  if (status == LAB_OK && response && skew != 0)
-    status = pass(e, skew, record_position, response, error);
+  if (status == LAB_OK)
+    status = run_schedule(e, fmax(e->t_end, e->t_end - skew), &sampler, error);
+  recorder_close(&r);
   return status;
 }
 
@@ -280,7 +303,7 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
   if (o->integrator == LAB_CVODE && !(e.cvode = lab_cvode_new()))
     status = lab_fail_memory(error, "CVODE");
   else
-    status = passes(&e, response, error);
+    status = run_sampled(&e, response, error);
   lab_cvode_free(e.cvode);
   if (task->stats)
     *task->stats = e.work.stats;
