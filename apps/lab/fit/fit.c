@@ -10,9 +10,11 @@
 
 enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12, KEPT_TRIES = 3 };
 
-static const double usual_enough = 0.02; /* of chi-square: no decision hangs on it */
-static const double usual_share = 1e-6;  /* of chi-square */
-static const double poor = 0.5;          /* gain over promise below which kept slopes are renewed */
+static const double usual_enough = 0.02;    /* of chi-square: no decision hangs on it */
+static const double usual_share = 1e-6;     /* of chi-square */
+static const double poor = 0.5;             /* gain over promise below which kept slopes are renewed */
+static const double rough = 2, kept = 0.25; /* of chi-square promised by new slopes, and its share that is kept: where
+                                               less is, no smooth surface is seen so closely */
 
 /* Where a descent is. */
 typedef struct descent {
@@ -42,11 +44,17 @@ int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, d
 
 int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, double *J, lab_error *error)
 {
-  int j, status = LAB_OK;
+  char done[N] = {0};
+  int j, status = p->together ? p->together(p->context, theta, J, done, error) : LAB_OK;
+  if (status != LAB_OK && status != LAB_NUMERIC)
+    return status;
+  status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < p->n; j++) {
     lab_error mine;
     double *column = J + (size_t)j * p->m;
+    if (done[j])
+      continue;
     const int spent = lab_cpu_is_spent(p->until);
     const int at = spent ? LAB_NUMERIC : p->slope(p->context, theta, r, j, column, &mine);
     if (at == LAB_NUMERIC)
@@ -207,7 +215,7 @@ static int step_down(descent *d, int fresh, double *quality, int *done, lab_erro
     gain = d->chi2 - chi2;
     if (status == LAB_OK && gain > 0) {
       *quality = gain / promised;
-      *done = gain < least;
+      *done = gain < least || (fresh && promised < rough && *quality < kept);
       d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
       learn(d);
       accept(d, chi2);

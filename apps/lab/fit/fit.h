@@ -25,6 +25,9 @@ typedef struct lab_fit_problem {
    * the unknown stays where it is. */
   int (*slope)(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
   /* 0 is the default of what follows. */
+  /* Columns that come together more cheaply than one by one: J as of lab_fit_slopes; done: n, not 0 for these.
+   * Returns: as above. */
+  int (*together)(void *context, const double *theta, double *J, char *done, lab_error *error);
   int is_rough;        /* its slopes change from place to place: they are taken anew at every step */
   int steps;           /* downhill, at most; 0: 40 */
   int search;          /* evaluations of the search, for which the bounds are finite; 0: there is none */

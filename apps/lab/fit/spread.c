@@ -344,8 +344,7 @@ static int look(place *at, lab_error *error)
   const lab_fit_problem *p = at->problem;
   size_t i;
   int j;
-  if (lab_fit_evaluate(p, at->theta, at->r, &at->chi2, error) ||
-      lab_fit_slopes(p, at->theta, at->r, at->slope, error))
+  if (lab_fit_evaluate(p, at->theta, at->r, &at->chi2, error) || lab_fit_slopes(p, at->theta, at->r, at->slope, error))
     return error->status;
   for (j = 0; j < p->n; j++) {
     at->unit[j] = unit_of(&at->param[j], at->theta[j], p->lower[j], p->upper[j]);

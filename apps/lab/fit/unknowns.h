@@ -183,6 +183,18 @@ int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
 /* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);
 
+/* The same of one run, at theta. */
+int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int run, double *r, lab_error *error);
+
+/* Errors of a run, or a change of them, as residuals: weighted and whitened, in place. */
+void lab_unknowns_weigh(const lab_unknowns *u, int run, double *r);
+
+/* Step of the difference that a slope in unknown j is, into the side where there is room. */
+double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j);
+
+/* Slope in unknown j of the residual of its prior.  In/out: column  u->m values, of which it is one */
+void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column);
+
 /* Slope of the residuals in unknown j by a difference of `step` in the unknown, which is where the runs that have it
  * are predicted again.
  * In:      r       residuals at theta

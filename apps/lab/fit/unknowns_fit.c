@@ -3,10 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "unknowns.h"
 #include "../base/clock.h"
+#include "instants.h"
+#include "unknowns.h"
 
 static const double slope_step = 1e-3;  /* of a slope's difference, over what matters */
+static const double instant_step = 0.1; /* the same of an instant, which dry friction makes rough within a row */
 static const double coarse_step = 0.05; /* the same where slips come and go on shorter ones */
 static const double held_step = 0.25;   /* of what is held, over its tolerance: it moves little else */
 
@@ -15,10 +17,12 @@ static const double central_step = 1e-4; /* of a central difference, over what m
 static const double exact = 1e-8; /* tolerance of the stepper for these: where only a prior tells values apart, their
                                      slopes have to cancel */
 
-static double step_of(const lab_unknowns *u, const lab_unknown *x)
+double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j)
 {
-  const double size = x->scale > 0 ? x->scale : 1;
-  return lab_unknown_is_held(x) ? held_step * x->spread : (u->window ? coarse_step : slope_step) * size;
+  const lab_unknown *x = &u->unknown[j];
+  const double share = u->window ? coarse_step : x->kind == LAB_UNKNOWN_INSTANT ? instant_step : slope_step;
+  const double step = lab_unknown_is_held(x) ? held_step * x->spread : share * (x->scale > 0 ? x->scale : 1);
+  return theta[j] + step > x->upper ? -step : step;
 }
 
 int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const double *r, int j, double step,
@@ -55,11 +59,11 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
 {
   const lab_unknowns *u = context;
   const lab_unknown *x = &u->unknown[j];
-  const double step = step_of(u, x);
+  const double step = lab_unknowns_slope_step(u, theta, j);
   double *there;
   int status;
   if (x->kind != LAB_UNKNOWN_CHANGE || theta[j] + step > x->upper || theta[j] - step < x->lower)
-    return lab_unknowns_difference(u, theta, r, j, theta[j] + step > x->upper ? -step : step, column, error);
+    return lab_unknowns_difference(u, theta, r, j, step, column, error);
   there = malloc(u->m * sizeof *there);
   status = there ? slope_of_change(u, theta, r, j, step, column, there, error) : lab_fail_memory(error, "a slope");
   free(there);
@@ -113,6 +117,7 @@ static void pose(lab_unknowns *u, posed *p)
                                  .context = u,
                                  .residuals = lab_unknowns_residuals,
                                  .slope = lab_unknowns_slope,
+                                 .together = lab_instants_slopes,
                                  .is_rough = u->window > 0};
 }
 

@@ -160,21 +160,29 @@ static int predict(const lab_unknowns *u, const lab_rig *model, const double *th
   return status;
 }
 
-/* How the residuals of a run are looked at. */
-enum view { AS_FITTED, NOT_WHITENED };
+void lab_unknowns_weigh(const lab_unknowns *u, int e, double *r)
+{
+  weigh_rows(&u->run[e], r);
+  whiten(&u->run[e], r);
+  lab_drift_take_out(&u->run[e], r);
+}
 
-/* Residuals of one run, row by row. */
-static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, enum view view, double *r,
+/* Errors of one run over noise, row by row. */
+static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
                      lab_error *error)
 {
   if (predict(u, model, theta, e, r, error))
     return error->status;
   weigh(&u->run[e], r);
-  if (view == AS_FITTED) {
-    weigh_rows(&u->run[e], r);
-    whiten(&u->run[e], r);
-    lab_drift_take_out(&u->run[e], r);
-  }
+  return LAB_OK;
+}
+
+static int residuals_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
+                        lab_error *error)
+{
+  if (errors_of(u, model, theta, e, r, error))
+    return error->status;
+  lab_unknowns_weigh(u, e, r);
   return LAB_OK;
 }
 
@@ -239,8 +247,8 @@ static int residuals_at(const lab_unknowns *u, const lab_rig *model, const doubl
   double *all = r;
   int e, j;
   for (e = 0; e < u->n_runs; r += residuals_in(u, e), e++)
-    if ((which < 0 || is_of(&u->unknown[which], e)) && (u->window ? coarse_residuals_of(u, model, theta, e, r, error)
-                                                                  : errors_of(u, model, theta, e, AS_FITTED, r, error)))
+    if ((which < 0 || is_of(&u->unknown[which], e)) &&
+        (u->window ? coarse_residuals_of(u, model, theta, e, r, error) : residuals_of(u, model, theta, e, r, error)))
       return error->status;
   if (u->nuisance)
     lab_nuisance_apply(u->nuisance, all);
@@ -304,7 +312,20 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
   int e;
   present(u, now);
   for (e = 0; e < u->n_runs; r += u->run[e].n * (size_t)u->run[e].n_channels, e++)
-    if (errors_of(u, &u->rig, now, e, NOT_WHITENED, r, error))
+    if (errors_of(u, &u->rig, now, e, r, error))
       return error->status;
   return LAB_OK;
+}
+
+int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int e, double *r, lab_error *error)
+{
+  lab_rig model = u->rig;
+  lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
+  return errors_of(u, &model, theta, e, r, error);
+}
+
+void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column)
+{
+  const lab_unknown *x = &u->unknown[j];
+  column[before_unknowns(u) + (size_t)j] = x->spread > 0 ? -1 / lab_unknown_reach(u, x) : 0;
 }
