@@ -772,12 +772,13 @@ static int go_on_from(search *s, const lab_candidate *begun, lab_error *error)
   return linearise_again(s, error);
 }
 
-/* The search from a declared model, fitted, in the view that the unknowns have.
- * In:      begun   it with what begins, fitted as well, from which to go on; may be NULL
- *          within  the same with its values within tolerances, which the search is to beat; may be NULL
+/* The search from a declared model, in the view that its unknowns have.
+ * In:      declared  fitted or not
+ *          begun     it with what begins, fitted, from which to go on; may be NULL
+ *          within    the same with its values within tolerances, which the search is to beat; may be NULL
  * Out:     best    with what was added
  *          result  all but the errors, the fit and what was found */
-static int search_from(const lab_unknowns *u, const lab_candidate *begun, const lab_quality *within,
+static int search_from(const lab_candidate *declared, const lab_candidate *begun, const lab_quality *within,
                        const lab_search_options *options, lab_search_result *result, lab_candidate *best,
                        lab_error *error)
 {
@@ -788,8 +789,8 @@ static int search_from(const lab_unknowns *u, const lab_candidate *begun, const 
   s->options = options;
   s->result = result;
   s->within = within;
-  s->declared.u = *u;
-  status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
+  s->declared = *declared;
+  status = declared->quality.fitted ? LAB_OK : lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
   if (status == LAB_OK) {
     note_way(result, &s->declared);
     status = linearise(s, error);
@@ -804,11 +805,11 @@ static int search_from(const lab_unknowns *u, const lab_candidate *begun, const 
   if (status == LAB_OK) {
     status = search_all(s, error);
   }
-  if (status == LAB_NUMERIC && lab_cpu_is_spent(u->until))
+  if (status == LAB_NUMERIC && lab_cpu_is_spent(declared->u.until))
     status = s->beam[0].quality.fitted ? LAB_OK : status;
   if (status == LAB_OK)
     status = unfold(s, error);
-  if (status == LAB_OK && !lab_cpu_is_spent(u->until))
+  if (status == LAB_OK && !lab_cpu_is_spent(declared->u.until))
     status = place_again(&s->beam[0], error);
   if (status == LAB_OK) {
     lab_facts f;
@@ -824,7 +825,7 @@ static int search_from(const lab_unknowns *u, const lab_candidate *begun, const 
 
 /* What a search makes of the logs. */
 typedef struct finding {
-  lab_unknowns declared; /* fitted, with what is held */
+  lab_candidate declared; /* with what is held */
   lab_candidate best;
   double gain; /* of chi-square, by tolerances after the search */
   lab_search_result result;
@@ -840,7 +841,8 @@ static int explains(const finding *f)
 static int search_exactly(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
                           finding *f, lab_error *error)
 {
-  if (search_from(u, NULL, within, options, &f->result, &f->best, error))
+  f->declared.u = *u;
+  if (search_from(&f->declared, NULL, within, options, &f->result, &f->best, error))
     return error->status;
   if (!explains(f))
     return LAB_OK;
@@ -918,7 +920,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   *exact = *whole;
   whole->best.u = *u;
   status = hold(&whole->best, error);
-  whole->declared = whole->best.u;
+  whole->declared = whole->best;
   if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
     status = search_exactly(u, &whole->best.quality, options, exact, error);
     is_exact = status == LAB_OK && explains(exact);
@@ -927,7 +929,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   }
   if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
     if (is_exact)
-      whole->declared.until = enough(u->until, start);
+      whole->declared.u.until = enough(u->until, start);
     status =
         search_from(&whole->declared, begins ? &exact->best : NULL, NULL, options, &whole->result, &whole->best, error);
     is_exact = is_exact && (status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic);
@@ -954,13 +956,13 @@ static int has_found_cause(const lab_candidate *c)
 static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
                            lab_candidate *best, int *done, lab_error *error)
 {
-  lab_unknowns coarse = *u;
+  lab_candidate coarse = {.u = *u};
   *done = 0;
   if (lab_unknowns_sticks_and_slips(u, &result->window, error))
     return error->status;
   if (result->window == 0)
     return LAB_OK;
-  lab_unknowns_view(&coarse, result->window);
+  lab_unknowns_view(&coarse.u, result->window);
   if (search_from(&coarse, NULL, NULL, options, result, best, error))
     return error->status;
   *done = lab_is_noise(&best->quality) && has_found_cause(best);
