@@ -133,10 +133,21 @@ static void put_set_position(const drawing *d)
                     column_of(d, d->table->set_position, 100));
 }
 
+/* The opening that is predicted, where a command was not logged; none where it cannot be. */
+static void put_command(const drawing *d)
+{
+  const lab_format shown = lab_format_as(lab_argument_unit(d->report, LAB_ARGUMENT_U));
+  const double *u = d->table->argument[LAB_ARGUMENT_U];
+  double low, high;
+  if (lab_range(u, d->table->n, &low, &high))
+    lab_panel_curve(
+        lab_figure_panel(d, is_commanded(d) ? "Command u" : "Opening u, predicted", shown.unit, COMMAND_HEIGHT),
+        LAB_KEY_COMMAND, LAB_FORM_STEPS, column_of(d, u, shown.scale));
+}
+
 int lab_figure_response(const drawing *d)
 {
   const lab_residual_table *v = d->table;
-  const lab_format shown = lab_format_as(lab_argument_unit(d->report, LAB_ARGUMENT_U));
   int c;
   lab_figure_entitle(d,
                      lab_figure_has_completed(d) ? "Measured, and what both models predict for the same command"
@@ -144,9 +155,7 @@ int lab_figure_response(const drawing *d)
                      v->n_runs > 1 ? "The runs follow one after the other; no peak is lost"
                                    : "Each line spans all values that fall on its pixels, so that no peak is lost");
   lab_figure_tell(d, "Command, measured and predicted channels over %.4g s.", v->t[v->n - 1] - v->t[0]);
-  lab_panel_curve(
-      lab_figure_panel(d, is_commanded(d) ? "Command u" : "Opening u, predicted", shown.unit, COMMAND_HEIGHT),
-      LAB_KEY_COMMAND, LAB_FORM_STEPS, column_of(d, v->argument[LAB_ARGUMENT_U], shown.scale));
+  put_command(d);
   put_set_position(d);
   for (c = 0; c < v->n_channels; c++)
     put_channel(d, &v->channel[c]);

@@ -98,26 +98,31 @@ static void lay_out_time(const lab_unknowns *u, lab_residual_table *v)
   v->first[e] = row;
 }
 
+/* What the log has of a channel, if anything. */
+static void put_logged(const lab_run *x, int channel, double *to)
+{
+  if (x->log->value[channel])
+    memcpy(to, x->log->value[channel] + x->first, x->n * sizeof *to);
+}
+
 /* Arguments of one run: the model's response, with the commands at the rows that show them, which is near enough for
  * sorting a residual into bins; gaps where the model cannot be followed with those. */
 static int respond(const lab_unknowns *u, int run, lab_residual_table *v, lab_error *error)
 {
   const lab_run *x = &u->run[run];
   const size_t row = v->first[run];
-  const double *column[LAB_ARGUMENT_COUNT];
   lab_response response;
-  int i;
-  if (lab_run_respond(u, run, &response, error))
-    return error->status == LAB_NUMERIC ? LAB_OK : error->status;
-  column[LAB_ARGUMENT_P] = response.p;
-  column[LAB_ARGUMENT_X] = response.x;
-  column[LAB_ARGUMENT_V] = response.v;
-  column[LAB_ARGUMENT_U] = x->log->value[LAB_CHANNEL_U] ? x->log->value[LAB_CHANNEL_U] + x->first : response.opening;
-  for (i = 0; i < LAB_ARGUMENT_COUNT; i++)
-    memcpy(v->argument[i] + row, column[i], x->n * sizeof(double));
-  if (x->log->value[LAB_CHANNEL_SP])
-    memcpy(v->set_position + row, x->log->value[LAB_CHANNEL_SP] + x->first, x->n * sizeof(double));
-  lab_response_free(&response);
+  put_logged(x, LAB_CHANNEL_SP, v->set_position + row);
+  if (lab_run_respond(u, run, &response, error) == LAB_OK) {
+    memcpy(v->argument[LAB_ARGUMENT_P] + row, response.p, x->n * sizeof(double));
+    memcpy(v->argument[LAB_ARGUMENT_X] + row, response.x, x->n * sizeof(double));
+    memcpy(v->argument[LAB_ARGUMENT_V] + row, response.v, x->n * sizeof(double));
+    memcpy(v->argument[LAB_ARGUMENT_U] + row, response.opening, x->n * sizeof(double));
+    lab_response_free(&response);
+  } else if (error->status != LAB_NUMERIC) {
+    return error->status;
+  }
+  put_logged(x, LAB_CHANNEL_U, v->argument[LAB_ARGUMENT_U] + row);
   return LAB_OK;
 }
 
