@@ -11,6 +11,7 @@
 #   soft-bellows-pressure-position  MSc project of E. IJpelaar (TU Eindhoven), no licence stated: for evaluation.
 #   printed-cylinder-friction-leak  E. Zillen (TU Delft), CC0 1.0.
 #   tube-fill-vent-pneuact          F. Sojoodi Farimani and S. Misra, ICRA 2018: for scientific and academic purposes.
+#   pump-fed-chamber-control        github.com/DiegoSanMo6011/softbot_pneumatic_driver, MIT.
 #
 # Not here: damadics-servomotor-static-step. Its points were read off the vector figures 5, 6 and 7 of M. Bartys,
 # "Specification of actuators intended to use for benchmark definition" (2002), which names no licence; the document
@@ -18,6 +19,14 @@
 # a0353a02f8bed2fba6fc5147211e95ac45422363. To repeat it, read the corners of the plotted lines by the grid of each
 # chart into static_hysteresis_fig5.csv (branch,p_kPa,x_percent; branch lower is rising pressure),
 # step_up_fig6.csv and step_down_fig7.csv (t_ms,x_units). Without them the study leaves that comparison out.
+# Nor those whose logs were sheets or had more columns; none states a licence, and each is to be written by hand:
+#   tank-blowdown-nozzles           github.com/AttainableEngineering/AeroLab, commit 365f6594, Lab6Data.xlsx: the sheets of
+#                                   0.094 and 0.125 inch as CSV.
+#   soft-bellows-arm-steps          github.com/zhiqiao0256/Soft-Arm-SMART-Controller-, commit 1f37dcaf,
+#                                   2020/07-30/data_collect_1, 2, 3 and 9.txt: t_s, pd1..3_psi, pm1..3_psi, tip less base
+#                                   dx, dy, dz and dist in m, the angle between their quaternions in degrees.
+#   soft-catheter-pressure-position github.com/christopher-gonzalez-millan/Medtronic-Soft-Robotics-, commit 9fd9719c,
+#                                   Data_Storage: the sheets as CSV with t_s, x_des, x_act, p_des_psia, p_act_psia.
 set -eu
 
 here=$(dirname "$0")
