@@ -1,5 +1,6 @@
 #include "sets.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 
 #include "../lab/base/config.h"
 #include "../lab/base/text.h"
+#include "replicates.h"
 
 enum { PATH_BYTES = 1024, LOGS_MAX = 32 };
 
@@ -74,6 +76,16 @@ static int run_set(const config_setting_t *set, const char *data_dir, const char
   return run(words) ? SETS_DONE : SETS_FAILED;
 }
 
+static int measure_repeat(sets_result *result, const char *data_dir, lab_error *error)
+{
+  char rig[PATH_BYTES];
+  result->repeat = (double)NAN;
+  if (result->state == SETS_ABSENT)
+    return LAB_OK;
+  snprintf(rig, sizeof rig, "study/measured/%s", sets_text(result->set, "rig"));
+  return replicates_repeat(result->set, rig, data_dir, &result->repeat, error);
+}
+
 const char *sets_data_folder(void)
 {
   const char *named = getenv("MEASURED");
@@ -93,6 +105,8 @@ int sets_run(const config_setting_t *list, const char *data_dir, const char *out
   for (i = 0; i < *n; i++) {
     result[i].set = config_setting_get_elem(list, (unsigned)i);
     result[i].state = run_set(result[i].set, data_dir, out_dir);
+    if (measure_repeat(&result[i], data_dir, error))
+      return error->status;
   }
   return LAB_OK;
 }

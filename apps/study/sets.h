@@ -18,6 +18,7 @@ enum sets_state { SETS_ABSENT, SETS_FAILED, SETS_DONE };
 typedef struct sets_result {
   const config_setting_t *set; /* its group in the file */
   int state;                   /* enum sets_state */
+  double repeat;               /* what the bench repeats of the judged channel (replicates.h), SI; NaN: not known */
 } sets_result;
 
 /* Folder of the public data: the environment variable MEASURED, else ../shared/data. */
@@ -40,6 +41,9 @@ int sets_report(const sets_result *result, int n, const char *out_dir, lab_error
 
 /* A text of a set's group; "" if it has none. */
 const char *sets_text(const config_setting_t *set, const char *key);
+
+/* The channel of a quantity ("pressure"): enum lab_channel; -1 if there is none. */
+int sets_channel(const char *quantity);
 
 /* report.json of a set.  Returns: NULL if there is none; else to be freed with cJSON_Delete */
 cJSON *sets_json(const char *out_dir, const config_setting_t *set);

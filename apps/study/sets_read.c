@@ -1,3 +1,4 @@
+#include "../lab/log/channel.h"
 #include "sets.h"
 
 #include <math.h>
@@ -63,6 +64,14 @@ sets_error sets_error_of(const cJSON *errors, const char *channel, const char *u
   if (own && lab_unit_factor(own, unit, &scale, &offset, &ignored) == LAB_OK)
     e.value = scale * sets_number(found, "rmse");
   return e;
+}
+
+int sets_channel(const char *quantity)
+{
+  int c = 0;
+  while (c < LAB_CHANNEL_COUNT && strcmp(lab_channels[c].quantity, quantity) != 0)
+    c++;
+  return c < LAB_CHANNEL_COUNT ? c : -1;
 }
 
 /* ---- Names of models ---- */

@@ -26,6 +26,7 @@ typedef struct story {
   const cJSON *json; /* its report; NULL if it did not run */
   const char *channel, *unit;
   sets_error before, after, held_before, held_after;
+  double noise, repeat; /* in its unit; NaN: not known */
 } story;
 
 /* ---- Numbers and errors ---- */
@@ -84,20 +85,29 @@ static sets_error held_error(const story *s, const cJSON *model)
   return error_of(s, sets_at(model, "holdout", NULL));
 }
 
-static story story_of(const config_setting_t *set, const cJSON *json, const char *out_dir)
+static story story_of(const sets_result *result, const cJSON *json, const char *out_dir)
 {
+  const config_setting_t *set = result->set;
+  const int channel = sets_channel(sets_text(set, "judged"));
+  double scale = (double)NAN, offset;
+  lab_error ignored;
   story s = {.set = set, .out_dir = out_dir, .json = json, .channel = sets_text(set, "judged")};
   s.unit = sets_text(set, "unit");
   s.before = error_of(&s, sets_at(json, "error", "before", NULL));
   s.after = error_of(&s, sets_at(json, "error", "after", NULL));
   s.held_before = error_of(&s, sets_at(json, "error", "holdout", "before", NULL));
   s.held_after = error_of(&s, sets_at(json, "error", "holdout", "after", NULL));
+  if (channel >= 0)
+    lab_unit_factor(lab_channels[channel].unit, s.unit, &scale, &offset, &ignored);
+  s.noise = s.before.value / s.before.in_noise;
+  s.repeat = scale * result->repeat;
   return s;
 }
 
-static double noise_of(const story *s)
+/* The error below which nothing is left to explain: a fifth above what the sensor scatters or the bench repeats. */
+static double bar_of(const story *s)
 {
-  return s->before.value / s->before.in_noise;
+  return 1.2 * fmax(s->noise, s->repeat);
 }
 
 /* The error of the channel that was predicted and not fitted; it is that of a hold-out. */
@@ -111,7 +121,10 @@ static sets_error check_error(const story *s, const char *when)
 
 static void put_errors(const story *s, cJSON *to)
 {
-  put_digits(to, "noise left", noise_of(s), s->after.in_noise);
+  put_digits(to, "noise repeat left", s->noise, s->repeat, s->after.in_noise);
+  if (!isnan(s->repeat))
+    put_digits(cJSON_AddObjectToObject(to, "repeats"), "value in_noise after held", s->repeat, s->repeat / s->noise,
+               s->after.value / s->repeat, s->held_after.value / s->repeat);
   put_error(to, "before", s->before, s->unit);
   put_error(to, "after", s->after, s->unit);
   put_error(to, "held_before", s->held_before, s->unit);
@@ -164,21 +177,31 @@ static void put_declared(const config_setting_t *set, cJSON *to)
 
 /* ---- Verdict and what was found ---- */
 
-/* Verdicts of closeloop in words of the table. */
-static const char *const verdicts[][2] = {{"effect", "explained"},
-                                          {"unlisted", "explained, without a name"},
-                                          {"none", "nothing missing"},
-                                          {"undecided", "undecided"},
-                                          {"", "-"}};
+/* Verdicts in words of the table; the first column is closeloop's, and "fitted". */
+static const char *const verdicts[][2] = {{"effect", "explained"},     {"unlisted", "explained, without a name"},
+                                          {"none", "nothing missing"}, {"fitted", "explained on the runs fitted only"},
+                                          {"undecided", "undecided"},  {"", "-"}};
 
 enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
 
-/* Returns: the last if it is none of them */
-static int verdict_of(const cJSON *json)
+/* What is left decides; where logs and rig file contradict each other, nothing does.  Returns: one of `verdicts` */
+static const char *verdict_word(const story *s)
 {
-  const char *verdict = sets_words(json, "verdict");
+  if (sets_words(s->json, "doubt") || !(s->after.value <= bar_of(s)))
+    return "undecided";
+  if (s->held_after.value > bar_of(s))
+    return "fitted";
+  if (cJSON_GetArraySize(sets_at(s->json, "unlisted", NULL)) > 0)
+    return "unlisted";
+  return cJSON_GetArraySize(sets_at(s->json, "found", NULL)) > 0 ? "effect" : "none";
+}
+
+/* Returns: the last if there is no error to judge by */
+static int verdict_of(const story *s)
+{
+  const char *verdict = isnan(s->after.value) ? "" : verdict_word(s);
   int i = 0;
-  while (i < VERDICTS - 1 && (!verdict || strcmp(verdict, verdicts[i][0]) != 0))
+  while (i < VERDICTS - 1 && strcmp(verdict, verdicts[i][0]) != 0)
     i++;
   return i;
 }
@@ -221,10 +244,12 @@ static void put_found(const cJSON *json, cJSON *to, char names[NAMES_TEXT])
 static void put_verdict(const story *s, cJSON *to)
 {
   const char *doubt = sets_words(s->json, "doubt");
-  const int verdict = verdict_of(s->json), is_open = !strcmp(verdicts[verdict][0], "undecided");
+  const int verdict = verdict_of(s), is_open = !strcmp(verdicts[verdict][0], "undecided");
   char names[NAMES_TEXT];
   put_found(s->json, to, names);
   lab_json_put(to, "verdict", "%s", verdicts[verdict][1]);
+  if (!strcmp(verdicts[verdict][0], "fitted"))
+    cJSON_AddTrueToObject(to, "fitted_only");
   if (doubt)
     lab_json_put(to, "doubt", "%s", doubt);
   else if (is_open)
@@ -424,15 +449,6 @@ static int put_given(const story *s, lab_rig *rig, cJSON *to, lab_error *error)
 
 /* ---- What is left, run by run, and the logs held out ---- */
 
-static const lab_channel_info *channel_info(const char *quantity)
-{
-  int c;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (!strcmp(lab_channels[c].quantity, quantity))
-      return &lab_channels[c];
-  return NULL;
-}
-
 static void put_left(const sets_left *left, double scale, double noise, cJSON *item)
 {
   put_digits(item, "rms in_noise mean worst worst_t", scale * left->rms, scale * left->rms / noise, scale * left->mean,
@@ -445,18 +461,18 @@ static int put_channel(const config_setting_t *set, const table *residual, const
                        double noise, cJSON *list, lab_error *error)
 {
   const config_setting_t *logs = list_of(set, "fit");
-  const lab_channel_info *info = channel_info(quantity);
+  const int channel = sets_channel(quantity);
   const int runs = sets_left_runs(residual), is_log = config_setting_length(logs) == runs;
   double scale, offset;
   int run;
-  if (!info)
+  if (channel < 0)
     return lab_config_fail(set, error, "%s is no channel", quantity);
-  if (lab_unit_factor(info->unit, unit, &scale, &offset, error))
+  if (lab_unit_factor(lab_channels[channel].unit, unit, &scale, &offset, error))
     return error->status;
   for (run = 1; run <= runs; run++) {
     sets_left left;
     cJSON *item;
-    if (sets_left_of(residual, run, info->key, &left, error))
+    if (sets_left_of(residual, run, lab_channels[channel].key, &left, error))
       return error->status;
     if (left.n == 0)
       continue;
@@ -481,7 +497,7 @@ static int put_residual(const story *s, cJSON *to, lab_error *error)
   snprintf(path, sizeof path, "%s/%s/residual.csv", s->out_dir, sets_text(s->set, "name"));
   status = table_load_file(path, &residual, error);
   if (status == LAB_OK)
-    status = put_channel(s->set, &residual, s->channel, s->unit, noise_of(s), list, error);
+    status = put_channel(s->set, &residual, s->channel, s->unit, s->noise, list, error);
   if (status == LAB_OK && *check)
     status = put_channel(s->set, &residual, check, sets_text(s->set, "check_unit"), (double)NAN, list, error);
   table_close(&residual);
@@ -536,7 +552,7 @@ static void count(const story *s, tally *t)
   const double after = *check ? check_error(s, "after").value : s->held_after.value;
   const cJSON *best = best_on_the_way(s);
   t->ran++;
-  t->verdict[verdict_of(s->json)]++;
+  t->verdict[verdict_of(s)]++;
   if (best)
     lab_json_join(t->raised, "; ", "%s (%s to %s %s)", title, digits(held_error(s, best).value),
                   digits(s->held_after.value), s->unit);
@@ -599,7 +615,7 @@ static int put_all(const sets_result *result, int n, const char *out_dir, cJSON 
   int i, status = LAB_OK;
   for (i = 0; i < n && status == LAB_OK; i++) {
     cJSON *json = result[i].state == SETS_DONE ? sets_json(out_dir, result[i].set) : NULL, *to = lab_json_append(list);
-    const story s = story_of(result[i].set, json, out_dir);
+    const story s = story_of(&result[i], json, out_dir);
     put_declared(result[i].set, to);
     lab_json_put(to, "state", "%s", result[i].state == SETS_ABSENT ? "data absent" : "closeloop failed");
     if (json)

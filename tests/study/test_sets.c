@@ -115,14 +115,14 @@ static void write_report(const char *verdict, const char *held)
   scratch_text("one/residual.csv", residual);
 }
 
-/* The report over one set, to be freed. */
-static char *report_of(const char *set, const char *verdict, const char *held)
+/* The report over one set whose bench repeats to within `repeat` [m], to be freed. */
+static char *report_repeating(const char *set, const char *verdict, const char *held, double repeat)
 {
   sets_result result[1];
   config_t config;
   char *text;
   write_report(verdict, held);
-  result[0] = (sets_result){config_setting_get_elem(read_sets(&config, set), 0), SETS_DONE};
+  result[0] = (sets_result){config_setting_get_elem(read_sets(&config, set), 0), SETS_DONE, repeat};
   if (sets_report(result, 1, scratch_path("."), &error))
     fail_msg("%s", error.text);
   text = scratch_read(scratch_path("REPORT.md"));
@@ -130,12 +130,18 @@ static char *report_of(const char *set, const char *verdict, const char *held)
   return text;
 }
 
+static char *report_of(const char *set, const char *verdict, const char *held)
+{
+  return report_repeating(set, verdict, held, (double)NAN);
+}
+
 static void test_sets_report__row__has_units_noise_and_verdict(void **state)
 {
   char *text = report_of("sets = ( " SET("one", "") " );", undecided, "75e-5");
   (void)state;
-  assert_contains(text, "| [T one](one/report.json) | position | 0.1 mm | 4 mm (40) | 0.25 mm (2.5) | 5 mm (50) | 0.75 "
-                        "mm (7.5) | undecided | presliding (or position_lag), pressure_gain |");
+  assert_contains(text,
+                  "| [T one](one/report.json) | position | 0.1 mm | - | 4 mm (40) | 0.25 mm (2.5) | 5 mm (50) | 0.75 "
+                  "mm (7.5) | undecided | presliding (or position_lag), pressure_gain |");
   assert_contains(text, "1 undecided");
   assert_contains(text, " 1 of 1");
   assert_contains(text, "Of 2 logs ");
@@ -159,12 +165,32 @@ static void test_sets_report__undecided__says_how_much_is_left(void **state)
   free(text);
 }
 
-static void test_sets_report__explained__says_so(void **state)
+static void test_sets_report__no_more_left_than_the_bench_repeats__is_explained(void **state)
 {
-  char *text = report_of("sets = ( " SET("one", "") " );", explained, "75e-5");
+  char *text = report_repeating("sets = ( " SET("one", "") " );", undecided, "2e-4", 2.1e-4);
   (void)state;
+  assert_contains(text, "| 0.1 mm | 0.21 mm (2.1) | 4 mm (40)");
   assert_contains(text, "| explained |");
   assert_contains(text, "lacks presliding, pressure_gain; ");
+  assert_contains(text,
+                  "repeats: 0.21 mm, 2.1 times the noise; the completed model leaves 1.19 times that, held out 0.952.");
+  free(text);
+}
+
+static void test_sets_report__more_left_than_noise__is_not_explained(void **state)
+{
+  char *text = report_repeating("sets = ( " SET("one", "") " );", explained, "2e-4", 2e-4);
+  (void)state;
+  assert_contains(text, "| undecided |");
+  free(text);
+}
+
+static void test_sets_report__more_left_of_runs_held_out__is_told(void **state)
+{
+  char *text = report_repeating("sets = ( " SET("one", "") " );", explained, "75e-5", 2.1e-4);
+  (void)state;
+  assert_contains(text, "| explained on the runs fitted only |");
+  assert_contains(text, "On the runs held out more is left");
   free(text);
 }
 
@@ -221,7 +247,7 @@ static void test_sets_report__given_that_was_not_fitted__is_refused(void **state
   (void)state;
   write_report(undecided, "75e-5");
   result[0] = (sets_result){
-      config_setting_get_elem(read_sets(&config, "sets = ( " SET("one", "given = \"area\";") " );"), 0), SETS_DONE};
+      config_setting_get_elem(read_sets(&config, "sets = ( " SET("one", "given = \"area\";") " );"), 0), SETS_DONE, (double)NAN};
   assert_int_equal(sets_report(result, 1, scratch_path("."), &error), LAB_DATA);
   assert_contains(error.text, "given: area is not among the parameters that were fitted");
   config_destroy(&config);
@@ -244,7 +270,7 @@ static void test_sets_report__check__is_a_row_without_noise(void **state)
   char *text =
       report_of("sets = ( " SET("one", "check = \"position\"; check_unit = \"cm\";") " );", undecided, "75e-5");
   (void)state;
-  assert_contains(text, "| - the same, not fitted | position | - | - | - | 0.4 cm | 0.025 cm | | |");
+  assert_contains(text, "| - the same, not fitted | position | - | - | - | - | 0.4 cm | 0.025 cm | | |");
   assert_contains(text, "| a.csv | position [cm] | 0.194 | - |");
   assert_contains(text,
                   "What took no part is a channel that was not fitted, not a run held out, in: T one (position).\n");
@@ -258,13 +284,13 @@ static void test_sets_report__sets_that_did_not_run__stay_in_the_table(void **st
   const config_setting_t *list = read_sets(&config, "sets = ( " SET("two", "") ", " SET("three", "") " );");
   char *text;
   (void)state;
-  result[0] = (sets_result){config_setting_get_elem(list, 0), SETS_ABSENT};
-  result[1] = (sets_result){config_setting_get_elem(list, 1), SETS_FAILED};
+  result[0] = (sets_result){config_setting_get_elem(list, 0), SETS_ABSENT, (double)NAN};
+  result[1] = (sets_result){config_setting_get_elem(list, 1), SETS_FAILED, (double)NAN};
   if (sets_report(result, 2, scratch_path("."), &error))
     fail_msg("%s", error.text);
   text = scratch_read(scratch_path("REPORT.md"));
-  assert_contains(text, "| [T two](two/report.json) | position | - | - | - | - | - | data absent | |");
-  assert_contains(text, "| [T three](three/report.json) | position | - | - | - | - | - | closeloop failed | |");
+  assert_contains(text, "| [T two](two/report.json) | position | - | - | - | - | - | - | data absent | |");
+  assert_contains(text, "| [T three](three/report.json) | position | - | - | - | - | - | - | closeloop failed | |");
   assert_contains(text, "Of 2 sets 0 ran.");
   free(text);
   config_destroy(&config);
@@ -336,7 +362,9 @@ int main(void)
       cmocka_unit_test(test_sets_report__row__has_units_noise_and_verdict),
       cmocka_unit_test(test_sets_report__held_out_error_that_grows__is_told),
       cmocka_unit_test(test_sets_report__undecided__says_how_much_is_left),
-      cmocka_unit_test(test_sets_report__explained__says_so),
+      cmocka_unit_test(test_sets_report__no_more_left_than_the_bench_repeats__is_explained),
+      cmocka_unit_test(test_sets_report__more_left_than_noise__is_not_explained),
+      cmocka_unit_test(test_sets_report__more_left_of_runs_held_out__is_told),
       cmocka_unit_test(test_sets_report__doubt__is_the_reason),
       cmocka_unit_test(test_sets_report__section__shows_the_way_and_the_others),
       cmocka_unit_test(test_sets_report__held_out_error_that_falls__has_no_warning),
