@@ -29,16 +29,19 @@ static int next_clause(const char **limitation, const char **clause)
 void lab_report_undetermined(const lab_report *report, char text[LAB_FIT_UNDETERMINED_TEXT])
 {
   const char *limitation = report->result->fit.undetermined, *clause;
+  const char *const full = limitation + LAB_FIT_UNDETERMINED_TEXT - 1; /* what ends here was cut */
   int length;
   char *to = text;
-  for (*to = '\0'; (length = next_clause(&limitation, &clause)) > 0;)
+  for (*to = '\0'; (length = next_clause(&limitation, &clause)) > 0 && clause + length < full;)
     to += sprintf(to, "%s%.*s", to > text ? "; " : "", length, clause);
 }
 
-static void add_clauses(const char *limitation, cJSON *list)
+static void add_clauses(const lab_report *report, cJSON *list)
 {
-  const char *clause;
+  char text[LAB_FIT_UNDETERMINED_TEXT];
+  const char *limitation = text, *clause;
   int length;
+  lab_report_undetermined(report, text);
   while ((length = next_clause(&limitation, &clause)) > 0)
     lab_json_say(list, "Among the fitted values, %.*s.", length, clause);
 }
@@ -66,5 +69,5 @@ void lab_report_limits(const lab_report *report, cJSON *list)
   for (i = 0; report->limitations && i < report->limitations->n; i++)
     lab_json_say(list, "%s", report->limitations->text[i]);
   add_widening(report->result, list);
-  add_clauses(report->result->fit.undetermined, list);
+  add_clauses(report, list);
 }

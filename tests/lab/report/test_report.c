@@ -657,6 +657,24 @@ static void test_lab_residual_table_collect__leak__white_only_when_completed(voi
   lab_residual_table_free(&v);
 }
 
+/* A remark is cut where it is full: its last clause is no sentence. */
+static void test_lab_report_undetermined__clause_that_was_cut__is_left_out(void **state)
+{
+  static lab_search_result outcome;
+  lab_report s = {0};
+  char text[LAB_FIT_UNDETERMINED_TEXT], *remark = outcome.fit.undetermined;
+  size_t n = 0;
+  (void)state;
+  s.result = &outcome;
+  while (n + 1 < sizeof outcome.fit.undetermined) {
+    snprintf(remark + n, sizeof outcome.fit.undetermined - n, "%sthe interval of unlisted_1.1 is wider", n ? "; " : "");
+    n = strlen(remark);
+  }
+  lab_report_undetermined(&s, text);
+  assert_string_equal(text + strlen(text) - strlen("; the interval of unlisted_1.1 is wider"),
+                      "; the interval of unlisted_1.1 is wider");
+}
+
 static void test_lab_report_undetermined__clauses_on_instants__are_left_out(void **state)
 {
   static lab_search_result outcome;
@@ -695,6 +713,7 @@ int main(void)
       cmocka_unit_test(test_lab_report_json__explained__is_that_of_the_refit),
       cmocka_unit_test(test_lab_residual_table_collect__leak__white_only_when_completed),
       cmocka_unit_test(test_lab_report_undetermined__clauses_on_instants__are_left_out),
+      cmocka_unit_test(test_lab_report_undetermined__clause_that_was_cut__is_left_out),
   };
   return cmocka_run_group_tests(tests, begin_report, forget_report);
 }
