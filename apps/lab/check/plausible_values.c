@@ -12,10 +12,15 @@
 static const double over_supply = 1.3, vacuum = -0.3, beyond_stop = 0.25, still_noise = 3, reach_share = 0.25;
 static const double force_low = 0.4, force_high = 2.5, hot = 1.7, cold = 0.5;
 
+/* What a channel may differ by and be the same, for all that its noise says. */
+static double within_noise(const lab_log_view *s, int c)
+{
+  return isnan(s->sigma[c]) ? 0 : still_noise * s->sigma[c];
+}
+
 static int moves(const lab_log_view *s, int c)
 {
-  const double noise = isnan(s->sigma[c]) ? 0 : s->sigma[c];
-  return lab_log_view_span(s, c) > still_noise * noise;
+  return lab_log_view_span(s, c) > within_noise(s, c);
 }
 
 int lab_log_view_is_still(const lab_log_view *s)
@@ -85,7 +90,7 @@ int lab_check_pressure_range(const lab_log_view *s, lab_check_result *f)
   const lab_view_cells *p = &s->cells[LAB_CHANNEL_P];
   const double supply = supply_of(s),
                most = s->main == LAB_CHANNEL_P && s->has_expected ? s->expected_cells.high : supply;
-  if (!(s->u_high > 0) || !(p->high > over_supply * supply))
+  if (!(s->u_high > 0) || !(p->high > over_supply * supply + within_noise(s, LAB_CHANNEL_P)))
     return 0;
   return lab_check_fail(
       f, row_of(s, p, p->high),

@@ -137,6 +137,26 @@ static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
   assert_quiet();
 }
 
+/* A weak pump and a sensor that is off by its declared noise: more than the supply, and not by enough to refuse it. */
+static void test_lab_plausible__more_than_the_supply_by_less_than_noise__passes(void **state)
+{
+  char text[4096] = "t [s],p [kPa]\n", path[512];
+  size_t used = strlen(text);
+  int i;
+  (void)state;
+  for (i = 0; i <= 60; i++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%.1f,%.4g\n", 0.1 * i,
+                             7.2 * (1 - exp(-1.5 * i / 10)) + 0.2 * (i % 3 - 1));
+  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
+  read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
+                                     "transducer = { fill_area = \"3 mm^2\"; };\n"
+                                     "supply = { pressure = \"5 kPa\"; };\nlog = { constants = { u = 1; }; };\n"
+                                     "noise = { pressure = \"1 kPa\"; };\nfit = (\"fill_area\");\n"),
+             path);
+  if (judge() != LAB_OK)
+    fail_msg("%s", error.text);
+}
+
 /* An area wrong by a factor of five is what fits are for. */
 static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **state)
 {
@@ -660,6 +680,7 @@ int main(void)
       TEST(test_lab_plausible__pressure_only__is_quiet),
       TEST(test_lab_plausible__pressure_as_input__is_quiet),
       TEST(test_lab_plausible__vessel_that_leaks__is_quiet),
+      TEST(test_lab_plausible__more_than_the_supply_by_less_than_noise__passes),
       TEST(test_lab_plausible__poor_guess_of_the_orifices__is_quiet),
       TEST(test_lab_plausible__logs_of_the_rig__are_quiet),
       TEST(test_lab_plausible_content__one_still_run_of_two__passes),
