@@ -23,25 +23,28 @@ expect() {
   [ "$got" -eq "$status" ] || complain "$what: expected status $status, got $got: $(cat "$folder/err")"
 }
 
+list=list # the name of the one to run
+
 # batch NAME OPTIONS...: run the list into a folder
 batch() {
   into="$folder/$1"
   shift
-  ./closeloop --batch "$folder/list/list.csv" --out "$into" --quiet "$@"
+  ./closeloop --batch "$folder/list/$list.csv" --out "$into" --quiet "$@"
 }
 
 # behind NAME OPTIONS...: the same in the background, as the process $victim
 behind() {
   into="$folder/$1"
   shift
-  ./closeloop --batch "$folder/list/list.csv" --out "$into" --quiet "$@" >"$folder/out" 2>"$folder/err" &
+  ./closeloop --batch "$folder/list/$list.csv" --out "$into" --quiet "$@" >"$folder/out" 2>"$folder/err" &
   victim=$!
 }
 
-# same NAME: whether its table and page are those of the undisturbed run
+# same NAME [AS]: whether its tables and page are those of the undisturbed run
 same() {
-  for table in batch.csv index.html; do
-    cmp "$folder/one/$table" "$folder/$1/$table" || complain "$1: $table is another one than with one thread"
+  for table in batch.csv index.html trends.csv; do
+    [ -e "$folder/${2:-one}/$table" ] || [ -e "$folder/$1/$table" ] || continue
+    cmp "$folder/${2:-one}/$table" "$folder/$1/$table" || complain "$1: $table is another one than with one thread"
   done
 }
 
@@ -200,9 +203,48 @@ for file in "$folder/single"/*; do
   [ "$name" = report.json ] || cmp "$file" "$folder/reports/leaks/$name" || complain "--reports: another $name than a single run's"
 done
 
+# a spring that stiffens by 10 N/mm in 30 days, and one that stays, in dated lines of any order; another date changes no line
+for k in a b; do
+  printf 'tolerance = { spring_rate = "10 %%"; others = 0; };\n' | cat "$folder/list/rigs/r1.cfg" - >"$folder/list/rigs/$k.cfg"
+done
+cat >"$folder/list/dated.csv" <<'LIST'
+name,rig,log,date
+a3,rigs/a.cfg,r3.csv,2026-03-02
+a1,rigs/a.cfg,r1.csv,2026-01-01
+a2,rigs/a.cfg,r2.csv,2026-01-31T00:00:00Z
+b1,rigs/b.cfg,r1.csv,2026-01-01
+b2,rigs/b.cfg,r1.csv,2026-05-01
+lost,rigs/b.cfg,torn.csv,2026-06-01
+undated,rigs/b.cfg,r5.csv,
+LIST
+list=dated
+expect 1 "dated" batch dated --threads 1
+[ "$(cut -d, -f 1-6 "$folder/dated/trends.csv" | tr '\n' ' ')" = "rig,parameter,unit,n,first_date,last_date \
+rigs/a.cfg,spring_rate,N/m,3,2026-01-01,2026-03-02 rigs/b.cfg,spring_rate,N/m,2,2026-01-01,2026-05-01 " ] ||
+  complain "trends: $(cat "$folder/dated/trends.csv")"
+grep -q "<p>spring_rate leaves its tolerance of 10 % in 30 days (2[0-9] to 3[0-9])</p>" "$folder/dated/index.html" ||
+  complain "the page does not say when the tolerance is left"
+[ "$(grep -c 'class="spark' "$folder/dated/index.html")" -eq 2 ] || complain "not a line of sparklines for each rig"
+[ -e "$folder/one/trends.csv" ] && complain "trends of a list without dates"
+behind dated-killed --threads 1
+while [ ! -e "$folder/dated-killed/a1/.done" ] && kill -0 "$victim" 2>/dev/null; do sleep 0.01; done
+kill -9 "$victim" 2>/dev/null
+wait "$victim" 2>/dev/null
+[ -e "$folder/dated-killed/trends.csv" ] && complain "trends of a run that was stopped"
+expect 1 "dated, resumed" batch dated-killed --threads 2
+same dated-killed dated
+touch "$folder/before"
+sleep 0.05
+sed -i.old 's/2026-03-02/2026-03-12/' "$folder/list/dated.csv"
+expect 1 "another date" batch dated-killed
+grep -q "2026-03-12" "$folder/dated-killed/trends.csv" || complain "another date, and the same trends"
+[ "$(find "$folder/dated-killed" -name .done -newer "$folder/before" | wc -l)" -eq 0 ] || complain "another date: lines were done again"
+mv "$folder/list/dated.csv.old" "$folder/list/dated.csv"
+list=list
+
 [ "$(names_of "$folder/reports")" = "leaks:leaks/report.html " ] || complain "--reports: index.html links $(names_of "$folder/reports")"
 if command -v xmllint >/dev/null 2>&1; then
-  xmllint --noout "$folder/one/index.html" "$folder/reports/index.html" "$folder/reports/leaks/report.html" || complain "malformed"
+  xmllint --noout "$folder/one/index.html" "$folder/dated/index.html" "$folder/reports/index.html" "$folder/reports/leaks/report.html" || complain "malformed"
 fi
 
 # ---- MPI ----
@@ -222,7 +264,7 @@ ranks() {
   k=$1
   into="$folder/$2"
   shift 2
-  mpirun --oversubscribe -n "$k" "$folder/closeloop-mpi" --batch "$folder/list/list.csv" --out "$into" --quiet "$@"
+  mpirun --oversubscribe -n "$k" "$folder/closeloop-mpi" --batch "$folder/list/$list.csv" --out "$into" --quiet "$@"
 }
 
 for k in 2 3; do
@@ -232,9 +274,14 @@ done
 expect 1 "2 ranks, 2 threads" ranks 2 ranks-2-2 --threads 2
 same ranks-2-2
 
+list=dated
+expect 1 "dated, 2 ranks" ranks 2 dated-ranks
+same dated-ranks dated
+list=list
+
 # a rank dies: the run ends, and the next one goes on
 into="$folder/lost"
-mpirun --oversubscribe -n 3 "$folder/closeloop-mpi" --batch "$folder/list/list.csv" --out "$into" --quiet >"$folder/out" 2>&1 &
+mpirun --oversubscribe -n 3 "$folder/closeloop-mpi" --batch "$folder/list/$list.csv" --out "$into" --quiet >"$folder/out" 2>&1 &
 mpi=$!
 while [ ! -e "$folder/lost/one/.done" ] && kill -0 "$mpi" 2>/dev/null; do sleep 0.01; done
 victim=$(ps -e -o pid= -o ppid= -o args= | awk -v f="$folder/closeloop-mpi" '$3 == f { parent[$1] = $2 }

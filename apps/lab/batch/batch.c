@@ -36,6 +36,7 @@ typedef struct batch {
   lab_fleet_list list;
   lab_progress progress;
   int n, done, before; /* lines; done; of these, by an earlier run */
+  lab_history history; /* of its rigs, once it is done */
 } batch;
 
 /* What this process took since a time on the clock. */
@@ -278,7 +279,8 @@ static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals
     lab_put_users_cell(costs, e.name);
     fprintf(costs, ",%.3f,%.3f,%.1f\n", d.outcome.cost.seconds, d.outcome.cost.cpu, d.outcome.cost.memory);
     count(t, &d.outcome);
-    if (lab_index_add(index, e.name, &d.outcome, error))
+    if (lab_index_add(index, e.name, &d.outcome, error) ||
+        (d.outcome.status == LAB_OK && lab_history_add(&b->history, &e, folder, error)))
       return error->status;
   }
   return status;
@@ -304,13 +306,31 @@ static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
   return lab_out_end(&rows, status, error);
 }
 
+/* trends.csv, and the page that shows it too. */
+static int write_trends(batch *b, lab_index *index, lab_error *error)
+{
+  char path[LAB_PATH_TEXT];
+  lab_trends trends = {0};
+  int status;
+  folder_of(b, "trends.csv", path);
+  lab_history_sort(&b->history);
+  status = lab_trends_find(&b->history, &trends, error);
+  if (status == LAB_OK)
+    status = lab_trends_write(&trends, path, error);
+  if (status == LAB_OK)
+    status = lab_index_write(index, b->how->list, &trends, b->out, error);
+  lab_trends_free(&trends);
+  return status;
+}
+
 /* batch.csv and what goes with it. */
 static int write_all(batch *b, totals *t, lab_error *error)
 {
   lab_index index = {0};
   int status = write_tables(b, &index, t, error);
   if (status == LAB_OK)
-    status = lab_index_write(&index, b->how->list, b->out, error);
+    status = write_trends(b, &index, error);
+  lab_history_free(&b->history);
   lab_index_free(&index);
   return status;
 }

@@ -1,12 +1,13 @@
 /* A fleet run: closeloop on every line of a list (batchlist.h), some at once, each in a process of its own.
  *
  * In the folder: batch.csv, a line each in the list's order; batch.cost.csv, the time and memory that each took;
+ * trends.csv, how rigs go on whose lines have dates;
  * <name>/report.json or all files of the answer; <name>/.done, what has become of the line and a checksum of all that
  * went into it, by which the next run knows what it need not do again. batch.csv is written when the list is done, and
  * depends neither on how many worked at once, nor on how often the run was stopped, nor on the folder that it was
  * started in.
  *
- * Memory: the list itself, and 16 bytes a line while it is checked.
+ * Memory: the list itself, 16 bytes a line while it is checked, and 0.3 kB for each value of a dated line.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCH_H
 #define LAB_BATCH_H

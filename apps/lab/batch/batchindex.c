@@ -212,13 +212,14 @@ static void add_counts(const lab_index *index, cJSON *page)
   }
 }
 
-static cJSON *values_of(const lab_index *index, const char *list)
+static cJSON *values_of(const lab_index *index, const char *list, const lab_trends *trends)
 {
   cJSON *page = cJSON_CreateObject();
   cJSON_AddStringToObject(page, "list", lab_file_name(list));
   lab_json_put(page, "lines", "%d line%s", index->n, index->n == 1 ? "" : "s");
   cJSON_AddStringToObject(page, "version", PNEU_VERSION);
   add_counts(index, page);
+  lab_trends_page(trends, page);
   return page;
 }
 
@@ -252,9 +253,9 @@ static int put_page(const lab_index *index, const cJSON *page, char *template, c
   return lab_template_write(file, rows + strlen(place), page, error);
 }
 
-int lab_index_write(lab_index *index, const char *list, const char *folder, lab_error *error)
+int lab_index_write(lab_index *index, const char *list, const lab_trends *trends, const char *folder, lab_error *error)
 {
-  cJSON *page = values_of(index, list);
+  cJSON *page = values_of(index, list, trends);
   char path[LAB_PATH_TEXT + 160], *template = lab_page_text("index", page);
   lab_outfile out;
   int status = template ? LAB_OK : lab_fail_memory(error, "index.html");

@@ -4,6 +4,7 @@
 #define LAB_BATCHINDEX_H
 
 #include "batchrow.h"
+#include "trends.h"
 
 /* A line of the list, as far as its place on the page goes. */
 typedef struct lab_index_entry {
@@ -25,8 +26,9 @@ void lab_index_free(lab_index *index);
 
 /* Sort and write the page; each line's row is read again from its folder (batchdone.h).
  * In:      list    path of the list, whose file name is the heading
+ *          trends  of its rigs
  *          folder  of the batch
  * Returns: LAB_OK, LAB_DATA, LAB_WORLD. */
-int lab_index_write(lab_index *index, const char *list, const char *folder, lab_error *error);
+int lab_index_write(lab_index *index, const char *list, const lab_trends *trends, const char *folder, lab_error *error);
 
 #endif

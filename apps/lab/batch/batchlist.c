@@ -8,21 +8,23 @@
 #include "../base/checksum.h"
 #include "../base/escape.h"
 #include "../base/names.h"
+#include "../log/stamp.h"
 
-static const char reserved[] = "batch.";     /* names of the files beside the folders begin so, */
-static const char overview[] = "index.html"; /* but for this one */
+static const char reserved[] = "batch.";                          /* names of the files beside the folders begin so, */
+static const char *const others[] = {"index.html", "trends.csv"}; /* but for these */
+enum { OTHERS = sizeof others / sizeof *others };
 
 /* ---- Columns ---- */
 
-enum column { NAME, RIG, LOG, HOLDOUT, COLUMNS, NOTHING = -1 };
+enum column { NAME, RIG, LOG, HOLDOUT, DATE, COLUMNS, NOTHING = -1 };
 
-static const char *const column_names[COLUMNS] = {"name", "rig", "log", "holdout"};
-static const int is_needed[COLUMNS] = {0, 1, 1, 0};
+static const char *const column_names[COLUMNS] = {"name", "rig", "log", "holdout", "date"};
+static const int is_needed[COLUMNS] = {0, 1, 1, 0, 0};
 
 static char *place_of(lab_fleet_entry *e, int column, size_t *size)
 {
-  char *const place[COLUMNS] = {e->name, e->rig, e->log, e->holdout};
-  const size_t sizes[COLUMNS] = {sizeof e->name, sizeof e->rig, sizeof e->log, sizeof e->holdout};
+  char *const place[COLUMNS] = {e->name, e->rig, e->log, e->holdout, e->date};
+  const size_t sizes[COLUMNS] = {sizeof e->name, sizeof e->rig, sizeof e->log, sizeof e->holdout, sizeof e->date};
   *size = sizes[column];
   return place[column];
 }
@@ -150,12 +152,27 @@ static int name_after_log(lab_fleet_entry *e, lab_error *error)
 static int check_name(const lab_fleet_entry *e, lab_error *error)
 {
   const int bad = e->name[0] == '.' || !e->name[0] || strncmp(e->name, reserved, strlen(reserved)) == 0 ||
-                  strcmp(e->name, overview) == 0 || strpbrk(e->name, "/\\") || !lab_is_plain(e->name);
+                  lab_name_index(e->name, others, OTHERS, sizeof *others) >= 0 || strpbrk(e->name, "/\\") ||
+                  !lab_is_plain(e->name);
   return !bad ? LAB_OK
               : lab_fail(error, LAB_DATA,
                          "\"%s\" cannot be a name: it becomes that of a folder, so no / or \\, it does not begin "
-                         "with . or %s and is not %s, and it is UTF-8 without control characters",
-                         e->name, reserved, overview);
+                         "with . or %s and is not %s or %s, and it is UTF-8 without control characters",
+                         e->name, reserved, others[0], others[1]);
+}
+
+/* Only as ISO 8601 has it, with the year first: 3/4/2026 is another day on either side of the ocean. */
+static int read_date(lab_fleet_entry *e, lab_error *error)
+{
+  lab_stamp stamp = {0};
+  const int is_iso = strspn(e->date, "0123456789") == 4 && e->date[4] == '-';
+  if (!*e->date)
+    return LAB_OK;
+  if (!is_iso || !lab_stamp_read(e->date, e->date + strlen(e->date), LAB_DATE_YMD, &stamp) || !stamp.has_day)
+    return lab_fail(error, LAB_DATA, "column date: expected a date like 2026-05-04 or 2026-05-04T13:30Z, found \"%s\"",
+                    e->date);
+  e->day = (double)stamp.day + stamp.second / 86400;
+  return LAB_OK;
 }
 
 static int fill(const lab_fleet_list *list, lab_fleet_entry *e, lab_error *error)
@@ -186,7 +203,9 @@ static int fill(const lab_fleet_list *list, lab_fleet_entry *e, lab_error *error
     if (is_needed[i] && !*place_of(e, i, &size))
       return lab_fail(error, LAB_DATA, "column %s is empty; every line needs a rig file and a log", column_names[i]);
   }
-  return *e->name || name_after_log(e, error) == LAB_OK ? check_name(e, error) : error->status;
+  if (read_date(e, error) || (!*e->name && name_after_log(e, error)))
+    return error->status;
+  return check_name(e, error);
 }
 
 int lab_fleet_list_next(lab_fleet_list *list, lab_fleet_entry *entry, int *more, lab_error *error)

@@ -1,14 +1,15 @@
 /* The list of a fleet run: one line a rig and its logs, as a spreadsheet saves it.
  *
  *   # presses of hall 2
- *   name,rig,log,holdout
- *   press-1,rigs/press.cfg,may/p1-a.csv;may/p1-b.csv,june/p1.csv
- *   press-2,rigs/press.cfg,may/p2.csv,
+ *   name,rig,log,holdout,date
+ *   press-1,rigs/press-1.cfg,may/p1-a.csv;may/p1-b.csv,june/p1.csv,2026-05-04
+ *   press-2,rigs/press-2.cfg,may/p2.csv,,2026-05-04T13:30+02:00
  *
- * - The header names the columns, in any order; rig and log must be there, name and holdout need not.
+ * - The header names the columns, in any order; rig and log must be there, the others need not.
  * - Between cells stands the mark that the header has: comma, semicolon or tab. A cell may be in quotes, "" is a quote
  *   in it. Several logs in one cell are separated by semicolons (in quotes if the cells are, too).
  * - Without a name, a line is called as its first log: may/p2.csv is may-p2.
+ * - A date is a day or a moment by ISO 8601; lines with the same rig file and dates make a history (history.h).
  * - Empty lines, and lines that begin with #, are left out.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCHLIST_H
@@ -17,7 +18,7 @@
 #include "../base/csv.h"
 #include "../rig/rig.h"
 
-enum { LAB_FLEET_ENTRY_NAME = 128, LAB_FLEET_ENTRY_TEXT = 4096 };
+enum { LAB_FLEET_ENTRY_NAME = 128, LAB_FLEET_ENTRY_TEXT = 4096, LAB_FLEET_DATE_TEXT = 40 };
 
 /* A line; plain bytes, to be sent from process to process. */
 typedef struct lab_fleet_entry {
@@ -25,6 +26,8 @@ typedef struct lab_fleet_entry {
   char name[LAB_FLEET_ENTRY_NAME]; /* also of its folder */
   char rig[LAB_PATH_TEXT];
   char log[LAB_FLEET_ENTRY_TEXT], holdout[LAB_FLEET_ENTRY_TEXT]; /* paths, separated by semicolons */
+  char date[LAB_FLEET_DATE_TEXT];                                /* as it stands there */
+  double day;                                                    /* [d] since 1 January 1970, of the date */
 } lab_fleet_entry;
 
 typedef struct lab_fleet_list {

@@ -81,6 +81,14 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   return tolerance > 0 ? fabs(d->found - d->declared) / tolerance : (double)INFINITY;
 }
 
+int lab_deviation_of(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d)
+{
+  if (!is_declared(rig, u, j))
+    return 0;
+  compare(rig, u, fit, j, d);
+  return 1;
+}
+
 typedef struct sized {
   double size;
   lab_deviation deviation;

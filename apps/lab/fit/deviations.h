@@ -27,6 +27,9 @@ typedef struct lab_deviation {
   int held;         /* not 0: it was not in `fit` */
 } lab_deviation;
 
+/* A fitted value beside what was declared.  Out: d  Returns: 0 if unknown j is no declared value */
+int lab_deviation_of(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d);
+
 /* The largest first. */
 typedef struct lab_deviations {
   int condition; /* enum lab_condition */

@@ -14,11 +14,12 @@ static void add_unit_and_interval(cJSON *to, const char *unit, double low, doubl
   lab_json_range(to, "ci95", low, high);
 }
 
-static void add_interval(cJSON *to, const char *name, double value, const char *unit, double low, double high)
+static cJSON *add_interval(cJSON *to, const char *name, double value, const char *unit, double low, double high)
 {
   cJSON *o = cJSON_AddObjectToObject(to, name);
   cJSON_AddNumberToObject(o, "value", value);
   add_unit_and_interval(o, unit, low, high);
+  return o;
 }
 
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
@@ -163,16 +164,25 @@ static void add_holdout(cJSON *to, const lab_report *report)
   }
 }
 
+static void add_parameter(cJSON *to, const lab_report *report, int j)
+{
+  const lab_fit_result *fit = &report->result->fit;
+  const lab_unknown *x = &report->completed->unknown[j];
+  cJSON *o = add_interval(to, x->name, x->value, x->unit, fit->low[j], fit->high[j]);
+  lab_deviation d;
+  if (lab_deviation_of(report->rig, report->completed, fit, j, &d))
+    lab_json_numbers(o, (const lab_json_named[]){{"declared", d.declared}, {"tolerance", d.tolerance}, {NULL, 0}});
+}
+
 static void add_parameters(cJSON *to, const lab_report *report)
 {
   const lab_unknowns *u = report->completed;
-  const lab_fit_result *fit = &report->result->fit;
   cJSON *o = cJSON_AddObjectToObject(to, "parameters");
   char undetermined[LAB_FIT_UNDETERMINED_TEXT];
   int j;
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM)
-      add_interval(o, u->unknown[j].name, u->unknown[j].value, u->unknown[j].unit, fit->low[j], fit->high[j]);
+      add_parameter(o, report, j);
   lab_report_undetermined(report, undetermined);
   if (*undetermined)
     cJSON_AddStringToObject(to, "undetermined", undetermined);

@@ -104,6 +104,17 @@ static void test_lab_fleet_list__no_name__is_called_as_its_log(void **state)
   }
 }
 
+static void test_lab_fleet_list__date__is_a_day_or_a_moment(void **state)
+{
+  (void)state;
+  assert_int_equal(
+      read_list("rig,log,date\nr.cfg,a.csv,1970-01-11\nr.cfg,b.csv,1970-01-11T13:30+01:30\nr.cfg,c.csv,\n"), 3);
+  assert_close(entry[0].day, 10, 0, 0);
+  assert_close(entry[1].day, 10.5, 0, 0);
+  assert_string_equal(entry[1].date, "1970-01-11T13:30+01:30");
+  assert_string_equal(entry[2].date, "");
+}
+
 static void test_lab_fleet_list__bad__is_refused_with_its_line(void **state)
 {
   static const struct {
@@ -121,6 +132,11 @@ static void test_lab_fleet_list__bad__is_refused_with_its_line(void **state)
       {"name,rig,log\na/b,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
       {"name,rig,log\n..,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
       {"name,rig,log\nbatch.csv,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
+      {"name,rig,log\ntrends.csv,r.cfg,a.csv\n", "list.csv:2", "cannot be a name"},
+      {"rig,log,date\nr.cfg,a.csv,2026-01-02\nr.cfg,b.csv,3/4/2026\n", "list.csv:3", "expected a date like 2026-05-04"},
+      {"rig,log,date\nr.cfg,a.csv,26-01-02\n", "list.csv:2", "found \"26-01-02\""},
+      {"rig,log,date\nr.cfg,a.csv,2026-13-02\n", "list.csv:2", "found \"2026-13-02\""},
+      {"rig,log,date\nr.cfg,a.csv,12:30\n", "list.csv:2", "found \"12:30\""},
       {"name,rig,log\nindex.html,r.cfg,a.csv\n", "list.csv:2", "is not index.html"},
   };
   size_t i;
@@ -311,7 +327,7 @@ static void test_lab_index__all_verdicts__worst_first(void **state)
            LAB_OK);
   add_line(&index, "torn", "error,,,,,,,,,,,,,,,,,,,,,a.csv:3: torn", LAB_WRITE_JSON, LAB_DATA);
   snprintf(path, sizeof path, "%s", scratch_path("indexed"));
-  assert_int_equal(lab_index_write(&index, "lists/hall 2.csv", path, &error), LAB_OK);
+  assert_int_equal(lab_index_write(&index, "lists/hall 2.csv", &(lab_trends){0}, path, &error), LAB_OK);
   lab_index_free(&index);
   page = scratch_read(scratch_path("indexed/index.html"));
   for (i = 0, last = page; i < sizeof order / sizeof *order; i++) {
@@ -629,6 +645,7 @@ int main(void)
       cmocka_unit_test(test_lab_fleet_list__from_spreadsheets__is_the_same),
       cmocka_unit_test(test_lab_fleet_list__quotes_and_commas_in_a_cell__are_kept),
       cmocka_unit_test(test_lab_fleet_list__no_name__is_called_as_its_log),
+      cmocka_unit_test(test_lab_fleet_list__date__is_a_day_or_a_moment),
       cmocka_unit_test(test_lab_fleet_list__bad__is_refused_with_its_line),
       cmocka_unit_test(test_lab_fleet_list__long_cell__is_refused),
       cmocka_unit_test(test_lab_fleet_list__zero_byte__is_refused),
