@@ -70,7 +70,7 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
   return status;
 }
 
-/* The same by a central difference, where there is room on both sides. */
+/* The same by a central difference, where there is room on both sides and the model can be followed there. */
 static int central_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
 {
   const lab_unknowns *u = context;
@@ -92,7 +92,7 @@ static int central_slope(void *context, const double *theta, const double *r, in
   for (i = 0; status == LAB_OK && i < u->m; i++)
     column[i] = (column[i] - below[i]) / (2 * step);
   free(below);
-  return status;
+  return status == LAB_NUMERIC ? lab_unknowns_slope(context, theta, r, j, column, error) : status;
 }
 
 /* The problem that the unknowns pose, and its memory. */

@@ -1085,13 +1085,19 @@ static int run_again(const lab_search_options *options, outcome *o, lab_error *e
   return lab_search_run(&o->completed, options, &o->result, error);
 }
 
+/* Whether an answer without the isolated values is to be taken: less is found or in doubt, or nothing either way. */
+static int is_better(const lab_search_result *without, const lab_search_result *with)
+{
+  return doubt(without) < doubt(with) || doubt(without) == 0;
+}
+
 int lab_search_without_outliers(const lab_search_options *options, lab_logs *bench, lab_unknowns *declared,
                                 lab_unknowns *completed, lab_search_result *result, lab_error *error)
 {
   lab_outliers out = {0};
   outcome *o = NULL;
   int status;
-  if (doubt(result) == 0 || result->window > 0 || result->cut_short)
+  if (result->window > 0 || result->cut_short)
     return LAB_OK;
   status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
   if (status == LAB_OK && can_be_accidents(&out, bench)) {
@@ -1103,7 +1109,7 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
     status = run_again(options, o, error);
   }
   result->cut_short = o && o->result.cut_short;
-  if (o && status == LAB_OK && !result->cut_short && doubt(&o->result) < doubt(result)) {
+  if (o && status == LAB_OK && !result->cut_short && is_better(&o->result, result)) {
     *declared = o->declared;
     *completed = o->completed;
     *result = o->result;

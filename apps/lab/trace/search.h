@@ -69,9 +69,9 @@ void lab_search_options_default(lab_search_options *options);
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
 int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_search_result *result, lab_error *error);
 
-/* Where the search found something, or ended undecided, run it once more without the values that stand alone
- * (outliers.h). If that leaves less to explain or to doubt, the new answer takes the place of the old one, and
- * the bench's remarks say what was left out; else nothing changes. Nor does it where the log was seen coarsely.
+/* Run a search once more without the values that stand alone (outliers.h), if there are any. If that leaves less to
+ * explain or to doubt, or nothing, the new answer takes the place of the old one, and the bench's remarks say what was
+ * left out; else nothing changes. Nor does it where the log was seen coarsely.
  * In/out:  bench      its logs
  *          declared   fitted
  *          completed  model, and
