@@ -36,6 +36,7 @@ static const lab_option options[] = {
     {"batch", LAB_OPTION_TEXT, &list, "LIST.csv",
      "many rigs, a line each: header name,rig,log,holdout; several logs: a.csv;b.csv;\n"
      "paths from the list's folder; name and holdout may be left out; # is a comment.\n"
+     "A column date gives each rig its history: trends.csv, and a part of the page.\n"
      "Writes DIR/batch.csv, a line each in the list's order, DIR/index.html, the worst\n"
      "first, DIR/batch.cost.csv, and DIR/<name>/report.json. As many logs at once as --threads says. Stopped, it goes "
      "on\n"
