@@ -7,10 +7,11 @@
 #include "instants.h"
 #include "unknowns.h"
 
-static const double slope_step = 1e-3;  /* of a slope's difference, over what matters */
-static const double instant_step = 0.1; /* the same of an instant, which dry friction makes rough within a row */
-static const double coarse_step = 0.05; /* the same where slips come and go on shorter ones */
-static const double held_step = 0.25;   /* of what is held, over its tolerance: it moves little else */
+static const double slope_step = 1e-3;   /* of a slope's difference, over what matters */
+static const double instant_step = 0.15; /* the same of an instant, which dry friction makes rough within a row: half
+                                            of what is known of it */
+static const double coarse_step = 0.05;  /* the same where slips come and go on shorter ones */
+static const double held_step = 0.25;    /* of what is held, over its tolerance: it moves little else */
 
 static const double central_step = 1e-4; /* of a central difference, over what matters or over five spreads: a stop that
                                             is hit earlier by a row changes that row only */

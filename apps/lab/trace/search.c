@@ -773,7 +773,7 @@ static int go_on_from(search *s, const lab_candidate *begun, lab_error *error)
 }
 
 /* The search from a declared model, in the view that its unknowns have.
- * In:      declared  fitted or not
+ * In:      declared  fitted or not; it is fitted once more, which finds the end of a valley
  *          begun     it with what begins, fitted, from which to go on; may be NULL
  *          within    the same with its values within tolerances, which the search is to beat; may be NULL
  * Out:     best    with what was added
@@ -790,7 +790,7 @@ static int search_from(const lab_candidate *declared, const lab_candidate *begun
   s->result = result;
   s->within = within;
   s->declared = *declared;
-  status = declared->quality.fitted ? LAB_OK : lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
+  status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
   if (status == LAB_OK) {
     note_way(result, &s->declared);
     status = linearise(s, error);
