@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
 #include "../base/clock.h"
 #include "../base/quantile.h"
 #include "../trace/decide.h"
@@ -283,6 +284,32 @@ static void size_up(const lab_sides *c, const lab_fit_result *fit, lab_change *c
   change->high = change->now + half * unit * sqrt(fmax(variance, 0));
 }
 
+static double chi2_at(const lab_unknowns *u, const double *theta, double *r)
+{
+  lab_error ignored;
+  return lab_unknowns_residuals((void *)u, theta, r, &ignored) == LAB_OK ? lab_dot(r, r, u->m) : HUGE_VAL;
+}
+
+/* A supply that cannot lift the stem moves it as little as none does: where the log does not tell a followed level from
+ * the least there can be, the interval begins there. */
+static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
+{
+  const int d = told_by(c, change);
+  const lab_unknowns *u = &c->u;
+  double theta[LAB_FIT_MAX], *r = malloc((u->m + 1) * sizeof *r), found;
+  int j;
+  if (!r)
+    return lab_fail_memory(error, "residuals");
+  for (j = 0; j < u->n; j++)
+    theta[j] = u->unknown[j].value;
+  found = chi2_at(u, theta, r);
+  theta[d] = u->unknown[d].lower;
+  if (chi2_at(u, theta, r) < found + lab_chi2_threshold(0.05))
+    change->low = fmin(change->low, change->then + theta[d]);
+  free(r);
+  return LAB_OK;
+}
+
 static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
 {
   lab_unknowns *without = malloc(sizeof *without);
@@ -299,6 +326,10 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
     change->statistic = followed ? c->followed : fmax(chi2 - c->chi2, 0);
     change->p_value = lab_chi2_tail(change->statistic, followed ? c->n_followed : c->shape[i] >= 0 ? 2 : 1);
     size_up(c, fit, change);
+    if (followed && reach_down(c, change, error)) {
+      status = error->status;
+      break;
+    }
     changes->n += change->p_value < changes->level;
   }
   qsort(changes->change, (size_t)changes->n, sizeof *changes->change, by_statistic);
