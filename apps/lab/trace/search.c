@@ -861,6 +861,13 @@ static int is_enough(const finding *f)
   return explained && f->gain < lab_constant(LAB_DEVIATIONS_GAIN);
 }
 
+/* Whether of two searches that explain nothing the first is to be told for its candidates. */
+static int comes_nearer(const finding *exact, const finding *tolerant)
+{
+  return exact->best.quality.fitted && exact->result.verdict == LAB_VERDICT_UNDECIDED &&
+         tolerant->result.verdict == LAB_VERDICT_UNDECIDED && exact->best.quality.bic < tolerant->best.quality.bic;
+}
+
 /* When to stop where there is an answer already: after as long again, and a second. */
 static double enough(double until, double start)
 {
@@ -932,7 +939,8 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
       whole->declared.u.until = enough(u->until, start);
     status =
         search_from(&whole->declared, begins ? &exact->best : NULL, NULL, options, &whole->result, &whole->best, error);
-    is_exact = is_exact && (status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic);
+    is_exact = is_exact ? status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic
+                        : status == LAB_OK && comes_nearer(exact, whole);
   }
   if (is_exact) {
     *whole = *exact;
