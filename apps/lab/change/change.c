@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/array.h"
 #include "../base/clock.h"
 #include "../base/quantile.h"
 #include "../trace/decide.h"
@@ -284,30 +283,23 @@ static void size_up(const lab_sides *c, const lab_fit_result *fit, lab_change *c
   change->high = change->now + half * unit * sqrt(fmax(variance, 0));
 }
 
-static double chi2_at(const lab_unknowns *u, const double *theta, double *r)
-{
-  lab_error ignored;
-  return lab_unknowns_residuals((void *)u, theta, r, &ignored) == LAB_OK ? lab_dot(r, r, u->m) : HUGE_VAL;
-}
-
 /* A supply that cannot lift the stem moves it as little as none does: where the log does not tell a followed level from
- * the least there can be, the interval begins there. */
+ * the least there can be, with all else fitted again, the interval begins there. */
 static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
 {
   const int d = told_by(c, change);
-  const lab_unknowns *u = &c->u;
-  double theta[LAB_FIT_MAX], *r = malloc((u->m + 1) * sizeof *r), found;
-  int j;
-  if (!r)
-    return lab_fail_memory(error, "residuals");
-  for (j = 0; j < u->n; j++)
-    theta[j] = u->unknown[j].value;
-  found = chi2_at(u, theta, r);
-  theta[d] = u->unknown[d].lower;
-  if (chi2_at(u, theta, r) < found + lab_chi2_threshold(0.05))
-    change->low = fmin(change->low, change->then + theta[d]);
-  free(r);
-  return LAB_OK;
+  lab_unknowns *least = malloc(sizeof *least);
+  double chi2;
+  int status;
+  if (!least)
+    return lab_fail_memory(error, "a fit");
+  *least = c->u;
+  least->unknown[d].value = least->unknown[d].upper = least->unknown[d].lower;
+  status = lab_unknowns_fit(least, LAB_ROUNDS_ALL, &chi2, error);
+  if (status == LAB_OK && chi2 < c->chi2 + lab_chi2_threshold(0.05))
+    change->low = fmin(change->low, change->then + least->unknown[d].lower);
+  free(least);
+  return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
 static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
