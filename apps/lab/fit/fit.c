@@ -10,11 +10,11 @@
 
 enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12, KEPT_TRIES = 3 };
 
-static const double usual_enough = 0.02;    /* of chi-square: no decision hangs on it */
-static const double usual_share = 1e-6;     /* of chi-square */
-static const double poor = 0.5;             /* gain over promise below which kept slopes are renewed */
-static const double rough = 2, kept = 0.25; /* of chi-square promised by new slopes, and its share that is kept: where
-                                               less is, no smooth surface is seen so closely */
+static const double usual_enough = 0.02;      /* of chi-square: no decision hangs on it */
+static const double usual_share = 1e-6;       /* of chi-square */
+static const double poor = 0.5;               /* gain over promise below which kept slopes are renewed */
+static const double rough = 100, kept = 0.25; /* times `enough` that new slopes promise, and the share of it that is
+                                                 kept: where less is, no smooth surface is seen so closely */
 
 /* Where a descent is. */
 typedef struct descent {
@@ -215,7 +215,7 @@ static int step_down(descent *d, int fresh, double *quality, int *done, lab_erro
     gain = d->chi2 - chi2;
     if (status == LAB_OK && gain > 0) {
       *quality = gain / promised;
-      *done = gain < least || (fresh && promised < rough && *quality < kept);
+      *done = gain < least || (fresh && promised < rough * d->enough && *quality < kept);
       d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
       learn(d);
       accept(d, chi2);
