@@ -95,9 +95,10 @@ check-all:
 	@$(TESTED_WITH) sh tests/run.sh all
 .PHONY: check-all
 
-## Close the loop on every measured set (MEASURED names the data's folder); writes results/measured/
+## Close the loop on every measured set (MEASURED names the data's folder); writes results/measured/ and the gallery
 measured: $(STATIC) closeloop $(BUILD)/measured
 	MEASURED='$(MEASURED)' $(BUILD)/measured study/measured/sets.cfg
+	@$(MAKE) --no-print-directory gallery
 .PHONY: measured
 
 $(BUILD)/measured: $(BUILD)/apps/measured.o $(LAB) $(STATIC)

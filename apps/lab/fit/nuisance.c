@@ -134,3 +134,11 @@ int lab_nuisance_return(lab_unknowns *u, lab_error *error)
   lab_unknowns_take(u);
   return status;
 }
+
+int lab_nuisance_is_instants(const lab_nuisance *nuisance)
+{
+  int k, all = nuisance->n > 0;
+  for (k = 0; k < nuisance->n; k++)
+    all &= nuisance->of[k].kind == LAB_UNKNOWN_INSTANT;
+  return all;
+}

@@ -44,4 +44,7 @@ int lab_nuisance_strain(const lab_unknowns *u, double *strain, lab_error *error)
  * Returns: as lab_unknowns_residuals. */
 int lab_nuisance_return(lab_unknowns *u, lab_error *error);
 
+/* Whether instants of commands are all that varies unseen. */
+int lab_nuisance_is_instants(const lab_nuisance *nuisance);
+
 #endif

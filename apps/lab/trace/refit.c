@@ -354,12 +354,7 @@ static void begin_onset(const lab_candidate *base, const lab_score *score, doubl
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD */
 static int unfold_instants(lab_unknowns *u, lab_error *error)
 {
-  int k, all = u->nuisance != NULL;
-  for (k = 0; all && k < u->nuisance->n; k++)
-    all = u->nuisance->of[k].kind == LAB_UNKNOWN_INSTANT;
-  if (!all)
-    return LAB_OK;
-  return lab_nuisance_return(u, error);
+  return u->nuisance && lab_nuisance_is_instants(u->nuisance) ? lab_nuisance_return(u, error) : LAB_OK;
 }
 
 /* Find when it begins. */

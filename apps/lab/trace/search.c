@@ -292,15 +292,6 @@ static void restart_instants(lab_unknowns *u)
       u->unknown[j].value = u->unknown[j].prior;
 }
 
-/* Whether instants of commands are all that varies unseen. */
-static int holds_instants_alone(const lab_nuisance *h)
-{
-  int k, all = h->n > 0;
-  for (k = 0; k < h->n; k++)
-    all &= h->of[k].kind == LAB_UNKNOWN_INSTANT;
-  return all;
-}
-
 /* Fit the best extensions with all their values, and rank them by that: about another model what varies unseen bends
  * otherwise. The best of them stays so. Where declared values vary as well, that takes too long. */
 static int rank_unfolded(search *s, lab_error *error)
@@ -309,7 +300,7 @@ static int rank_unfolded(search *s, lab_error *error)
   lab_candidate *whole = &s->whole, *best = &s->unfolded;
   int i;
   best->quality.fitted = 0;
-  for (i = 0; holds_instants_alone(&s->nuisance) && i < n; i++) {
+  for (i = 0; lab_nuisance_is_instants(&s->nuisance) && i < n; i++) {
     if (lab_cpu_is_spent(s->declared.u.until))
       break;
     *whole = s->pool[i];
