@@ -225,6 +225,7 @@ $(BUILD)/tests/%.o: tests/%.c | $(BUILD)/found/programs
 
 $(BUILD)/tests/apps/test_closeloop: | $(BUILD)/bin/closeloop
 $(BUILD)/tests/apps/test_simulate: | $(BUILD)/bin/simulate
+$(BUILD)/tests/lab/api/test_api: | $(BUILD)/bin/closeloop $(BUILD)/bin/simulate
 
 $(BUILD)/tests/compare: $(BUILD)/tests/compare.o
 	$(say) $(CC) $(FLAGS) $(CFLAGS) $^ -lm -o $@

@@ -1,20 +1,17 @@
 /* simulate: what a model predicts for the commands of a log, or for the standard experiment.
  * SPDX-License-Identifier: MIT */
 #include "lab/base/cli.h"
-#include "lab/run/predict.h"
 #include "lab/log/log.h"
 #include "lab/base/outfile.h"
-#include "lab/run/response.h"
+#include "lab/run/simulation.h"
 #include "lab/check/standstill.h"
 #include "lab/rig/rig.h"
-#include "lab/base/series.h"
 #include "lab/run/standard.h"
 #include "lab/metrics/recording.h"
 #include "lab/metrics/metricstext.h"
 
 static const char *out_path;
 static int standard, figures, json;
-static const lab_response_options usual = {0};
 
 static const lab_option options[] = {
     {"out", LAB_OPTION_TEXT, &out_path, "FILE", "write there instead of standard output", 0, 0},
@@ -35,69 +32,6 @@ static const lab_program program = {"simulate",
                                     1,
                                     2};
 
-enum { COLUMNS = 6 };
-
-/* Time, commands, and those channels that are asked for; `u` and `sp` may be NULL.  Returns: the number of columns. */
-static int columns(const pneu_model *model, const lab_response *response, const double *u, const double *sp, int p,
-                   int x, int T, lab_series_column *column)
-{
-  int n = 0, opening = model->p.proportional_band == 0;
-  column[n++] = (lab_series_column){"t [s]", 1, response->t};
-  if (u)
-    column[n++] = opening ? (lab_series_column){"u [1]", 1, u} : (lab_series_column){"u [kPa]", 1e-3, u};
-  if (sp)
-    column[n++] = (lab_series_column){"sp [%]", 100, sp};
-  if (p)
-    column[n++] = (lab_series_column){"p [kPa]", 1e-3, response->p};
-  if (x)
-    column[n++] = (lab_series_column){"x [mm]", 1e3, response->x};
-  if (T)
-    column[n++] = (lab_series_column){"T [K]", 1, response->T};
-  return n;
-}
-
-static int simulate_standard(const pneu_model *model, FILE *file, lab_error *error)
-{
-  lab_series_column column[COLUMNS];
-  lab_response response;
-  int n;
-  if (lab_standard_experiment(model, &usual, &response, error))
-    return error->status;
-  n = columns(model, &response, response.u, NULL, 1, 1, 0, column);
-  lab_series_header(file, column, n);
-  lab_series_rows(file, column, n, response.n);
-  lab_response_free(&response);
-  return LAB_OK;
-}
-
-/* A channel of one run; NULL where the log has none. */
-static const double *rows_of(const lab_log *log, int channel, size_t run)
-{
-  return log->value[channel] ? log->value[channel] + log->run[run] : NULL;
-}
-
-/* Predict what the log measures; a log that measures nothing gets pressure and position. */
-static int simulate_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
-{
-  double *const *value = log->value;
-  int nothing = !value[LAB_CHANNEL_P] && !value[LAB_CHANNEL_X] && !value[LAB_CHANNEL_T];
-  size_t run;
-  for (run = 0; run < log->n_runs; run++) {
-    lab_series_column column[COLUMNS];
-    lab_response response;
-    int n;
-    if (lab_predict_log(model, &(lab_prediction){.rig = rig, .log = log, .run = run}, &response, error))
-      return error->status;
-    n = columns(model, &response, rows_of(log, LAB_CHANNEL_U, run), rows_of(log, LAB_CHANNEL_SP, run),
-                nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
-    if (run == 0)
-      lab_series_header(file, column, n);
-    lab_series_rows(file, column, n, response.n);
-    lab_response_free(&response);
-  }
-  return LAB_OK;
-}
-
 /* ---- Figures of merit ---- */
 
 static int write_figures(const lab_recording *recording, FILE *file, lab_error *error)
@@ -116,7 +50,7 @@ static int figures_of_standard(const pneu_model *model, const lab_rig *rig, FILE
   lab_recording recording;
   lab_response response;
   int status;
-  if (lab_standard_experiment(model, &usual, &response, error))
+  if (lab_standard_experiment(model, &(lab_response_options){0}, &response, error))
     return error->status;
   status = lab_recording_open(rig, response.n, 1, &recording, error);
   if (status == LAB_OK) {
@@ -151,7 +85,8 @@ static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const 
     fprintf(stderr, "%s: note: %s: %s\n", program.name, path, log.read_as);
   if (log.dropped)
     fprintf(stderr, "%s: note: %s: %zu damaged rows left out\n", program.name, path, log.dropped);
-  status = figures ? figures_of_log(model, rig, &log, file, error) : simulate_log(model, rig, &log, file, error);
+  status =
+      figures ? figures_of_log(model, rig, &log, file, error) : lab_simulation_write(model, rig, &log, file, error);
   lab_log_free(&log);
   return status;
 }
@@ -160,7 +95,7 @@ static int answer(const lab_cli *cli, const pneu_model *model, const lab_rig *ri
 {
   if (!standard)
     return read_and_simulate(model, rig, cli->operand[1], file, error);
-  return figures ? figures_of_standard(model, rig, file, error) : simulate_standard(model, file, error);
+  return figures ? figures_of_standard(model, rig, file, error) : lab_simulation_write_standard(model, file, error);
 }
 
 /* A stem that stands still may be meant: a word on standard error, and the answer. */

@@ -1,6 +1,9 @@
 #include "clock.h"
 
+#include <signal.h>
 #include <time.h>
+
+static volatile sig_atomic_t stopped;
 
 static double seconds_of(clockid_t clock)
 {
@@ -21,5 +24,15 @@ double lab_cpu_time(void)
 
 int lab_cpu_is_spent(double until)
 {
-  return until > 0 && lab_cpu_time() >= until;
+  return stopped || (until > 0 && lab_cpu_time() >= until);
+}
+
+void lab_cpu_stop(int stop)
+{
+  stopped = stop;
+}
+
+int lab_cpu_is_stopped(void)
+{
+  return stopped;
 }

@@ -9,7 +9,11 @@ double lab_clock(void);
 /* Returns: seconds of CPU that all threads of this process have used. */
 double lab_cpu_time(void);
 
-/* Whether this process has used as much.  In: until  [s] of CPU time; 0: never */
+/* Whether this process has used as much, or was told to stop.  In: until  [s] of CPU time; 0: never */
 int lab_cpu_is_spent(double until);
+
+/* From any thread: all CPU time is spent (1), or only what was used (0). */
+void lab_cpu_stop(int stop);
+int lab_cpu_is_stopped(void);
 
 #endif

@@ -158,16 +158,50 @@ static void drop_mark(lab_text *text)
   memmove(text->data, text->data + 3, text->size + 1);
 }
 
-int lab_text_read(const char *path, lab_text *text, lab_error *error)
+static struct {
+  const lab_text_given *text; /* NULL: files are read */
+  int n;
+} given;
+
+void lab_text_give(const lab_text_given *text, int n)
+{
+  given.text = text;
+  given.n = n;
+}
+
+static int read_given(const char *name, lab_text *text, lab_error *error)
+{
+  int i;
+  for (i = 0; i < given.n && strcmp(given.text[i].name, name) != 0; i++)
+    continue;
+  if (i == given.n)
+    return lab_fail(error, LAB_DATA, "%s: no text of that name was given", name);
+  text->size = given.text[i].size;
+  text->data = malloc(text->size + 1);
+  if (!text->data)
+    return lab_fail_memory(error, name);
+  memcpy(text->data, given.text[i].data, text->size);
+  text->data[text->size] = '\0';
+  return LAB_OK;
+}
+
+static int read_file(const char *path, lab_text *text, lab_error *error)
 {
   FILE *file = lab_text_open(path, error);
   int status;
-  text->data = NULL;
-  text->size = 0;
   if (!file)
     return error->status;
   status = read_stream(file, path, text, error);
   fclose(file);
+  return status;
+}
+
+int lab_text_read(const char *path, lab_text *text, lab_error *error)
+{
+  int status;
+  text->data = NULL;
+  text->size = 0;
+  status = given.text ? read_given(path, text, error) : read_file(path, text, error);
   if (status == LAB_OK)
     status = recode(path, text, error);
   if (status == LAB_OK) {

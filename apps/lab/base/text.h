@@ -20,10 +20,21 @@ typedef struct lab_text {
  * LAB_WORLD if it cannot be read. */
 FILE *lab_text_open(const char *path, lab_error *error);
 
-/* Read a whole file that lab_text_open opens; UTF-16 becomes UTF-8, and a byte order mark is left out.
- * Out:     text  to be freed with lab_text_free
- * Returns: LAB_OK; LAB_DATA if the file is missing, no file on a disk, too large, empty or not text, with what turns it
- * into text where its kind is known; LAB_WORLD if it cannot be read. */
+/* A text that lies in memory, under the name by which it is read. */
+typedef struct lab_text_given {
+  const char *name;
+  const void *data;
+  size_t size;
+} lab_text_given;
+
+/* From now on lab_text_read reads these and no file.
+ * In:      given  n of them, that stay where they are; NULL: files again */
+void lab_text_give(const lab_text_given *given, int n);
+
+/* Read a whole file that lab_text_open opens, or a text that was given; UTF-16 becomes UTF-8, and a byte order mark is
+ * left out. Out:     text  to be freed with lab_text_free Returns: LAB_OK; LAB_DATA if the file is missing, no file on
+ * a disk, too large, empty or not text, with what turns it into text where its kind is known; LAB_WORLD if it cannot be
+ * read. */
 int lab_text_read(const char *path, lab_text *text, lab_error *error);
 
 void lab_text_free(lab_text *text);

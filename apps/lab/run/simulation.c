@@ -1,0 +1,68 @@
+#include "simulation.h"
+
+#include "../base/series.h"
+#include "predict.h"
+#include "response.h"
+#include "standard.h"
+
+enum { COLUMNS = 6 };
+
+/* Time, commands, and those channels that are asked for; `u` and `sp` may be NULL.  Returns: the number of columns. */
+static int columns(const pneu_model *model, const lab_response *response, const double *u, const double *sp, int p,
+                   int x, int T, lab_series_column *column)
+{
+  int n = 0, opening = model->p.proportional_band == 0;
+  column[n++] = (lab_series_column){"t [s]", 1, response->t};
+  if (u)
+    column[n++] = opening ? (lab_series_column){"u [1]", 1, u} : (lab_series_column){"u [kPa]", 1e-3, u};
+  if (sp)
+    column[n++] = (lab_series_column){"sp [%]", 100, sp};
+  if (p)
+    column[n++] = (lab_series_column){"p [kPa]", 1e-3, response->p};
+  if (x)
+    column[n++] = (lab_series_column){"x [mm]", 1e3, response->x};
+  if (T)
+    column[n++] = (lab_series_column){"T [K]", 1, response->T};
+  return n;
+}
+
+int lab_simulation_write_standard(const pneu_model *model, FILE *file, lab_error *error)
+{
+  lab_series_column column[COLUMNS];
+  lab_response response;
+  int n;
+  if (lab_standard_experiment(model, &(lab_response_options){0}, &response, error))
+    return error->status;
+  n = columns(model, &response, response.u, NULL, 1, 1, 0, column);
+  lab_series_header(file, column, n);
+  lab_series_rows(file, column, n, response.n);
+  lab_response_free(&response);
+  return LAB_OK;
+}
+
+/* A channel of one run; NULL where the log has none. */
+static const double *rows_of(const lab_log *log, int channel, size_t run)
+{
+  return log->value[channel] ? log->value[channel] + log->run[run] : NULL;
+}
+
+int lab_simulation_write(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
+{
+  double *const *value = log->value;
+  int nothing = !value[LAB_CHANNEL_P] && !value[LAB_CHANNEL_X] && !value[LAB_CHANNEL_T];
+  size_t run;
+  for (run = 0; run < log->n_runs; run++) {
+    lab_series_column column[COLUMNS];
+    lab_response response;
+    int n;
+    if (lab_predict_log(model, &(lab_prediction){.rig = rig, .log = log, .run = run}, &response, error))
+      return error->status;
+    n = columns(model, &response, rows_of(log, LAB_CHANNEL_U, run), rows_of(log, LAB_CHANNEL_SP, run),
+                nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
+    if (run == 0)
+      lab_series_header(file, column, n);
+    lab_series_rows(file, column, n, response.n);
+    lab_response_free(&response);
+  }
+  return LAB_OK;
+}
