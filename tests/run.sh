@@ -89,6 +89,7 @@ firmware | sh tests/firmware/install.sh; sh tests/firmware/check.sh short
 installed: users, symbols, manual, completion, uninstall | sh tests/check_install.sh
 closeloop --batch: threads, ranks, stops | sh tests/check_batch.sh
 FMUs: as without, by FMPy | sh tests/check_fmu.sh
+python: the wheel, its tests, its notebook | $MAKE python-check
 memory that runs out, call by call | $MAKE alloc
 hostile: 300 rigs, logs and lists of a stranger | $MAKE ATTACKS=300 hostile
 clang: every warning on lib/ | $MAKE strict

@@ -49,6 +49,11 @@ void lab_api_free(char *text)
   free(text);
 }
 
+const char *lab_api_version(void)
+{
+  return PNEU_VERSION;
+}
+
 /* ---- closeloop ---- */
 
 /* The texts of one call. */

@@ -53,4 +53,7 @@ int lab_api_draft(const lab_text_given *log, const char *const *sheet, int n, ch
 
 void lab_api_free(char *text);
 
+/* Of the library, "major.minor.patch". */
+const char *lab_api_version(void);
+
 #endif
