@@ -1,0 +1,116 @@
+#!/bin/sh
+# The libraries that the lab needs, built for another machine from Debian's source packages, static.
+#   libraries.sh TARGET PREFIX    TARGET: wasm (Emscripten)
+# PREFIX gets include/, lib/ and licences, one text. What is there already is not built again. UDUNITS is not among them: units/ has what
+# takes its place.
+set -eu
+target=$1
+mkdir -p "$2"
+prefix=$(cd "$2" && pwd)
+
+# Source package and its version.
+packages="sundials 6.4.1+dfsg1-3
+nlopt 2.7.1-5
+libconfig 1.5-0.4
+cjson 1.7.15-1+deb12u4"
+
+# How a target is configured, and its compiler's flags.
+flags="-O3 -ffp-contract=off"
+case $target in
+wasm)
+  NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
+  export NODE_PATH
+  configure="emconfigure ./configure --host=wasm32-unknown-linux-gnu"
+  cmake="emcmake cmake"
+  # CMake looks for sizes in the linked file, where Emscripten has none.
+  sizes="-DHAVE_HAS_int64_t=1 -DHAS_int64_t=8 -DHAVE_SIZEOF_UINT32_T=1 -DSIZEOF_UINT32_T=4 -DHAVE_SIZEOF_UNSIGNED_INT=1 \
+-DSIZEOF_UNSIGNED_INT=4 -DHAVE_SIZEOF_UNSIGNED_LONG=1 -DSIZEOF_UNSIGNED_LONG=4"
+  ;;
+*)
+  echo "libraries.sh: expected the target wasm, found $target" >&2
+  exit 2
+  ;;
+esac
+
+log=$prefix/log
+wrong() {
+  tail -n 30 "$log" >&2
+  echo "libraries.sh: $1" >&2
+  exit 1
+}
+
+# Sources come by lists of apt's own, so that the system's stay as they are.
+sources() {
+  mkdir -p "$prefix/apt/lists/partial" "$prefix/src"
+  cat >"$prefix/apt/sources.list" <<LIST
+deb-src http://deb.debian.org/debian bookworm main
+deb-src http://deb.debian.org/debian bookworm-updates main
+deb-src http://deb.debian.org/debian-security bookworm-security main
+LIST
+  own_apt update
+}
+
+own_apt() {
+  apt-get -q -o Dir::Etc::sourcelist="$prefix/apt/sources.list" -o Dir::Etc::sourceparts=/dev/null \
+    -o Dir::State::lists="$prefix/apt/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User=root "$@" >>"$log" 2>&1
+}
+
+# fetch NAME VERSION: its folder of sources
+fetch() {
+  [ -d "$prefix/apt/lists" ] || sources || wrong "no lists of source packages"
+  (cd "$prefix/src" && own_apt source --download-only "$1=$2") || wrong "no source of $1 $2"
+  rm -rf "$prefix/src/$1"
+  (cd "$prefix/src" && dpkg-source -x "$1_${2#*:}.dsc" "$1" >>"$log" 2>&1) || wrong "the source of $1 does not unpack"
+}
+
+# by_cmake NAME SETTINGS...
+by_cmake() {
+  source=$prefix/src/$1
+  shift
+  # shellcheck disable=SC2086
+  $cmake $sizes -S "$source" -B "$source/made" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="$flags" -DCMAKE_INSTALL_PREFIX="$prefix" \
+    -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=OFF "$@" >>"$log" 2>&1 &&
+    $MAKE -C "$source/made" install >>"$log" 2>&1
+}
+
+build_sundials() {
+  set --
+  for part in ARKODE CVODES IDA IDAS KINSOL; do set -- "$@" -DBUILD_$part=OFF; done
+  by_cmake sundials "$@" -DEXAMPLES_ENABLE_C=OFF -DEXAMPLES_ENABLE_CXX=OFF -DEXAMPLES_INSTALL=OFF
+}
+
+# Without the algorithms of Luksan, whose licence is the LGPL.
+build_nlopt() {
+  by_cmake nlopt -DNLOPT_LUKSAN=OFF -DNLOPT_CXX=OFF -DNLOPT_FORTRAN=OFF -DNLOPT_PYTHON=OFF -DNLOPT_OCTAVE=OFF -DNLOPT_MATLAB=OFF -DNLOPT_GUILE=OFF \
+    -DNLOPT_SWIG=OFF -DNLOPT_TESTS=OFF
+}
+
+# The library alone; what else lies in the package is no use here.
+build_libconfig() {
+  (cd "$prefix/src/libconfig" &&
+    $configure --prefix="$prefix" --disable-shared --disable-cxx --disable-examples CFLAGS="$flags" &&
+    $MAKE -C lib install) >>"$log" 2>&1
+}
+
+build_cjson() {
+  by_cmake cjson -DENABLE_CJSON_TEST=OFF -DENABLE_CUSTOM_COMPILER_FLAGS=OFF
+}
+
+: "${MAKE:=make}"
+: >"$log"
+echo "$packages" | while read -r name version; do
+  [ "$(cat "$prefix/done-$name" 2>/dev/null)" = "$version" ] && continue
+  echo "  $name $version for $target"
+  fetch "$name" "$version"
+  "build_$name" || wrong "$name does not build"
+  echo "$version" >"$prefix/done-$name"
+done
+
+# What must go with a program that has them inside.
+for name in $(echo "$packages" | cut -d ' ' -f 1); do
+  for text in LICENSE NOTICE COPYING COPYING.LIB COPYRIGHT src/algs/*/COPYRIGHT src/algs/*/COPYING; do
+    for file in "$prefix/src/$name"/$text; do
+      [ ! -f "$file" ] || { printf '==== %s\n\n' "$name/${file#"$prefix/src/$name/"}" && cat "$file" && echo; }
+    done
+  done
+done >"$prefix/licences"
