@@ -7,7 +7,7 @@ set -eu
 # From the ground up.
 rooms='lib lib/effects apps/fmu/runtime
   apps/lab/base apps/lab/log apps/lab/rig apps/lab/run apps/lab/check apps/lab/fit apps/lab/trace apps/lab/change apps/lab/metrics
-  apps/lab/discriminate apps/lab/report apps/lab/api apps/lab/batch apps/lab/batch/mpi apps/study apps/fmu apps'
+  apps/lab/discriminate apps/lab/report apps/lab/api apps/lab/batch apps/lab/batch/mpi apps/web apps/study apps/fmu apps'
 # Rooms that see nothing but themselves and one other.
 alone='lib:lib lib/effects:lib apps/fmu/runtime:lib'
 

@@ -90,6 +90,7 @@ installed: users, symbols, manual, completion, uninstall | sh tests/check_instal
 closeloop --batch: threads, ranks, stops | sh tests/check_batch.sh
 FMUs: as without, by FMPy | sh tests/check_fmu.sh
 python: the wheel, its tests, its notebook | $MAKE python-check
+closeloop as a page: units, layout, the same answers | $MAKE web-check
 memory that runs out, call by call | $MAKE alloc
 hostile: 300 rigs, logs and lists of a stranger | $MAKE ATTACKS=300 hostile
 clang: every warning on lib/ | $MAKE strict

@@ -142,7 +142,7 @@ class Page:
                 self.faults.append("console: " + json.dumps(told["args"])[:400])
             elif what == "Log.entryAdded" and told["entry"]["level"] in ("error", "warning"):
                 self.faults.append("log: " + told["entry"]["text"])
-            elif what == "Network.requestWillBeSent" and not told["request"]["url"].startswith(("file:", "data:", "about:")):
+            elif what == "Network.requestWillBeSent" and not told["request"]["url"].startswith(("file:", "data:", "about:", "blob:")):
                 self.faults.append("network: " + told["request"]["url"])
         self.browser.events.clear()
 
