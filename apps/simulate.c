@@ -3,6 +3,7 @@
 #include "lab/base/cli.h"
 #include "lab/log/log.h"
 #include "lab/base/outfile.h"
+#include "lab/run/schedule.h"
 #include "lab/run/simulation.h"
 #include "lab/check/standstill.h"
 #include "lab/rig/rig.h"
@@ -65,7 +66,10 @@ static int figures_of_standard(const pneu_model *model, const lab_rig *rig, FILE
 static int figures_of_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
 {
   lab_recording recording;
-  int status = lab_recording_simulate(model, rig, log, &recording, error);
+  int status;
+  if (lab_positioner_check(rig, log, error))
+    return error->status;
+  status = lab_recording_simulate(model, rig, log, &recording, error);
   if (status == LAB_OK)
     status = write_figures(&recording, file, error);
   lab_recording_close(&recording);

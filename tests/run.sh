@@ -73,6 +73,7 @@ long() {
 pages of closeloop in a browser | sh tests/check_browser.sh
 killed at any moment: 12 times | KILLS=12 sh tests/kill.sh
 closeloop: held-out errors are those of simulate | sh tests/check_holdout.sh
+closeloop --baseline: faults made in a plant | sh tests/check_lublin.sh
 programs, sanitized: the same | $(with_sanitizers check_programs.sh)
 closeloop, sanitized: the same | $(with_sanitizers check_closeloop.sh)
 guides: every command, and what it prints | sh tests/check_guides.sh study/guides README.md

@@ -108,6 +108,10 @@ static int follow(lab_sides *c, extension *x, lab_error *error)
   lab_rest left;
   int status = lab_sides_rest(c, &left, &c->chi2, error);
   memset(x, 0, sizeof *x);
+  c->u.run = c->white;
+  if (status == LAB_OK)
+    status = lab_sides_rest(c, &left, NULL, error);
+  c->u.run = c->run;
   if (status != LAB_OK || !may_follow(c) || !lab_rest_is_more_than_noise(&left))
     return status;
   x->u = c->then;

@@ -2,6 +2,7 @@
 
 #include "mend.h"
 #include "../base/text.h"
+#include "../run/schedule.h"
 
 static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error *error)
 {
@@ -11,6 +12,8 @@ static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error
   if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
     return error->status;
   b->n_logs++;
+  if (lab_positioner_check(rig, log, error))
+    return error->status;
   if (*log->read_as)
     lab_limitation(&b->limitations, "%s: %s.", lab_file_name(path), log->read_as);
   lab_log_even_stamps(log, &b->limitations);

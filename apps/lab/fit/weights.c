@@ -11,6 +11,7 @@
 static const double median_of_square = 0.45493642311957283; /* of a normal value */
 static const double still = 0.01;                           /* square of what a row changes, in noise */
 static const double at_rest = 0.25; /* times the noise: what a prediction changes over a stretch at rest */
+static const double unmoved = 1;    /* times that of x: what a set position moves there */
 static const double white = 0.15; /* by which variances from first and from second differences of white noise differ */
 static const double larger = 1.2; /* times the declared noise, from where on the log is believed */
 static const double certain = 5, likely = 2; /* deviations: of all rows, and of those in which little changes */
@@ -69,18 +70,41 @@ static double second(const double *r, size_t i)
   return square(r[i + 1] - 2 * r[i] + r[i - 1]) / 6;
 }
 
-/* Rows from i on in which the prediction of a channel stays where it is. */
+/* What lies between two ends. */
+typedef struct range {
+  double low, high;
+} range;
+
+/* Returns: how far the ends are apart with one value more; a gap is left out */
+static double widen_range(range *of, double value)
+{
+  of->low = fmin(of->low, value);
+  of->high = fmax(of->high, value);
+  return of->high - of->low;
+}
+
+/* By how much a set position moves the stem that follows it, over the noise of x; NULL: there is no set position. */
+static const double *set_position(const lab_run *x, double *scale)
+{
+  int c;
+  *scale = 0;
+  for (c = 0; c < x->n_channels; c++)
+    if (x->channel[c] == LAB_CHANNEL_X)
+      *scale = (double)x->rig->params.stroke / x->sigma[c];
+  return lab_log_command(x->log) == LAB_CHANNEL_SP ? x->log->value[LAB_CHANNEL_SP] + x->first : NULL;
+}
+
+/* Rows from i on in which the prediction of a channel stays where it is, and no set position asks for more. */
 static size_t rows_at_rest(const lab_run *x, int c, const double *r, size_t i)
 {
-  double low = HUGE_VAL, high = -HUGE_VAL;
+  double scale;
+  const double *set = set_position(x, &scale);
+  range predicted = {HUGE_VAL, -HUGE_VAL}, asked = predicted;
   size_t k;
-  for (k = i; k < x->n; k++) {
-    const double predicted = lab_run_measured(x, c, k) / x->sigma[c] - r[k];
-    low = fmin(low, predicted); /* which leave out a gap */
-    high = fmax(high, predicted);
-    if (high - low > at_rest)
+  for (k = i; k < x->n; k++)
+    if (widen_range(&predicted, lab_run_measured(x, c, k) / x->sigma[c] - r[k]) > at_rest ||
+        (set && scale * widen_range(&asked, set[k]) > unmoved))
       break;
-  }
   return k - i;
 }
 

@@ -3,15 +3,20 @@
 #include <math.h>
 #include <stdlib.h>
 
+int lab_positioner_check(const lab_rig *rig, const lab_log *log, lab_error *error)
+{
+  if (lab_log_command(log) != LAB_CHANNEL_SP || rig->laws.pressure_input || lab_rig_has_positioner(rig))
+    return LAB_OK;
+  return lab_fail(error, LAB_DATA,
+                  "%s: a set position sp and no command u: expected a positioner in the rig file, such as positioner "
+                  "= { gain = 20; }",
+                  log->path);
+}
+
 /* Every channel that drives the model must be there; the command only where there is a mass balance. */
 static int check_inputs(const lab_rig *rig, const lab_log *log, lab_error *error)
 {
   int i;
-  if (lab_log_command(log) == LAB_CHANNEL_SP && !rig->laws.pressure_input && !lab_rig_has_positioner(rig))
-    return lab_fail(error, LAB_DATA,
-                    "%s: a set position sp and no command u: expected a positioner in the rig file, such as positioner "
-                    "= { gain = 20; }",
-                    log->path);
   for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
     if (!rig->input[i] || log->value[i] ||
         (i == LAB_CHANNEL_U && (rig->laws.pressure_input || lab_log_command(log) >= 0)))

@@ -14,6 +14,10 @@ typedef struct lab_inputs {
   pneu_input *input;
 } lab_inputs;
 
+/* Whether a rig as declared has what a set position drives; a fit may find that its positioner does nothing.
+ * Returns: LAB_OK, LAB_DATA. */
+int lab_positioner_check(const lab_rig *rig, const lab_log *log, lab_error *error);
+
 /* Inputs of one run of a log. A command holds until it changes; where it ramps over several rows that are far apart, it
  * goes from row to row in small steps about a straight line; measured channels that are inputs run along
  * straight lines between their values, over gaps as well; a measured supply or force holds.

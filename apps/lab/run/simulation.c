@@ -3,6 +3,7 @@
 #include "../base/series.h"
 #include "predict.h"
 #include "response.h"
+#include "schedule.h"
 #include "standard.h"
 
 enum { COLUMNS = 6 };
@@ -51,6 +52,8 @@ int lab_simulation_write(const pneu_model *model, const lab_rig *rig, const lab_
   double *const *value = log->value;
   int nothing = !value[LAB_CHANNEL_P] && !value[LAB_CHANNEL_X] && !value[LAB_CHANNEL_T];
   size_t run;
+  if (lab_positioner_check(rig, log, error))
+    return error->status;
   for (run = 0; run < log->n_runs; run++) {
     lab_series_column column[COLUMNS];
     lab_response response;

@@ -733,9 +733,15 @@ static int try_instead(search *s, lab_error *error)
   return status;
 }
 
+/* Whether there is room for one more; what begins may have come with others. */
+static int has_room(const search *s)
+{
+  return s->round < s->options->max_effects && s->beam[0].n_found < s->options->max_effects;
+}
+
 static int search_all(search *s, lab_error *error)
 {
-  for (s->round = 0, s->added = 1; s->added && !s->rounds_over && s->round < s->options->max_effects; s->round++) {
+  for (s->round = 0, s->added = 1; s->added && !s->rounds_over && has_room(s); s->round++) {
     double chi2;
     if (advance(s, error))
       return error->status;

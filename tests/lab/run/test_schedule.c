@@ -109,9 +109,12 @@ static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_com
   lab_log log = read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
   lab_inputs inputs;
   (void)state;
-  assert_int_equal(lab_inputs_from_log(&model, &rig, &log, 0, &inputs, &error), LAB_DATA);
+  assert_int_equal(lab_positioner_check(&rig, &log, &error), LAB_DATA);
   assert_contains(error.text, "positioner = { gain = 20; }");
+  inputs = drive_of(&log, 0); /* a fit may come to a gain of 0 */
+  lab_inputs_free(&inputs);
   declare_positioner();
+  assert_int_equal(lab_positioner_check(&rig, &log, &error), LAB_OK);
   inputs = drive_of(&log, 0);
   assert_int_equal(inputs.schedule.n, 2);
   assert_close(inputs.schedule.t[1], 2, 0, 0);

@@ -1,0 +1,87 @@
+/* What a residual shows of the noise: memory, where the rig is at rest, and not where a set position moves it. */
+#include "../../fixture.h"
+#include "../../scratch.h"
+
+#include "../../../apps/lab/fit/weights.h"
+
+enum { ROWS = 400 };
+
+static lab_error error;
+static lab_rig rig;
+static lab_log one_log;
+static lab_run run;
+static lab_unknowns u;
+static uint64_t seed;
+
+static double normal(void)
+{
+  double sum = -6;
+  int k;
+  for (k = 0; k < 12; k++)
+    sum += fixture_random(&seed, 0, 1);
+  return sum;
+}
+
+/* A valve whose travel scatters with a memory of 0.8 from row to row; the set position stays, or is the same. */
+static void write_log(int follows)
+{
+  FILE *file = fopen(scratch_path("log.csv"), "w");
+  double wander = 0; /* [mm] */
+  int i;
+  assert_non_null(file);
+  fprintf(file, "t [s],sp [mm],x [mm]\n");
+  seed = 7;
+  for (i = 0; i < ROWS; i++) {
+    wander = 0.8 * wander + 0.3 * normal();
+    fprintf(file, "%d,%.4f,%.4f\n", i, 10 + (follows ? wander : 0), 10 + wander + 0.05 * normal());
+  }
+  fclose(file);
+}
+
+/* A model whose orifices let next to nothing through: its stem stays where it is. */
+static void open_stuck(void)
+{
+  lab_rig_default(&rig);
+  rig.params.fill_area *= (pneu_real)1e-6;
+  rig.params.vent_area *= (pneu_real)1e-6;
+  rig.noise[LAB_CHANNEL_X] = 2e-4;
+  fixture_set(&rig.params, "positioner.gain", 20);
+  rig.fit[rig.n_fit++] = pneu_param_find("positioner.gain");
+  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &one_log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &one_log, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+}
+
+static double memory_told(int follows)
+{
+  double memory;
+  int any;
+  write_log(follows);
+  open_stuck();
+  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  memory = run.colour[0].memory;
+  lab_run_close(&run);
+  lab_log_free(&one_log);
+  return memory;
+}
+
+static void test_lab_weigh_runs__set_position_stays__noise_has_memory(void **state)
+{
+  (void)state;
+  assert_between(memory_told(0), 0.6, 0.9);
+}
+
+static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
+{
+  (void)state;
+  assert_close(memory_told(1), 0, 0, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_weigh_runs__set_position_stays__noise_has_memory),
+      cmocka_unit_test(test_lab_weigh_runs__set_position_moves__is_no_noise),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
