@@ -10,6 +10,9 @@
 enum { RIG, LOG, HOLDOUT, BASELINE, ROLES };
 enum { SHEET_MAX = 64 };
 
+/* A browser has no clock of CPU time: this is time on the clock, and three times what closeloop has. */
+static const double budget = 180; /* [s] */
+
 /* Texts by role, and the answers: sentence, report.json, report.html, model.cfg, residual.csv; a draft; a prediction.
  */
 static lab_text_given given[ROLES][LAB_LOGS_MAX];
@@ -59,6 +62,7 @@ EMSCRIPTEN_KEEPALIVE int web_closeloop(void)
                                    .n_logs = n_given[LOG],
                                    .n_holdout = n_given[HOLDOUT],
                                    .n_baseline = n_given[BASELINE],
+                                   .budget = budget,
                                    .on_progress = progress};
   return lab_api_closeloop(&request, &answer, &error);
 }

@@ -17,6 +17,7 @@ from chromium import Browser, Page
 
 SAME = 1e-9    # a prediction: relative to the largest of its column
 NEAR = 0.5     # a fitted value: of half its 95 % interval; a fit stops at a tolerance, which the last digit of a sum moves
+FOLLOWED = 2   # error over noise; a model that does not follow the log, as where a stem sticks and slips, has many best fits
 WAIT = 600     # [s]
 wrong = []
 
@@ -143,9 +144,15 @@ def off_by(here, there):
     most = 0
     for name, value in there["parameters"].items():
         low, high = value["ci95"]
+        if name not in here["parameters"]:
+            return float("inf")
         if high > low:
             most = max(most, abs(here["parameters"][name]["value"] - value["value"]) / ((high - low) / 2))
     return most
+
+
+def is_followed(answer):
+    return all(error["in_noise"] < FOLLOWED for error in answer["error"]["after"].values())
 
 
 def errors_off_by(here, there):
@@ -193,7 +200,7 @@ def same_as_native(browser, path, closeloop, simulate, rig):
         expect(here[key] == there[key], f"{name}: {key} {here[key]}, native {there[key]}")
     expect(names(here) == names(there), f"{name}: found {names(here)}, native {names(there)}")
     fitted = off_by(here, there)
-    expect(fitted < NEAR, f"{name}: a fitted value is {fitted:.2g} of half its interval away from the native one")
+    expect(fitted < NEAR or not is_followed(there), f"{name}: a fitted value is {fitted:.2g} of half its interval away from the native one")
     expect(prediction < SAME, f"{name}: a prediction differs by {prediction:.2g}")
     print(f"{name:16} {here['verdict']:10} predictions {prediction:.1e}, errors {errors_off_by(here, there):.1e}, fitted values {fitted:.1e} "
           f"of half an interval; {seconds:.1f} s, native {native:.1f} s", flush=True)
