@@ -254,7 +254,7 @@ $(CORE_TESTS): %: %.o $(HELP) $(STATIC)
 $(filter-out $(CORE_TESTS),$(TESTS)): %: %.o $(HELP) $(LAB) $(STATIC)
 	$(say) $(CC) $(FLAGS) $(LAB_FLAGS) $(CFLAGS) $^ $(LDFLAGS) $(LAB_LIBS) -lcmocka -o $@
 
-include apps/web/web.mk python/python.mk apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk packaging/install.mk
+include apps/web/web.mk python/python.mk apps/fmu/fmu.mk tests/fuzz/fuzz.mk tests/trust.mk tests/portable.mk packaging/install.mk packaging/cross/cross.mk
 
 ## Remove what was built, but no results
 clean:

@@ -1,8 +1,9 @@
 #!/bin/sh
-# The core as a program of Windows, from `make windows-check`: its tests in both precisions under Wine, and a user in C90 that
-# prints the same as here.
+# What runs on Windows, from `make windows-check`, under Wine: tests of the core in both precisions, a user in C90 that prints the
+# same as here, and the programs of `make windows`, whose verdicts are those of the native ones. RIGS names folders with rig.cfg,
+# fit.csv and holdout.csv; default: the guide's and three of MEASURED, where that is.
 set -eu
-: "${MAKE:=make}" "${CC:=cc}" "${BUILD:=build}"
+: "${MAKE:=make}" "${CC:=cc}" "${BUILD:=build}" "${MEASURED:=../shared/data}"
 mkdir -p "$BUILD/windows"
 out=$(cd "$BUILD/windows" && pwd)
 WINEPREFIX=$out/wine
@@ -39,3 +40,40 @@ wine "$out/hold.exe" 2>"$out/log" | tr -d '\r' >"$out/hold.txt"
 $CC -std=c99 -O2 -ffp-contract=off -Ilib $user $(find lib -name '*.c') -lm -o "$out/hold"
 "$out/hold" | cmp - "$out/hold.txt" >"$out/log" || wrong "hold.c prints something else than here"
 echo "ok      windows: a user in C90 prints the same as here"
+
+# ---- The programs, from the zip as it is unpacked ----
+if ! command -v python3 >/dev/null 2>&1; then
+  echo "absent: python3, so that the programs were not compared"
+  exit 0
+fi
+rm -rf "$out/unpacked" "$out/native" "$out/wine-out"
+python3 -m zipfile -e "$BUILD"/windows/libpneu-*-windows.zip "$out/unpacked"
+there=$(echo "$out"/unpacked/libpneu-*)
+if [ -z "${RIGS:-}" ]; then
+  RIGS=study/guides/leak
+  for name in null-a leak-a spring-a; do
+    [ ! -d "$MEASURED/rig/$name" ] || RIGS="$RIGS $MEASURED/rig/$name"
+  done
+fi
+for rig in $RIGS; do
+  name=$(basename "$rig")
+  ./closeloop "$rig/rig.cfg" "$rig/fit.csv" --holdout "$rig/holdout.csv" --out "$out/native/$name" --no-figures --quiet >"$out/log" 2>&1 ||
+    wrong "closeloop on $name"
+  wine "$there/closeloop.exe" "$rig/rig.cfg" "$rig/fit.csv" --holdout "$rig/holdout.csv" --out "$out/wine-out\\$name" --no-figures \
+    --quiet >"$out/log" 2>&1 || wrong "closeloop.exe on $name"
+  said=$(python3 tests/same_report.py "$out/native/$name/report.json" "$out/wine-out/$name/report.json" 2>&1) || wrong "$name: $said"
+  ! grep -q "$(printf '\r')" "$out/wine-out/$name"/*.* || wrong "$name: carriage returns in what closeloop.exe wrote"
+  echo "ok      windows: closeloop.exe on $name: $said"
+done
+
+wine "$there/closeloop.exe" --init study/guides/leak/fit.csv >"$out/draft" 2>"$out/log" || wrong "closeloop.exe --init"
+./closeloop --init study/guides/leak/fit.csv | cmp - "$out/draft" >"$out/log" || wrong "--init drafts something else than here"
+wine "$there/simulate.exe" study/guides/leak/rig.cfg study/guides/leak/fit.csv >"$out/there.csv" 2>"$out/log" || wrong "simulate.exe"
+./simulate study/guides/leak/rig.cfg study/guides/leak/fit.csv >"$out/here.csv"
+paste -d , "$out/here.csv" "$out/there.csv" | awk -F , 'NR == 1 { n = NF / 2; next }
+  { for (i = 1; i <= n; i++) { d = $i - $(i + n); size = $i < 0 ? -$i : $i; if (d * d > 1e-12 * size * size + 1e-18) bad++ } }
+  END { exit bad || NR < 100 }' >"$out/log" 2>&1 || wrong "simulate.exe predicts something else than here"
+echo "ok      windows: --init drafts and simulate.exe predicts the same as here"
+if wine "$there/closeloop.exe" --batch list.csv >"$out/log" 2>&1 || ! grep -q "none on Windows" "$out/log"; then
+  wrong "--batch does not say that there is none"
+fi

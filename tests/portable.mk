@@ -31,8 +31,8 @@ strict:
 	@echo "strict: nothing found in $(words $(LIB_C)) files and the header"
 .PHONY: strict
 
-## Build the core for Windows by mingw-w64 and run its tests under Wine; installs both
-windows-check:
+## Build core and programs for Windows by mingw-w64, run the tests under Wine and compare answers; installs both
+windows-check: closeloop simulate windows
 	@sh study/install-packages.sh gcc-mingw-w64-x86-64 wine64 wine
-	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' sh tests/check_windows.sh
+	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' MEASURED='$(MEASURED)' RIGS='$(RIGS)' sh tests/check_windows.sh
 .PHONY: windows-check

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The libraries that the lab needs, built for another machine from Debian's source packages, static.
-#   libraries.sh TARGET PREFIX    TARGET: wasm (Emscripten)
+#   libraries.sh TARGET PREFIX    TARGET: wasm (Emscripten), windows (MinGW, 64 bits)
 # PREFIX gets include/, lib/ and licences, one text. What is there already is not built again. UDUNITS is not among them: units/ has what
 # takes its place.
 set -eu
@@ -26,8 +26,17 @@ wasm)
   sizes="-DHAVE_HAS_int64_t=1 -DHAS_int64_t=8 -DHAVE_SIZEOF_UINT32_T=1 -DSIZEOF_UINT32_T=4 -DHAVE_SIZEOF_UNSIGNED_INT=1 \
 -DSIZEOF_UNSIGNED_INT=4 -DHAVE_SIZEOF_UNSIGNED_LONG=1 -DSIZEOF_UNSIGNED_LONG=4"
   ;;
+windows)
+  host=x86_64-w64-mingw32
+  configure="./configure --host=$host CC=$host-gcc-posix"
+  # No C++ is compiled, but CMake asks for its compiler.
+  cmake="cmake -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_C_COMPILER=$host-gcc-posix -DCMAKE_CXX_COMPILER=$host-gcc-posix -DCMAKE_CXX_COMPILER_WORKS=1 -DCMAKE_RC_COMPILER=$host-windres"
+  sizes=
+  # The numbers of C99: the system's own printf has three digits in an exponent.
+  flags="$flags -D__USE_MINGW_ANSI_STDIO=1"
+  ;;
 *)
-  echo "libraries.sh: expected the target wasm, found $target" >&2
+  echo "libraries.sh: expected the target wasm or windows, found $target" >&2
   exit 2
   ;;
 esac
