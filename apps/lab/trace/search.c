@@ -404,12 +404,23 @@ static int remove_needless(search *s, lab_error *error)
   return status;
 }
 
+/* Take the best extension in place of the best candidate.  Out: other  whether it has something else */
+static int swap_in(search *s, double chi2_without, int *other, lab_error *error)
+{
+  lab_candidate *best = &s->beam[0];
+  *other = !is_alike_but(best, -1, &s->pool[0], -1);
+  lab_candidate_explain(&s->pool[0], chi2_without);
+  note_alike_best(s);
+  *best = s->pool[0];
+  return s->nuisance.n > 0 ? linearise_again(s, error) : LAB_OK;
+}
+
 /* An effect that was the best one alone need not be the best one beside those that came after it: put each earlier one
- * to the test again. */
+ * to the test again, and all of them where one has given way to another. */
 static int exchange(search *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0], *without = &s->without;
-  int i, status = LAB_OK;
+  int i, other, again = LAB_EFFECTS_MAX, status = LAB_OK;
   for (i = 0; status == LAB_OK && i < best->n_found - 1; i++) {
     if (best->found[i].term >= 0)
       continue;
@@ -417,17 +428,18 @@ static int exchange(search *s, lab_error *error)
     if (status != LAB_OK || !without->quality.fitted)
       continue;
     s->n_pool = 0;
-    status = extend(s, without, error);
+    if (extend(s, without, error) == LAB_WORLD)
+      return error->status;
     rank(s);
-    status = rank_unfolded(s, error);
-    if (status == LAB_OK && s->n_pool > 0 && s->pool[0].quality.bic < best->quality.bic) {
-      lab_candidate_explain(&s->pool[0], without->quality.chi2);
-      note_alike_best(s);
-      *best = s->pool[0];
-      if (s->nuisance.n > 0)
-        status = linearise_again(s, error);
-    } else
+    if (rank_unfolded(s, error))
+      return error->status;
+    if (s->n_pool == 0 || s->pool[0].quality.bic >= best->quality.bic) {
       note_alike(best, i, s->pool, s->n_pool);
+      continue;
+    }
+    status = swap_in(s, without->quality.chi2, &other, error);
+    if (other && again-- > 0)
+      i = -1;
   }
   return status;
 }
