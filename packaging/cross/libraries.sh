@@ -48,14 +48,11 @@ wrong() {
   exit 1
 }
 
-# Sources come by lists of apt's own, so that the system's stay as they are.
+# Sources come from where the system has its packages, by lists of their own, so that the system's stay as they are.
 sources() {
   mkdir -p "$prefix/apt/lists/partial" "$prefix/src"
-  cat >"$prefix/apt/sources.list" <<LIST
-deb-src http://deb.debian.org/debian bookworm main
-deb-src http://deb.debian.org/debian bookworm-updates main
-deb-src http://deb.debian.org/debian-security bookworm-security main
-LIST
+  # shellcheck disable=SC2016
+  apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' | sort -u >"$prefix/apt/sources.list"
   own_apt update
 }
 
