@@ -287,14 +287,17 @@ static void put_value(FILE *file, const draft *d, int param)
   fprintf(file, "\"%.4g %s\"", (double)*pneu_param_at(&p, param), info.unit);
 }
 
+/* What every draft has. */
+static const int needed[] = {PNEU_PARAM_area,           PNEU_PARAM_dead_volume,    PNEU_PARAM_stroke,
+                             PNEU_PARAM_spring_rate,    PNEU_PARAM_spring_preload, PNEU_PARAM_moving_mass,
+                             PNEU_PARAM_dry_friction,   PNEU_PARAM_fill_area,      PNEU_PARAM_vent_area,
+                             PNEU_PARAM_supply_pressure};
+enum { NEEDED = sizeof needed / sizeof needed[0] };
+
 /* A line for a parameter that the sheet, the log or nobody knows; those that hardly matter only where they are known.
  */
 static void put_key(FILE *file, const draft *d, const lab_key *key)
 {
-  static const int needed[] = {PNEU_PARAM_area,           PNEU_PARAM_dead_volume,    PNEU_PARAM_stroke,
-                               PNEU_PARAM_spring_rate,    PNEU_PARAM_spring_preload, PNEU_PARAM_moving_mass,
-                               PNEU_PARAM_dry_friction,   PNEU_PARAM_fill_area,      PNEU_PARAM_vent_area,
-                               PNEU_PARAM_supply_pressure};
   const lab_sheet_word *word = find_word(d, key->group, key->key);
   const char *from =
       key->kind == LAB_KEY_PARAM && key->param < PNEU_PARAM_BASE_COUNT ? d->derived.from[key->param] : NULL;
@@ -307,7 +310,7 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
   if (key->kind != LAB_KEY_PARAM || is_said(d, key))
     return;
   pneu_param_describe(key->param, &info);
-  for (i = 0; i < sizeof needed / sizeof needed[0]; i++)
+  for (i = 0; i < NEEDED; i++)
     if (needed[i] == key->param) {
       fprintf(file, "  %s = ", key->key);
       put_value(file, d, key->param);
@@ -349,6 +352,23 @@ static void put_laws(FILE *file, const draft *d)
   fprintf(file, "laws = { %s%s};\n", find_word(d, "laws", "flow") ? "" : "flow = \"choked\"; ", members);
 }
 
+/* To be away from a start of the fit, or from a default that nobody knows, is no deviation. Only what is derived and
+ * not fitted, as a stroke, is as good as declared.
+ * In:      fitted  whether each of `needed` is */
+static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
+{
+  pneu_param_info info;
+  int i, any = 0;
+  for (i = 0; i < NEEDED; i++) {
+    if (is_param_said(d, needed[i]) || (d->derived.from[needed[i]] && !fitted[i]))
+      continue;
+    pneu_param_describe(needed[i], &info);
+    fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", info.name);
+  }
+  if (any)
+    fputs(" }; // starts and defaults: to be away from them is no deviation\n", file);
+}
+
 /* What the log can determine: orifices by p or x, supply and dead volume by p, spring and friction by both p and x. */
 static void put_fit(FILE *file, const draft *d)
 {
@@ -356,29 +376,33 @@ static void put_fit(FILE *file, const draft *d)
   const int spring = d->derived.from[PNEU_PARAM_spring_rate] != NULL;
   const struct {
     int param, can;
-    const char *name;
-  } fit[] = {{PNEU_PARAM_fill_area, u && (p || x), "fill_area"},
-             {PNEU_PARAM_vent_area, u && (p || x), "vent_area"},
-             {PNEU_PARAM_supply_pressure, u && p && !has(d, LAB_CHANNEL_PS), "supply_pressure"},
-             {PNEU_PARAM_dead_volume, u && p && x, "dead_volume"},
-             {PNEU_PARAM_spring_rate, spring, "spring_rate"},
-             {PNEU_PARAM_spring_preload, spring, "spring_preload"},
-             {PNEU_PARAM_dry_friction, x, "dry_friction"}};
-  char names[256] = "", tolerances[512] = "";
-  size_t i;
-  for (i = 0; i < sizeof fit / sizeof fit[0]; i++)
-    if (fit[i].can && !is_param_said(d, fit[i].param)) {
-      lab_append(names, sizeof names, "%s\"%s\"", *names ? ", " : "", fit[i].name);
-      lab_append(tolerances, sizeof tolerances, " %s = \"100 %%\";", fit[i].name);
-    }
+  } fit[] = {{PNEU_PARAM_fill_area, u && (p || x)},
+             {PNEU_PARAM_vent_area, u && (p || x)},
+             {PNEU_PARAM_supply_pressure, u && p && !has(d, LAB_CHANNEL_PS)},
+             {PNEU_PARAM_dead_volume, u && p && x},
+             {PNEU_PARAM_spring_rate, spring},
+             {PNEU_PARAM_spring_preload, spring},
+             {PNEU_PARAM_dry_friction, x}};
+  const char *between = "";
+  int fitted[NEEDED] = {0};
+  size_t i, k;
+  fputs(
+      "// What the log can determine, and the sheet does not say; the rest is known to its usual tolerance.\nfit = ( ",
+      file);
+  for (i = 0; i < sizeof fit / sizeof fit[0]; i++) {
+    pneu_param_info info;
+    if (!fit[i].can || is_param_said(d, fit[i].param))
+      continue;
+    pneu_param_describe(fit[i].param, &info);
+    fprintf(file, "%s\"%s\"", between, info.name);
+    between = ", ";
+    for (k = 0; k < NEEDED; k++)
+      fitted[k] |= needed[k] == fit[i].param;
+  }
   if (lab_log_command(&d->log) == LAB_CHANNEL_SP)
-    lab_append(names, sizeof names, "%s\"positioner.gain\"", *names ? ", " : "");
-  fprintf(file,
-          "// What the log can determine, and the sheet does not say; the rest is known to its usual tolerance.\nfit = "
-          "( %s );\n",
-          names);
-  if (*tolerances)
-    fprintf(file, "tolerance = {%s }; // starts of the fit: to be away from them is no deviation\n", tolerances);
+    fprintf(file, "%s\"positioner.gain\"", between);
+  fputs(" );\n", file);
+  put_tolerances(file, d, fitted);
 }
 
 /* A log with sp and no u has a positioner; one with neither is the balance of forces alone, driven by p. */

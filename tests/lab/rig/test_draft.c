@@ -63,6 +63,9 @@ static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **st
   assert_contains(text, "1001 rows in 10 s, one each 0.01 s (100 Hz)");
   assert_contains(text, "// derived: area times the slope of p over x");
   assert_contains(text, "moving_mass = \"2 kg\"; // NOT KNOWN");
+  assert_contains(text, " moving_mass = \"100 %\";"); /* a default is not the sheet's */
+  assert_contains(text, " dry_friction = \"100 %\";");
+  assert_null(strstr(text, " stroke = \"100 %\";"));
   free(text);
 }
 
