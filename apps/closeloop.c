@@ -2,11 +2,13 @@
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "lab/report/answer.h"
 #include "lab/trace/decide.h"
 #include "lab/batch/batch.h"
 #include "lab/rig/draft.h"
+#include "lab/rig/sheetask.h"
 #include "lab/base/cli.h"
 #include "lab/base/escape.h"
 #include "lab/base/interrupt.h"
@@ -53,8 +55,9 @@ static const lab_option options[] = {
     {"init", LAB_OPTION_TEXT, &init, "LOG.csv",
      "write a rig file for this log to standard output, each line with a comment on where its value\ncomes from", 0, 0},
     {"sheet", LAB_OPTION_TEXTS, &sheet, "KEY=VALUE",
-     "with --init: what the data sheet says, \"area=400 cm2\", \"bench_set=0.2..1.0 bar\", Kv=0.1; may be\ngiven many "
-     "times, or once with more KEY=VALUE behind it",
+     "with --init: what the data sheet says, \"area=400 cm2\", \"bench_set=0.2..1.0 bar\", Kv=0.1, or\n"
+     "actuator=fisher-657-40 for one of the catalogue; may be given many times, or once with more\n"
+     "KEY=VALUE behind it; without it, a terminal is asked",
      0, 0},
     {"allow-include", LAB_OPTION_FLAG, &allow_include, NULL,
      "with --batch: read rig files that take in others by @include", 0, 0},
@@ -154,11 +157,16 @@ static int run_batch(const lab_cli *cli, lab_error *error)
   return lab_batch_run(&how, error);
 }
 
-/* Words of the sheet may stand behind the first as operands. */
+/* Words of the sheet may stand behind the first as operands; on a terminal they are asked for. */
 static int run_init(const lab_cli *cli, lab_error *error)
 {
+  static lab_sheet_answers answers;
   lab_outfile file;
   int i;
+  if (sheet.n == 0 && !cli->quiet && isatty(STDIN_FILENO) && isatty(STDERR_FILENO))
+    lab_sheet_ask(stdin, stderr, &answers);
+  for (i = 0; i < answers.n; i++)
+    sheet.text[sheet.n++] = answers.text[i];
   for (i = 0; i < cli->n_operands && sheet.n < LAB_TEXTS_MAX; i++)
     sheet.text[sheet.n++] = cli->operand[i];
   if (lab_out_open(&file, out, error))

@@ -9,6 +9,7 @@
 #include "../base/text.h"
 #include "../log/log.h"
 #include "rig.h"
+#include "actuators.h"
 #include "rigkeys.h"
 #include "sheetwords.h"
 
@@ -22,8 +23,9 @@ typedef struct derived {
 
 typedef struct draft {
   lab_sheet_word word[LAB_SHEET_WORDS];
-  int n;
-  lab_rig rig; /* of the sheet alone, defaults elsewhere, and then with what was derived */
+  int n, n_said;                /* of words; those behind the said ones are of the actuator that was named */
+  const lab_actuator *actuator; /* NULL: none was named */
+  lab_rig rig;                  /* of the sheet alone, defaults elsewhere, and then with what was derived */
   lab_log log;
   int x_is_share; /* x is a share of the stroke: its range does not tell the stroke */
   derived derived;
@@ -46,20 +48,59 @@ static const lab_sheet_word *find_word(const draft *d, const char *group, const 
   return NULL;
 }
 
+static int add_word(draft *d, const lab_sheet_word *word)
+{
+  if (d->n == LAB_SHEET_WORDS || find_word(d, word->group, word->key))
+    return lab_fail(d->error, LAB_USAGE, "--sheet: %s is there twice", word->key);
+  d->word[d->n++] = *word;
+  return LAB_OK;
+}
+
+/* What an actuator of that name has, where the sheet does not say it. */
+static int add_actuator(draft *d)
+{
+  const int has_spring = find_word(d, "actuator", "spring_rate") || find_word(d, "actuator", "spring_preload");
+  char name[LAB_SHEET_VALUE];
+  int i, found;
+  snprintf(name, sizeof name, "name=%s", d->actuator->name);
+  for (i = -1; i < LAB_ACTUATOR_WORDS && (i < 0 || d->actuator->word[i]); i++) {
+    lab_sheet_word word[2];
+    if (lab_sheet_word_read(i < 0 ? name : d->actuator->word[i], word, &found, d->error))
+      return d->error->status;
+    if (find_word(d, word->group, word->key) || (has_spring && strcmp(word->key, "bench_set") == 0))
+      continue;
+    if (add_word(d, word))
+      return d->error->status;
+  }
+  return LAB_OK;
+}
+
 static int read_words(draft *d, const char *const *sheet, int n)
 {
+  static const char named[] = "actuator=";
   int i, k, found;
   for (i = 0; i < n; i++) {
     lab_sheet_word word[2];
+    if (strncmp(sheet[i], named, sizeof named - 1) == 0) {
+      d->actuator = lab_actuator_find(sheet[i] + sizeof named - 1, d->error);
+      if (!d->actuator)
+        return d->error->status;
+      continue;
+    }
     if (lab_sheet_word_read(sheet[i], word, &found, d->error))
       return d->error->status;
-    for (k = 0; k < found; k++) {
-      if (d->n == LAB_SHEET_WORDS || find_word(d, word[k].group, word[k].key))
-        return lab_fail(d->error, LAB_USAGE, "--sheet: %s is there twice", word[k].key);
-      d->word[d->n++] = word[k];
-    }
+    for (k = 0; k < found; k++)
+      if (add_word(d, &word[k]))
+        return d->error->status;
   }
-  return LAB_OK;
+  d->n_said = d->n;
+  return d->actuator ? add_actuator(d) : LAB_OK;
+}
+
+/* Where a word comes from. */
+static const char *source_of(const draft *d, const lab_sheet_word *word)
+{
+  return word - d->word < d->n_said ? "sheet" : "catalogue";
 }
 
 /* "{ Kv = "0.1"; }", the members of an inner group; nothing where the sheet has none. */
@@ -304,7 +345,7 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
   pneu_param_info info;
   size_t i;
   if (word) {
-    fprintf(file, "  %s = %s; // sheet\n", key->key, word->value);
+    fprintf(file, "  %s = %s; // %s\n", key->key, word->value, source_of(d, word));
     return;
   }
   if (key->kind != LAB_KEY_PARAM || is_said(d, key))
@@ -336,7 +377,8 @@ static void put_group(FILE *file, const draft *d, const char *group)
     if (strcmp(lab_keys[i].group, group) == 0)
       put_key(file, d, &lab_keys[i]);
   if (set && strcmp(group, "actuator") == 0)
-    fprintf(file, "  bench_set = %s; // sheet, in place of spring_rate and spring_preload\n", set->value);
+    fprintf(file, "  bench_set = %s; // %s, in place of spring_rate and spring_preload\n", set->value,
+            source_of(d, set));
   if (strcmp(group, "transducer") == 0) {
     put_inner(file, d, "  fill", "transducer.fill");
     put_inner(file, d, "  vent", "transducer.vent");
@@ -466,6 +508,8 @@ static void put_head(FILE *file, const draft *d)
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (has(d, c))
       put_channel(file, d, c);
+  if (d->actuator)
+    fprintf(file, "// Catalogue: %s. Its plate may say another range or travel.\n", d->actuator->source);
   fputs("// Behind each value stands where it comes from. Replace what is NOT KNOWN by what the data sheet says.\n",
         file);
 }

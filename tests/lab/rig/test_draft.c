@@ -3,6 +3,7 @@
 
 #include "../../../apps/lab/log/log.h"
 #include "../../../apps/lab/rig/draft.h"
+#include "../../../apps/lab/rig/sheetask.h"
 #include "../../../apps/lab/rig/rig.h"
 #include "../../../apps/lab/rig/sheetwords.h"
 
@@ -131,6 +132,76 @@ static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **
   assert_contains(error.text, "area is there twice");
 }
 
+static void test_lab_draft_write__actuator_by_name__has_its_makers_values(void **state)
+{
+  static const struct {
+    const char *name;
+    double area, stroke, low, high; /* m2, m, Pa of the bench set */
+  } actuators[] = {{"actuator=fisher-657-40", 0.0445, 0.038, 2e4, 1e5},
+                   {"actuator=masoneilan-37-13", 0.0677418, 0.0381, 20684.27, 103421.4},
+                   {"actuator=polna-p-630-38", 0.063, 0.038, 2e4, 1e5},
+                   {"actuator=siemens-powers-4", 0.0071, 0.102, 2.1e4, 5e4}};
+  int i;
+  (void)state;
+  for (i = 0; i < (int)(sizeof actuators / sizeof actuators[0]); i++) {
+    char *text;
+    const lab_rig rig = draft_of(log_path, &actuators[i].name, 1, &text);
+    const pneu_params *p = &rig.params;
+    check_note("%s", actuators[i].name);
+    assert_close((double)p->area, actuators[i].area, 0, 1e-6);
+    assert_close((double)p->stroke, actuators[i].stroke, 0, 1e-6);
+    assert_close((double)(p->spring_rate * p->spring_preload / p->area), actuators[i].low, 0, 1e-5);
+    assert_close((double)(p->spring_rate * (p->spring_preload + p->stroke) / p->area), actuators[i].high, 0, 1e-5);
+    assert_contains(text, "// catalogue");
+    assert_string_equal(rig.name, strchr(actuators[i].name, '=') + 1);
+    free(text);
+  }
+}
+
+static void test_lab_draft_write__actuator_by_name__the_sheet_comes_first(void **state)
+{
+  static const char *const sheet[] = {"actuator=hora-pa-n-280-30", "stroke=25 mm", "bench_set=0.8..2.4 bar"};
+  static const char *const unknown[] = {"actuator=hora-pa-n-280"};
+  char *text;
+  const lab_rig rig = draft_of(log_path, sheet, 3, &text);
+  (void)state;
+  assert_close((double)rig.params.stroke, 0.025, 0, 1e-9);
+  assert_close((double)rig.params.dead_volume, 0.48e-3, 0, 1e-9);
+  assert_contains(text, "stroke = \"25 mm\"; // sheet");
+  assert_contains(text, "// Catalogue: HORA");
+  free(text);
+  assert_int_equal(lab_draft_write(stdout, log_path, unknown, 1, &error), LAB_USAGE);
+  assert_contains(error.text, "hora-pa-n-280-");
+}
+
+static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
+{
+  char given[] = "fisher-40\nfisher-657-40\n0.4 bar\n0.4..2 bar\n\n\n\n 5 kg \n";
+  char said[2048] = "";
+  FILE *in = fmemopen(given, sizeof given - 1, "r"), *out = fmemopen(said, sizeof said, "w");
+  lab_sheet_answers answers;
+  const char *words[LAB_QUESTIONS];
+  char *text;
+  int i;
+  (void)state;
+  assert_non_null(in);
+  assert_non_null(out);
+  lab_sheet_ask(in, out, &answers);
+  fclose(in);
+  fclose(out);
+  assert_int_equal(answers.n, 3);
+  assert_string_equal(answers.text[0], "actuator=fisher-657-40");
+  assert_string_equal(answers.text[1], "bench_set=0.4..2 bar");
+  assert_string_equal(answers.text[2], "moving_mass=5 kg");
+  assert_contains(said, "the nearest known one is \"fisher-657-40\"");
+  assert_contains(said, "expected two pressures");
+  for (i = 0; i < answers.n; i++)
+    words[i] = answers.text[i];
+  draft_of(log_path, words, answers.n, &text);
+  assert_contains(text, "moving_mass = \"5 kg\"; // sheet");
+  free(text);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -138,6 +209,9 @@ int main(void)
       cmocka_unit_test(test_lab_draft_write__words_of_the_sheet__are_not_fitted),
       cmocka_unit_test(test_lab_draft_write__files_of_loggers__are_read_with_their_draft),
       cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
+      cmocka_unit_test(test_lab_draft_write__actuator_by_name__has_its_makers_values),
+      cmocka_unit_test(test_lab_draft_write__actuator_by_name__the_sheet_comes_first),
+      cmocka_unit_test(test_lab_sheet_ask__answers__are_words_of_the_sheet),
   };
   return cmocka_run_group_tests(tests, open_all, scratch_close);
 }
