@@ -51,7 +51,7 @@ for guide in "$@"; do
   rm -rf "$folder"
   mkdir -p "$folder/place" "$folder/steps"
   cp -R lib study apps "$folder/place"
-  for name in tests results packaging Makefile sweep simulate closeloop; do
+  for name in tests results packaging python Makefile sweep simulate closeloop; do
     ln -s "$top/$name" "$folder/place/$name"
   done
   ln -s "$build" "$folder/place/build"
