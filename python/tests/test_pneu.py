@@ -91,6 +91,7 @@ def test_errors__say_what_and_where(rig):
 
 def test_closeloop__progress_and_ctrl_c(rig):
     told = []
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which a parent in the background had ignored
 
     def interrupt(what):
         told.append(what)
