@@ -32,6 +32,9 @@ if ! command -v apt-get >/dev/null 2>&1; then
   echo "no apt-get: install what is missing of these by hand:" $wanted >&2
   exit 0
 fi
+[ -n "$(missing)" ] || exit 0
+exec 9>"${TMPDIR:-/tmp}/libpneu-install-$(id -u).lock"
+flock 9 # two at once have no lists of packages, or one of them fails
 list=$(missing)
 [ -n "$list" ] || exit 0
 

@@ -91,7 +91,6 @@ installed: users, symbols, manual, completion, uninstall | sh tests/check_instal
 closeloop --batch: threads, ranks, stops | sh tests/check_batch.sh
 FMUs: as without, by FMPy | sh tests/check_fmu.sh
 python: the wheel, its tests, its notebook | $MAKE python-check
-closeloop as a page: units, layout, the same answers | $MAKE web-check
 memory that runs out, call by call | $MAKE alloc
 hostile: 300 rigs, logs and lists of a stranger | $MAKE ATTACKS=300 hostile
 clang: every warning on lib/ | $MAKE strict
@@ -101,6 +100,13 @@ GRIND="lib/test_params lib/test_flow lib/test_jacobian lib/test_term lab/base/te
 stepper: 20000 random steps in either precision | $MAKE STEPS=20000 step-search
 mutants: 10 ways to break the library | $MAKE MUTANTS=10 mutate
 lines that tests reach | $MAKE coverage
+LIST
+}
+
+# The same with other compilers or in another system, so that it may run beside these.
+elsewhere() {
+  cat <<LIST
+closeloop as a page: units, layout, the same answers | $MAKE web-check
 windows | $MAKE windows-check
 packages, in a fresh Debian | $MAKE deb-check
 LIST
@@ -117,7 +123,9 @@ if [ "${1:-}" = all ]; then
   built "$sanitized" "sanitized tests" SANITIZE=address,undefined OPT=-O1 tests \
     "$sanitized/bin/sweep" "$sanitized/bin/simulate" "$sanitized/bin/closeloop"
   long | run long "$JOBS"
+  elsewhere | run elsewhere 1 &
   alone | run alone 1
+  wait
 fi
 
 cat "$folder"/*.count | awk '{ passed += $1; failed += $2; skipped += $3 }

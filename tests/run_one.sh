@@ -6,8 +6,10 @@ set -u
 line=$(sed -n "$2p" "$1")
 what=${line%% | *}
 log="$1-$2.log"
+begin=$(date +%s)
 sh -c "${line#* | }" >"$log" 2>&1 </dev/null
 status=$?
+took="$(($(date +%s) - begin)) s"
 
 # counted WORD LINE: numbers of tests that cmocka says, and lines that begin so
 counted() {
@@ -24,10 +26,10 @@ echo "$passed $failed $skipped" >"$1-$2.count"
 # in one piece, because others run beside it
 {
   if [ "$failed" -ne 0 ]; then
-    echo "FAILED  $what: $failed of $((passed + failed))"
+    echo "FAILED  $what: $failed of $((passed + failed)), $took"
     grep -v '^\[ *\(RUN\|OK\) *\]' "$log" | tail -n 60
   else
-    echo "ok      $what: $passed"
+    echo "ok      $what: $passed, $took"
   fi
   grep '^skipped' "$log"
   [ ! -d "$MEASURED" ] && echo "$what" | grep -Eq '^(double|sanitized) ' || grep '^absent:' "$log"

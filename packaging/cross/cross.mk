@@ -31,12 +31,9 @@ $(WINDOWS)/apps/lab/base/checksum.o: WINDOWS_FLAGS += -DLAB_BUILD='"'"$$(cat $(B
 $(WINDOWS)/apps/lab/base/checksum.o: $(BUILD)/sources.cksum
 $(filter $(WINDOWS)/apps/lab/report/%,$(WINDOWS_O)): | $(CARRIED:%=$(BUILD)/%.inc)
 
-$(WINDOWS)/units_table.o: $(WINDOWS)/units_table.c
-	$(say) $(WINDOWS_CC) $(WINDOWS_FLAGS) -I$(UNITS) -c $< -o $@
-
-$(WINDOWS)/units_table.c: $(BUILD)/$(UNITS)/table_make
+$(WINDOWS)/units_table.o: $(WEB)/units_table.c
 	@mkdir -p $(@D)
-	$(say) $< $$(find /usr/share/xml/udunits /usr/share/udunits -name 'udunits2-*.xml' 2>/dev/null | sort) > $@
+	$(say) $(WINDOWS_CC) $(WINDOWS_FLAGS) -I$(UNITS) -c $< -o $@
 
 # Names of files are UTF-8.
 $(WINDOWS)/utf8.o: $(PORT)/utf8.rc $(PORT)/utf8.manifest
