@@ -21,9 +21,9 @@ static lab_texts sheet;
 static double alpha, min_gain;
 static int budget, figures, no_figures, reports, allow_include;
 
-static const int usual_budget = 60, usual_batch_budget = 600; /* [s] of CPU, for a log and for a line of a batch */
-static const int usual_memory = 4096;                         /* [MB] for a line of a batch */
-static const int patience = 10; /* budgets after which even what follows the search is given up */
+static const int usual_batch_budget = 600; /* [s] of CPU, for a line of a batch */
+static const int usual_memory = 4096;      /* [MB] for a line of a batch */
+static const int patience = 10;            /* budgets after which even what follows the search is given up */
 
 static const lab_option options[] = {
     {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv[,LOG2.csv]",
@@ -124,7 +124,7 @@ static int run_one(const lab_cli *cli, lab_error *error)
     return lab_fail(error, LAB_USAGE, "--holdout: more than %d logs", (int)LAB_LOGS_MAX);
   if (q.n_baseline < 0)
     return lab_fail(error, LAB_USAGE, "--baseline: more than %d logs", (int)LAB_LOGS_MAX);
-  q.budget = budget ? budget : usual_budget;
+  q.budget = budget ? budget : LAB_USUAL_BUDGET;
   if (!lab_interrupt_after(program.name, patience * (int)q.budget))
     return lab_fail(error, LAB_WORLD, "--budget: this system does not bound CPU time");
   lab_progress_begin(&progress, program.name, cli->quiet);

@@ -1,6 +1,13 @@
 /* The active effects of a model at work. */
 #include "internal.h"
 
+int pneu_lag_acts(const pneu_model *model, const pneu_real *param)
+{
+  static const pneu_real shortest = PNEU_C(1e-9);
+  (void)model;
+  return *param >= shortest;
+}
+
 void pneu_add_effects(pneu_terms *t, const pneu_real *y, int stage, int *next, pneu_real *rate)
 {
   const pneu_model *model = t->model;

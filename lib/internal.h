@@ -37,8 +37,8 @@
  * chatter where it stops in equilibrium. PNEU_ON_STOP, share of stroke over the compliance of a stop that yields which
  * counts as such a force: enough for the rounding of the position; all of it would, in single, hold a stem by 2 kN. */
 
-/* The record of each effect of the catalogue, in lib/effects/, and its sentence, a symbol of its own that a linker leaves
- * out where nothing asks for it (-fdata-sections and --gc-sections, or -flto). */
+/* The record of each effect of the catalogue, in lib/effects/, and its sentence, a symbol of its own that a linker
+ * leaves out where nothing asks for it (-fdata-sections and --gc-sections, or -flto). */
 #define PNEU_EFFECT(name, n_param, n_state)                                                                            \
   extern const pneu_effect pneu_effect_record_##name;                                                                  \
   extern const char pneu_effect_sentence_##name[];
@@ -145,6 +145,10 @@ int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_rea
 
 /* States of the active effects at rest.  In/out: state */
 void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state);
+
+/* Whether a lag is long enough to be one, a nanosecond: over a shorter one, the rounding of what it follows is a rate
+ * that no step holds.  In: param  [s] its time constant */
+int pneu_lag_acts(const pneu_model *model, const pneu_real *param);
 
 /* Let the active effects of all stages up to `stage` add their terms, from *next on; those without terms have changed
  * the model's constants by `prepare`.  Out: rate, of their states (may be NULL) */

@@ -106,7 +106,26 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
   return PNEU_OK;
 }
 
-int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work)
+/* Slope of the right-hand side in time, by how far the command runs in a short one. */
+static int slope_in_time(const pneu_model *model, const pneu_state *state, const pneu_input *input,
+                         pneu_workspace *work)
+{
+  const pneu_real range = model->p.proportional_band > 0 ? model->p.supply_pressure : 1;
+  const pneu_real dt = PNEU_M(sqrt)(PNEU_EPS) * range / PNEU_M(fabs)(input->u_rate);
+  const int n = pneu_dimension(model, state->mode);
+  pneu_input next = *input;
+  int i;
+  next.elapsed += dt;
+  work->stats.rhs++;
+  if (pneu_rhs(model, state, &next, work->y0, work->ft) != PNEU_OK)
+    return PNEU_RETRY_STATE;
+  for (i = 0; i < n; i++)
+    work->ft[i] = (work->ft[i] - work->f0[i]) / dt;
+  return PNEU_OK;
+}
+
+/* Right-hand side and Jacobian at y0. */
+static int prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work)
 {
   pneu_terms t;
   const int n = pneu_dimension(model, state->mode);
@@ -122,4 +141,10 @@ int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pn
   pneu_rates(&t, state->mode, work->f0);
   base_jacobian(&t, model->n_gas, n, work->f0, work->jac);
   return PNEU_OK;
+}
+
+int pneu_step_prepare(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_workspace *work)
+{
+  const int status = prepare(model, state, input, work);
+  return status == PNEU_OK && input->u_rate != 0 ? slope_in_time(model, state, input, work) : status;
 }

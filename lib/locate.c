@@ -131,12 +131,14 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
     if (slope > 0)
       correction = g1 / slope;
     else if (g1 < 0) /* only the long step had the event */
-      *error = PNEU_C(1e30);
+      return PNEU_RETRY_STATE;
     if (PNEU_M(fabs)(correction) < PNEU_EVENT_TIME)
       break;
     length -= correction;
     if (!(length > 0))
       length = PNEU_EVENT_TIME;
+    if (length > *h) /* shorter steps see no event where the whole one had it */
+      return PNEU_RETRY_STATE;
   }
   *h = length;
   return PNEU_OK;

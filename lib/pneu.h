@@ -270,11 +270,13 @@ typedef struct pneu_delay {
   pneu_real since;  /* [s] since `acting` was reached; 0 where nothing is on its way */
 } pneu_delay;
 
-/* What drives the model over one stretch of time. Opening holds; pressure and position, where
- * they are inputs, run along a straight line with the given slope. */
+/* What drives the model over one stretch of time. The command holds or runs along a straight line, and so do pressure
+ * and position where they are inputs; the rest holds. */
 typedef struct pneu_input {
   pneu_real u;               /* -1..1 opening: 1 fill fully open, -1 vent fully open, 0 shut; or set pressure [Pa]; or
                                 set position of a positioner, in shares of the stroke */
+  pneu_real u_rate;          /* [unit of u over s] slope of the command that acts; 0: it holds */
+  pneu_real elapsed;         /* [s] since it was u: what acts is u + u_rate elapsed. A run goes on from here */
   pneu_real supply_pressure; /* [Pa] gauge */
   pneu_real force;           /* [N] on the stem, positive against the air, added to external_force */
   pneu_real pressure_rate;   /* [Pa/s] slope of the chamber pressure, where it is an input */
@@ -421,6 +423,7 @@ typedef struct pneu_stats {
 typedef struct pneu_workspace {
   pneu_real h;
   pneu_real y0[PNEU_STATE_MAX], y1[PNEU_STATE_MAX], f0[PNEU_STATE_MAX];
+  pneu_real ft[PNEU_STATE_MAX]; /* slope of f0 in time, where the command runs */
   pneu_real k[PNEU_STATE_MAX][PNEU_STAGE_COUNT];
   pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
   pneu_real inverse[PNEU_STATE_MAX][PNEU_STATE_MAX]; /* of I/(h gamma) - J */
@@ -431,7 +434,7 @@ typedef struct pneu_workspace {
 /* One accepted step, for dense output: valid only inside the observer's call. */
 typedef struct pneu_step_view {
   const pneu_model *model;
-  const pneu_input *input;
+  const pneu_input *input; /* at t */
   const pneu_workspace *work;
   const pneu_state *start; /* state at t */
   pneu_real t, h;          /* [s] from the start of the run */
@@ -576,7 +579,7 @@ enum {
   PNEU_PARTS_COARSE = 28,
   PNEU_PARTS_HELD = 12,
   PNEU_LOCATE_MAX = 8,
-  PNEU_STEP_RHS_MAX = PNEU_PARTS_MAX * (1 + (PNEU_STAGE_COUNT - 1) * (1 + PNEU_LOCATE_MAX))
+  PNEU_STEP_RHS_MAX = PNEU_PARTS_MAX * (2 + (PNEU_STAGE_COUNT - 1) * (1 + PNEU_LOCATE_MAX))
 };
 
 /* Event functions of the state's mode: an event happens where g rises through 0.
@@ -646,7 +649,7 @@ void pneu_options_default(pneu_options *options);
  * Method:  Rodas5P (Steinebach 2023, BIT 63:27): Rosenbrock-Wanner, order 5(4), L-stable, stiffly
  *          accurate; PNEU_ORDER 4: ROS4 (Hairer and Wanner 1996, IV.7), order 4(3), L-stable. Events are located to
  *          1e-9 s (single: 1e-6 s) by repeating the step.
- * In:      input     constant throughout; a command change is the start of a new run
+ * In:      input     throughout; where the command jumps or its slope changes, a new run begins
  *          duration  [s] >= 0, finite
  *          options   see pneu_options
  *          observer  may be NULL
@@ -673,7 +676,8 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * In:      state  made of numbers; p > -ambient_pressure; T > 0 where it is a state; x on or between the stops, to a
  *                 thousandth of the stroke, or, driven, anywhere; volume > 0 unless pressure is an input; a mode of
  *                 enum pneu_mode
- *          input  made of numbers; u in -1..1 unless proportional_band is set; supply_pressure > -ambient_pressure
+ *          input  made of numbers; u in -1..1 unless proportional_band is set, and at the end of dt too where it runs;
+ *                 supply_pressure > -ambient_pressure
  *          dt  [s] > 0. How far the parts reach is a matter of how stiff gas, V_0/(A stroke), and bristles are
  * Error:   R1-400 with its 2 cm3 of dead volume, filled and vented from end to end, in four laws, in double: at most
  *          4e-6 of stroke up to 2 ms, 4e-5 up to 50 ms. In single (order 4): 7e-5 up to 1 ms, most of it rounding, 9e-5

@@ -7,6 +7,14 @@
 
 enum { DENSE_STAGES = 8, ERROR_FROM = 7 };
 
+static const pneu_real at_time[PNEU_STAGE_COUNT] = {
+    0, PNEU_C(0.6358126895828704), PNEU_C(0.4095798393397535), PNEU_C(0.9769306725060716), PNEU_C(0.4288403609558667),
+    1, 1, 1};
+
+static const pneu_real of_slope[PNEU_STAGE_COUNT] = {
+    GAMMA, PNEU_C(-0.4238751263885802), PNEU_C(-0.3384627126235923), PNEU_C(1.8046452872882743),
+    PNEU_C(2.3258256397650685), 0, 0, 0};
+
 static const unsigned char point[PNEU_STAGE_COUNT + 1] = {AT_START,  FROM_START, FROM_START, FROM_START, FROM_START,
                                                           FROM_START, FROM_LAST,  FROM_LAST,  FROM_LAST};
 

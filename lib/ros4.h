@@ -9,6 +9,12 @@
 
 enum { DENSE_STAGES = 3, ERROR_FROM = 0 };
 
+static const pneu_real at_time[PNEU_STAGE_COUNT] = {0, PNEU_C(1.14564), PNEU_C(0.65521686381559),
+                                                    PNEU_C(0.65521686381559)};
+
+static const pneu_real of_slope[PNEU_STAGE_COUNT] = {GAMMA, PNEU_C(-1.7691938913192333), PNEU_C(0.7592633437920481),
+                                                     PNEU_C(-0.1049021087100449)};
+
 static const unsigned char point[PNEU_STAGE_COUNT + 1] = {AT_START, FROM_START, FROM_START, AS_BEFORE, FROM_START};
 
 static const pneu_real a[] = {

@@ -1,9 +1,10 @@
 /* One step of a Rosenbrock-Wanner method, in the form without matrix products (Hairer and Wanner 1996, IV.7.25):
- *   (I/(h gamma) - J) k_i = f(y_0 + sum_j a_ij k_j) + sum_j c_ij k_j / h,
+ *   (I/(h gamma) - J) k_i = f(t_0 + alpha_i h, y_0 + sum_j a_ij k_j) + sum_j c_ij k_j / h + gamma_i h f_t,
  *   y_1 = y_0 + sum_j m_j k_j,   error = sum_j e_j k_j,
  *   y(theta) = (1 - theta) y_0 + theta (y_1 + (1 - theta) (d_1 + theta (d_2 + theta d_3))),   d_i = sum_j d_ij k_j.
  * A method is its tables: where each stage, and behind the last the result, starts from; the rows of a that this asks
- * for, with m as the last, and the rows of c, one after the other; e from its first entry that is not 0; d. */
+ * for, with m as the last, and the rows of c, one after the other; e from its first entry that is not 0; d; at_time and
+ * of_slope, alpha_i and gamma_i, which count while the command runs. */
 #include "internal.h"
 
 enum { AT_START, FROM_START /* by a row of a */, FROM_LAST /* point and slope k of the stage before */, AS_BEFORE };
@@ -35,10 +36,12 @@ static pneu_real add_products(pneu_real sum, int n, const pneu_real *x, const pn
   return sum;
 }
 
-/* k_i of the right-hand side b. */
-static void solve(int n, int i, const pneu_real *b, pneu_workspace *work)
+/* k_i of the right-hand side b, which takes up what the command's slope asks for. */
+static void solve(int n, int i, pneu_real slope_share, pneu_real *b, pneu_workspace *work)
 {
   int l;
+  for (l = 0; l < n && slope_share != 0; l++)
+    b[l] += slope_share * work->ft[l];
   for (l = 0; l < n; l++)
     work->k[l][i] = add_products(0, n, work->inverse[l], b);
 }
@@ -77,16 +80,25 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
                   pneu_workspace *work, pneu_real *error)
 {
   const int n = pneu_dimension(model, state->mode);
-  const pneu_real rate = 1 / h, *row_a = a, *row_c = c;
+  const pneu_real rate = 1 / h, slope = input->u_rate != 0 ? h : 0, *row_a = a, *row_c = c;
+  const pneu_input *at = input;
+  pneu_input now;
   pneu_real f[PNEU_STATE_MAX], b[PNEU_STATE_MAX];
   int i, l, status = invert_matrix(n, h, work);
   if (status != PNEU_OK)
     return status;
-  solve(n, 0, work->f0, work);
+  for (l = 0; l < n; l++)
+    b[l] = work->f0[l];
+  solve(n, 0, of_slope[0] * slope, b, work);
   for (i = 1; i < PNEU_STAGE_COUNT; i++) {
     row_a = find_point(n, i, row_a, work);
     if (point[i] != AS_BEFORE) {
-      status = pneu_rhs(model, state, input, work->y1, f);
+      if (slope > 0) {
+        now = *input;
+        now.elapsed += at_time[i] * h;
+        at = &now;
+      }
+      status = pneu_rhs(model, state, at, work->y1, f);
       work->stats.rhs++;
       if (status != PNEU_OK)
         return status;
@@ -94,7 +106,7 @@ int pneu_step_try(const pneu_model *model, const pneu_state *state, const pneu_i
     for (l = 0; l < n; l++)
       b[l] = f[l] + rate * add_products(0, i, row_c, work->k[l]);
     row_c += i;
-    solve(n, i, b, work);
+    solve(n, i, of_slope[i] * slope, b, work);
   }
   find_point(n, PNEU_STAGE_COUNT, row_a, work);
   *error = error_norm(model, n, work);

@@ -14,7 +14,8 @@ enum { EVENTS_AT_ONE_TIME = 16 };
 /* One run in progress. */
 typedef struct run {
   const pneu_model *model;
-  const pneu_input *input;
+  const pneu_input *given;
+  pneu_input input; /* it, now */
   const pneu_options *options;
   const pneu_observer *observer;
   pneu_state *state;
@@ -79,7 +80,7 @@ static int notify_step(run *r, pneu_real h)
   if (!r->observer || !r->observer->step)
     return PNEU_OK;
   view.model = r->model;
-  view.input = r->input;
+  view.input = &r->input;
   view.work = r->work;
   view.start = r->state;
   view.t = r->t;
@@ -103,7 +104,7 @@ static int accept(run *r, pneu_real h, int which)
   r->event_t = r->t;
   if (r->events_here > EVENTS_AT_ONE_TIME)
     return PNEU_E_EVENTS;
-  pneu_switch(r->model, r->input, which, r->state);
+  pneu_switch(r->model, &r->input, which, r->state);
   r->work->stats.events++;
   r->h = r->h_before = 0;
   if (r->observer && r->observer->event && r->observer->event(r->observer->context, r->t, r->state, mode))
@@ -118,17 +119,21 @@ static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
 
 /* Whether a step at rest leapt over the point of equal pressures, where the slope of the flow is so steep that the
  * error estimate can miss it: flow through the open orifice brings pressure up to that point and not beyond. Judged at
- * quarters of the step's curve, with a share of that pressure as margin, the width of the blend at least. */
-static int leaps(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real share,
-                 pneu_workspace *w)
+ * quarters of the step's curve, with a share of that pressure as margin, the width of the blend at least; the opening,
+ * at its end. */
+static int leaps(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real h,
+                 pneu_real share, pneu_workspace *w)
 {
   const pneu_real ambient = model->p.ambient_pressure;
+  pneu_input end;
   pneu_terms t;
   pneu_real equal, before;
   int quarter;
   if (pneu_dimension(model, state->mode) != model->n_gas || model->law.pressure_input)
     return 0;
-  if (pneu_evaluate(model, state, input, w->y1, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
+  end = *input;
+  end.elapsed += h;
+  if (pneu_evaluate(model, state, &end, w->y1, PNEU_EXTENT_FORCES, &t, NULL) != PNEU_OK)
     return 1;
   equal = t.opening > 0 ? t.supply : t.exhaust;
   before = w->y0[0] + ambient - equal;
@@ -178,7 +183,8 @@ static int is_sound(const pneu_model *model, const pneu_state *state)
 
 static int all_finite(const pneu_input *input)
 {
-  return 0 * (input->u + input->supply_pressure + input->force + input->pressure_rate + input->position_rate) == 0;
+  const pneu_real sum = input->u + input->supply_pressure + input->force + input->pressure_rate + input->position_rate;
+  return 0 * (sum + input->u_rate + input->elapsed) == 0;
 }
 
 /* Whether a position is between the stops, with a thousandth of the stroke for sensors and rounding. */
@@ -188,17 +194,23 @@ static int between_stops(const pneu_model *model, pneu_real x)
   return model->law.position_input || (x >= model->lower_stop - margin && x <= model->upper_stop + margin);
 }
 
-/* Whether state and input lie in their documented ranges. */
-static int usable(const pneu_model *model, const pneu_state *state, const pneu_input *input)
+/* Whether a command is an opening or, in other units, need not be one. */
+static int is_opening(const pneu_model *model, const pneu_input *input, pneu_real elapsed)
+{
+  return model->p.proportional_band > 0 || input->set_position ||
+         PNEU_M(fabs)(input->u + input->u_rate * elapsed) <= PNEU_C(1.00001);
+}
+
+/* Whether state and input lie in their documented ranges, from now until the end. */
+static int usable(const pneu_model *model, const pneu_state *state, const pneu_input *input, pneu_real duration)
 {
   const pneu_params *p = &model->p;
   if (!is_sound(model, state) || !all_finite(input) || state->mode < 0 || state->mode >= PNEU_MODE_COUNT)
     return 0;
   if (input->supply_pressure <= -p->ambient_pressure)
     return 0;
-  if (p->proportional_band <= 0 && !input->set_position && PNEU_M(fabs)(input->u) > PNEU_C(1.00001))
-    return 0;
-  return between_stops(model, state->x);
+  return is_opening(model, input, input->elapsed) && is_opening(model, input, input->elapsed + duration) &&
+         between_stops(model, state->x);
 }
 
 /* Whether duration and tolerance lie in their documented ranges; tolerance with room for rounding. */
@@ -220,8 +232,10 @@ static int advance(run *r)
   const pneu_real tol = r->options->tol, left = left_of(r);
   pneu_workspace *w = r->work;
   int status, fresh = r->h <= 0, refused = 0;
+  r->input = *r->given;
+  r->input.elapsed += r->t;
   pneu_pack(r->model, r->state, w->y0);
-  status = pneu_step_prepare(r->model, r->state, r->input, w);
+  status = pneu_step_prepare(r->model, r->state, &r->input, w);
   if (status != PNEU_OK)
     return PNEU_E_NONFINITE;
   if (fresh)
@@ -237,10 +251,10 @@ static int advance(run *r)
       h = left;
     if (!(h > PNEU_SHORTEST))
       return PNEU_E_STEP_SIZE;
-    status = pneu_step_try(r->model, r->state, r->input, h, w, &error);
+    status = pneu_step_try(r->model, r->state, &r->input, h, w, &error);
     if (status < 0)
       return status;
-    if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, r->input, PNEU_BLEND, w)) {
+    if (status != PNEU_OK || !(error <= tol) || leaps(r->model, r->state, &r->input, h, PNEU_BLEND, w)) {
       factor = status == PNEU_OK && error > tol && error < PNEU_C(1e30)
                    ? clip(PNEU_C(0.9) * root(tol / error), PNEU_C(0.1), PNEU_C(0.8))
                    : PNEU_C(0.2);
@@ -251,11 +265,11 @@ static int advance(run *r)
     }
     tried = h;
     factor = clip(next_factor(r, h, error), PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
-    status = pneu_locate(r->model, r->state, r->input, w, &h, &which, &located);
-    if (status != PNEU_OK)
-      return status < 0 ? status : PNEU_E_NONFINITE;
-    if (is_through(r)) {
-      r->h = h * PNEU_C(0.2);
+    status = pneu_locate(r->model, r->state, &r->input, w, &h, &which, &located);
+    if (status < 0)
+      return status;
+    if (status != PNEU_OK || is_through(r)) {
+      r->h = tried * PNEU_C(0.2);
       w->stats.rejected++;
       refused = 1;
       continue;
@@ -288,7 +302,7 @@ static void pass_commands(pneu_delay *late, pneu_real dt)
 static int run_stretch(run *r)
 {
   int status = PNEU_OK;
-  pneu_settle(r->model, r->input, r->state);
+  pneu_settle(r->model, r->given, r->state);
   while (left_of(r) > 8 * PNEU_EPS * r->end && status == PNEU_OK) {
     if (r->steps++ >= r->options->max_steps)
       return PNEU_E_STEP_COUNT;
@@ -304,13 +318,13 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   pneu_delay *late = pneu_commands(input);
   run r;
   int status;
-  if (!usable(model, state, input) || !in_range(duration, options->tol))
+  if (!usable(model, state, input, duration) || !in_range(duration, options->tol))
     return PNEU_E_NONFINITE;
   status = give_command(model, input);
   if (status != PNEU_OK)
     return status;
   r.model = model;
-  r.input = input;
+  r.given = input;
   r.options = options;
   r.observer = observer;
   r.state = state;
@@ -359,7 +373,7 @@ static int part_of_step(const pneu_model *model, pneu_state *now, const pneu_inp
   int status = pneu_step_try(model, now, input, p->h, work, &p->error);
   if (status == PNEU_OK && !(p->error <= tol))
     return PNEU_RETRY_STATE;
-  if (status == PNEU_OK && !leaps(model, now, input, PNEU_BLEND + tol, work)) {
+  if (status == PNEU_OK && !leaps(model, now, input, p->h, PNEU_BLEND + tol, work)) {
     status = pneu_locate(model, now, input, work, &p->h, &p->which, &p->error);
     pneu_unpack(model, work->y1, &next);
     if (!model->law.position_input)
@@ -383,9 +397,8 @@ static void hold(const pneu_model *model, pneu_state *now)
   now->v = 0;
 }
 
-/* A step under one command, from a state and with an input in range. */
-static int step_on(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt,
-                   pneu_workspace *work)
+/* A step under one command, from a state and with an input in range.  In/out: input  as it is at the end */
+static int step_on(const pneu_model *model, pneu_state *state, pneu_input *input, pneu_real dt, pneu_workspace *work)
 {
   enum { FREE = PNEU_PARTS_MAX - PNEU_PARTS_HELD, FINE = FREE - PNEU_PARTS_COARSE }; /* the stem moves in FREE parts */
   pneu_state now = *state;
@@ -414,6 +427,7 @@ static int step_on(const pneu_model *model, pneu_state *state, const pneu_input 
       return status;
     if (status == PNEU_OK) {
       left -= p.h;
+      input->elapsed += p.h;
       work->stats.steps++;
       if (p.which >= 0) {
         pneu_switch(model, input, p.which, &now);
@@ -438,18 +452,19 @@ int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *inpu
 {
   pneu_delay *late = pneu_commands(input), before;
   pneu_state now = *state;
+  pneu_input acting = *input;
   int status;
-  if (!usable(model, state, input) || !(dt > 0 && dt * 0 == 0))
+  if (!usable(model, state, input, dt) || !(dt > 0 && dt * 0 == 0))
     return PNEU_E_NONFINITE;
   if (!late) {
     status = give_command(model, input);
-    return status == PNEU_OK ? step_on(model, state, input, dt, work) : status;
+    return status == PNEU_OK ? step_on(model, state, &acting, dt, work) : status;
   }
   before = *late;
   status = give_command(model, input);
   while (status >= 0 && dt > 0) {
     const pneu_real h = pneu_delay_until(late, dt);
-    const int part = step_on(model, &now, input, h, work);
+    const int part = step_on(model, &now, &acting, h, work);
     status = part < 0 || part > status ? part : status;
     pass_commands(late, h);
     dt -= h;

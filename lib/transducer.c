@@ -12,7 +12,8 @@ pneu_real pneu_command_opening(const pneu_terms *t)
 {
   const pneu_params *p = &t->model->p;
   const pneu_delay *late = pneu_commands(t->input);
-  const pneu_real u = late && t->model->command_delay > 0 ? late->acting : t->input->u;
+  const pneu_real given = late && t->model->command_delay > 0 ? late->acting : t->input->u;
+  const pneu_real u = given + t->input->u_rate * t->input->elapsed;
   if (p->proportional_band > 0)
     return pneu_regulator_opening(u, t->p - p->ambient_pressure, p->proportional_band);
   return u;

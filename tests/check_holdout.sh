@@ -67,25 +67,31 @@ leak=study/guides/leak
 held guide $leak/rig.cfg $leak/fit.csv $leak/holdout.csv
 as_declared guide-declared $leak/rig.cfg $leak/fit.csv $leak/holdout.csv
 
-# every STEP ROWS SHOWN: the rig under a command that changes between all rows, of which a log shows one in so many, with
-# noise
+# every STEP ROWS SHOWN JUMP: the rig under a command that changes between all rows, to and fro by JUMP beside, of which a
+# log shows one in so many, with noise
 every() {
-  awk -v step="$1" -v rows="$2" 'BEGIN { print "t [s],u [1]"
+  awk -v step="$1" -v rows="$2" -v jump="$4" 'BEGIN { print "t [s],u [1]"
     for (i = 0; i < rows; i++)
-      printf "%.6f,%.3f\n", i * step, i * step < 0.4 ? 0 : 0.8 * cos(i * step) + 0.1 * sin(10 * i * step) }' >"$folder/u.csv"
+      printf "%.6f,%.3f\n", i * step, i * step < 0.4 ? 0 : 0.8 * cos(i * step) + 0.1 * sin(10 * i * step) + jump * (int(i / 2) % 2 * 2 - 1) }' >"$folder/u.csv"
   ./simulate study/actuators/r1-400.cfg "$folder/u.csv" |
     awk -F, -v every="$3" 'function noise(size) { seed = seed * 16807 % 2147483647; return size * (seed / 2147483647 - 0.5) }
       BEGIN { seed = 1 }
       NR == 1 { print; next }
       i++ % every == 0 { printf "%s,%s,%.4f,%.5f\n", $1, $2, $3 + noise(0.6), $4 + noise(0.1) }'
 }
-every 0.01 1200 2 >"$folder/often.csv"
-every 0.01 2000 2 >"$folder/often_held.csv"
+every 0.01 1200 2 0.05 >"$folder/often.csv"
+every 0.01 2000 2 0.05 >"$folder/often_held.csv"
 printf 'fit = ("orifice_area");\nnoise = { pressure = "5 kPa"; position = "0.5 mm"; };\n' |
   cat study/actuators/r1-400.cfg - >"$folder/often.cfg"
 held often "$folder/often.cfg" "$folder/often.csv" "$folder/often_held.csv"
 grep -q "by what share of a row" "$folder/often/report.html" || complain "often: an instant for each of many changes"
 as_declared often-declared "$folder/often.cfg" "$folder/often.csv" "$folder/often_held.csv"
+
+# the same command without jumps runs along lines
+every 0.01 1200 2 0 >"$folder/ramps.csv"
+every 0.01 2000 2 0 >"$folder/ramps_held.csv"
+held ramps "$folder/often.cfg" "$folder/ramps.csv" "$folder/ramps_held.csv"
+as_declared ramps-declared "$folder/often.cfg" "$folder/ramps.csv" "$folder/ramps_held.csv"
 
 # rows of one log, each second one held out: the model predicts these from a log that has no others
 printf 'log = { every = 2; holdout = { first = 1; }; };\n' | cat "$folder/often.cfg" - >"$folder/rows.cfg"
@@ -103,7 +109,7 @@ held stem "$folder/stem.cfg" "$folder/often.csv" "$folder/often_held.csv"
 as_declared stem-declared "$folder/stem.cfg" "$folder/often.csv" "$folder/often_held.csv"
 
 # a log held out of more rows than a fit takes
-every 0.004 24000 1 >"$folder/long.csv"
+every 0.004 24000 1 0 >"$folder/long.csv"
 held long "$folder/often.cfg" "$folder/often.csv" "$folder/long.csv"
 
 # measured: logs of the virtual rig, and of a plant whose command, a set position, changes often

@@ -56,12 +56,14 @@ static int run(const char *const *words)
   return child > 0 && waitpid(child, &how, 0) == child && how == 0;
 }
 
-/* closeloop --figures --out DIR --holdout A,B RIG LOGS */
+/* closeloop --figures --budget SECONDS --out DIR --holdout A,B RIG LOGS; so long that no answer depends on the machine
+ */
 static int run_set(const config_setting_t *set, const char *data_dir, const char *out_dir)
 {
   static char fit[LOGS_MAX * PATH_BYTES], held[LOGS_MAX * PATH_BYTES];
   char rig[PATH_BYTES], out[PATH_BYTES];
-  const char *words[9 + LOGS_MAX] = {"./closeloop", "--quiet", "--figures", "--out", out, "--holdout", held, rig};
+  const char *words[11 + LOGS_MAX] = {"./closeloop", "--quiet", "--figures", "--budget", "3600",
+                                      "--out",       out,       "--holdout", held,       rig};
   fit[0] = held[0] = '\0';
   if (!list_logs(set, "fit", data_dir, '\n', fit) || !list_logs(set, "holdout", data_dir, ',', held)) {
     fprintf(stderr, "%s: data absent below %s; study/measured/fetch.sh loads what can be had\n", sets_text(set, "name"),
@@ -70,7 +72,7 @@ static int run_set(const config_setting_t *set, const char *data_dir, const char
   }
   snprintf(rig, sizeof rig, "study/measured/%s", sets_text(set, "rig"));
   snprintf(out, sizeof out, "%s/%s", out_dir, sets_text(set, "name"));
-  lab_split(fit, '\n', words + 8, LOGS_MAX);
+  lab_split(fit, '\n', words + 10, LOGS_MAX);
   printf("%s: ", sets_text(set, "name"));
   fflush(stdout);
   return run(words) ? SETS_DONE : SETS_FAILED;

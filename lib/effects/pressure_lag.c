@@ -30,7 +30,7 @@ const pneu_effect pneu_effect_record_pressure_lag = {
     params,
     add,
     start,
-    NULL,
+    pneu_lag_acts,
     NULL};
 
 const char pneu_effect_sentence_pressure_lag[] = "The pressure sensor follows with a lag of {size}.";

@@ -30,7 +30,7 @@ const pneu_effect pneu_effect_record_temperature_lag = {
     params,
     add,
     start,
-    NULL,
+    pneu_lag_acts,
     NULL};
 
 const char pneu_effect_sentence_temperature_lag[] = "The temperature sensor follows with a lag of {size}.";

@@ -28,7 +28,7 @@ const pneu_effect pneu_effect_record_transducer_lag = {
     params,
     add,
     start,
-    NULL,
+    pneu_lag_acts,
     NULL};
 
 const char pneu_effect_sentence_transducer_lag[] = "The transducer follows its command with a lag of {size}.";

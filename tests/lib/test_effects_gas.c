@@ -515,9 +515,10 @@ static void footprint_positioner(void)
   /* with a dead band of 1 % and cut-offs at 2 and 98 % */
   static const struct law {
     double set, x, opening;
-  } law[] = {{0.5, 0.5, 0},      {0.5, 0.49, 0},    {0.5, 0.51, 0},      {0.5, 0.489, 0.22}, {0.5, 0.511, -0.22},
-             {0.5, 0.47, 0.6},   {0.5, 0.53, -0.6}, {0.9, 0.2, 1},       {0.2, 0.9, -1},     {0.019, 0, -1},
-             {0.0201, 0, 0.402}, {0.981, 1, 1},     {0.9799, 1, -0.402}, {-3, 0.5, -1},      {3, 0.5, 1}};
+  } law[] = {{0.5, 0.5, 0},    {0.5, 0.49, 0},     {0.5, 0.51, 0},  {0.5, 0.489, 0.22}, {0.5, 0.511, -0.22},
+             {0.5, 0.47, 0.6}, {0.5, 0.53, -0.6},  {0.9, 0.2, 1},   {0.2, 0.9, -1},     {0.019, 0, -1},
+             {0.02, 0, 0.4},   {0.0201, 0, 0.402}, {0.98, 1, -0.4}, {0.981, 1, 1},      {0.9799, 1, -0.402},
+             {-3, 0.5, -1},    {3, 0.5, 1}};
   pneu_params p = positioned(20);
   pneu_state s;
   pneu_model m;
@@ -637,9 +638,43 @@ static void test_effects_def__each_effect_on_the_gas__has_a_footprint_test(void 
   footprint_complete(footprints, COUNT(footprints), "mass energy command");
 }
 
+/* A stem that a positioner with a dead band has brought to rest creeps off again when its set position does: holds and
+ * ramps of many loops. */
+static void test_positioner__holds_and_ramps__always_end(void **state)
+{
+  enum { LOOPS = 40, STRETCHES = 20 };
+  uint64_t seed = 5;
+  int loop, i;
+  (void)state;
+  for (loop = 0; loop < LOOPS; loop++) {
+    pneu_params p = fixture_params(FIXTURE_R1_400);
+    double set = 0;
+    pneu_model m;
+    pneu_input input;
+    pneu_state s;
+    p.dead_volume = (pneu_real)4e-5;
+    p.fill_area = p.vent_area = (pneu_real)9e-7;
+    p.damping = (pneu_real)fixture_random(&seed, 0, 1e4);
+    p.dry_friction = (pneu_real)fixture_random(&seed, 100, 800);
+    fixture_set(&p, "gain", fixture_random(&seed, 5, 40));
+    fixture_set(&p, "dead_band", fixture_random(&seed, 0.002, 0.01));
+    m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+    input = set_position(&m, set);
+    s = fixture_rest(&m, 0, 0, &input);
+    for (i = 0; i < STRETCHES; i++) {
+      const double duration = fixture_random(&seed, 0.5, 5), to = fixture_random(&seed, 0, 1);
+      check_note("loop %d, stretch %d", loop, i);
+      input.u = (pneu_real)set;
+      input.u_rate = (pneu_real)(i % 2 ? (to - set) / duration : 0);
+      fixture_run(&m, &s, &input, duration, TOL(1e-6, 1e-4), NULL);
+      set = i % 2 ? to : set;
+    }
+  }
+}
+
 int main(void)
 {
-  enum { OTHERS = 5 };
+  enum { OTHERS = 6 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
@@ -647,6 +682,7 @@ int main(void)
       cmocka_unit_test(test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest),
       cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
       cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
+      cmocka_unit_test(test_positioner__holds_and_ramps__always_end),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);

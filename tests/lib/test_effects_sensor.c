@@ -325,9 +325,37 @@ static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void
       }
 }
 
+/* ---- Lags ---- */
+
+static void test_lags__of_next_to_no_time__are_none(void **state)
+{
+  static const char *const lag[] = {"pressure_time", "position_time", "temperature_time", "transducer_time"};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(lag); i++) {
+    const pneu_params p = with(lag[i], 2e-19), none = with(lag[i], 0);
+    const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+    const pneu_model plain = fixture_model(&none, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+    const pneu_input input = fixture_input(&m, 1);
+    pneu_state s = fixture_rest(&m, 0, 0, &input), expected = fixture_rest(&plain, 0, 0, &input);
+    fixture_run(&m, &s, &input, 0.5, FIXTURE_TOL, NULL);
+    fixture_run(&plain, &expected, &input, 0.5, FIXTURE_TOL, NULL);
+    assert_close(s.p, expected.p, 0, 0);
+    assert_close(look(&m, &s, &input).p, look(&plain, &expected, &input).p, 0, 0);
+  }
+}
+
+static void test_lags__from_a_nanosecond_on__act(void **state)
+{
+  const pneu_params at = with("pressure_time", 1e-9), below = with("pressure_time", 0.999e-9);
+  (void)state;
+  assert_int_equal(fixture_model(&at, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 1);
+  assert_int_equal(fixture_model(&below, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
+}
+
 int main(void)
 {
-  enum { OTHERS = 7 };
+  enum { OTHERS = 9 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test),
@@ -337,6 +365,8 @@ int main(void)
       cmocka_unit_test(test_pneu_show__all_sensors_at_once__are_as_observed),
       cmocka_unit_test(test_pneu_show__free_terms__are_as_observed),
       cmocka_unit_test(test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe),
+      cmocka_unit_test(test_lags__of_next_to_no_time__are_none),
+      cmocka_unit_test(test_lags__from_a_nanosecond_on__act),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);

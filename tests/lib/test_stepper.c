@@ -55,10 +55,13 @@ static pneu_state in_steps(const smooth *s, double time, int n)
 {
   pneu_workspace work;
   pneu_state at = s->start;
+  pneu_input input = s->input;
   int i;
   clear(&work);
-  for (i = 0; i < n; i++)
-    assert_int_equal(pneu_step(&s->model, &at, &s->input, (pneu_real)(time / n), &work), PNEU_OK);
+  for (i = 0; i < n; i++) {
+    input.elapsed = s->input.elapsed + (pneu_real)(time * i / n);
+    assert_int_equal(pneu_step(&s->model, &at, &input, (pneu_real)(time / n), &work), PNEU_OK);
+  }
   assert_int_equal(work.stats.steps, n);
   return at;
 }
@@ -66,23 +69,35 @@ static pneu_state in_steps(const smooth *s, double time, int n)
 /* The order and what goes with it, of the method in use. */
 enum { ORDER = PNEU_ORDER, EVALUATIONS = PNEU_ORDER == 5 ? 8 : 3, COARSEST = PNEU_ORDER == 5 ? 8 : 32 };
 
+static void check_order(int gas, double u_rate)
+{
+  smooth s = flying(gas, PNEU_FLOW_PAPER);
+  pneu_state exact;
+  double error[4];
+  int j;
+  s.input.u_rate = (pneu_real)u_rate;
+  exact = in_steps(&s, 2e-3, 512);
+  for (j = 0; j < 4; j++) {
+    const pneu_state at = in_steps(&s, 2e-3, COARSEST << j);
+    error[j] = apart(&at, &exact);
+  }
+  check_note("%s, u_rate %g: %g %g %g %g", pneu_gas_key(gas), u_rate, error[0], error[1], error[2], error[3]);
+  assert_between(fixture_order(error[1], error[2]), ORDER - 0.5, ORDER + 1.5);
+  assert_between(fixture_order(error[2], error[3]), ORDER - 0.5, ORDER + 1.5);
+}
+
 static void test_pneu_step__smooth_stretch__converges_with_its_order(void **state)
 {
-  static const int gases[] = {PNEU_GAS_ISOTHERMAL, PNEU_GAS_ENERGY};
-  int i, j;
   (void)state;
-  for (i = 0; i < COUNT(gases); i++) {
-    const smooth s = flying(gases[i], PNEU_FLOW_PAPER);
-    const pneu_state exact = in_steps(&s, 2e-3, 512);
-    double error[4];
-    for (j = 0; j < 4; j++) {
-      const pneu_state at = in_steps(&s, 2e-3, COARSEST << j);
-      error[j] = apart(&at, &exact);
-    }
-    check_note("%s: %g %g %g %g", pneu_gas_key(gases[i]), error[0], error[1], error[2], error[3]);
-    assert_between(fixture_order(error[1], error[2]), ORDER - 0.5, ORDER + 1.5);
-    assert_between(fixture_order(error[2], error[3]), ORDER - 0.5, ORDER + 1.5);
-  }
+  check_order(PNEU_GAS_ISOTHERMAL, 0);
+  check_order(PNEU_GAS_ENERGY, 0);
+}
+
+static void test_pneu_step__command_that_runs__converges_with_its_order(void **state)
+{
+  (void)state;
+  check_order(PNEU_GAS_ISOTHERMAL, -400);
+  check_order(PNEU_GAS_ENERGY, -400);
 }
 
 /* The dense output inside one step is off by the fifth power of its length; the third with order 4. */
@@ -1197,6 +1212,42 @@ static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void *
   assert_memory_equal(&s, &before, sizeof s);
 }
 
+/* A stem that creeps to rest at the first instant of a long step: the dense output of the whole step has the event, and
+ * no shorter one. Found in a fit; to all digits, because others do not show it. */
+static void test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (pneu_effect_find("chamber_leak") < 0 || pneu_effect_find("position_lag") < 0)
+    skip();
+  p.area = (pneu_real)0.039694711790763969;
+  p.dead_volume = (pneu_real)5.0068059347266687e-05;
+  p.spring_rate = (pneu_real)362465.28478728054;
+  p.spring_preload = (pneu_real)0.010712336279842697;
+  p.moving_mass = (pneu_real)2.0035441089954222;
+  p.dry_friction = (pneu_real)513.62359137739179;
+  p.viscous_friction = (pneu_real)486.20010388058199;
+  p.damping = (pneu_real)474.29982815573743;
+  p.fill_area = p.vent_area = (pneu_real)7.7147291305912676e-07;
+  p.supply_pressure = (pneu_real)394655.45029728068;
+  p.ambient_pressure = (pneu_real)100760.53973982707;
+  p.gas_constant = (pneu_real)287.10151933701661;
+  fixture_set(&p, "leak_area", 5.0486436983459405e-10);
+  fixture_set(&p, "position_time", 0.027373484051066318);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  input.u_rate = (pneu_real)1.5512820512820631;
+  s = fixture_rest(&m, 87590.694052921346, 0.00029703294707297156, &input);
+  s.v = (pneu_real)-3.3366195159822081e-06;
+  s.extra[0] = (pneu_real)0.014856215496933178;
+  s.mode = PNEU_MODE_DOWN;
+  fixture_run(&m, &s, &input, 0.038999999999999702, TOL(1e-6, 1e-4), NULL);
+  assert_int_equal(s.mode, PNEU_MODE_STUCK);
+}
+
 /* A force that turns round at every event keeps the stem at one time. */
 static int turn_force(void *context, pneu_real t, const pneu_state *state, int before)
 {
@@ -1315,6 +1366,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
 #ifndef PNEU_SINGLE
     cmocka_unit_test(test_pneu_step__smooth_stretch__converges_with_its_order),
+    cmocka_unit_test(test_pneu_step__command_that_runs__converges_with_its_order),
     cmocka_unit_test(test_pneu_dense__smooth_stretch__has_its_order),
     cmocka_unit_test(test_pneu_step__fill_and_vent__is_as_exact_as_documented),
     cmocka_unit_test(test_pneu_run__smaller_tolerance__error_falls_with_it),
@@ -1358,6 +1410,7 @@ int main(void)
     cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
     cmocka_unit_test(test_pneu_run__driven_to_where_there_is_no_volume__is_refused),
     cmocka_unit_test(test_pneu_run__event_after_event_at_one_time__is_ended),
+    cmocka_unit_test(test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end),
     cmocka_unit_test(test_pneu_run__pressure_beyond_all_sense__is_an_error),
     cmocka_unit_test(test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept),
     cmocka_unit_test(test_pneu_run__step_that_ends_below_vacuum__is_refused),

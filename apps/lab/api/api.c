@@ -12,8 +12,6 @@
 #include "../run/simulation.h"
 #include "../trace/decide.h"
 
-static const double usual_budget = 60; /* [s] of CPU */
-
 enum { GIVEN = 1 + 3 * LAB_LOGS_MAX };
 
 /* A text that something writes. */
@@ -186,7 +184,7 @@ int lab_api_closeloop(const lab_api_request *request, lab_api_answer *answer, la
                     .n_baseline = r->n_baseline,
                     .alpha = r->alpha > 0 ? r->alpha : lab_constant(LAB_ALPHA),
                     .min_gain = r->min_gain > 0 ? r->min_gain : lab_constant(LAB_MIN_GAIN),
-                    .budget = r->budget > 0 ? r->budget : usual_budget,
+                    .budget = r->budget > 0 ? r->budget : LAB_USUAL_BUDGET,
                     .on_progress = r->on_progress,
                     .context = r->context};
   lab_cpu_stop(0);

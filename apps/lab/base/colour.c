@@ -8,12 +8,12 @@
 #include "array.h"
 #include "whiteness.h"
 
-enum { FEWEST = 100, TRIALS = 200 };
+enum { FEWEST = 100, TRIALS = 200, LONG = 160 };
 static const double told = 13.8;   /* of twice the logarithm of the likelihood: two numbers at 1 in 1,000 */
 static const double rougher = 4;   /* times the usual mean square: something moves */
 static const double quiet = 0.4;   /* times the mean square of all: that of a stretch which has less noise */
-static const double within = 0.98; /* of the longest root: what ends there has no end */
-static const double times = 8;     /* what is at rest is longer than the memory that it tells: else something moves */
+static const double times = 8;     /* memories in the longest stretch, at least: more cannot be told from a level */
+static const double within = 0.98; /* of the longest root: what ends there has no end in sight */
 
 double lab_colour_whiten(const lab_colour *c, double *r, size_t n)
 {
@@ -52,7 +52,16 @@ double lab_colour_second_difference(const lab_colour *c)
 
 static const lab_colour white = {0, 0};
 
-/* Stretches that count, and room for the longest and two columns. */
+/* What a stretch may have beside noise: a level, a trend, and what still moves at its beginning. */
+enum { LEVEL, TREND, QUICK, SLOW, COLUMNS };
+
+static double column_at(int column, size_t i, size_t n)
+{
+  static const double decays[COLUMNS] = {[QUICK] = 16, [SLOW] = 4}; /* e-fold over the stretch */
+  return column == LEVEL ? 1 : column == TREND ? (double)i + 1 : exp(-decays[column] * (double)i / (double)n);
+}
+
+/* Stretches that count, and room for the longest and the columns. */
 typedef struct evidence {
   const lab_stretch *rest;
   int n;
@@ -60,37 +69,61 @@ typedef struct evidence {
   size_t longest;
 } evidence;
 
-/* A stretch without level and trend, whitened.
+/* One row more of a triangle R of least squares, the last column of which is the right-hand side, by Givens rotations.
+ * Returns: what the rows before do not predict of the right-hand side, over its deviation (Brown, Durbin and Evans
+ * 1975, J. Roy. Stat. Soc. B 37:149) */
+static double add_row(double R[COLUMNS][COLUMNS + 1], double row[COLUMNS + 1])
+{
+  int k, l;
+  for (k = 0; k < COLUMNS; k++) {
+    const double r = sqrt(R[k][k] * R[k][k] + row[k] * row[k]);
+    const double cosine = r > 0 ? R[k][k] / r : 1, sine = r > 0 ? row[k] / r : 0;
+    for (l = k; l <= COLUMNS; l++) {
+      const double above = R[k][l];
+      R[k][l] = cosine * above + sine * row[l];
+      row[l] = cosine * row[l] - sine * above;
+    }
+  }
+  return row[COLUMNS];
+}
+
+/* A stretch without the columns, whitened; the first values tell the columns and are gaps.
  * Out:  y  as many values as the stretch has
- *       logs  of the variances of innovations, and of what level and trend take
- * Returns: values that are no gaps, less two */
+ *       logs  of the variances of innovations, and of what the columns take
+ * Returns: values that are no gaps */
 static double innovations(const evidence *e, const lab_stretch *rest, const lab_colour *c, double *y, double *logs)
 {
-  double *basis = e->room, length, n = -2;
-  size_t i, k;
-  for (i = 0; i < rest->n; i++) {
+  double R[COLUMNS][COLUMNS + 1] = {{0}}, row[COLUMNS + 1];
+  size_t i, n = 0;
+  int k;
+  for (i = 0; i < rest->n; i++)
     y[i] = isnan(rest->value[i]) ? 0 : rest->value[i];
-    n += y[i] != 0;
+  for (k = 0; k < COLUMNS; k++) {
+    double *column = e->room + (size_t)k * e->longest;
+    for (i = 0; i < rest->n; i++)
+      column[i] = y[i] == 0 ? 0 : column_at(k, i, rest->n);
+    lab_colour_whiten(c, column, rest->n);
   }
   *logs = lab_colour_whiten(c, y, rest->n);
-  for (k = 0; k < 2; k++) {
-    double *column = basis + k * e->longest;
-    for (i = 0; i < rest->n; i++)
-      column[i] = isnan(rest->value[i]) || rest->value[i] == 0 ? 0 : k == 0 ? 1 : (double)i + 1;
-    lab_colour_whiten(c, column, rest->n);
-    length = lab_project_out(basis, (int)k, e->longest, rest->n, column);
-    for (i = 0; i < rest->n && length > 0; i++)
-      column[i] /= length;
-    *logs += length > 0 ? 2 * log(length) : 0;
+  for (i = 0; i < rest->n; i++) {
+    if (y[i] == 0)
+      continue;
+    for (k = 0; k < COLUMNS; k++)
+      row[k] = e->room[(size_t)k * e->longest + i];
+    row[COLUMNS] = y[i];
+    y[i] = add_row(R, row);
+    if (n++ < COLUMNS)
+      y[i] = 0;
   }
-  lab_project_out(basis, 2, e->longest, rest->n, y);
-  return n;
+  for (k = 0; k < COLUMNS && n > COLUMNS; k++)
+    *logs += 2 * log(fabs(R[k][k]));
+  return (double)n - COLUMNS;
 }
 
 /* Twice the logarithm of the likelihood, negative, at the best scale.  Out: scale */
 static double unlikely(const evidence *e, const lab_colour *c, double *scale)
 {
-  double square = 0, all_logs = 0, n = 0, *y = e->room + 2 * e->longest;
+  double square = 0, all_logs = 0, n = 0, *y = e->room + COLUMNS * e->longest;
   int k;
   for (k = 0; k < e->n; k++) {
     double logs;
@@ -105,7 +138,7 @@ static double unlikely(const evidence *e, const lab_colour *c, double *scale)
 /* The same of one stretch, at a given scale. */
 static double unlikely_there(const evidence *e, int k, const lab_colour *c, double scale)
 {
-  double logs, *y = e->room + 2 * e->longest;
+  double logs, *y = e->room + COLUMNS * e->longest;
   const double n = innovations(e, &e->rest[k], c, y, &logs);
   return 2 * n * log(scale) + lab_dot(y, y, e->rest[k].n) / (scale * scale) + logs;
 }
@@ -121,6 +154,19 @@ static int is_common(const evidence *e, const lab_colour *c, double scale, doubl
     rows_for += unlikely_there(e, k, c, scale) < unlikely_there(e, k, &white, as_white) ? rows : -rows;
   }
   return rows_for > 0;
+}
+
+/* Whether the second halves of the stretches, whatever their size, speak for a colour: what arrives late moves in the
+ * first ones.  In: half  room for all */
+static int lasts(const evidence *e, const lab_colour *c, lab_stretch *half)
+{
+  evidence late = *e;
+  double size;
+  int k;
+  for (k = 0; k < e->n; k++)
+    half[k] = (lab_stretch){e->rest[k].value + e->rest[k].n / 2, e->rest[k].n - e->rest[k].n / 2};
+  late.rest = half;
+  return unlikely(&late, c, &size) < unlikely(&late, &white, &size);
 }
 
 /* What is looked for: memory where it is negative, else the root of its time constant in rows. */
@@ -180,6 +226,12 @@ static double search(evidence *e, double at[2])
   return best;
 }
 
+/* Whether stretches that are long enough for it do not tell how long the memory is: a stem that moves has no end. */
+static int has_no_end(const evidence *e, double root)
+{
+  return e->longest >= LONG && root > within * longest_root(e);
+}
+
 /* Whether the innovations are white.  In: y  room for all values */
 static int explains(const evidence *e, const lab_colour *c, double *y, lab_stretch *stretch)
 {
@@ -201,7 +253,7 @@ static int explains(const evidence *e, const lab_colour *c, double *y, lab_stret
 /* Mean squares of the innovations of each stretch.  Out: square  Returns: the least */
 static double sizes(const evidence *e, const lab_colour *c, double *square)
 {
-  double logs, least = HUGE_VAL, *y = e->room + 2 * e->longest;
+  double logs, least = HUGE_VAL, *y = e->room + COLUMNS * e->longest;
   int k;
   for (k = 0; k < e->n; k++) {
     const double values = innovations(e, &e->rest[k], c, y, &logs);
@@ -251,8 +303,8 @@ static int estimate(lab_stretch *rest, evidence *e, lab_stretch *stretch, double
     unlikely(e, c, scale);
     most = 1;
   } while (sizes(e, c, square) < quiet * *scale * *scale);
-  return coloured < as_white - told && at[0] < within * longest_root(e) && is_common(e, c, *scale, own) &&
-         explains(e, c, e->room + 2 * e->longest, stretch);
+  return coloured < as_white - told && is_common(e, c, *scale, own) && lasts(e, c, stretch) && !has_no_end(e, at[0]) &&
+         explains(e, c, e->room + COLUMNS * e->longest, stretch);
 }
 
 int lab_colour_estimate(lab_stretch *rest, int n, lab_colour *c, double *scale, lab_error *error)
@@ -266,10 +318,10 @@ int lab_colour_estimate(lab_stretch *rest, int n, lab_colour *c, double *scale, 
     all += rest[k].n;
     e.longest = rest[k].n > e.longest ? rest[k].n : e.longest;
   }
-  e.room = malloc((2 * e.longest + all + 2 * (size_t)n + 1) * sizeof *e.room);
+  e.room = malloc((COLUMNS * e.longest + all + 2 * (size_t)n + 1) * sizeof *e.room);
   error->status = LAB_OK;
   if (e.room && stretch)
-    known = estimate(rest, &e, stretch, e.room + 2 * e.longest + all, c, &level);
+    known = estimate(rest, &e, stretch, e.room + COLUMNS * e.longest + all, c, &level);
   else
     lab_fail_memory(error, "the noise");
   if (known)

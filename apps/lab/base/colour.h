@@ -23,11 +23,11 @@ double lab_colour_whiten(const lab_colour *c, double *r, size_t n);
 /* Variance of second differences of such noise, over that of white noise. */
 double lab_colour_second_difference(const lab_colour *c);
 
-/* Colour and size of the noise in stretches at rest. Each stretch has a level and a trend of its own, which do not
- * count (restricted likelihood: Patterson and Thompson 1971, Biometrika 58:545). Stretches that scatter twice as much
- * as usual do not count, nor do others as long as some stretch has much less noise than the rest. What moves is no
- * noise: it has a memory of more than an eighth of the longest stretch, or most stretches speak against it, or what it
- * leaves is not white.
+/* Colour and size of the noise in stretches at rest. Each stretch has a level, a trend and two decays of its own, which
+ * do not count (restricted likelihood: Patterson and Thompson 1971, Biometrika 58:545). Stretches that scatter twice as
+ * much as usual do not count, nor do others as long as some stretch has much less noise than the rest. What moves is no
+ * noise: most stretches speak against a colour, or their second halves do, or what it leaves is not white, or its
+ * memory is an eighth of the longest stretch or more, and that has 160 rows.
  * In/out:  rest   those that count, first
  * Out:     c      memory 0 where the noise is white (memory makes it at most 1,000 times as likely), where there is no
  *                 such noise, or there are fewer than 100 values

@@ -24,7 +24,7 @@ FILE *lab_text_open(const char *path, lab_error *error);
 typedef struct lab_text_given {
   const char *name;
   const void *data;
-  size_t size;
+  size_t size; /* [byte] */
 } lab_text_given;
 
 /* From now on lab_text_read reads these and no file.

@@ -28,20 +28,9 @@ const char *lab_since_text(int condition)
   return text[condition];
 }
 
-static int effect_of(int param)
-{
-  int e, count;
-  for (e = 0; e < PNEU_EFFECT_COUNT && param < PNEU_PARAM_COUNT; e++) {
-    const int first = pneu_effect_params(e, &count);
-    if (param >= first && param < first + count)
-      return e;
-  }
-  return -1;
-}
-
 const char *lab_change_name(int param, char name[LAB_PARAM_NAME_TEXT])
 {
-  const int e = effect_of(param);
+  const int e = pneu_effect_of(param);
   return e < 0 ? lab_fit_name(param, name) : strcpy(name, pneu_effect_at(e)->name);
 }
 
@@ -56,6 +45,19 @@ const char *lab_change_unit(const lab_change *change)
 
 /* ---- One after the other ---- */
 
+/* Whether a refitted model still explains the baseline, as white noise sees it: noise with memory hides what a change
+ * gets wrong on both sides. */
+static int keeps_baseline(const lab_sides *c, extension *x, lab_error *error)
+{
+  const lab_run *run = x->u.run;
+  lab_rest left;
+  int status;
+  x->u.run = c->white;
+  status = lab_sides_rest(&x->u, c->first, &left, error);
+  x->u.run = run;
+  return status == LAB_OK && !lab_rest_spoils_baseline(&left);
+}
+
 static int refit_from(const lab_sides *c, const lab_score *score, double size, double level, extension *x,
                       lab_error *all)
 {
@@ -69,7 +71,7 @@ static int refit_from(const lab_sides *c, const lab_score *score, double size, d
       lab_sides_settle(&x->u, &x->chi2, &error) == LAB_OK &&
       (score->onset == 0 ||
        lab_onset_find(&x->u, lab_sides_find(&x->u, x->param), level, &x->chi2, &x->begin, &error) == LAB_OK))
-    x->fitted = 1;
+    x->fitted = keeps_baseline(c, x, &error);
   x->n_free = 1 + (x->shape >= 0) + x->begin.known;
   if (error.status == LAB_WORLD)
     lab_fail_together(all, &error);
@@ -106,13 +108,15 @@ static int follow(lab_sides *c, extension *x, lab_error *error)
 {
   lab_course course;
   lab_rest left;
-  int status = lab_sides_rest(c, &left, &c->chi2, error);
+  int status = lab_sides_rest(&c->u, c->first, &left, error);
   memset(x, 0, sizeof *x);
+  c->chi2 = left.chi2;
+  if (status != LAB_OK || !may_follow(c))
+    return status;
   c->u.run = c->white;
-  if (status == LAB_OK)
-    status = lab_sides_rest(c, &left, NULL, error);
+  status = lab_sides_rest(&c->u, c->first, &left, error);
   c->u.run = c->run;
-  if (status != LAB_OK || !may_follow(c) || !lab_rest_is_more_than_noise(&left))
+  if (status != LAB_OK || !lab_rest_is_more_than_noise(&left))
     return status;
   x->u = c->then;
   x->param = lab_param_index("supply_pressure");
@@ -182,7 +186,7 @@ static int was_there(const lab_sides *c, const extension *x, lab_error *all)
   int there = 0;
   if (!both)
     lab_fail_memory(&error, "a model of both sides");
-  if (both && !x->is_course && effect_of(x->param) >= 0 && lab_unknowns_find(&c->u, x->param) < 0) {
+  if (both && !x->is_course && pneu_effect_of(x->param) >= 0 && lab_unknowns_find(&c->u, x->param) < 0) {
     *both = c->u;
     if (!lab_unknowns_add(both, x->param, x->u.unknown[lab_sides_find(&x->u, x->param)].value, &error) &&
         !lab_sides_settle(both, &chi2, &error))
@@ -337,7 +341,7 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
 static int conclude(lab_sides *c, lab_changes *changes, lab_error *error)
 {
   lab_rest left;
-  if (lab_sides_rest(c, &left, NULL, error))
+  if (lab_sides_rest(&c->u, c->first, &left, error))
     return error->status;
   changes->then = left.then;
   changes->now = left.now;

@@ -209,16 +209,15 @@ static size_t rows_of(const lab_unknowns *u, int first)
   return n;
 }
 
-int lab_sides_rest(const lab_sides *c, lab_rest *left, double *chi2, lab_error *error)
+int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *error)
 {
-  double *r = malloc((c->u.m + 1) * sizeof *r);
-  const int status = r ? lab_unknowns_residuals((void *)&c->u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  double *r = malloc((u->m + 1) * sizeof *r);
+  const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK) {
-    left->then = left_of(&c->u, r, 0, c->first);
-    left->now = left_of(&c->u, r, c->first, c->u.n_runs);
-    left->n = rows_of(&c->u, c->first);
-    if (chi2)
-      *chi2 = lab_dot(r, r, c->u.m);
+    left->then = left_of(u, r, 0, first);
+    left->now = left_of(u, r, first, u->n_runs);
+    left->n = rows_of(u, first);
+    left->chi2 = lab_dot(r, r, u->m);
   }
   free(r);
   return status;
@@ -227,6 +226,11 @@ int lab_sides_rest(const lab_sides *c, lab_rest *left, double *chi2, lab_error *
 int lab_rest_is_doubtful(const lab_rest *left)
 {
   return left->now > sqrt(lab_constant(LAB_NOISE_DOUBTFUL)) * fmax(left->then, 1);
+}
+
+int lab_rest_spoils_baseline(const lab_rest *left)
+{
+  return left->then > sqrt(lab_constant(LAB_NOISE_DOUBTFUL));
 }
 
 int lab_rest_is_more_than_noise(const lab_rest *left)

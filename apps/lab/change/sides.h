@@ -43,17 +43,21 @@ int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error);
 typedef struct lab_rest {
   double then, now;
   size_t n; /* values of the new logs */
+  double chi2;
 } lab_rest;
 
-/* Out:     chi2  may be NULL
+/* In:      first  run of the new logs
  * Returns: as lab_unknowns_residuals */
-int lab_sides_rest(const lab_sides *c, lab_rest *left, double *chi2, lab_error *error);
+int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *error);
 
 /* Whether the new logs leave more than noise. */
 int lab_rest_is_more_than_noise(const lab_rest *left);
 
 /* Whether they leave so much more than the baseline that it is no matter of noise. */
 int lab_rest_is_doubtful(const lab_rest *left);
+
+/* Whether the model leaves so much of the baseline, which it was fitted to before, that it is bent. */
+int lab_rest_spoils_baseline(const lab_rest *left);
 
 /* Score each difference that the new logs may have, throughout and, where more than noise is left, from some rows on.
  * Returns: LAB_OK; LAB_NUMERIC, also without time; LAB_WORLD */

@@ -7,206 +7,189 @@
 #include "../base/format.h"
 #include "../base/text.h"
 
-enum { BLOCK = 128, LOWEST = BLOCK / 16, LINES = BLOCK / 2 + 1, BLOCKS_FEWEST = 4, HARMONICS = 3 };
+enum { ROWS_FEWEST = 512, HARMONICS = 3, NEIGHBOURS = 16 };
 
 static const double two_pi = 6.283185307179586;
-static const double uneven = 0.02;  /* of the distance of rows */
-static const double clear = 10;     /* times the median of all lines: power of one that stands out */
+static const double clear = 40;     /* times what its neighbours explain: a line that stands out */
+static const double apart = 0.01;   /* of the frequency: from neighbour to neighbour */
 static const double clipped = 5;    /* median sizes, to which a second difference is cut: strokes do not count */
 static const double steady = 0.3;   /* of the amplitude: both halves of a run have it alike */
-static const double visible = 0.25; /* of the scatter from row to row: a smaller amplitude does no harm */
+static const double visible = 0.12; /* of the median second difference, a fifth of white noise: less does no harm */
+static const double grid = 3e-3;    /* of its frequency, by which the mains and a logger's clock may be off */
+static const double slowest = 20;   /* rows a second: of fewer, most frequencies are what the mains would look like */
+static const double lowest = 1.0 / 16; /* periods a row: what is slower may be the rig's */
 
-static const double grid = 3e-3;  /* of its frequency, by which the mains and a logger's clock may be off */
-static const double slowest = 20; /* rows a second: of fewer, most frequencies are what the mains would look like */
+/* Rows of a run: times, and second differences of a channel, in which what is slow is small; NaN beside a gap. */
+typedef struct rows {
+  const double *t, *d;
+  size_t n;
+} rows;
 
-/* a cos(w i) + b sin(w i) in row i */
+/* a cos(2 pi f t) + b sin(2 pi f t) */
 typedef struct wave {
-  double w, a, b;
+  double f, a, b;
+  double explained; /* of the squares of the second differences */
 } wave;
 
-/* Second differences, in which what is slow is small, cut where a stroke begins or ends; 0 beside a gap.
- * Returns: their median size, 0 if there are too few */
+static void differentiate(const double *y, size_t n, double *d)
+{
+  size_t i;
+  d[0] = d[n - 1] = (double)NAN;
+  for (i = 1; i + 1 < n; i++)
+    d[i] = y[i + 1] - 2 * y[i] + y[i - 1];
+}
+
+/* The same, cut where a stroke begins or ends.  Returns: their median size, 0 if there are none */
 static double sharpen(const double *y, size_t n, double *d, double *size)
 {
   double usual;
   size_t i, m = 0;
-  d[0] = d[n - 1] = 0;
-  for (i = 1; i + 1 < n; i++) {
-    d[i] = y[i + 1] - 2 * y[i] + y[i - 1];
-    if (isnan(d[i]))
-      d[i] = 0;
-    else
+  differentiate(y, n, d);
+  for (i = 0; i < n; i++)
+    if (!isnan(d[i]))
       size[m++] = fabs(d[i]);
-  }
   usual = m > 0 ? lab_median(size, m) : 0;
   for (i = 0; i < n; i++)
-    d[i] = fmin(fmax(d[i], -clipped * usual), clipped * usual);
+    if (fabs(d[i]) > clipped * usual)
+      d[i] = copysign(clipped * usual, d[i]);
   return usual;
 }
 
-/* Amplitudes of a frequency [rad a row] in n rows, by a turn that goes on from row to row. */
-static wave correlate(const double *d, size_t n, double w)
+/* The wave of a frequency [Hz] in n rows from a row on, by least squares: rows need not be even. */
+static wave fit_wave(const rows *r, size_t from, size_t n, double f)
 {
-  const double c = cos(w), s = sin(w);
-  wave v = {w, 0, 0};
-  double x = 1, y = 0, scale = w < 0.5 * two_pi ? 2 : 1;
+  static const double ridge = 1e-9; /* where every row is at the same phase, one of the two is not seen */
+  double c[3] = {0}, s[3] = {0}, cc = 0, ss = 0, cs = 0, cd = 0, sd = 0, det;
+  wave v = {f, 0, 0, 0};
   size_t i;
   for (i = 0; i < n; i++) {
-    const double turned = c * x - s * y;
-    v.a += d[i] * x;
-    v.b += d[i] * y;
-    y = s * x + c * y;
-    x = turned;
+    const double angle = two_pi * f * r->t[from + i];
+    double x, y;
+    c[0] = c[1], c[1] = c[2], c[2] = cos(angle);
+    s[0] = s[1], s[1] = s[2], s[2] = sin(angle);
+    if (i < 2 || isnan(r->d[from + i - 1]))
+      continue;
+    x = c[2] - 2 * c[1] + c[0];
+    y = s[2] - 2 * s[1] + s[0];
+    cc += x * x;
+    ss += y * y;
+    cs += x * y;
+    cd += x * r->d[from + i - 1];
+    sd += y * r->d[from + i - 1];
   }
-  v.a *= scale / (double)n;
-  v.b *= scale / (double)n;
+  cc += ridge * (cc + ss);
+  ss += ridge * (cc + ss);
+  det = cc * ss - cs * cs;
+  if (det > 0) {
+    v.a = (ss * cd - cs * sd) / det;
+    v.b = (cc * sd - cs * cd) / det;
+    v.explained = v.a * cd + v.b * sd;
+  }
   return v;
 }
 
-static double power(wave v)
+/* The best wave within `width` of a frequency in the first n rows. */
+static wave strongest(const rows *r, size_t n, double f, double width)
 {
-  return v.a * v.a + v.b * v.b;
-}
-
-/* What a second difference makes of a swing, by size. */
-static double sharpened(double w)
-{
-  return 4 * sin(w / 2) * sin(w / 2);
-}
-
-/* Power of a line as the median over the blocks of a run.  In: room for a value a block */
-static double usual_power(const double *d, size_t blocks, int k, double *each)
-{
-  const double w = two_pi * k / BLOCK;
-  size_t b;
-  for (b = 0; b < blocks; b++)
-    each[b] = power(correlate(d + b * BLOCK, BLOCK, w)) / (sharpened(w) * sharpened(w));
-  return lab_median(each, blocks);
-}
-
-/* The line that stands out of all.  Returns: its frequency [rad a row], 0 if there is none */
-static double line_of(const double *d, size_t n, double *each)
-{
-  const size_t blocks = n / BLOCK;
-  double height[LINES], sorted[LINES];
-  int k, best = LOWEST;
-  for (k = LOWEST; k < LINES; k++) {
-    height[k] = sorted[k - LOWEST] = usual_power(d, blocks, k, each);
-    if (height[k] > height[best])
-      best = k;
+  const double step = 1 / (16 * (r->t[n - 1] - r->t[0]));
+  wave best = fit_wave(r, 0, n, f);
+  double at;
+  for (at = f - width; at <= f + width; at += step) {
+    const wave v = fit_wave(r, 0, n, at);
+    best = v.explained > best.explained ? v : best;
   }
-  return height[best] > clear * lab_median(sorted, LINES - LOWEST) ? two_pi * best / BLOCK : 0;
+  return best;
 }
 
-/* The frequency within `width` of w that has the most power. */
-static double strongest(const double *d, size_t n, double w, double width, double step)
+/* The best wave near a frequency in all rows: the more rows, the narrower is the line. */
+static wave tune(const rows *r, double f)
 {
-  double best = 0, at, found = w;
-  for (at = w - width; at <= w + width && at <= 0.5 * two_pi; at += step) {
-    const double now = power(correlate(d, n, at));
-    if (now > best) {
-      best = now;
-      found = at;
-    }
+  double width = grid * f;
+  size_t m = ROWS_FEWEST;
+  for (; m < r->n; m *= 2) {
+    f = strongest(r, m, f, width).f;
+    width = 1 / (4 * (r->t[m - 1] - r->t[0]));
   }
-  return found;
+  return strongest(r, r->n, f, width);
 }
 
-/* The frequency near w that has the most power in all rows together: the more rows, the narrower is the line. */
-static wave tune(const double *d, size_t n, double w)
+static int stands_out(const rows *r, const wave *v)
 {
-  double width = two_pi / BLOCK;
-  size_t m = BLOCKS_FEWEST * BLOCK;
-  for (; m < n; m *= 2) {
-    w = strongest(d, m, w, width, two_pi / (16 * (double)m));
-    width = two_pi / (4 * (double)m);
-  }
-  return correlate(d, n, strongest(d, n, w, width, two_pi / (16 * (double)n)));
+  double beside[NEIGHBOURS];
+  int k;
+  for (k = 0; k < NEIGHBOURS; k++)
+    beside[k] =
+        fit_wave(r, 0, r->n, v->f * (1 + apart * (k < NEIGHBOURS / 2 ? k - NEIGHBOURS / 2 : k + 1 - NEIGHBOURS / 2)))
+            .explained;
+  return v->explained > clear * lab_median(beside, NEIGHBOURS);
 }
 
 /* Whether both halves of a run have it, in the same phase. */
-static int is_steady(const double *d, size_t n, wave v)
+static int is_steady(const rows *r, const wave *v)
 {
-  const size_t half = n / 2;
-  const wave first = correlate(d, half, v.w);
-  const double c = first.a - v.a, s = first.b - v.b;
-  return c * c + s * s < steady * steady * power(v);
+  const size_t half = r->n / 2;
+  const wave first = fit_wave(r, 0, half, v->f), last = fit_wave(r, half, r->n - half, v->f);
+  return hypot(first.a - last.a, first.b - last.b) < 2 * steady * hypot(v->a, v->b);
 }
 
 /* Whether the command has a line there too, by what noise would have: a set position that goes up in steps. What
- * follows it is no hum. */
-static int is_commanded(const double *u, size_t n, double w, double *d)
+ * follows it is no hum.  In: d  room for a run */
+static int is_commanded(const double *u, const rows *r, double f, double *d)
 {
+  const rows commanded = {r->t, d, r->n};
   double sum = 0;
   size_t i;
-  d[0] = d[n - 1] = 0;
-  for (i = 1; i + 1 < n; i++) {
-    d[i] = u[i + 1] - 2 * u[i] + u[i - 1];
-    sum += d[i] * d[i];
-  }
-  return power(correlate(d, n, w)) > clear * 4 * sum / ((double)n * (double)n);
+  differentiate(u, r->n, d);
+  for (i = 0; i < r->n; i++)
+    sum += isnan(d[i]) ? 0 : d[i] * d[i];
+  return fit_wave(&commanded, 0, r->n, f).explained > clear * 2 * sum / (double)r->n;
 }
 
-/* Whether rows that come at a rate [1/s] show the mains, or an harmonic, as a line at w [rad a row]. */
-static int is_of_mains(double w, double rate)
+/* Whether sampling at a rate [1/s] leaves a frequency fast enough to be told from what the rig does. */
+static int is_seen(double f, double rate)
 {
-  static const double mains[] = {50, 60};
-  int i, k, any = 0;
-  for (i = 0; i < 2; i++)
-    for (k = 1; k <= HARMONICS; k++) {
-      const double f = k * mains[i], seen = fabs(f - rate * floor(f / rate + 0.5));
-      any |= fabs(seen - w / two_pi * rate) < grid * f;
-    }
-  return any;
+  return fabs(f - rate * floor(f / rate + 0.5)) > lowest * rate;
 }
 
-/* One line off one channel of a run, of which u is the command, or NULL.  Returns: its amplitude; 0 if there is none.
- * Out: w */
-static double remove_line(double *y, const double *u, size_t n, double rate, double *room, double *w)
+/* One line off one channel of a run, of which u is the command, or NULL.  Returns: it; a and b are 0 if there is none
+ */
+static wave remove_line(const double *t, double *y, const double *u, size_t n, double f, double *room)
 {
-  double *d = room, *each = room + n, usual = sharpen(y, n, d, each), size;
+  static const wave none = {0, 0, 0, 0};
+  double *d = room;
+  const double usual = sharpen(y, n, d, room + n);
+  const rows r = {t, d, n};
   wave v;
   size_t i;
-  if (!(usual > 0) || !((*w = line_of(d, n, each)) > 0))
-    return 0;
-  v = tune(d, n, *w);
-  size = sqrt(power(v)) / sharpened(v.w);
-  if (!is_of_mains(v.w, rate) || !is_steady(d, n, v) || !(sqrt(power(v)) > visible * usual) ||
-      (u && is_commanded(u, n, v.w, each)))
-    return 0;
+  if (!(usual > 0))
+    return none;
+  v = tune(&r, f);
+  if (!(hypot(v.a, v.b) > visible * usual) || !stands_out(&r, &v) || !is_steady(&r, &v) ||
+      (u && is_commanded(u, &r, v.f, room + n)))
+    return none;
   for (i = 0; i < n; i++)
-    y[i] += (v.a * cos(v.w * (double)i) + v.b * sin(v.w * (double)i)) / sharpened(v.w);
-  *w = v.w;
-  return size;
+    y[i] -= v.a * cos(two_pi * v.f * t[i]) + v.b * sin(two_pi * v.f * t[i]);
+  return v;
 }
 
-/* Rows at equal distances, and not too few a second. */
-static int is_even(const double *t, size_t n)
+static void remove_from(lab_log *log, size_t run, int channel, double rate, double *room)
 {
-  const double step = (t[n - 1] - t[0]) / (double)(n - 1);
-  size_t i;
-  for (i = 1; i < n; i++)
-    if (fabs(t[i] - t[i - 1] - step) > uneven * step)
-      return 0;
-  return step * slowest < 1;
-}
-
-static void remove_from(lab_log *log, size_t run, int channel, double *room)
-{
+  static const double mains[] = {50, 60};
   const size_t first = log->run[run], n = log->run[run + 1] - first;
-  const double *t = log->value[LAB_CHANNEL_TIME] + first;
   const int command = lab_log_command(log);
   const double *u = command < 0 ? NULL : log->value[command] + first;
-  const double rate = (double)(n - 1) / (t[n - 1] - t[0]);
-  int k;
-  for (k = 0; k < HARMONICS; k++) {
-    double w = 0;
-    const double size = remove_line(log->value[channel] + first, u, n, rate, room, &w);
-    if (!(size > log->hum[channel].amplitude))
-      continue;
-    log->hum[channel].amplitude = size;
-    log->hum[channel].frequency = w / two_pi * rate;
-  }
+  int i, k;
+  for (i = 0; i < 2; i++)
+    for (k = 1; k <= HARMONICS; k++) {
+      const double f = k * mains[i];
+      wave v = {0, 0, 0, 0};
+      if (is_seen(f, rate))
+        v = remove_line(log->value[LAB_CHANNEL_TIME] + first, log->value[channel] + first, u, n, f, room);
+      if (!(hypot(v.a, v.b) > log->hum[channel].amplitude))
+        continue;
+      log->hum[channel].amplitude = hypot(v.a, v.b);
+      log->hum[channel].frequency = v.f;
+    }
 }
 
 static void say(const lab_log *log, int channel, lab_limitations *limitations)
@@ -216,6 +199,15 @@ static void say(const lab_log *log, int channel, lab_limitations *limitations)
                  lab_channels[channel].key,
                  lab_format_brief(log->hum[channel].amplitude, lab_channels[channel].unit, amplitude),
                  lab_format_number(log->hum[channel].frequency, 3, frequency));
+}
+
+/* Rows a second, but for those that are missing. */
+static double rate_of(const double *t, size_t n, double *room)
+{
+  size_t i;
+  for (i = 0; i + 1 < n; i++)
+    room[i] = t[i + 1] - t[i];
+  return 1 / lab_median(room, n - 1);
 }
 
 int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *error)
@@ -229,8 +221,9 @@ int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *er
     const int c = channels[k];
     for (run = 0; run < log->n_runs && log->value[c]; run++) {
       const size_t first = log->run[run], n = log->run[run + 1] - first;
-      if (n >= BLOCKS_FEWEST * BLOCK && is_even(log->value[LAB_CHANNEL_TIME] + first, n))
-        remove_from(log, run, c, room);
+      const double rate = n >= ROWS_FEWEST ? rate_of(log->value[LAB_CHANNEL_TIME] + first, n, room) : 0;
+      if (rate > slowest)
+        remove_from(log, run, c, rate, room);
     }
     if (log->hum[c].amplitude > 0)
       say(log, c, limitations);

@@ -315,9 +315,10 @@ static double pace(const lab_log_view *s)
   return n > 0 ? ratio[n / 2] : (double)NAN;
 }
 
+/* A command that a positioner gave suits the rig, not the declared model, which runs away under it. */
 int lab_check_pace(const lab_log_view *s, lab_check_result *f)
 {
-  const double ratio = pace(s);
+  const double ratio = s->log->value[LAB_CHANNEL_SP] ? (double)NAN : pace(s);
   if (isnan(ratio) || (ratio < pace_factor && ratio > 1 / pace_factor))
     return 0;
   return lab_check_fail(f, LAB_NO_ROW,

@@ -280,8 +280,9 @@ static void add_switch(lab_unknowns *u, int e, int index, double width, const ch
 /* Whether a change of the command is a jump, of which a positioner makes one when its set position does. */
 static int is_jump(const lab_run *x, size_t k)
 {
-  const pneu_input *input = x->inputs.schedule.input + k;
-  return fabs((double)(input[1].u - input[0].u)) > jump;
+  const lab_schedule *s = &x->inputs.schedule;
+  const pneu_input before = lab_input_after(&s->input[k], s->t[k + 1] - s->t[k]);
+  return fabs((double)(s->input[k + 1].u - before.u)) > jump;
 }
 
 /* Changes whose instant is not known; of these, if asked for, the jumps. */

@@ -13,10 +13,10 @@ static const double instant_step = 0.15; /* the same of an instant, which dry fr
 static const double coarse_step = 0.05;  /* the same where slips come and go on shorter ones */
 static const double held_step = 0.25;    /* of what is held, over its tolerance: it moves little else */
 
-static const double central_step = 1e-4; /* of a central difference, over what matters or over five spreads: a stop that
-                                            is hit earlier by a row changes that row only */
-static const double exact = 1e-8; /* tolerance of the stepper for these: where only a prior tells values apart, their
-                                     slopes have to cancel */
+/* Of a central difference, over what matters or over a spread, and the tolerance of the stepper for it: where only a
+ * prior tells values apart their slopes have to cancel, and one row that a stop or a breakaway passes by within the
+ * step seems to tell them apart. */
+static const double central_step = 1e-6, known_step = 5e-5, exact = 1e-10;
 
 double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j)
 {
@@ -76,7 +76,7 @@ static int central_slope(void *context, const double *theta, const double *r, in
 {
   const lab_unknowns *u = context;
   const lab_unknown *x = &u->unknown[j];
-  const double step = central_step * (lab_unknown_is_known(x) ? 5 * x->spread : x->scale > 0 ? x->scale : 1);
+  const double step = lab_unknown_is_known(x) ? known_step * x->spread : central_step * (x->scale > 0 ? x->scale : 1);
   double at[LAB_FIT_MAX], *below;
   size_t i;
   int status;

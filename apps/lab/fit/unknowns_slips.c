@@ -6,7 +6,9 @@
 #include "windowed.h"
 #include "unknowns.h"
 
-static const double rough_share = 0.3; /* of the windows with motion: that many rough ones are no accident */
+/* Of the windows with motion. Of 182 recorded trials one has between 0.14 and 0.32; above are periodic forces, and
+ * stems that stick and slip from 0.28. */
+static const double rough_share = 0.2;
 
 /* Share of the windows in which pressure or position of an experiment is rougher than the model's.
  * In/out:  r  its errors over noise; then what the model predicts */

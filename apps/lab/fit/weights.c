@@ -14,13 +14,14 @@ static const double at_rest = 0.25; /* times the noise: what a prediction change
 static const double unmoved = 1;    /* times that of x: what a set position moves there */
 static const double white = 0.15; /* by which variances from first and from second differences of white noise differ */
 static const double larger = 1.2; /* times the declared noise, from where on the log is believed */
+static const double wanders = 10; /* times that: what is as large as this is no noise */
 static const double certain = 5, likely = 2; /* deviations: of all rows, and of those in which little changes */
 static const double usual_change = 16;       /* square of what changes in these, in noise */
 static const double steps = 1.5;             /* times the noise, from where on the resolution shows */
 static const double hidden = 2.5;            /* times the noise, up to which a resolution is rounded to at random */
 static const double share_of_row = 0.5;      /* the longest error of a time */
 static const double reach = 3;               /* deviations that a command may be outside of its rows */
-enum { FEWEST = 100, SHORTEST = 32 };
+enum { FEWEST = 100, SHORTEST = 24 };
 
 /* Rows of all runs and channels: squares of second differences over their expectation, were there noise alone; mean
  * square of the slope over noise in the same rows [1/s2]; the same for the change a row. */
@@ -120,9 +121,8 @@ static int find_rest(const lab_run *x, int c, const double *r, double *value, la
     many = rows_at_rest(x, c, r, i);
     for (k = i; k < i + many; k++)
       value[k] = isnan(lab_run_measured(x, c, k)) ? (double)NAN : r[k];
-    k = i > 0 ? many / 2 : 0; /* what the model lacks may still move at first */
-    if (many - k >= SHORTEST)
-      rest[n++] = (lab_stretch){value + i + k, many - k};
+    if (many >= SHORTEST)
+      rest[n++] = (lab_stretch){value + i, many};
   }
   return n;
 }
@@ -171,6 +171,8 @@ static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
     if (x->resolution[c] > hidden * x->sigma[c])
       continue;
     status = colour_of(x, c, r, value, rest, &level, error);
+    if (!isnan(x->rig->noise[x->channel[c]]) && level > wanders)
+      x->colour[c].memory = x->colour[c].share = 0;
     if (x->colour[c].memory == 0)
       continue;
     any = 1;

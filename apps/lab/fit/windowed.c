@@ -3,6 +3,8 @@
 #include <math.h>
 
 enum { FEWEST = 8 };
+static const double rougher = 1.5; /* times the model's scatter: a stroke that is only bent, or comes at another time,
+                                      scatters much as the model's does */
 /* How well a window is known, over the roughness of the whole: its mean, as the stem may have stopped anywhere within a
  * slip; and its scatter. */
 static const double course_share = 0.5, roughness_share = 0.2;
@@ -95,7 +97,7 @@ double lab_windowed_roughness(const double *measured, const double *predicted, s
     if (seen.n < FEWEST || fabs(seen.rise) < 6 * sigma)
       continue;
     moving++;
-    rough += seen.scatter * seen.scatter - model.scatter * model.scatter > 9 * sigma * sigma;
+    rough += seen.scatter * seen.scatter > rougher * rougher * model.scatter * model.scatter + 9 * sigma * sigma;
   }
   return moving ? (double)rough / (double)moving : 0;
 }

@@ -23,7 +23,7 @@ void lab_windowed_residuals(const double *measured, const double *predicted, siz
                             double *r);
 
 /* Share of the windows in which a channel moves rougher than predicted: its scatter about a straight line is beyond
- * that of the prediction by more than three times the noise. */
+ * one and a half times that of the prediction by more than three times the noise. */
 double lab_windowed_roughness(const double *measured, const double *predicted, size_t n, size_t w, double sigma);
 
 #endif

@@ -6,6 +6,8 @@
 #include "../check/logs.h"
 #include "report.h"
 
+enum { LAB_USUAL_BUDGET = 60 }; /* [s] of CPU, for one question */
+
 typedef struct lab_request {
   const char *rig;        /* path of the rig file */
   const char *const *log; /* paths of the logs to fit */

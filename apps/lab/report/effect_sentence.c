@@ -129,28 +129,30 @@ static double leak_share(const about *a)
 
 /* ---- Words ---- */
 
-/* unit: as in lab_format_as; "": that of the parameter. */
+/* unit: as in lab_format_as; "": that of the parameter. most: beyond, it is left out, for what it is a share of is
+ * nearly nothing; 0: it always tells. */
 static const struct {
   const char *name, *unit;
   double (*size)(const about *a);
+  double most;
 } sizes[] = {
-    {"size", "", of_itself},
-    {"percent", "%", percent},
-    {"reciprocal", "J/K", reciprocal},
-    {"of_fill", "%", of_fill},
-    {"of_stroke", "%", of_stroke},
-    {"of_supply", "%", of_supply},
-    {"of_friction", "%", of_friction},
-    {"of_friction_rise", "%", of_friction_rise},
-    {"friction_rise", "N", friction_rise},
-    {"of_spring", "%", of_spring},
-    {"fill_drop", "Pa", fill_drop},
-    {"vent_drop", "Pa", vent_drop},
-    {"leak", "Nl/h", leak_normal},
-    {"leak_share", "%", leak_share},
+    {"size", "", of_itself, 0},
+    {"percent", "%", percent, 0},
+    {"reciprocal", "J/K", reciprocal, 0},
+    {"of_fill", "%", of_fill, 1000},
+    {"of_stroke", "%", of_stroke, 1000},
+    {"of_supply", "%", of_supply, 1000},
+    {"of_friction", "%", of_friction, 1000},
+    {"of_friction_rise", "%", of_friction_rise, 1000},
+    {"friction_rise", "N", friction_rise, 0},
+    {"of_spring", "%", of_spring, 0},
+    {"fill_drop", "Pa", fill_drop, 0},
+    {"vent_drop", "Pa", vent_drop, 0},
+    {"leak", "Nl/h", leak_normal, 0},
+    {"leak_share", "%", leak_share, 1000},
 };
 
-/* A size with its unit; "" for one that is not finite, and the name itself where it is none. */
+/* A size with its unit; "" for one that is not finite or beyond what tells, and the name itself where it is none. */
 static void write_size(const about *a, const char *name, size_t length, char text[2 * LAB_FORMAT_TEXT])
 {
   enum { SIZES = sizeof sizes / sizeof *sizes };
@@ -169,7 +171,7 @@ static void write_size(const about *a, const char *name, size_t length, char tex
            lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
   if (sizes[i].size == leak_normal)
     lab_append(text, 2 * LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
-  if (!isfinite(size))
+  if (!isfinite(size) || (sizes[i].most > 0 && size > sizes[i].most))
     *text = '\0';
 }
 

@@ -87,22 +87,31 @@ void lab_cvode_free(lab_cvode *c)
   free(c);
 }
 
+/* What drives the model at a time of the stretch [s]. */
+static pneu_input input_at(const lab_cvode *c, real t)
+{
+  pneu_input now = *c->run->input;
+  now.elapsed += t;
+  return now;
+}
+
 static int rhs(real t, N_Vector y, N_Vector dydt, void *data)
 {
   lab_cvode *c = data;
-  (void)t;
-  return pneu_rhs(c->model, c->state, c->run->input, N_VGetArrayPointer(y), N_VGetArrayPointer(dydt));
+  const pneu_input now = input_at(c, t);
+  return pneu_rhs(c->model, c->state, &now, N_VGetArrayPointer(y), N_VGetArrayPointer(dydt));
 }
 
 static int jacobian(real t, N_Vector y, N_Vector f, SUNMatrix matrix, void *data, N_Vector w1, N_Vector w2, N_Vector w3)
 {
   lab_cvode *c = data;
+  const pneu_input now = input_at(c, t);
   pneu_real jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
   const long n = SUNDenseMatrix_Rows(matrix);
   long i, j;
   int status;
-  (void)t, (void)w1, (void)w2, (void)w3;
-  status = pneu_jacobian(c->model, c->state, c->run->input, N_VGetArrayPointer(y), N_VGetArrayPointer(f), jac);
+  (void)w1, (void)w2, (void)w3;
+  status = pneu_jacobian(c->model, c->state, &now, N_VGetArrayPointer(y), N_VGetArrayPointer(f), jac);
   if (status != PNEU_OK)
     return status;
   for (j = 0; j < n; j++)
@@ -114,9 +123,9 @@ static int jacobian(real t, N_Vector y, N_Vector f, SUNMatrix matrix, void *data
 static int events(real t, N_Vector y, real *g, void *data)
 {
   lab_cvode *c = data;
-  int i, n;
-  (void)t;
-  n = pneu_events(c->model, c->state, c->run->input, N_VGetArrayPointer(y), g);
+  const pneu_input now = input_at(c, t);
+  const int n = pneu_events(c->model, c->state, &now, N_VGetArrayPointer(y), g);
+  int i;
   for (i = n; i < PNEU_EVENT_MAX; i++)
     g[i] = -1;
   return 0;
@@ -221,53 +230,33 @@ static int sample_step(lab_cvode *c, solver *s, double t)
   return 0;
 }
 
-/* On to `end`, under one command. */
-static int run_stretch(lab_cvode *c, double t, double end, lab_error *error)
+int lab_cvode_run(lab_cvode *c, const pneu_model *model, const lab_cvode_stretch *run, pneu_state *state,
+                  lab_error *error)
 {
-  pneu_settle(c->model, c->run->input, c->state);
-  while (t < end) {
-    solver *s = solver_start(c, t, end);
+  double t = 0;
+  c->model = model;
+  c->run = run;
+  c->state = state;
+  pneu_settle(model, run->input, state);
+  while (t < run->duration) {
+    solver *s = solver_start(c, t, run->duration);
     int flag = CV_SUCCESS;
     if (!s)
       return lab_fail_memory(error, "CVODE");
     while (flag == CV_SUCCESS) {
-      flag = CVode(s->memory, end, s->y, &t, CV_ONE_STEP);
+      flag = CVode(s->memory, run->duration, s->y, &t, CV_ONE_STEP);
       if (flag < 0)
         return give_up(c, flag, t, error);
-      if (c->run->sampler && sample_step(c, s, t))
+      if (run->sampler && sample_step(c, s, t))
         return lab_fail_memory(error, "CVODE");
     }
-    pneu_unpack(c->model, N_VGetArrayPointer(s->y), c->state);
-    count(s, c->run->stats);
+    pneu_unpack(model, N_VGetArrayPointer(s->y), state);
+    count(s, run->stats);
     if (flag == CV_ROOT_RETURN) {
-      pneu_switch(c->model, c->run->input, fired(s), c->state);
-      if (c->run->stats)
-        c->run->stats->events++;
+      pneu_switch(model, run->input, fired(s), state);
+      if (run->stats)
+        run->stats->events++;
     }
   }
   return LAB_OK;
-}
-
-int lab_cvode_run(lab_cvode *c, const pneu_model *model, const lab_cvode_stretch *run, pneu_state *state,
-                  lab_error *error)
-{
-  pneu_delay *late = model->command_delay > 0 ? run->input->delay : NULL;
-  double t = 0;
-  int status = LAB_OK;
-  c->model = model;
-  c->run = run;
-  c->state = state;
-  if (late && pneu_delay_give(late, model->command_delay, run->input->u) != PNEU_OK)
-    return lab_fail(error, LAB_NUMERIC, "%s", pneu_status_text(PNEU_E_DELAY));
-  do {
-    const double left = run->duration - t, stretch = late ? (double)pneu_delay_until(late, left) : left;
-    const double end = stretch < left ? t + stretch : run->duration;
-    status = run_stretch(c, t, end, error);
-    if (late) {
-      pneu_delay_pass(late, stretch);
-      pneu_delay_release(late);
-    }
-    t = end;
-  } while (status == LAB_OK && t < run->duration);
-  return status;
 }

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "cvode.h"
+#include "late.h"
 #include "sampler.h"
+#include "schedule.h"
 
 enum { COLUMNS = 13, SHOWN_COLUMNS = 5 };
 
@@ -63,7 +65,6 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   pneu_output out;
   if (pneu_observe(*r->model, state, input, &out) != PNEU_OK)
     memset(&out, 0xff, sizeof out); /* every number NaN */
-  response->u[i] = input->u;
   response->opening[i] = out.opening;
   response->p[i] = out.shown_pressure;
   if (!r->row)
@@ -77,6 +78,17 @@ static void record(void *context, size_t i, const pneu_state *state, const pneu_
   response->force[i] = out.holding_force;
   response->ps[i] = out.supply;
   response->mode[i] = state->mode;
+}
+
+/* Commands as they were given. */
+static void record_commands(const lab_schedule *s, lab_response *response)
+{
+  size_t i, row = 0;
+  for (i = 0; i < response->n; i++) {
+    while (row + 1 < s->n && s->t[row + 1] <= response->t[i])
+      row++;
+    response->u[i] = (double)lab_input_after(&s->input[row], response->t[i] - s->t[row]).u;
+  }
 }
 
 static void record_shown(void *context, size_t i, const pneu_state *state, const pneu_input *input)
@@ -231,41 +243,55 @@ static int hand_over(const pneu_model *from, const pneu_model *to, const pneu_in
   return LAB_OK;
 }
 
-static int run_schedule(engine *e, double t_end, lab_sampler *sampler, lab_error *error)
+/* Under one row of a schedule, to a time. */
+static int run_row(engine *e, pneu_input *input, double from, double to, pneu_state *state, lab_sampler *sampler,
+                   lab_error *error)
 {
-  const lab_schedule *schedule = e->task->schedule;
-  const pneu_model *model = e->model = e->task->rows ? e->task->rows[0] : e->model;
+  pneu_delay acts; /* the schedule has the delay */
+  pneu_delay_begin(&acts, NULL, 0, input->u);
+  input->delay = &acts;
+  sampler->origin = from;
+  sampler->input = input;
+  pneu_settle(e->model, input, state);
+  while (lab_sampler_due(sampler) <= 0)
+    lab_sampler_take(sampler, state);
+  if (stretch(e, state, to - from, sampler, error))
+    return error->status;
+  while (sampler->next < sampler->n)
+    lab_sampler_take(sampler, state); /* the end, missed by rounding */
+  return LAB_OK;
+}
+
+static int run_rows(engine *e, const lab_late *late, double t_end, lab_sampler *sampler, lab_error *error)
+{
+  const lab_schedule *schedule = &late->schedule;
+  const pneu_model *model = e->model = late->rows[0];
   pneu_state state = *e->task->start;
-  pneu_late *slots = model->command_delay > 0 ? malloc(schedule->n * sizeof *slots) : NULL;
-  pneu_delay late;
   const size_t n = sampler->n;
   size_t i;
   int status = LAB_OK;
-  if (model->command_delay > 0 && !slots)
-    return lab_fail_memory(error, "commands on their way");
-  pneu_delay_begin(&late, slots, (int)schedule->n, schedule->input[0].u);
   if (model->clock >= 0)
     state.extra[model->clock] = (pneu_real)schedule->t[0];
   for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
     const double to = i + 1 < schedule->n && schedule->t[i + 1] < t_end ? schedule->t[i + 1] : t_end;
     pneu_input input = schedule->input[i];
-    input.delay = slots ? &late : NULL;
-    if (e->task->rows && e->task->rows[i] != e->model) {
-      status = hand_over(e->model, e->task->rows[i], &input, &state, error);
-      e->model = e->task->rows[i];
-    }
-    sampler->origin = schedule->t[i];
-    sampler->input = &input;
     limit_samples(sampler, n, to, to >= t_end);
-    pneu_settle(e->model, &input, &state);
-    while (lab_sampler_due(sampler) <= 0)
-      lab_sampler_take(sampler, &state);
+    if (late->rows[i] != e->model)
+      status = hand_over(e->model, late->rows[i], &input, &state, error);
+    e->model = late->rows[i];
     if (status == LAB_OK)
-      status = stretch(e, &state, to - schedule->t[i], sampler, error);
-    while (status == LAB_OK && sampler->next < sampler->n)
-      lab_sampler_take(sampler, &state); /* the end, missed by rounding */
+      status = run_row(e, &input, schedule->t[i], to, &state, sampler, error);
   }
-  free(slots);
+  return status;
+}
+
+static int run_schedule(engine *e, double t_end, lab_sampler *sampler, lab_error *error)
+{
+  lab_late late;
+  int status = lab_late_open(e->task, e->model, &late, error);
+  if (status == LAB_OK)
+    status = run_rows(e, &late, t_end, sampler, error);
+  lab_late_close(&late);
   return status;
 }
 
@@ -283,6 +309,8 @@ static int run_sampled(engine *e, lab_response *response, lab_error *error)
   }
   if (status == LAB_OK)
     status = run_schedule(e, fmax(e->t_end, e->t_end - skew), &sampler, error);
+  if (status == LAB_OK && response && response->u)
+    record_commands(e->task->schedule, response);
   recorder_close(&r);
   return status;
 }

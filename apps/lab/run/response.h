@@ -8,7 +8,7 @@
 #include "../../../lib/pneu.h"
 #include "../base/message.h"
 
-/* Inputs over time: row i holds from t[i] to t[i+1]; the last one to the end. */
+/* Inputs over time: row i acts from t[i] to t[i+1], its command with its slope; the last one to the end. */
 typedef struct lab_schedule {
   size_t n;
   const double *t; /* [s], strictly increasing */

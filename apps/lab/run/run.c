@@ -113,7 +113,7 @@ static size_t row_at(const double *t, size_t n, double at)
 
 static int bracket_switches(lab_run *e, lab_error *error)
 {
-  const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first;
+  const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first, *at = e->inputs.t;
   size_t k;
   if (e->inputs.schedule.n < 2 || !only_command_changes(&e->inputs.schedule))
     return LAB_OK;
@@ -122,8 +122,10 @@ static int bracket_switches(lab_run *e, lab_error *error)
   if (!e->bracket)
     return lab_fail_memory(error, "an experiment");
   for (k = 0; k < e->n_instants; k++) {
-    const size_t row = row_at(t, e->n, e->inputs.t[k + 1]);
-    e->bracket[k] = row > 0 && t[row] == e->inputs.t[k + 1] ? t[row] - t[row - 1] : 0;
+    const size_t row = row_at(t, e->n, at[k + 1]);
+    const pneu_input *next = &e->inputs.input[k + 1];
+    if (row > 0 && next->u_rate == 0 && lab_input_jumps(&e->inputs.input[k], at[k + 1] - at[k], next))
+      e->bracket[k] = t[row] - t[row - 1];
   }
   return LAB_OK;
 }

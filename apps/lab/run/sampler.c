@@ -4,7 +4,9 @@
 
 void lab_sampler_take(lab_sampler *s, const pneu_state *state)
 {
-  s->take(s->context, s->next, state, s->input);
+  pneu_input now = *s->input;
+  now.elapsed += s->t[s->next] - s->origin;
+  s->take(s->context, s->next, state, &now);
   s->next++;
 }
 

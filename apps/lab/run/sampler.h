@@ -8,10 +8,10 @@
 #include "../../../lib/pneu.h"
 
 typedef struct lab_sampler {
-  const double *t; /* [s] increasing */
-  size_t n, next;  /* number of times; the first that is still to come */
-  double origin;   /* [s] time at which the present stretch began */
-  const pneu_input *input;
+  const double *t;         /* [s] increasing */
+  size_t n, next;          /* number of times; the first that is still to come */
+  double origin;           /* [s] time at which the present stretch began */
+  const pneu_input *input; /* then */
   void (*take)(void *context, size_t i, const pneu_state *state, const pneu_input *input);
   void *context;
 } lab_sampler;

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../base/noise.h"
+
 int lab_positioner_check(const lab_rig *rig, const lab_log *log, lab_error *error)
 {
   if (lab_log_command(log) != LAB_CHANNEL_SP || rig->laws.pressure_input || lab_rig_has_positioner(rig))
@@ -64,34 +66,102 @@ static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t 
   return (driving(rig, channel, value[next]) - driving(rig, channel, value[i])) / (t[next] - t[i]);
 }
 
-static int same(const pneu_input *a, const pneu_input *b)
+/* Whether an input is what another has come to after a time. */
+static int goes_on(const pneu_input *now, const pneu_input *before, double elapsed)
 {
-  return a->u == b->u && a->supply_pressure == b->supply_pressure && a->force == b->force &&
-         a->pressure_rate == b->pressure_rate && a->position_rate == b->position_rate;
+  return now->supply_pressure == before->supply_pressure && now->force == before->force &&
+         now->pressure_rate == before->pressure_rate && now->position_rate == before->position_rate &&
+         now->u_rate == before->u_rate && !lab_input_jumps(before, elapsed, now);
+}
+
+pneu_input lab_input_after(const pneu_input *before, double elapsed)
+{
+  pneu_input now = *before;
+  now.u += now.u_rate * (pneu_real)elapsed;
+  return now;
+}
+
+int lab_input_jumps(const pneu_input *before, double elapsed, const pneu_input *next)
+{
+  static const double rounding = 1e-9; /* of the command */
+  const pneu_input end = lab_input_after(before, elapsed);
+  return fabs((double)(next->u - end.u)) > rounding * fabs((double)next->u);
 }
 
 /* ---- Ramps of the command ---- */
 
-enum { RAMP_STEPS = 20 };                  /* of a ramp from one row to the next, at most */
-static const double ramp_step = 5e-3;      /* of the command's range: what a step of a ramp is meant to be */
-static const double ramp_like = 1.0 / 3.0; /* share of a change that the one before or after it has on a ramp */
+static const double ramp_like = 1.0 / 3.0; /* share of a pace that the one before or after it has on a ramp */
+static const double on_line = 1e-4;        /* of the command's range: how far a row may be from the line of a ramp */
 
-/* The change of a channel from the row before; 0 where there is none. */
-static double change_at(const double *value, size_t i, size_t first, size_t end)
+/* A stretch of rows in which the command holds, runs along a line, and holds again. */
+typedef struct line {
+  size_t from, to;
+  double begin, end; /* [s] of what runs */
+  double u, rate;    /* before it; [1/s] */
+} line;
+
+/* A command over time: rows first to end - 1 of a log. */
+typedef struct course {
+  const double *t, *u;
+  size_t first, end;
+  double off; /* how far a value may be from a line */
+} course;
+
+/* The pace of the command from the row before; 0 where it does not change. */
+static double pace_at(const course *c, size_t i)
 {
-  return i > first && i < end && !isnan(value[i]) && !isnan(value[i - 1]) ? value[i] - value[i - 1] : 0;
+  const int known = i > c->first && i < c->end && !isnan(c->u[i]) && !isnan(c->u[i - 1]);
+  return known ? (c->u[i] - c->u[i - 1]) / (c->t[i] - c->t[i - 1]) : 0;
 }
 
-/* How many steps stand for the change of a command to row i: 1 if it jumps; more where it is a part of a ramp, which
- * goes on or comes from before at a like pace, and the rows are far apart for it.
- * In:      range  from the least to the largest command, or half of it */
-static int steps_to(const double *command, size_t i, size_t first, size_t end, double range)
+/* Whether a command is on a ramp from the row before to row i, which goes on or comes from before at a like pace, or
+ * does both. */
+static int is_ramp(const course *c, size_t i)
 {
-  const double here = change_at(command, i, first, end);
-  const double before = change_at(command, i - 1, first, end), after = change_at(command, i + 1, first, end);
-  const double like = ramp_like * fabs(here), steps = ceil(fabs(here) / (ramp_step * range));
-  const int is_ramp = (before * here > 0 && fabs(before) >= like) || (after * here > 0 && fabs(after) >= like);
-  return !is_ramp ? 1 : (int)fmin(fmax(steps, 1), RAMP_STEPS);
+  const double here = pace_at(c, i), before = pace_at(c, i - 1) / here, after = pace_at(c, i + 1) / here;
+  return here != 0 && (before >= ramp_like || after >= ramp_like || (before > 0 && after > 0));
+}
+
+/* The longest line from a row on that misses none of the rows between by more than it may (Bristol 1990). */
+static line line_from(const course *c, size_t i)
+{
+  line l = {i, i + 1, c->t[i], c->t[i], c->u[i], 0};
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  size_t k;
+  for (k = i + 1; is_ramp(c, k); k++) {
+    const double dt = c->t[k] - c->t[i], slope = (c->u[k] - c->u[i]) / dt;
+    if (slope < low || slope > high)
+      break;
+    l.to = k;
+    l.end = c->t[k];
+    l.rate = slope;
+    low = fmax(low, slope - c->off / dt);
+    high = fmin(high, slope + c->off / dt);
+  }
+  return l;
+}
+
+/* Whether a line of one row is the end of a steeper one beside it. */
+static int is_part_of(const line *l, const line *beside)
+{
+  return l->to == l->from + 1 && l->rate * beside->rate > 0 && fabs(l->rate) < fabs(beside->rate);
+}
+
+/* The same; where a ramp begins or ends between two rows, it does so where its line meets the level. */
+static line corner_from(const course *c, size_t i, const line *before)
+{
+  line l = line_from(c, i), next;
+  if (!(l.rate != 0) || l.to >= c->end)
+    return l;
+  next = line_from(c, l.to);
+  if (pace_at(c, i) == 0 && is_part_of(&l, &next)) {
+    l.begin = l.end - (c->u[l.to] - l.u) / next.rate;
+    l.rate = next.rate;
+  } else if (pace_at(c, l.to + 1) == 0 && is_part_of(&l, before)) {
+    l.end = l.begin + (c->u[l.to] - l.u) / before->rate;
+    l.rate = before->rate;
+  }
+  return l;
 }
 
 /* Whether a command is seen at the rows of a log: not the rows of a schedule, where it changes and nothing is measured,
@@ -103,59 +173,66 @@ static int is_sampled(const lab_log *log)
   return command >= 0 && measured && (command == LAB_CHANNEL_SP || !log->value[LAB_CHANNEL_SP]);
 }
 
-/* Steps of equal size from the input before to a command, centred about the straight line. */
-static void add_ramp(double t, double duration, pneu_real to, int steps, lab_inputs *inputs)
+static course course_of(const pneu_model *model, const lab_log *log, size_t first, size_t end)
 {
-  const size_t n = inputs->schedule.n;
-  const pneu_input from = inputs->input[n - 1];
+  const int command = lab_log_command(log);
+  const double range = model->p.proportional_band > 0 ? (double)model->p.supply_pressure : 1;
+  course c = {log->value[LAB_CHANNEL_TIME], is_sampled(log) ? log->value[command] : NULL, first, end, on_line * range};
+  if (c.u)
+    c.off = fmax(c.off, lab_resolution(c.u + first, end - first)); /* its ends are rounded too */
+  return c;
+}
+
+/* What drives the model from a time on, unless it only goes on. */
+static void add_input(double t, const pneu_input *input, lab_inputs *to)
+{
+  size_t *n = &to->schedule.n;
+  if (*n > 0 && goes_on(input, &to->input[*n - 1], t - to->t[*n - 1]))
+    return;
+  to->t[*n] = t;
+  to->input[(*n)++] = *input;
+}
+
+/* A command from row i to the next, along a line that may begin and end between them. */
+static void add_line(const course *c, const line *l, size_t i, pneu_input *input, lab_inputs *to)
+{
+  const double t[] = {c->t[i], l->begin, l->end};
+  const double next = i + 1 < c->end ? c->t[i + 1] : c->t[i];
   int k;
-  for (k = 0; k < steps; k++) {
-    inputs->t[n + (size_t)k] = t + duration * (k + 0.5) / steps;
-    inputs->input[n + (size_t)k] = from;
-    inputs->input[n + (size_t)k].u =
-        k + 1 < steps ? from.u + (to - from.u) * (pneu_real)(k + 1) / (pneu_real)steps : to;
-  }
-  inputs->schedule.n += (size_t)steps;
-}
-
-static double range_of(const pneu_model *model)
-{
-  return model->p.proportional_band > 0 ? (double)model->p.supply_pressure : 1;
-}
-
-/* Entries of a schedule, at most. */
-static size_t count_entries(const pneu_model *model, const lab_log *log, size_t first, size_t end)
-{
-  const int command = lab_log_command(log), sampled = is_sampled(log);
-  size_t i, n = end - first;
-  for (i = first + 1; sampled && i < end; i++)
-    n += (size_t)steps_to(log->value[command], i, first, end, range_of(model));
-  return n;
+  for (k = 0; k < 3; k++)
+    if (k == 0 || (t[k] > t[0] && t[k] < next)) {
+      input->u = (pneu_real)(l->u + l->rate * (fmin(fmax(t[k], l->begin), l->end) - l->begin));
+      input->u_rate = (pneu_real)(t[k] >= l->begin && t[k] < l->end ? l->rate : 0);
+      add_input(t[k], input, to);
+    }
 }
 
 static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t first, size_t end,
                  lab_inputs *inputs)
 {
-  const int command = lab_log_command(log), sampled = is_sampled(log);
+  const int command = lab_log_command(log);
   const double *t = log->value[LAB_CHANNEL_TIME];
+  const course c = course_of(model, log, first, end);
+  line l = {first, first, 0, 0, 0, 0};
   pneu_input input;
   size_t i;
   pneu_input_default(model, &input);
   input.set_position = command == LAB_CHANNEL_SP;
   inputs->schedule.n = 0;
   for (i = first; i < end; i++) {
-    const int steps = i > first && sampled ? steps_to(log->value[command], i, first, end, range_of(model)) : 1;
-    input.u = (pneu_real)held(log, command, i, (double)input.u);
+    if (c.u && i == l.to)
+      l = corner_from(&c, i, &l);
     input.supply_pressure = (pneu_real)held_input(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
     input.force = (pneu_real)held_input(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);
     input.pressure_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_P, i, end, (double)input.pressure_rate);
     input.position_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_X, i, end, (double)input.position_rate);
-    if (steps > 1)
-      add_ramp(t[i - 1], t[i] - t[i - 1], input.u, steps, inputs);
-    if (inputs->schedule.n > 0 && same(&input, &inputs->input[inputs->schedule.n - 1]))
-      continue;
-    inputs->t[inputs->schedule.n] = t[i];
-    inputs->input[inputs->schedule.n++] = input;
+    if (l.rate != 0)
+      add_line(&c, &l, i, &input, inputs);
+    else {
+      input.u = (pneu_real)held(log, command, i, (double)input.u);
+      input.u_rate = 0;
+      add_input(t[i], &input, inputs);
+    }
   }
   inputs->schedule.t = inputs->t;
   inputs->schedule.input = inputs->input;
@@ -164,7 +241,7 @@ static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log
 int lab_inputs_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_inputs *inputs,
                         lab_error *error)
 {
-  const size_t first = log->run[run], end = log->run[run + 1], room = count_entries(model, log, first, end);
+  const size_t first = log->run[run], end = log->run[run + 1], room = 3 * (end - first);
   if (check_inputs(rig, log, error))
     return error->status;
   inputs->t = malloc(room * sizeof *inputs->t);

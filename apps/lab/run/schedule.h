@@ -18,9 +18,16 @@ typedef struct lab_inputs {
  * Returns: LAB_OK, LAB_DATA. */
 int lab_positioner_check(const lab_rig *rig, const lab_log *log, lab_error *error);
 
-/* Inputs of one run of a log. A command holds until it changes; where it ramps over several rows that are far apart, it
- * goes from row to row in small steps about a straight line; measured channels that are inputs run along
- * straight lines between their values, over gaps as well; a measured supply or force holds.
+/* What an input has become after a time [s] in which nothing was given. */
+pneu_input lab_input_after(const pneu_input *before, double elapsed);
+
+/* Whether the next command jumps away from what an input has become after a time [s]. */
+int lab_input_jumps(const pneu_input *before, double elapsed, const pneu_input *next);
+
+/* Inputs of one run of a log. A command holds until it changes; where it ramps over several rows, it runs along
+ * straight lines that pass each row within the resolution, or 1e-4 of the range, and meet the levels before and after
+ * them between two rows. Measured channels that are inputs run along straight lines between their values, over gaps as
+ * well; a measured supply or force holds.
  * In:      model  of `rig`
  *          rig    says which channels are inputs
  *          run    0 <= run < log->n_runs

@@ -62,6 +62,14 @@ static void add_row(const lab_log *log, double t, const pneu_input *input, int w
     s->input[i].supply_pressure = s->rig[which].params.supply_pressure; /* of the rig where it is not measured */
 }
 
+/* Another model acts from t on; the inputs go on. */
+static void cut(const lab_log *log, double t, int which, lab_staging *s)
+{
+  const size_t last = s->schedule.n - 1;
+  const pneu_input now = lab_input_after(&s->input[last], t - s->t[last]);
+  add_row(log, t, &now, which, s);
+}
+
 static void add_rows(const lab_log *log, const lab_schedule *logged, const double *early, size_t n_early,
                      lab_staging *s)
 {
@@ -72,11 +80,11 @@ static void add_rows(const lab_log *log, const lab_schedule *logged, const doubl
   for (i = 0; i < logged->n; i++) {
     const double t = logged->t[i] - (early && i > 0 && i <= n_early ? early[i - 1] : 0);
     for (; k + 1 < s->n && s->from[k + 1] < t; k++)
-      add_row(log, s->from[k + 1], &logged->input[i - 1], k + 1, s);
+      cut(log, s->from[k + 1], k + 1, s);
     add_row(log, t, &logged->input[i], k, s);
   }
   for (; k + 1 < s->n; k++)
-    add_row(log, s->from[k + 1], &logged->input[logged->n - 1], k + 1, s);
+    cut(log, s->from[k + 1], k + 1, s);
   s->schedule.t = s->t;
   s->schedule.input = s->input;
 }

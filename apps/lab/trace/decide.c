@@ -166,9 +166,11 @@ static int has_room_for_a_term(const lab_facts *f)
          (f->n_found == 0 || f->best.chi2 > beyond(&f->best, LAB_REST_DEVIATIONS));
 }
 
+/* Where only noise is left, a free term has to bring declared values back within their tolerances. */
 static int a_term_beside_convinces(const lab_facts *f)
 {
-  return convinces(&f->extended, &f->best, lab_constant(LAB_TERM_CONVINCING));
+  const int in_vain = lab_is_noise(&f->best) && lab_is_strained(&f->best) && lab_is_strained(&f->extended);
+  return !in_vain && convinces(&f->extended, &f->best, lab_constant(LAB_TERM_CONVINCING));
 }
 
 static int has_found_a_term(const lab_facts *f)
@@ -245,7 +247,9 @@ const lab_rule lab_rules[] = {
      "The best model has no free term and fewer than EFFECTS effects, and either none or an excess beyond "
      "REST_DEVIATIONS.",
      has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
-    {LAB_PHASE_END, "That has a lower BIC and leaves only noise, or less than TERM_CONVINCING of the excess.",
+    {LAB_PHASE_END,
+     "That has a lower BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no declared value "
+     "STRAINED tolerances off, if the best model has such a one and leaves only noise.",
      a_term_beside_convinces,
      "If the error of some channel falls by MIN_GAIN, add the free term and take out each effect without which BIC is "
      "no "

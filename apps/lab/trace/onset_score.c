@@ -139,13 +139,13 @@ static void judge(const scan *s, const double *slope, double step, double up, do
 }
 
 /* Score one of them, at shorter steps where one changes far too much.  Returns: how many slopes */
-static int score_one(const scan *s, double *throughout, lab_score *score, double *slope)
+static int score_one(const scan *s, double *throughout, lab_score *score, double *slope, lab_error *all)
 {
   const lab_rig *rig = &s->open.rig;
   const double now = value_of(rig, score->param);
   double up = HUGE_VAL, down = 1, step = first_step(rig, score->param);
   pneu_param_info info;
-  lab_error ignored;
+  lab_error error;
   size_t i;
   int tries, n = 0;
   if (score->param != LAB_PARAM_ORIFICE_AREA) {
@@ -157,7 +157,8 @@ static int score_one(const scan *s, double *throughout, lab_score *score, double
     lab_rig model = *rig;
     double length;
     add(&model, score->param, step);
-    if (lab_unknowns_residuals_with(&s->open, &model, slope, &ignored)) {
+    if (lab_unknowns_residuals_with(&s->open, &model, slope, &error)) {
+      lab_fail_together(all, &error);
       step *= lab_constant(LAB_SLOPE_SMALL);
       continue;
     }
@@ -266,10 +267,11 @@ static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
   int i, slopes_tried = 0;
   if (!slopes)
     return lab_fail_memory(error, "slopes");
+  error->status = LAB_OK;
 #pragma omp parallel for schedule(dynamic) reduction(+ : slopes_tried) reduction(max : throughout)
   for (i = 0; i < all->n; i++) {
     double own = 0;
-    slopes_tried += score_one(s, &own, &all->of[i], slopes + (size_t)i * s->open.m);
+    slopes_tried += score_one(s, &own, &all->of[i], slopes + (size_t)i * s->open.m, error);
     throughout = fmax(throughout, own);
   }
   free(slopes);
@@ -280,7 +282,7 @@ static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
     all->of[i].explained = s->p->excess > 0 ? all->of[i].statistic / s->p->excess : 0;
   }
   qsort(all->of, (size_t)all->n, sizeof *all->of, lab_score_by_statistic);
-  return LAB_OK;
+  return error->status;
 }
 
 int lab_onset_scores_find(const lab_projection *p, lab_onset_scores *all, lab_error *error)

@@ -921,6 +921,17 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
+/* A search holds what varies unseen to straight lines. If the declared model, fitted without them, is the better one
+ * after all, it was only these that asked for more. */
+static void forget_what_was_in_vain(finding *f)
+{
+  if (f->best.n_found == 0 || !(f->best.quality.bic > f->declared.quality.bic))
+    return;
+  f->best = f->declared;
+  f->result.n_path = 1;
+  f->result.verdict = lab_is_noise(&f->best.quality) ? LAB_VERDICT_NONE : LAB_VERDICT_UNDECIDED;
+}
+
 /* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
  * something may be missing from a rig that is as declared: if an effect explains them and needs no deviations beside,
  * none are looked for; else the better model of the two searches is the answer.
@@ -948,8 +959,11 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
       whole->declared.u.until = enough(u->until, start);
     status =
         search_from(&whole->declared, begins ? &exact->best : NULL, NULL, options, &whole->result, &whole->best, error);
-    is_exact = is_exact ? status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic
-                        : status == LAB_OK && comes_nearer(exact, whole);
+    if (status == LAB_OK)
+      forget_what_was_in_vain(whole);
+    is_exact = status == LAB_NUMERIC ? exact->best.quality.fitted
+               : is_exact            ? status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic
+                                     : status == LAB_OK && comes_nearer(exact, whole);
   }
   if (is_exact) {
     *whole = *exact;
@@ -969,26 +983,29 @@ static int has_found_cause(const lab_candidate *c)
   return any;
 }
 
-/* The search seen coarsely, if the log is rough.  Out: done, 1 if it found a cause and left only noise */
-static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_search_result *result,
-                           lab_candidate *best, int *done, lab_error *error)
+/* The search seen coarsely, if the log is rough.
+ * Out:     done  1 if it found a cause and left only noise; else
+ *          f     is as it was */
+static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, finding *f, int *done,
+                           lab_error *error)
 {
-  lab_candidate coarse = {.u = *u};
+  finding *coarse = malloc(sizeof *coarse);
+  int status;
   *done = 0;
-  if (lab_unknowns_sticks_and_slips(u, &result->window, error))
-    return error->status;
-  if (result->window == 0)
-    return LAB_OK;
-  lab_unknowns_view(&coarse.u, result->window);
-  if (search_from(&coarse, NULL, NULL, options, result, best, error))
-    return error->status;
-  *done = lab_is_noise(&best->quality) && has_found_cause(best);
-  if (!*done) {
-    result->scores.n = 0;
-    result->n_steps = result->n_listed = result->n_path = 0;
-    result->window = 0;
+  if (!coarse)
+    return lab_fail_memory(error, "the search");
+  *coarse = *f;
+  status = lab_unknowns_sticks_and_slips(u, &coarse->result.window, error);
+  if (status == LAB_OK && coarse->result.window > 0) {
+    coarse->declared.u = *u;
+    lab_unknowns_view(&coarse->declared.u, coarse->result.window);
+    status = search_from(&coarse->declared, NULL, NULL, options, &coarse->result, &coarse->best, error);
+    *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && has_found_cause(&coarse->best);
   }
-  return LAB_OK;
+  if (*done)
+    *f = *coarse;
+  free(coarse);
+  return status;
 }
 
 void lab_search_options_default(lab_search_options *options)
@@ -1051,7 +1068,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
   }
   if (status == LAB_OK)
-    status = search_coarsely(u, options, &f->result, &f->best, &done, error);
+    status = search_coarsely(u, options, f, &done, error);
   if (status == LAB_OK && !done)
     status = search_tolerantly(u, options, f, error);
   if (status == LAB_OK)

@@ -174,6 +174,74 @@ static void test_lab_colour_estimate__stretch_in_which_something_moves__does_not
   assert_close(scale, 2, 0, 0.2);
 }
 
+/* The whole memory is longer than an eighth of a stretch. */
+static void test_lab_colour_estimate__short_stretches__tell_a_long_memory(void **state)
+{
+  int seed;
+  (void)state;
+  for (seed = 1; seed <= 10; seed++) {
+    double scale = 0;
+    fill((lab_colour){0.9, 0.8}, 2, 0.01, (uint64_t)seed * 7919);
+    check_note("seed %d", seed);
+    assert_between(estimate(60, &scale).memory, 0.8, 1);
+    assert_close(scale, 2, 0, 0.15);
+  }
+}
+
+/* What a model lacks comes to rest after each move of the stem, the one way after a stroke up and the other after one
+ * down. */
+static void test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colour(void **state)
+{
+  double scale = 3, size;
+  int rows, i, seed;
+  (void)state;
+  for (size = 1; size <= 4; size *= 2)
+    for (rows = 60; rows <= 240; rows *= 2)
+      for (seed = 1; seed <= 10; seed++) {
+        fill((lab_colour){0, 0}, 1, 0, (uint64_t)seed * 104729);
+        for (i = 0; i < N; i++)
+          y[i] += size * ((i / rows) % 2 ? -1 : 1.5) * exp(-(3.0 + (i / rows) % 4 * 2) * (i % rows) / rows);
+        check_note("size %g, %d rows, seed %d", size, rows, seed);
+        assert_close(estimate(rows, &scale).memory, 0, 0, 0);
+      }
+}
+
+/* A stem that arrives later than its model. */
+static void test_lab_colour_estimate__late_arrivals__are_no_colour(void **state)
+{
+  double scale = 3;
+  int rows = 80, i, seed;
+  (void)state;
+  for (seed = 1; seed <= 10; seed++) {
+    fill((lab_colour){0, 0}, 1, 0, (uint64_t)seed * 15485863);
+    for (i = 0; i < N; i++)
+      if (i % rows < 4 + (i / rows) * 7 % 20)
+        y[i] += ((i / rows) % 2 ? -1.5 : 1.5) * (1 + i / rows % 3);
+    check_note("seed %d", seed);
+    assert_close(estimate(rows, &scale).memory, 0, 0, 0);
+  }
+}
+
+/* A stem that still moves about, to and fro, slower than an eighth of 400 rows. */
+static void test_lab_colour_estimate__memory_without_end__is_no_colour(void **state)
+{
+  double scale = 3;
+  int seed, i;
+  (void)state;
+  for (seed = 1; seed <= 10; seed++) {
+    uint64_t own = (uint64_t)seed * 32452843;
+    double at = 0, to = 0;
+    for (i = 0; i < N; i++) {
+      if (i % 100 == 0)
+        to = 3 * normal(&own);
+      at += 0.03 * (to - at);
+      y[i] = at + normal(&own);
+    }
+    check_note("seed %d", seed);
+    assert_close(estimate(400, &scale).memory, 0, 0, 0);
+  }
+}
+
 static void test_lab_colour_estimate__few_values__says_nothing(void **state)
 {
   lab_stretch rest = {y, 99};
@@ -198,6 +266,10 @@ int main(void)
       cmocka_unit_test(test_lab_colour_second_difference__sample__is_its_mean_square),
       cmocka_unit_test(test_lab_colour_estimate__known_colour__is_found),
       cmocka_unit_test(test_lab_colour_estimate__white_noise__has_no_memory),
+      cmocka_unit_test(test_lab_colour_estimate__short_stretches__tell_a_long_memory),
+      cmocka_unit_test(test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colour),
+      cmocka_unit_test(test_lab_colour_estimate__late_arrivals__are_no_colour),
+      cmocka_unit_test(test_lab_colour_estimate__memory_without_end__is_no_colour),
       cmocka_unit_test(test_lab_colour_estimate__swing__is_no_colour),
       cmocka_unit_test(test_lab_colour_estimate__stretch_in_which_something_moves__does_not_count),
       cmocka_unit_test(test_lab_colour_estimate__few_values__says_nothing),

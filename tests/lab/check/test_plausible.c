@@ -173,6 +173,24 @@ static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **stat
   }
 }
 
+/* A valve forty times slower than declared is refused, unless a positioner gave its commands. */
+static void test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves_it(void **state)
+{
+  int with_positioner;
+  (void)state;
+  for (with_positioner = 0; with_positioner < 2; with_positioner++) {
+    fresh(state);
+    read_log(&sound);
+    rig.params.fill_area *= 40;
+    rig.params.vent_area *= 40;
+    if (with_positioner)
+      log_read.value[LAB_CHANNEL_SP] = calloc(log_read.n, sizeof(double));
+    assert_int_equal(judge(), with_positioner ? LAB_OK : LAB_DATA);
+    if (!with_positioner)
+      assert_contains(error.text, "slower than the declared model");
+  }
+}
+
 /* The logs of the rig that come with the data, where they are on this machine: none may be refused or doubted. */
 static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
 {
@@ -637,9 +655,14 @@ static void test_lab_limitations_join__held_out_doubt__is_only_a_remark(void **s
 
 /* ---- Hum ---- */
 
-/* Amplitude that is taken off a chamber pressure of 100 kPa with a swing of 3 kPa and noise, in rows at a rate [1/s].
- */
-static double taken_off(double frequency, double rate)
+/* Rows of a chamber pressure of 100 kPa with noise of up to 500 Pa. */
+typedef struct humming {
+  double frequency, rate, amplitude; /* [Hz], [1/s], [Pa] */
+  double jitter, lost;               /* of the row; of all rows */
+} humming;
+
+/* Amplitude that is taken off. */
+static double taken_off(const humming *h)
 {
   enum { N = 1200 };
   static double t[N], p[N];
@@ -647,10 +670,12 @@ static double taken_off(double frequency, double rate)
   lab_log log = {.path = path, .n = N, .n_runs = 1};
   size_t run[] = {0, N};
   uint64_t seed = 1;
+  double row = 0;
   int i;
   for (i = 0; i < N; i++) {
-    t[i] = i / rate;
-    p[i] = 1e5 + 3e3 * sin(6.283185307179586 * frequency * t[i]) + fixture_random(&seed, -500, 500);
+    row += fixture_random(&seed, 0, 1) < h->lost ? 2 : 1;
+    t[i] = (row + fixture_random(&seed, -h->jitter, h->jitter)) / h->rate;
+    p[i] = 1e5 + h->amplitude * sin(6.283185307179586 * h->frequency * t[i]) + fixture_random(&seed, -500, 500);
   }
   log.run = run;
   log.value[LAB_CHANNEL_TIME] = t;
@@ -662,11 +687,19 @@ static double taken_off(double frequency, double rate)
 static void test_lab_log_remove_hum__only_the_mains__is_taken_off(void **state)
 {
   (void)state;
-  assert_close(taken_off(50, 200), 3e3, 0, 0.02);
-  assert_close(taken_off(60, 200), 3e3, 0, 0.02);
-  assert_close(taken_off(50, 64), 3e3, 0, 0.02); /* seen as 14 Hz */
-  assert_close(taken_off(43, 200), 0, 0, 0);     /* what swings otherwise may be the rig */
-  assert_close(taken_off(50, 7.2), 0, 0, 0);     /* at so few rows a second anything may be 50 Hz */
+  assert_close(taken_off(&(humming){50, 200, 3e3, 0, 0}), 3e3, 0, 0.02);
+  assert_close(taken_off(&(humming){60, 200, 3e3, 0, 0}), 3e3, 0, 0.02);
+  assert_close(taken_off(&(humming){50, 64, 3e3, 0, 0}), 3e3, 0, 0.02); /* seen as 14 Hz */
+  assert_close(taken_off(&(humming){43, 200, 3e3, 0, 0}), 0, 0, 0);     /* what swings otherwise may be the rig */
+  assert_close(taken_off(&(humming){50, 7.2, 3e3, 0, 0}), 0, 0, 0);     /* so few rows a second: anything may be it */
+}
+
+static void test_lab_log_remove_hum__uneven_rows__are_as_good(void **state)
+{
+  (void)state;
+  assert_close(taken_off(&(humming){50, 200, 3e3, 0.3, 0.03}), 3e3, 0, 0.02);
+  assert_close(taken_off(&(humming){50, 200, 250, 0.3, 0.03}), 250, 0, 0.2); /* less than the noise of a row */
+  assert_close(taken_off(&(humming){50, 200, 0, 0.3, 0.03}), 0, 0, 0);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, fresh, done)
@@ -682,6 +715,7 @@ int main(void)
       TEST(test_lab_plausible__vessel_that_leaks__is_quiet),
       TEST(test_lab_plausible__more_than_the_supply_by_less_than_noise__passes),
       TEST(test_lab_plausible__poor_guess_of_the_orifices__is_quiet),
+      TEST(test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves_it),
       TEST(test_lab_plausible__logs_of_the_rig__are_quiet),
       TEST(test_lab_plausible_content__one_still_run_of_two__passes),
       TEST(test_lab_plausible_content__nothing_but_still_runs__is_refused),
@@ -706,6 +740,7 @@ int main(void)
       TEST(test_lab_limitation__too_many__says_so),
       TEST(test_lab_limitations_join__held_out_doubt__is_only_a_remark),
       TEST(test_lab_log_remove_hum__only_the_mains__is_taken_off),
+      TEST(test_lab_log_remove_hum__uneven_rows__are_as_good),
   };
   return cmocka_run_group_tests(tests, open_all, scratch_close);
 }

@@ -980,6 +980,49 @@ static void test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says
   }
 }
 
+/* A row of the first run, moved to just after the stem gets to its upper stop. */
+static void move_row_to_stop(void)
+{
+  static const double late = 3e-5; /* [s] */
+  const double stop = (1 - 1e-9) * (double)rig.params.stroke;
+  double from, to;
+  int i, k = 0;
+  u.tol = 1e-10;
+  measure(&rig);
+  while (k < ROWS && x[k] < stop)
+    k++;
+  assert_true(k < ROWS);
+  from = t[k - 1];
+  to = t[k];
+  for (i = 0; i < 40; i++) {
+    t[k] = (from + to) / 2;
+    measure(&rig);
+    *(x[k] < stop ? &from : &to) = t[k];
+  }
+  t[k] = to + late;
+  measure(&rig);
+}
+
+/* Pressure and travel are the same where area, spring, friction, orifices and volume are all a per cent larger. Only
+ * what is known of the area beforehand, to 2 %, says how large they are, and no row that a stop passes by. */
+static void test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_tolerance_of_the_area(void **state)
+{
+  static lab_fit_result fit;
+  int spring;
+  (void)state;
+  declare();
+  rig.params.fill_area *= 4; /* it gets there */
+  fit_list("dry_friction", 0);
+  fit_list("orifice_area", 0);
+  fit_list("spring_rate", 0);
+  open_empty();
+  move_row_to_stop();
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+  spring = lab_unknowns_find(&u, index_of("spring_rate"));
+  assert_between(fit.deviation[spring] / u.unknown[spring].value, 0.018, 0.022);
+}
+
 /* Friction of a place that the declared model lacks, found as knots between held ends. */
 static void test_lab_unknowns_fit__knots__find_the_term_that_made_the_log(void **state)
 {
@@ -1075,6 +1118,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference),
       cmocka_unit_test(test_lab_unknowns_slope__at_its_upper_bound__stays_inside),
       cmocka_unit_test(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals),
+      cmocka_unit_test(test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_tolerance_of_the_area),
       cmocka_unit_test(test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says),
       cmocka_unit_test(test_lab_unknowns_fit__knots__find_the_term_that_made_the_log),
       cmocka_unit_test(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes),

@@ -38,13 +38,13 @@ static void write_log(int follows)
   fclose(file);
 }
 
-/* A model whose orifices let next to nothing through: its stem stays where it is. */
-static void open_stuck(void)
+/* A model whose orifices let next to nothing through: its stem stays where it is.  In: noise [m] of the travel */
+static void open_stuck(double noise)
 {
   lab_rig_default(&rig);
   rig.params.fill_area *= (pneu_real)1e-6;
   rig.params.vent_area *= (pneu_real)1e-6;
-  rig.noise[LAB_CHANNEL_X] = 2e-4;
+  rig.noise[LAB_CHANNEL_X] = noise;
   fixture_set(&rig.params, "positioner.gain", 20);
   rig.fit[rig.n_fit++] = pneu_param_find("positioner.gain");
   assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &one_log, &error), LAB_OK);
@@ -52,12 +52,12 @@ static void open_stuck(void)
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
 }
 
-static double memory_told(int follows)
+static double memory_told(int follows, double noise)
 {
   double memory;
   int any;
   write_log(follows);
-  open_stuck();
+  open_stuck(noise);
   assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
   memory = run.colour[0].memory;
   lab_run_close(&run);
@@ -68,13 +68,21 @@ static double memory_told(int follows)
 static void test_lab_weigh_runs__set_position_stays__noise_has_memory(void **state)
 {
   (void)state;
-  assert_between(memory_told(0), 0.6, 0.9);
+  assert_between(memory_told(0, 2e-4), 0.6, 0.9);
 }
 
 static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
 {
   (void)state;
-  assert_close(memory_told(1), 0, 0, 0);
+  assert_close(memory_told(1, 2e-4), 0, 0, 0);
+}
+
+/* The travel wanders by 0.5 mm. */
+static void test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise(void **state)
+{
+  (void)state;
+  assert_close(memory_told(0, 2e-5), 0, 0, 0);
+  assert_between(memory_told(0, 1e-4), 0.6, 0.9);
 }
 
 int main(void)
@@ -82,6 +90,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_weigh_runs__set_position_stays__noise_has_memory),
       cmocka_unit_test(test_lab_weigh_runs__set_position_moves__is_no_noise),
+      cmocka_unit_test(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

@@ -129,6 +129,70 @@ static void test_lab_response_run__dead_time_that_ends_with_another_change__make
   check_delay(0.03, 6, t, row);
 }
 
+/* A command that runs: by both integrators, and as a staircase of steps too small to tell, which comes late with the
+ * ramp. */
+enum { STAIRS = 400 };
+static const double ramp_from = 0.3, ramp_s = 1.6;
+
+static size_t commanded(const pneu_model *m, int stairs, double t[STAIRS + 2], pneu_input *input)
+{
+  const double to = -0.8, by = (to - 1) / (stairs > 0 ? stairs : 1);
+  int i;
+  t[0] = 0;
+  input[0] = fixture_input(m, 1);
+  for (i = 0; i < stairs; i++) {
+    t[i + 1] = ramp_from + ramp_s * (i + 0.5) / stairs;
+    input[i + 1] = fixture_input(m, 1 + by * (i + 1));
+  }
+  if (stairs > 0)
+    return (size_t)stairs + 1;
+  t[1] = ramp_from;
+  input[1] = fixture_input(m, 1);
+  input[1].u_rate = (pneu_real)(by / ramp_s);
+  t[2] = ramp_from + ramp_s;
+  input[2] = fixture_input(m, to);
+  return 3;
+}
+
+static lab_response run_ramp(const pneu_model *m, int stairs, int integrator)
+{
+  double t[STAIRS + 2];
+  pneu_input input[STAIRS + 2];
+  const size_t n = commanded(m, stairs, t, input);
+  return respond(m, n, t, input, 0, integrator);
+}
+
+static void check_ramp(const pneu_model *m)
+{
+  lab_response a = run_ramp(m, 0, LAB_STEPPER), b = run_ramp(m, 0, LAB_CVODE), c = run_ramp(m, STAIRS, LAB_STEPPER);
+  int i;
+  assert_same(a.p, b.p, 2, "p by CVODE");
+  assert_same(a.x, b.x, 2e-7, "x by CVODE");
+  assert_same(a.p, c.p, 30, "p by stairs");
+  assert_same(a.x, c.x, 2e-6, "x by stairs");
+  for (i = 0; i < SAMPLES; i++) /* as given */
+    assert_close(a.u[i], 1 - 1.8 * fmin(fmax(a.t[i] - ramp_from, 0), ramp_s) / ramp_s, 1e-12, 0);
+  lab_response_free(&a);
+  lab_response_free(&b);
+  lab_response_free(&c);
+}
+
+static void test_lab_response_run__ramp__is_a_staircase_of_small_steps(void **state)
+{
+  const pneu_model m = model_with(NULL, 0);
+  (void)state;
+  check_ramp(&m);
+}
+
+static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
+{
+  const pneu_model m = model_with("dead_time", 0.37);
+  (void)state;
+  if (absent("dead_time"))
+    skip();
+  check_ramp(&m);
+}
+
 /* Position as it was `skew` ago; before the start, as at the start; a younger one from beyond the end of the log. */
 static void check_skew(double skew, int integrator)
 {
@@ -323,6 +387,8 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_response_run__ramp__is_a_staircase_of_small_steps),
+      cmocka_unit_test(test_lab_response_run__ramp_that_comes_late__the_same),
       cmocka_unit_test(test_lab_response_run__dead_time__delays_the_command_and_nothing_else),
       cmocka_unit_test(test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them),
       cmocka_unit_test(test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order),

@@ -68,21 +68,89 @@ static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state
   lab_log_free(&log);
 }
 
-static void test_lab_inputs_from_log__ramp__runs_between_rows_in_small_steps(void **state)
+static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
 {
+  static const double row[][3] = {{0, 0, 0}, {1, 0, 0.1}, {3.5, 0.25, 0}, {6, 1, 0}}; /* t, u, u_rate */
   lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.1,0\n3,0.2,0\n4,0.25,0\n5,0.25,0\n6,1,0\n");
   lab_inputs inputs = drive_of(&log, 0);
   const lab_schedule *s = &inputs.schedule;
-  size_t i;
+  int i;
   (void)state;
-  assert_int_equal(s->n, 1 + 20 + 20 + 10 + 1);
-  for (i = 1; i <= 40; i++) { /* in the middle of a step the straight line is left by half of it */
-    assert_close(s->input[i].u, 0.1 * (s->t[i] - 1) + 0.0025, 1e-9, 0);
-    assert_true(s->t[i] > s->t[i - 1]);
+  assert_int_equal(s->n, (int)(sizeof row / sizeof *row));
+  for (i = 0; i < (int)(sizeof row / sizeof *row); i++) {
+    assert_close(s->t[i], row[i][0], 0, 0);
+    assert_close(s->input[i].u, row[i][1], 1e-15, 0);
+    assert_close(s->input[i].u_rate, row[i][2], 1e-15, 0);
   }
-  assert_close(s->input[50].u, 0.25, 0, 0);
-  assert_close(s->t[50], 3.95, 1e-9, 0);
-  assert_close(s->t[51], 6, 0, 0); /* a jump is at its row */
+  for (i = 0; i < 3; i++) /* what runs does not jump */
+    assert_int_equal(lab_input_jumps(&s->input[i], s->t[i + 1] - s->t[i], &s->input[i + 1]), i == 2);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+/* One ramp from 0, at other times than those of rows: its corners are where its line meets the levels. */
+static void check_corners(const char *rows, double begin, double end, double to)
+{
+  lab_log log = read_log(rows);
+  lab_inputs inputs = drive_of(&log, 0);
+  const lab_schedule *s = &inputs.schedule;
+  check_note("%s", rows);
+  assert_int_equal(s->n, 3);
+  assert_close(s->t[1], begin, 1e-12, 0);
+  assert_close(s->input[1].u, 0, 1e-15, 0);
+  assert_close(s->input[1].u_rate, to / (end - begin), 1e-12, 0);
+  assert_close(s->t[2], end, 1e-12, 0);
+  assert_close(s->input[2].u, to, 1e-12, 0);
+  assert_close(s->input[2].u_rate, 0, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
+static void test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there(void **state)
+{
+  (void)state;
+  check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.04,0\n3,0.14,0\n4,0.24,0\n5,0.34,0\n6,0.4,0\n7,0.4,0\n", 1.6,
+                5.6, 0.4);
+}
+
+/* A row and a bit long: its beginning and its end are too small a part of it to be of a like pace. */
+static void test_lab_inputs_from_log__short_ramp__is_no_jump(void **state)
+{
+  (void)state;
+  check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.08,0\n3,0.88,0\n4,1,0\n5,1,0\n", 1.9, 3.15, 1);
+}
+
+/* Rows that were lost do not make a jump of it. */
+static void test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace(void **state)
+{
+  (void)state;
+  check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n8,0.55,0\n9,0.65,0\n10,0.75,0\n11,0.8,0\n12,0.8,0\n", 2.5, 10.5,
+                0.8);
+}
+
+/* Rounded to steps of 0.01: one line within a step; where the supply is measured too, all rows of it. */
+static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
+{
+  static const char plain[] = "t [s],u [1],p "
+                              "[kPa]\n0,0,0\n1,0.01,0\n2,0.03,0\n3,0.04,0\n4,0.06,0\n5,0.07,0\n6,0.08,0\n7,0.1,0\n8,0."
+                              "11,0\n9,0.11,0\n10,0.11,0\n";
+  static const char supplied[] = "t [s],u [1],ps [kPa],p "
+                                 "[kPa]\n0,0,400,0\n1,0.01,401,0\n2,0.03,402,0\n3,0.04,403,0\n4,0.06,404,0\n5,0.07,405,"
+                                 "0\n6,0.08,406,0\n7,0.1,407,0\n8,0.11,408,0\n9,0.11,408,0\n10,0.11,408,0\n";
+  lab_log log = read_log(plain);
+  lab_inputs inputs = drive_of(&log, 0);
+  (void)state;
+  assert_int_equal(inputs.schedule.n, 2);
+  assert_close(inputs.schedule.input[0].u_rate, 0.11 / 8, 1e-15, 0);
+  assert_close(inputs.schedule.t[1], 8, 0, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+  rig.input[LAB_CHANNEL_PS] = 1;
+  log = read_log(supplied);
+  inputs = drive_of(&log, 0);
+  assert_int_equal(inputs.schedule.n, 9);
+  assert_close(inputs.schedule.input[3].u, 0.33 / 8, 1e-15, 0);
+  assert_close(inputs.schedule.input[3].u_rate, 0.11 / 8, 1e-15, 0);
   lab_inputs_free(&inputs);
   lab_log_free(&log);
 }
@@ -492,7 +560,11 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(test_lab_inputs_from_log__equal_commands__are_one_entry),
-      CASE(test_lab_inputs_from_log__ramp__runs_between_rows_in_small_steps),
+      CASE(test_lab_inputs_from_log__ramp__runs_along_lines),
+      CASE(test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there),
+      CASE(test_lab_inputs_from_log__short_ramp__is_no_jump),
+      CASE(test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace),
+      CASE(test_lab_inputs_from_log__rounded_ramp__is_one_line),
       CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold),
       CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),
       CASE(test_lab_inputs_from_log__second_run__has_its_own_rows),

@@ -251,6 +251,12 @@ static void test_rules__free_term_beside__needs_room_and_something_left(void **s
   assert_true(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
   f.extended.chi2 = 401;
   assert_false(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
+  f.best = quality(210, 620); /* noise, by a declared value that is beyond its tolerance */
+  f.best.strain = 4;
+  f.extended = quality(190, 500);
+  assert_true(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
+  f.extended.strain = 4;
+  assert_false(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
 }
 
 static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
