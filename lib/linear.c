@@ -55,7 +55,7 @@ static void eliminate(int n, int k, const pneu_real *pivot, pneu_real *row)
 }
 
 /* Gauss-Jordan with partial pivoting. The inverse serves every stage of a step: for so few states that is quicker than
- * as many pairs of triangular solves, and as exact (DESIGN.md). */
+ * as many pairs of triangular solves, and as exact (TRIED.md). */
 int pneu_invert(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX])
 {
   unsigned char pivot[PNEU_STATE_MAX];

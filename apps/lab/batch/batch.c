@@ -106,7 +106,8 @@ static int has_include(const char *rig)
   return any;
 }
 
-/* Checksum of all that decides about a line's row and report; 0 where that cannot be told. */
+/* Checksum of all that decides about a line's row and report; 0 where that cannot be told. The line's date is no part
+ * of it, because trends are made anew at the end of every run. */
 static uint64_t key_of(const batch *b, const lab_fleet_entry *e)
 {
   char numbers[80];

@@ -22,7 +22,8 @@ typedef struct lab_residual_table {
   int n_runs;
   size_t *first;                        /* row with which each run begins, then n */
   double *t;                            /* [s] of the log; of later runs, moved to follow the one before */
-  double *argument[LAB_ARGUMENT_COUNT]; /* SI, of the completed model; u as in the log where it has one */
+  double *argument[LAB_ARGUMENT_COUNT]; /* SI, of the completed model: the noise of what was measured is also
+                                           in the residual; u as in the log where it has one */
   double *set_position;                 /* [1] share of the stroke; NaN where a log has none */
   int n_channels;
   lab_residual_channel channel[LAB_CHANNEL_COUNT];
