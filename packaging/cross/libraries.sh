@@ -56,8 +56,10 @@ sources() {
   own_apt update
 }
 
+# Under the lock of study/install-packages.sh: where a system cleans up after an update, it takes packages from under an
+# installation.
 own_apt() {
-  apt-get -q -o Dir::Etc::sourcelist="$prefix/apt/sources.list" -o Dir::Etc::sourceparts=/dev/null \
+  flock "${TMPDIR:-/tmp}/libpneu-install-$(id -u).lock" apt-get -q -o Dir::Etc::sourcelist="$prefix/apt/sources.list" -o Dir::Etc::sourceparts=/dev/null \
     -o Dir::State::lists="$prefix/apt/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User=root "$@" >>"$log" 2>&1
 }
 

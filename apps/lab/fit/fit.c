@@ -12,6 +12,7 @@ enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12, KEPT_TRIES = 3 };
 
 static const double usual_enough = 0.02;      /* of chi-square: no decision hangs on it */
 static const double usual_share = 1e-6;       /* of chi-square */
+static const double excess_share = 1e-4;      /* of what chi-square has beyond one for each residual */
 static const double poor = 0.5;               /* gain over promise below which kept slopes are renewed */
 static const double rough = 100, kept = 0.25; /* times `enough` that new slopes promise, and the share of it that is
                                                  kept: where less is, no smooth surface is seen so closely */
@@ -26,7 +27,7 @@ typedef struct descent {
   double A[N][N];      /* J'J */
   double g[N];         /* J'r */
   double chi2, lambda;
-  double enough, enough_share;
+  double enough;
 } descent;
 
 int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, double *chi2, lab_error *error)
@@ -42,10 +43,16 @@ int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, d
   return lab_fail(error, LAB_NUMERIC, "residual %zu of %zu is not finite", i + 1, p->m);
 }
 
-int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, double *J, lab_error *error)
+/* The columns that are not known yet.  In: is_known  NULL: none is */
+static int other_slopes(const lab_fit_problem *p, const char *is_known, const double *theta, const double *r, double *J,
+                        lab_error *error)
 {
   char done[N] = {0};
-  int j, status = p->together ? p->together(p->context, theta, J, done, error) : LAB_OK;
+  int j, status = LAB_OK;
+  if (is_known)
+    memcpy(done, is_known, (size_t)p->n);
+  else if (p->together)
+    status = p->together(p->context, theta, J, done, error);
   if (status != LAB_OK && status != LAB_NUMERIC)
     return status;
   status = LAB_OK;
@@ -65,6 +72,11 @@ int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *
     }
   }
   return status;
+}
+
+int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, double *J, lab_error *error)
+{
+  return other_slopes(p, NULL, theta, r, J, error);
 }
 
 /* What follows from the slopes. */
@@ -184,19 +196,31 @@ static void accept(descent *d, double chi2)
   d->chi2 = chi2;
 }
 
+/* How a step ended: the fit goes on; the slopes promise no gain worth having; no step that they propose is one. */
+enum { GOES_ON, PROMISES_NO_MORE, FAILS };
+
+/* The share of chi-square that is not worth a step: a model that leaves much is not the answer. */
+static double enough_of(const descent *d)
+{
+  const lab_fit_problem *p = d->problem;
+  if (p->enough_share > 0)
+    return p->enough_share * d->chi2;
+  return fmax(usual_share * d->chi2, excess_share * (d->chi2 - (double)p->m));
+}
+
 /* One step downhill, damped until it is one. Of kept slopes there are few tries: where these fail, it is they that are
  * wrong.
  * In:      fresh    whether the slopes are those of this place
  * Out:     quality  gain over promise
- *          done     1 when no step is worth taking */
-static int step_down(descent *d, int fresh, double *quality, int *done, lab_error *error)
+ *          end      how it ended */
+static int step_down(descent *d, int fresh, double *quality, int *end, lab_error *error)
 {
   const int most = fresh ? TRIES : KEPT_TRIES;
   const lab_fit_problem *p = d->problem;
-  const double least = fmax(d->enough, d->enough_share * d->chi2);
+  const double least = fmax(d->enough, enough_of(d));
   double step[N];
   int j, tries;
-  *done = 1;
+  *end = FAILS;
   for (tries = 0; tries < most && !lab_cpu_is_spent(p->until); tries++) {
     double promised, chi2, gain;
     int status;
@@ -205,8 +229,10 @@ static int step_down(descent *d, int fresh, double *quality, int *done, lab_erro
       continue;
     }
     promised = promise(d, step);
-    if (!(promised > least))
+    if (!(promised > least)) {
+      *end = PROMISES_NO_MORE;
       return LAB_OK;
+    }
     for (j = 0; j < p->n; j++)
       d->trial[j] = fmin(fmax(d->theta[j] + step[j], p->lower[j]), p->upper[j]);
     status = lab_fit_evaluate(p, d->trial, d->r_trial, &chi2, error);
@@ -215,7 +241,7 @@ static int step_down(descent *d, int fresh, double *quality, int *done, lab_erro
     gain = d->chi2 - chi2;
     if (status == LAB_OK && gain > 0) {
       *quality = gain / promised;
-      *done = gain < least || (fresh && promised < rough * d->enough && *quality < kept);
+      *end = gain < least || (fresh && promised < rough * d->enough && *quality < kept) ? PROMISES_NO_MORE : GOES_ON;
       d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
       learn(d);
       accept(d, chi2);
@@ -230,20 +256,22 @@ static int descend(descent *d, lab_error *error)
 {
   const lab_fit_problem *p = d->problem;
   const int most = p->steps > 0 ? p->steps : STEPS;
-  int steps = 0, done = 0, fresh = 1;
+  int steps = 0, end = GOES_ON, fresh = !p->is_known;
   double quality = 1;
   if (lab_fit_evaluate(p, d->theta, d->r, &d->chi2, error))
+    return error->status;
+  if (!fresh && other_slopes(p, p->is_known, d->theta, d->r, d->J, error))
     return error->status;
   while (steps < most && !lab_cpu_is_spent(p->until)) {
     if (fresh && lab_fit_slopes(p, d->theta, d->r, d->J, error))
       return error->status;
     multiply(d);
-    if (step_down(d, fresh, &quality, &done, error))
+    if (step_down(d, fresh, &quality, &end, error))
       return error->status;
-    if (done && fresh)
+    if (end != GOES_ON && (fresh || (p->is_brief && end == PROMISES_NO_MORE)))
       break;
-    steps += !done;                                /* that kept slopes lead nowhere is no step */
-    fresh = done || quality < poor || p->is_rough; /* before it ends, once more with slopes that are all new */
+    steps += end == GOES_ON; /* that kept slopes lead nowhere is no step */
+    fresh = end != GOES_ON || quality < poor || p->is_rough; /* before it ends, once more with slopes that are all new */
   }
   return LAB_OK;
 }
@@ -252,17 +280,16 @@ int lab_fit(const lab_fit_problem *problem, double *theta, double *chi2, lab_err
 {
   const size_t m = problem->m, n = (size_t)problem->n;
   descent *d = calloc(1, sizeof *d);
-  double *memory = malloc((n + 3) * m * sizeof *memory);
+  double *memory = malloc(((problem->slopes ? 0 : n) + 3) * m * sizeof *memory);
   int status = d && memory ? LAB_OK : lab_fail_memory(error, "a fit");
   if (status == LAB_OK) {
     d->problem = problem;
     d->enough = problem->enough > 0 ? problem->enough : usual_enough;
-    d->enough_share = problem->enough_share > 0 ? problem->enough_share : usual_share;
     d->lambda = 1e-6;
     d->r = memory;
     d->r_trial = memory + m;
     d->off = memory + 2 * m;
-    d->J = memory + 3 * m;
+    d->J = problem->slopes ? problem->slopes : memory + 3 * m;
     memcpy(d->theta, theta, n * sizeof *theta);
     if (problem->search > 0)
       status = lab_fit_search(problem, d->theta, error);

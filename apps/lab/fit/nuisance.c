@@ -13,6 +13,7 @@ static void add_column(lab_nuisance *h, const lab_unknown *x, double reach, cons
   const size_t stride = h->n_data + LAB_FIT_MAX, rows = h->n_data + (size_t)h->n + 1;
   double *column = h->basis + (size_t)h->n * stride, length;
   size_t i;
+  memcpy(h->slopes + (size_t)h->n * h->n_data, slope, h->n_data * sizeof *slope);
   for (i = 0; i < h->n_data; i++)
     column[i] = slope[i] * reach;
   memset(column + h->n_data, 0, LAB_FIT_MAX * sizeof *column);
@@ -72,7 +73,8 @@ int lab_nuisance_open(lab_unknowns *u, lab_nuisance *h, lab_error *error)
   h->n_data = u->n_data;
   h->misfit = u->misfit;
   h->basis = malloc((n * (h->n_data + LAB_FIT_MAX) + 1) * sizeof *h->basis);
-  status = r && h->basis ? find_slopes(u, r, r + u->m, error) : lab_fail_memory(error, "slopes");
+  h->slopes = malloc((n * h->n_data + 1) * sizeof *h->slopes);
+  status = r && h->basis && h->slopes ? find_slopes(u, r, r + u->m, error) : lab_fail_memory(error, "slopes");
   if (status == LAB_OK)
     take_out(u, r + u->m, h);
   free(r);
@@ -82,6 +84,7 @@ int lab_nuisance_open(lab_unknowns *u, lab_nuisance *h, lab_error *error)
 void lab_nuisance_close(lab_nuisance *h)
 {
   free(h->basis);
+  free(h->slopes);
   memset(h, 0, sizeof *h);
 }
 
@@ -133,6 +136,20 @@ int lab_nuisance_return(lab_unknowns *u, lab_error *error)
   lab_unknowns_count(u);
   lab_unknowns_take(u);
   return status;
+}
+
+void lab_nuisance_begin_with(const lab_nuisance *h, lab_unknowns *u)
+{
+  int j, k;
+  for (k = 0; u->slopes && k < h->n; k++)
+    for (j = 0; j < u->n; j++)
+      if (strcmp(u->unknown[j].name, h->of[k].name) == 0) {
+        double *column = u->slopes + (size_t)j * u->m;
+        memset(column, 0, u->m * sizeof *column);
+        memcpy(column, h->slopes + (size_t)k * h->n_data, h->n_data * sizeof *column);
+        lab_unknowns_slope_of_prior(u, j, column);
+        u->has_slope[j] = 1;
+      }
 }
 
 int lab_nuisance_is_instants(const lab_nuisance *nuisance)

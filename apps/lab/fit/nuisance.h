@@ -16,6 +16,7 @@ typedef struct lab_nuisance {
   double off[LAB_FIT_MAX];     /* prior less value, over how far it may vary (lab_unknown_reach) */
   double misfit;               /* of the unknowns at that time */
   size_t n_data;               /* residuals of the data, in the view at hand */
+  double *slopes;              /* of the residuals of the data: n columns of n_data entries */
   double *basis;               /* orthonormal: n columns of n_data + LAB_FIT_MAX entries */
 } lab_nuisance;
 
@@ -43,6 +44,9 @@ int lab_nuisance_strain(const lab_unknowns *u, double *strain, lab_error *error)
  * In/out:  u  with a nuisance, then without
  * Returns: as lab_unknowns_residuals. */
 int lab_nuisance_return(lab_unknowns *u, lab_error *error);
+
+/* Begin the next fit with the slopes of what was taken out and has come back.  In/out: u  keeps slopes */
+void lab_nuisance_begin_with(const lab_nuisance *nuisance, lab_unknowns *u);
 
 /* Whether instants of commands are all that varies unseen. */
 int lab_nuisance_is_instants(const lab_nuisance *nuisance);

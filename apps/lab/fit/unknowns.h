@@ -50,6 +50,8 @@ typedef struct lab_unknowns {
   size_t n_values;  /* residuals of the data that are not of gaps */
   size_t n_data, m; /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
                        unknown */
+  double *slopes; /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
+  char has_slope[LAB_FIT_MAX]; /* whether that of an unknown is there already, nearly */
   const struct lab_nuisance *nuisance; /* declared values that may vary unseen; NULL: none (nuisance.h) */
 } lab_unknowns;
 
@@ -192,6 +194,9 @@ void lab_unknowns_weigh(const lab_unknowns *u, int run, double *r);
 /* Step of the difference that a slope in unknown j is, into the side where there is room. */
 double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j);
 
+/* Residuals before those of the unknowns' priors: of the data, and of `nuisance`. */
+size_t lab_unknowns_before_priors(const lab_unknowns *u);
+
 /* Slope in unknown j of the residual of its prior.  In/out: column  u->m values, of which it is one */
 void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column);
 
@@ -211,6 +216,18 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
  * Returns: as lab_fit. */
 enum { LAB_ROUNDS_ALL = 0 };
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error);
+
+/* Keep slopes from fit to fit from now on, none of which is known yet; not where a log is so long that they would take
+ * more than 32 MB, nor where a view is coarse. A copy of `u` shares them, until one of the two forgets them. */
+void lab_unknowns_keep_slopes(lab_unknowns *u);
+void lab_unknowns_forget_slopes(lab_unknowns *u);
+
+/* Slopes of all unknowns at their present values, where they are kept: the next fit begins with them.
+ * Returns: as lab_fit_slopes. */
+int lab_unknowns_find_slopes(lab_unknowns *u, lab_error *error);
+
+/* Begin the next fit with the slopes of a model of the same runs, for the unknowns that it has as well. */
+void lab_unknowns_begin_with(lab_unknowns *u, const lab_unknowns *base);
 
 /* What the data say of each unknown, at a fit: intervals, correlations, remarks.  Returns: as lab_fit_spread. */
 int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error);

@@ -102,6 +102,14 @@ typedef struct posed {
   lab_fit_problem problem;
 } posed;
 
+static int any_slope(const lab_unknowns *u)
+{
+  int j, any = 0;
+  for (j = 0; j < u->n; j++)
+    any |= u->has_slope[j];
+  return any;
+}
+
 static void pose(lab_unknowns *u, posed *p)
 {
   int j;
@@ -119,7 +127,70 @@ static void pose(lab_unknowns *u, posed *p)
                                  .residuals = lab_unknowns_residuals,
                                  .slope = lab_unknowns_slope,
                                  .together = lab_instants_slopes,
+                                 .slopes = u->slopes,
+                                 .is_known = u->slopes && any_slope(u) ? u->has_slope : NULL,
                                  .is_rough = u->window > 0};
+}
+
+void lab_unknowns_keep_slopes(lab_unknowns *u)
+{
+  static const size_t most = 4000000; /* values */
+  size_t size;
+  lab_unknowns_count(u);
+  size = (size_t)u->n * u->m;
+  memset(u->has_slope, 0, sizeof u->has_slope);
+  u->slopes = size < most && !u->window ? malloc((size + 1) * sizeof *u->slopes) : NULL;
+}
+
+void lab_unknowns_forget_slopes(lab_unknowns *u)
+{
+  free(u->slopes);
+  u->slopes = NULL;
+}
+
+int lab_unknowns_find_slopes(lab_unknowns *u, lab_error *error)
+{
+  posed p;
+  double *r;
+  int status;
+  if (!u->slopes)
+    return LAB_OK;
+  pose(u, &p);
+  r = malloc((u->m + 1) * sizeof *r);
+  status = r ? lab_unknowns_residuals(u, p.theta, r, error) : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK)
+    status = lab_fit_slopes(&p.problem, p.theta, r, u->slopes, error);
+  memset(u->has_slope, status == LAB_OK, (size_t)u->n);
+  free(r);
+  return status;
+}
+
+/* The column of an unknown of that name, NULL: it has none. */
+static const double *slope_of(const lab_unknowns *u, const char *name)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->has_slope[j] && strcmp(u->unknown[j].name, name) == 0)
+      return u->slopes + (size_t)j * u->m;
+  return NULL;
+}
+
+void lab_unknowns_begin_with(lab_unknowns *u, const lab_unknowns *base)
+{
+  const size_t before = lab_unknowns_before_priors(u);
+  int j;
+  lab_unknowns_count(u);
+  memset(u->has_slope, 0, sizeof u->has_slope);
+  for (j = 0; j < u->n && u->slopes && base->slopes && u->nuisance == base->nuisance; j++) {
+    const double *from = slope_of(base, u->unknown[j].name);
+    double *to = u->slopes + (size_t)j * u->m;
+    if (!from)
+      continue;
+    memset(to, 0, u->m * sizeof *to);
+    memcpy(to, from, before * sizeof *to);
+    lab_unknowns_slope_of_prior(u, j, to);
+    u->has_slope[j] = 1;
+  }
 }
 
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
@@ -129,11 +200,13 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
   int j;
   pose(u, &p);
   p.problem.steps = steps;
+  p.problem.is_brief = steps != LAB_ROUNDS_ALL;
   p.problem.until = u->until;
   if (lab_fit(&p.problem, p.theta, chi2 ? chi2 : &own, error))
     return error->status;
   for (j = 0; j < u->n; j++)
     u->unknown[j].value = p.theta[j];
+  memset(u->has_slope, u->slopes != NULL, (size_t)u->n);
   lab_unknowns_apply(u, p.theta, LAB_ALL_RUNS, &u->rig);
   return LAB_OK;
 }

@@ -229,15 +229,14 @@ void lab_unknowns_view(lab_unknowns *u, size_t window)
   lab_unknowns_count(u);
 }
 
-/* Where the residuals of the unknowns begin. */
-static size_t before_unknowns(const lab_unknowns *u)
+size_t lab_unknowns_before_priors(const lab_unknowns *u)
 {
   return u->n_data + (size_t)(u->nuisance ? u->nuisance->n : 0);
 }
 
 void lab_unknowns_count(lab_unknowns *u)
 {
-  u->m = before_unknowns(u) + (size_t)u->n;
+  u->m = lab_unknowns_before_priors(u) + (size_t)u->n;
 }
 
 /* Residuals of the runs that have unknown `which`, or of all for -1; those of other runs are left as they are. */
@@ -254,7 +253,7 @@ static int residuals_at(const lab_unknowns *u, const lab_rig *model, const doubl
     lab_nuisance_apply(u->nuisance, all);
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    all[before_unknowns(u) + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / lab_unknown_reach(u, x) : 0;
+    all[lab_unknowns_before_priors(u) + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / lab_unknown_reach(u, x) : 0;
   }
   return LAB_OK;
 }
@@ -327,5 +326,5 @@ int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int e, do
 void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column)
 {
   const lab_unknown *x = &u->unknown[j];
-  column[before_unknowns(u) + (size_t)j] = x->spread > 0 ? -1 / lab_unknown_reach(u, x) : 0;
+  column[lab_unknowns_before_priors(u) + (size_t)j] = x->spread > 0 ? -1 / lab_unknown_reach(u, x) : 0;
 }

@@ -80,6 +80,11 @@ static int tolerances_are_better(const lab_facts *f)
   return f->within.fitted && f->within.bic < f->best.bic;
 }
 
+static int tolerances_beat_the_leaders(const lab_facts *f)
+{
+  return tolerances_are_better(f) && f->extended.fitted && f->within.bic < f->extended.bic;
+}
+
 static int something_may_begin(const lab_facts *f)
 {
   return f->n_found == 0 && f->can_begin && !lab_is_noise(&f->best);
@@ -87,7 +92,7 @@ static int something_may_begin(const lab_facts *f)
 
 static int an_onset_stands_out(const lab_facts *f)
 {
-  return something_may_begin(f) && f->begins > lab_constant(LAB_ONSET_CLEAR) * f->throughout;
+  return something_may_begin(f) && !f->held && f->begins > lab_constant(LAB_ONSET_CLEAR) * f->throughout;
 }
 
 static int no_leader_is_enough(const lab_facts *f)
@@ -103,7 +108,7 @@ static int an_onset_convinces(const lab_facts *f)
 
 static int no_effect_explains_it(const lab_facts *f)
 {
-  return !f->has_begun && f->n_found == 0 && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
+  return !f->has_begun && f->n_found == 0 && !f->held && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
          lab_constant(LAB_TERM_ALONE) * f->effect < f->excess;
 }
 
@@ -191,19 +196,23 @@ static int has_found_nothing(const lab_facts *f)
 const lab_rule lab_rules[] = {
     {LAB_PHASE_SCORED, "The declared model leaves more than noise, and the logs are one run.", something_may_begin,
      "Score what may begin within it.", LAB_DO_SCORE_ONSETS},
-    {LAB_PHASE_SCORED, "Something that may begin scores above ONSET_CLEAR times all that acts throughout.",
+    {LAB_PHASE_SCORED,
+     "Values as declared: something that may begin scores above ONSET_CLEAR times all that acts throughout.",
      an_onset_stands_out, "Refit those that do, and find when they begin.", LAB_DO_FIT_CLEAR_ONSET},
     {LAB_PHASE_SCORED,
      "The best of these has a lower BIC and leaves only noise, or less than ONSET_CONVINCING of the excess.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,
-     "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "
+     "Values as declared: the declared model leaves more than noise, of which tolerances alone do not explain MUCH, "
      "and TERM_ALONE times the best score is below its excess.",
      no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
      a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
      LAB_DO_FIT_SCORED_TERM},
 
+    {LAB_PHASE_LED,
+     "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader.",
+     tolerances_beat_the_leaders, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_LED,
      "No refit of a leader leaves only noise, no onset was refitted, and something that may begin scores above "
      "ONSET_SHARE times all that acts throughout.",

@@ -27,15 +27,21 @@ int lab_onset_reach(const lab_onset_profile *f, size_t best, double least, int u
   return LAB_OK;
 }
 
-/* The row with the least chi-square: where it is, or by a grid of places and ever finer ones about the best.
+/* The row with the least chi-square: by a grid of places, or only between those next to where it is, and ever finer
+ * ones about the best.
  * In/out:  best  where it is
  * Out:     least */
-static int descend(const lab_onset_profile *f, size_t *best, double *least, lab_error *error)
+static int descend(const lab_onset_profile *f, int anywhere, size_t *best, double *least, lab_error *error)
 {
   enum { PLACES = 32 };
   size_t low = 1, high = f->n - 1, step = (f->n + PLACES - 1) / PLACES, row;
   if (f->look(f->context, *best, least, error))
     return error->status;
+  if (!anywhere) {
+    low = *best > step ? *best - step : 1;
+    high = *best + step < f->n ? *best + step : f->n - 1;
+    step = (step + 3) / 4;
+  }
   for (;;) {
     for (row = low; row <= high; row += step) {
       double chi2;
@@ -146,11 +152,14 @@ static size_t row_near(const double *t, size_t n, double at)
   return i > 0 && at - t[i - 1] < t[i] - at ? i - 1 : i;
 }
 
+/* Where to look for the beginning of a change: where it is, near that, or all over the run. */
+enum where { HERE, NEAR, ANYWHERE };
+
 /* The row from which a change acts: that with the least chi-square, the rest of the fit following; and the interval in
  * which chi-square stays within what 95 % allow.
- * In:      anywhere  0: about where it is
+ * In:      where  to look
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD */
-static int place(const lab_unknowns *u, int change, int anywhere, lab_onset *onset, lab_error *error)
+static int place(const lab_unknowns *u, int change, enum where where, lab_onset *onset, lab_error *error)
 {
   trial_row *f = calloc(1, sizeof *f);
   const lab_onset_profile profile = {look, f, run_of(u, change)->n};
@@ -159,7 +168,7 @@ static int place(const lab_unknowns *u, int change, int anywhere, lab_onset *ons
   int status = f ? open_trial(u, change, f, error) : lab_fail_memory(error, "an onset");
   if (status == LAB_OK) {
     best = row_near(f->t, profile.n, when(u, change));
-    status = anywhere ? descend(&profile, &best, &least, error) : look(f, best, &least, error);
+    status = where == HERE ? look(f, best, &least, error) : descend(&profile, where == ANYWHERE, &best, &least, error);
   }
   if (status == LAB_OK && !lab_onset_reach(&profile, best, least, 0, &low, error) &&
       !lab_onset_reach(&profile, best, least, 1, &high, error))
@@ -226,7 +235,7 @@ int lab_onset_settle(lab_unknowns *u, int change, double *chi2, lab_onset *begin
   int i, status = fit_since(u, change, chi2, error);
   for (i = 0; status == LAB_OK; i++) {
     const double from = when(u, change);
-    status = place(u, change, i < MOVES, begin, error);
+    status = place(u, change, i == 0 ? ANYWHERE : i < MOVES ? NEAR : HERE, begin, error);
     if (status != LAB_OK || (begin->low <= from && from <= begin->high))
       break;
     error->status = LAB_OK;

@@ -129,6 +129,67 @@ static void undo_fit(lab_unknowns *u)
   lab_unknowns_take(u);
 }
 
+/* ---- Slopes that refits share ---- */
+
+/* Candidates that begin at the same values of their unknowns begin with the same slopes in them, and each keeps its own
+ * from fit to fit: slopes are what a refit costs. */
+typedef struct shared {
+  lab_candidate base; /* with its slopes */
+  int has_slopes;
+} shared;
+
+/* Where extensions of one model begin: at its fit, and at the values that its unknowns had before any fit. */
+typedef struct starts {
+  shared of[2];
+} starts;
+
+/* Find the slopes of a base, where there is room for them and they can be had. */
+static void share(shared *s, lab_error *all)
+{
+  lab_error error;
+  if (s->has_slopes || lab_cpu_is_spent(s->base.u.until))
+    return;
+  s->has_slopes = 1;
+  lab_unknowns_keep_slopes(&s->base.u);
+  if (lab_unknowns_find_slopes(&s->base.u, &error))
+    lab_fail_together(all, &error);
+}
+
+/* Whether an extension of a base has a fit: it begins with the slopes of its base. */
+static int begin_fit(const lab_candidate *base, int steps, lab_candidate *c, lab_error *all)
+{
+  lab_unknowns_keep_slopes(&c->u);
+  lab_unknowns_begin_with(&c->u, &base->u);
+  return fit(c, steps, all) == LAB_OK;
+}
+
+/* Returns: NULL for want of memory; else to be closed */
+static starts *open_starts(const lab_candidate *base, lab_error *error)
+{
+  starts *s = calloc(1, sizeof *s);
+  error->status = LAB_OK;
+  if (!s) {
+    lab_fail_memory(error, "refits");
+    return NULL;
+  }
+  s->of[0].base = s->of[1].base = *base;
+  undo_fit(&s->of[1].base.u);
+  return s;
+}
+
+/* In/out:  c  n candidates that began there */
+static void close_starts(starts *s, lab_candidate *c, int n)
+{
+  int i;
+  for (i = 0; i < n; i++)
+    lab_unknowns_forget_slopes(&c[i].u);
+  if (s) {
+    lab_unknowns_forget_slopes(&s->of[0].base.u);
+    lab_unknowns_forget_slopes(&s->of[1].base.u);
+  }
+  free(s);
+}
+
 /* The model with one effect more, from one start, after the first steps. */
 static void begin_refit(const lab_candidate *base, const lab_score *score, enum start start, lab_candidate *c,
                         lab_error *all)
@@ -137,15 +198,14 @@ static void begin_refit(const lab_candidate *base, const lab_score *score, enum 
   lab_error ignored;
   lab_found *found;
   *c = *base;
+  c->u.slopes = NULL;
   c->quality.fitted = 0;
   pneu_param_describe(score->param, &info);
-  if (start == FROM_DECLARED || start == FROM_BOUND)
-    undo_fit(&c->u);
   if (lab_unknowns_add(&c->u, score->param, (double)info.neutral + size_at(score, start), &ignored) ||
       (score->shape >= 0 && lab_unknowns_add(&c->u, score->shape, score->shape_value, &ignored)))
     return; /* no room */
   lab_unknowns_take(&c->u);
-  if (fit(c, lab_count(LAB_FIRST_STEPS), all))
+  if (!begin_fit(base, lab_count(LAB_FIRST_STEPS), c, all))
     return;
   found = add_found(c);
   found->effect = score->effect;
@@ -193,30 +253,37 @@ static void fit_finalists(lab_candidate *c, int n, double best, lab_error *all)
 }
 
 /* Refit effects from one start, in parallel: a few steps, and more for those that keep up with the best.
- * In/out:  c     the best candidate of each so far
+ * In/out:  c     the best candidate of each so far, with its slopes
  *          best  least chi-square of all candidates so far */
-static void race(const lab_candidate *base, const lab_score *score, int n, enum start start, lab_candidate *c,
-                 double *best, lab_error *all)
+static void race(starts *s, const lab_score *score, int n, enum start start, lab_candidate *c, double *best,
+                 lab_error *all)
 {
   lab_candidate *mine = malloc(((size_t)n + 1) * sizeof *mine);
+  shared *from = &s->of[start == FROM_DECLARED || start == FROM_BOUND];
   double reach;
   int i;
   if (!mine) {
     lab_fail_memory(all, "refits");
     return;
   }
+  if (n > 0)
+    share(from, all);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)
-    begin_refit(base, &score[i], start, &mine[i], all);
+    begin_refit(&from->base, &score[i], start, &mine[i], all);
   *best = fmin(*best, least_chi2(mine, n));
   reach = lab_constant(LAB_RIVAL) * *best;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     const lab_quality *q = &mine[i].quality;
+    lab_candidate loser = mine[i];
     if (q->fitted && q->chi2 < reach)
       fit(&mine[i], lab_count(LAB_BRIEF_STEPS), all);
-    if (q->fitted && (!c[i].quality.fitted || q->chi2 < c[i].quality.chi2))
+    if (q->fitted && (!c[i].quality.fitted || q->chi2 < c[i].quality.chi2)) {
+      loser = c[i];
       c[i] = mine[i];
+    }
+    lab_unknowns_forget_slopes(&loser.u);
   }
   *best = fmin(*best, least_chi2(c, n));
   free(mine);
@@ -224,16 +291,15 @@ static void race(const lab_candidate *base, const lab_score *score, int n, enum 
 
 /* Refit the leaders: the foremost from the first start, the rest unless one of these leaves nothing that they could
  * explain, and all from the other starts for as long as none leaves only noise. */
-static void refit_leaders(const lab_candidate *base, const lab_score *leader, int n, lab_candidate *c, double *best,
-                          lab_error *all)
+static void refit_leaders(starts *s, const lab_score *leader, int n, lab_candidate *c, double *best, lab_error *all)
 {
-  const int starts = base->n_found == 0 ? STARTS : FROM_USUAL, first = count_near(leader, n, LAB_FOREMOST_SHARE);
+  const int end = s->of[0].base.n_found == 0 ? STARTS : FROM_USUAL, first = count_near(leader, n, LAB_FOREMOST_SHARE);
   int start;
-  race(base, leader, first, FROM_SLOPE, c, best, all);
+  race(s, leader, first, FROM_SLOPE, c, best, all);
   if (!lab_any(c, n, lab_is_clean))
-    race(base, leader + first, n - first, FROM_SLOPE, c + first, best, all);
-  for (start = FROM_SLOPE + 1; start < starts && !lab_any(c, n, lab_is_noise); start++)
-    race(base, leader, n, (enum start)start, c, best, all);
+    race(s, leader + first, n - first, FROM_SLOPE, c + first, best, all);
+  for (start = FROM_SLOPE + 1; start < end && !lab_any(c, n, lab_is_noise); start++)
+    race(s, leader, n, (enum start)start, c, best, all);
   fit_finalists(c, n, *best, all);
 }
 
@@ -259,19 +325,19 @@ static int list_bent(const lab_scores *scores, double level, int n, int room, la
  * refit took off chi-square stands in for the statistic where the slope had the wrong sign.
  * In:      n  candidates so far
  * Returns: how many there are then */
-static int refit_bent(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int n,
-                      double *best, lab_error *error)
+static int refit_bent(starts *s, const lab_scores *scores, double level, lab_candidate *c, int n, double *best,
+                      lab_error *error)
 {
   lab_score bent[LAB_REFIT_MAX] = {{0}};
   const int all = n + list_bent(scores, level, n, LAB_REFIT_MAX - n, bent);
   int i;
-  race(base, bent, all - n, FROM_DECLARED, c + n, best, error);
-  race(base, bent, all - n, FROM_BOUND, c + n, best, error);
+  race(s, bent, all - n, FROM_DECLARED, c + n, best, error);
+  race(s, bent, all - n, FROM_BOUND, c + n, best, error);
   fit_finalists(c + n, all - n, *best, error);
   for (i = n; i < all; i++) {
     lab_found *found = c[i].quality.fitted ? &c[i].found[c[i].n_found - 1] : NULL;
     if (found && found->statistic == 0) {
-      found->statistic = fmax(base->quality.chi2 - c[i].quality.chi2, 0);
+      found->statistic = fmax(s->of[0].base.quality.chi2 - c[i].quality.chi2, 0);
       found->p_value = lab_chi2_tail(found->statistic, 1);
     }
   }
@@ -287,37 +353,46 @@ static int all_are_poor(const lab_candidate *declared, const lab_candidate *c, i
   return poor;
 }
 
+/* Foremost effects whose score passes. */
+static int count_passing(const lab_scores *scores, double level)
+{
+  int n = 0;
+  while (n < scores->n && n < LAB_REFIT_MAX && scores->of[n].p_value < level)
+    n++;
+  return n;
+}
+
 int lab_refit_effects(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
                       lab_error *error)
 {
+  const int all = count_passing(scores, level);
+  starts *s = open_starts(base, error);
   double best = INFINITY;
-  const lab_score *score = scores->of;
-  int i, all = 0;
-  for (i = 0; i < LAB_REFIT_MAX; i++)
+  int i;
+  for (i = 0; i < LAB_REFIT_MAX; i++) {
     c[i].quality.fitted = 0;
-  while (all < scores->n && all < LAB_REFIT_MAX && score[all].p_value < level)
-    all++;
-  *n = count_near(score, all < LAB_LEADERS_MAX ? all : LAB_LEADERS_MAX, LAB_LEADER_SHARE);
-  error->status = LAB_OK;
-  refit_leaders(base, score, *n, c, &best, error);
+    c[i].u.slopes = NULL;
+  }
+  *n = count_near(scores->of, all < LAB_LEADERS_MAX ? all : LAB_LEADERS_MAX, LAB_LEADER_SHARE);
+  if (s)
+    refit_leaders(s, scores->of, *n, c, &best, error);
+  close_starts(s, c, *n);
   return error->status;
 }
 
 int lab_refit_hidden(const lab_candidate *base, const lab_scores *scores, double level, lab_candidate *c, int *n,
                      lab_error *error)
 {
-  const lab_score *score = scores->of;
+  const int all = count_passing(scores, level);
+  starts *s = open_starts(base, error);
   double best = least_chi2(c, *n);
-  int all = 0;
-  error->status = LAB_OK;
-  while (all < scores->n && all < LAB_REFIT_MAX && score[all].p_value < level)
-    all++;
-  if (*n < all && all_are_poor(base, c, *n)) {
-    refit_leaders(base, score + *n, all - *n, c + *n, &best, error);
+  if (s && *n < all && all_are_poor(base, c, *n)) {
+    refit_leaders(s, scores->of + *n, all - *n, c + *n, &best, error);
     *n = all;
   }
-  if (error->status == LAB_OK && !lab_any(c, *n, lab_is_noise))
-    *n = refit_bent(base, scores, level, c, *n, &best, error);
+  if (s && error->status == LAB_OK && !lab_any(c, *n, lab_is_noise))
+    *n = refit_bent(s, scores, level, c, *n, &best, error);
+  close_starts(s, c, *n);
   return error->status;
 }
 
@@ -429,9 +504,9 @@ static void end_onsets(const lab_candidate *base, const lab_onset_scores *scores
                        lab_error *error)
 {
   int i;
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++)
+  for (i = 0; i < n && (i == 0 || !lab_is_noise(&c[i - 1].quality)); i++)
     end_onset(&c[i], level, error);
+  n = i;
   qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
   if (n == 0 || lab_is_noise(&c[0].quality) || lab_is_poor(&base->quality, &c[0].quality))
     return;
@@ -498,12 +573,13 @@ static void begin_term(const lab_candidate *base, const lab_term_score *score, l
   lab_error error;
   lab_found *found;
   *c = *base;
+  c->u.slopes = NULL;
   c->quality.fitted = 0;
   if (lab_unknowns_add_term(&c->u, &score->term, score->scale, 0, &error)) {
     lab_fail_together(all, &error);
     return;
   }
-  if (fit(c, lab_count(LAB_BRIEF_STEPS), all))
+  if (!begin_fit(base, lab_count(LAB_BRIEF_STEPS), c, all))
     return;
   found = add_found(c);
   found->term = c->u.rig.n_terms - 1;
@@ -552,6 +628,7 @@ static void refine(lab_candidate *c, lab_candidate *fine, lab_error *all)
   if (!lab_free_term_stretch(&coarse, &from, &to, &level, &peak))
     return;
   *fine = *c;
+  fine->u.slopes = NULL;
   lab_unknowns_drop_term(&fine->u);
   term.n = lab_count(LAB_TERM_FINE_KNOTS);
   term.from = (pneu_real)fmax(from - margin, (double)coarse.from);
@@ -566,27 +643,31 @@ static void refine(lab_candidate *c, lab_candidate *fine, lab_error *all)
 int lab_refit_free_terms(const lab_candidate *base, const lab_term_score *score, int n, lab_candidate *best,
                          lab_error *error)
 {
-  const int most = lab_count(LAB_TERM_LEADERS), last = lab_count(LAB_FINALISTS);
+  const int most = lab_count(LAB_TERM_LEADERS), finalists = lab_count(LAB_FINALISTS);
   lab_candidate *c = malloc((size_t)(most + 1) * sizeof *c);
+  starts *s = open_starts(base, error);
+  const int all = n < most ? n : most, last = all < finalists ? all : finalists;
   int i;
   best->quality.fitted = 0;
-  if (!c)
+  if (!c || !s) {
+    free(c);
+    close_starts(s, NULL, 0);
     return lab_fail_memory(error, "refits");
-  error->status = LAB_OK;
-  n = n < most ? n : most;
+  }
+  share(&s->of[0], error);
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++)
-    begin_term(base, &score[i], &c[i], error);
-  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
-  n = n < last ? n : last;
+  for (i = 0; i < all; i++)
+    begin_term(&s->of[0].base, &score[i], &c[i], error);
+  qsort(c, (size_t)all, sizeof *c, lab_candidate_by_bic);
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++)
+  for (i = 0; i < last; i++)
     end_term(&c[i], error);
-  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
-  if (n > 0)
+  close_starts(s, c, all);
+  qsort(c, (size_t)last, sizeof *c, lab_candidate_by_bic);
+  if (last > 0)
     *best = c[0];
   if (best->quality.fitted) {
-    refine(best, &c[n], error);
+    refine(best, &c[all], error);
     lab_candidate_explain(best, base->quality.chi2);
   }
   free(c);

@@ -77,6 +77,13 @@ static void note_way(lab_search_result *result, const lab_candidate *c)
   way->rig = u.rig;
 }
 
+/* A free term that is significant, but not worth adding. */
+static void note_small(lab_search_result *result, const pneu_term *term)
+{
+  result->small = *term;
+  result->has_small = 1;
+}
+
 /* ---- Candidates side by side ---- */
 
 /* Whether two candidates have the same, whatever was added first, beside one addition of each; -1: beside nothing. */
@@ -145,6 +152,76 @@ static void rank(search *s)
   s->n_pool = n;
 }
 
+/* What follows a command bends too much for the instants that a straight line has about another model. */
+static void restart_instants(lab_unknowns *u)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_INSTANT)
+      u->unknown[j].value = u->unknown[j].prior;
+}
+
+/* Whether declared values vary unseen within their tolerances. */
+static int has_held(const search *s)
+{
+  return s->nuisance.n > 0 && !lab_nuisance_is_instants(&s->nuisance);
+}
+
+/* Fit an extension with all its values.  Returns: LAB_OK, LAB_WORLD */
+static int fit_whole(const search *s, const lab_candidate *c, lab_candidate *whole, lab_error *error)
+{
+  int status;
+  *whole = *c;
+  if (lab_nuisance_return(&whole->u, error))
+    return error->status;
+  restart_instants(&whole->u);
+  lab_unknowns_keep_slopes(&whole->u);
+  lab_nuisance_begin_with(&s->nuisance, &whole->u);
+  status = lab_candidate_fit(whole, has_held(s) ? lab_count(LAB_BRIEF_STEPS) : LAB_ROUNDS_ALL, error);
+  lab_unknowns_forget_slopes(&whole->u);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* Fit one extension with all its values.  In/out: s->unfolded  the best such one so far */
+static int unfold_one(search *s, lab_candidate *c, lab_error *error)
+{
+  lab_candidate *whole = &s->whole;
+  if (fit_whole(s, c, whole, error))
+    return error->status;
+  if (whole->quality.fitted && lab_candidate_by_bic(whole, &s->unfolded) < 0)
+    s->unfolded = *whole;
+  if (whole->quality.fitted)
+    c->quality = whole->quality;
+  return LAB_OK;
+}
+
+static int is_unfolded(const search *s, const lab_candidate *c)
+{
+  return s->unfolded.quality.fitted && s->unfolded.quality.bic == c->quality.bic;
+}
+
+/* Fit the best of n extensions with all their values, and rank them by that: about another model what varies unseen
+ * bends otherwise. Where declared values vary, it takes long: if straight lines explain the logs, only the best one is
+ * fitted, and what comes before it then. */
+static int rank_unfolded(search *s, lab_candidate *c, int n, lab_error *error)
+{
+  const int most = lab_count(has_held(s) ? LAB_UNFOLDED_HELD : LAB_UNFOLDED);
+  const int is_lazy = has_held(s) && lab_any(c, n, lab_is_noise);
+  int i, at;
+  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  for (i = 0; i < n && i < most && s->nuisance.n > 0 && !lab_cpu_is_spent(s->declared.u.until); i++) {
+    at = is_lazy ? 0 : i;
+    if (!c[at].quality.fitted || (is_lazy && is_unfolded(s, &c[0])))
+      break;
+    if (unfold_one(s, &c[at], error))
+      return error->status;
+    if (is_lazy)
+      qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  }
+  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  return LAB_OK;
+}
+
 /* ---- Extensions ---- */
 
 /* Refit what scores best; the refits join the pool.  Out: n  of them */
@@ -157,12 +234,16 @@ static int refit_scored(search *s, const lab_candidate *base, const lab_scores *
     return error->status;
   if (base->n_found > 0 || lab_is_noise(&base->quality) || lab_any(c, *n, lab_is_noise))
     return LAB_OK;
+  if (has_held(s) && rank_unfolded(s, c, *n, error))
+    return error->status;
+  if (lab_any(c, *n, lab_is_noise))
+    return LAB_OK;
   s->leaders = c;
   s->n_leaders = *n;
   if (follow_rules(s, LAB_PHASE_LED, error))
     return error->status;
   s->n_leaders = 0;
-  return s->has_begun ? LAB_OK : lab_refit_hidden(base, scores, level, c, n, error);
+  return s->has_begun || s->over ? LAB_OK : lab_refit_hidden(base, scores, level, c, n, error);
 }
 
 /* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
@@ -283,41 +364,13 @@ static int add_effect(search *s, lab_error *error)
   return LAB_OK;
 }
 
-/* What follows a command bends too much for the instants that a straight line has about another model. */
-static void restart_instants(lab_unknowns *u)
+/* The pool as it is with all values fitted, which may be known already; the best one stays so. */
+static int rank_whole(search *s, lab_error *error)
 {
-  int j;
-  for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_INSTANT)
-      u->unknown[j].value = u->unknown[j].prior;
-}
-
-/* Fit the best extensions with all their values, and rank them by that: about another model what varies unseen bends
- * otherwise. The best of them stays so. Where declared values vary as well, that takes too long. */
-static int rank_unfolded(search *s, lab_error *error)
-{
-  const int n = s->n_pool < lab_count(LAB_UNFOLDED) ? s->n_pool : lab_count(LAB_UNFOLDED);
-  lab_candidate *whole = &s->whole, *best = &s->unfolded;
-  int i;
-  best->quality.fitted = 0;
-  for (i = 0; lab_nuisance_is_instants(&s->nuisance) && i < n; i++) {
-    if (lab_cpu_is_spent(s->declared.u.until))
-      break;
-    *whole = s->pool[i];
-    if (lab_nuisance_return(&whole->u, error))
-      return error->status;
-    restart_instants(&whole->u);
-    if (lab_candidate_fit(whole, LAB_ROUNDS_ALL, error) == LAB_WORLD)
-      return error->status;
-    if (!whole->quality.fitted)
-      continue;
-    s->pool[i].quality = whole->quality;
-    if (lab_candidate_by_bic(whole, best) < 0)
-      *best = *whole;
-  }
-  qsort(s->pool, (size_t)s->n_pool, sizeof *s->pool, lab_candidate_by_bic);
-  if (best->quality.fitted && s->pool[0].quality.bic == best->quality.bic)
-    s->pool[0] = *best;
+  if (!s->unfolded.quality.fitted && rank_unfolded(s, s->pool, s->n_pool, error))
+    return error->status;
+  if (s->n_pool > 0 && is_unfolded(s, &s->pool[0]))
+    s->pool[0] = s->unfolded;
   return LAB_OK;
 }
 
@@ -333,14 +386,15 @@ static int advance(search *s, lab_error *error)
   const double reach = lab_constant(LAB_RIVAL) * s->beam[0].quality.chi2;
   int i, status = LAB_OK;
   s->added = s->n_pool = s->has_begun = 0;
+  s->unfolded.quality.fitted = 0;
   for (i = 0; status == LAB_OK && i < s->n_beam; i++)
     if (i == 0 || (!s->has_begun && !is_settled(s) && s->beam[i].quality.chi2 < reach))
       status = extend(s, &s->beam[i], error);
   s->added = s->has_begun;
-  if (status != LAB_OK || s->has_begun)
+  if (status != LAB_OK || s->has_begun || s->over)
     return status;
   rank(s);
-  if (rank_unfolded(s, error))
+  if (rank_whole(s, error))
     return error->status;
   s->has_extended = s->n_pool > 0;
   status = follow_rules(s, LAB_PHASE_REFITTED, error);
@@ -431,7 +485,8 @@ static int exchange(search *s, lab_error *error)
     if (extend(s, without, error) == LAB_WORLD)
       return error->status;
     rank(s);
-    if (rank_unfolded(s, error))
+    s->unfolded.quality.fitted = 0;
+    if (rank_whole(s, error))
       return error->status;
     if (s->n_pool == 0 || s->pool[0].quality.bic >= best->quality.bic) {
       note_alike(best, i, s->pool, s->n_pool);
@@ -478,7 +533,16 @@ static int refit_terms(search *s, const lab_candidate *base, lab_candidate *best
   return lab_refit_free_terms(base, s->term, s->n_terms, best, error);
 }
 
-/* The best free term beside a candidate, if its score passes.  Out: best, fitted or not */
+/* Whether a score promises too little to take MIN_GAIN off the error of any channel, were it to take twice as much off
+ * chi-square as it says. */
+static int promises_little(const search *s, const lab_candidate *base, double statistic)
+{
+  const double left = 1 - s->options->min_gain, values = base->quality.values / base->u.run[0].n_channels;
+  return 2 * statistic < (1 - left * left) * values;
+}
+
+/* The best free term beside a candidate, if its score passes; where only noise is left and it promises little, it is
+ * noted as small at once.  Out: best, fitted or not */
 static int find_term(search *s, const lab_candidate *base, lab_candidate *best, lab_error *error)
 {
   const lab_term_score *t = s->term;
@@ -489,8 +553,12 @@ static int find_term(search *s, const lab_candidate *base, lab_candidate *best, 
   if (status == LAB_OK)
     status = lab_score_free_terms(&p, s->term, &s->n_terms, error);
   if (status == LAB_OK && s->n_terms > 0 && t->degrees > 0 &&
-      lab_free_term_p_value(&t->term, t->statistic, t->degrees) < s->result->level)
-    status = refit_terms(s, base, best, error);
+      lab_free_term_p_value(&t->term, t->statistic, t->degrees) < s->result->level) {
+    if (!lab_is_noise(&base->quality) || !promises_little(s, base, t->statistic))
+      status = refit_terms(s, base, best, error);
+    else
+      note_small(s->result, &t->term);
+  }
   lab_projection_close(&p);
   return status;
 }
@@ -513,8 +581,7 @@ static int add_term(search *s, lab_error *error)
   if (measure_gain(s, &enough, error))
     return error->status;
   if (!enough) {
-    s->result->small = with->u.rig.term[with->u.rig.n_terms - 1];
-    s->result->has_small = 1;
+    note_small(s->result, &with->u.rig.term[with->u.rig.n_terms - 1]);
     return LAB_OK;
   }
   s->beam[0] = *with;
@@ -535,6 +602,7 @@ static lab_facts facts_of(const search *s)
   f.coarse = best->u.window > 0;
   f.added = s->added;
   f.has_begun = s->has_begun;
+  f.held = has_held(s);
   f.declared = s->declared.quality;
   if (s->within)
     f.within = *s->within;
@@ -751,6 +819,12 @@ static int has_room(const search *s)
   return s->round < s->options->max_effects && s->beam[0].n_found < s->options->max_effects;
 }
 
+/* Whether what begins was found with values as declared and leaves more than noise: the search goes on from there. */
+static int needs_tolerances(const search *s)
+{
+  return s->within && !lab_is_noise(&s->beam[0].quality);
+}
+
 static int search_all(search *s, lab_error *error)
 {
   for (s->round = 0, s->added = 1; s->added && !s->rounds_over && has_room(s); s->round++) {
@@ -759,7 +833,7 @@ static int search_all(search *s, lab_error *error)
       return error->status;
     if (s->added && s->nuisance.n > 0 && linearise_again(s, error))
       return error->status;
-    if (s->has_begun && try_instead(s, error))
+    if (s->has_begun && !needs_tolerances(s) && try_instead(s, error))
       return error->status;
     chi2 = s->beam[0].quality.chi2;
     if (follow_rules(s, LAB_PHASE_ROUND, error))
@@ -772,23 +846,63 @@ static int search_all(search *s, lab_error *error)
   return follow_rules(s, LAB_PHASE_END, error);
 }
 
-/* What begins is known already. */
-static int go_on_from(search *s, const lab_candidate *begun, lab_error *error)
+/* What begins is known already, but for what else may begin then. */
+static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_scores *begins, lab_error *error)
 {
   s->beam[0] = *begun;
+  s->begins = *begins;
   note_step(s->result, begun);
   note_way(s->result, begun);
-  return linearise_again(s, error);
+  return linearise_again(s, error) ? error->status : try_instead(s, error);
+}
+
+/* Whether tolerances alone were found to be better than anything that could be added. */
+static int is_given_up(const search *s)
+{
+  return s->over && s->within && s->beam[0].n_found == 0 && !s->has_begun &&
+         s->within->bic < s->beam[0].quality.bic;
+}
+
+/* What a search makes of the logs. */
+typedef struct finding {
+  lab_candidate declared; /* with what is held */
+  lab_candidate best;
+  double gain;             /* of chi-square, by tolerances after the search */
+  lab_onset_scores begins; /* what may begin */
+  lab_search_result result;
+} finding;
+
+/* Nothing was found. */
+static int give_back(const search *s, finding *f)
+{
+  f->best = f->declared;
+  f->best.quality = s->declared.quality;
+  f->result.verdict = LAB_VERDICT_UNDECIDED;
+  return LAB_OK;
+}
+
+/* The best model, fitted with all that varies. */
+static int end_with(search *s, finding *f, lab_error *error)
+{
+  lab_facts facts;
+  if (unfold(s, error))
+    return error->status;
+  if (!lab_cpu_is_spent(f->declared.u.until) && place_again(&s->beam[0], error))
+    return error->status;
+  drop_neutral(&s->beam[0]);
+  facts = facts_of(s);
+  f->best = s->beam[0];
+  f->result.verdict = lab_decide_verdict(&facts);
+  return LAB_OK;
 }
 
 /* The search from a declared model, in the view that its unknowns have.
- * In:      declared  fitted or not; it is fitted once more, which finds the end of a valley
- *          begun     it with what begins, fitted, from which to go on; may be NULL
- *          within    the same with its values within tolerances, which the search is to beat; may be NULL
- * Out:     best    with what was added
- *          result  all but the errors, the fit and what was found */
-static int search_from(const lab_candidate *declared, const lab_candidate *begun, const lab_quality *within,
-                       const lab_search_options *options, lab_search_result *result, lab_candidate *best,
+ * In:      begun    from the declared model with what begins, fitted, as its best; NULL: from the declared model
+ *          within   the same with its values within tolerances, which the search is to beat; may be NULL
+ * In/out:  f        declared: fitted or not; it is fitted once more, which finds the end of a valley
+ *                   best: with what was added
+ *                   result: all but the errors, the fit and what was found */
+static int search_from(finding *f, const finding *begun, const lab_quality *within, const lab_search_options *options,
                        lab_error *error)
 {
   search *s = calloc(1, sizeof *s);
@@ -796,49 +910,32 @@ static int search_from(const lab_candidate *declared, const lab_candidate *begun
   if (!s)
     return lab_fail_memory(error, "the search");
   s->options = options;
-  s->result = result;
+  s->result = &f->result;
   s->within = within;
-  s->declared = *declared;
+  s->declared = f->declared;
   status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
   if (status == LAB_OK) {
-    note_way(result, &s->declared);
+    note_way(s->result, &s->declared);
     status = linearise(s, error);
   }
   if (status == LAB_OK) {
     s->beam[0] = s->declared;
     s->n_beam = 1;
-    note_step(result, &s->declared);
+    note_step(s->result, &s->declared);
     if (begun)
-      status = go_on_from(s, begun, error);
+      status = go_on_from(s, &begun->best, &begun->begins, error);
   }
-  if (status == LAB_OK) {
+  if (status == LAB_OK)
     status = search_all(s, error);
-  }
-  if (status == LAB_NUMERIC && lab_cpu_is_spent(declared->u.until))
+  if (status == LAB_NUMERIC && lab_cpu_is_spent(f->declared.u.until))
     status = s->beam[0].quality.fitted ? LAB_OK : status;
   if (status == LAB_OK)
-    status = unfold(s, error);
-  if (status == LAB_OK && !lab_cpu_is_spent(declared->u.until))
-    status = place_again(&s->beam[0], error);
-  if (status == LAB_OK) {
-    lab_facts f;
-    drop_neutral(&s->beam[0]);
-    f = facts_of(s);
-    *best = s->beam[0];
-    result->verdict = lab_decide_verdict(&f);
-  }
+    status = is_given_up(s) ? give_back(s, f) : end_with(s, f, error);
+  f->begins = s->begins;
   lab_nuisance_close(&s->nuisance);
   free(s);
   return status;
 }
-
-/* What a search makes of the logs. */
-typedef struct finding {
-  lab_candidate declared; /* with what is held */
-  lab_candidate best;
-  double gain; /* of chi-square, by tolerances after the search */
-  lab_search_result result;
-} finding;
 
 /* Whether a search has explained the logs. */
 static int explains(const finding *f)
@@ -851,7 +948,7 @@ static int search_exactly(const lab_unknowns *u, const lab_quality *within, cons
                           finding *f, lab_error *error)
 {
   f->declared.u = *u;
-  if (search_from(&f->declared, NULL, within, options, &f->result, &f->best, error))
+  if (search_from(f, NULL, within, options, error))
     return error->status;
   if (!explains(f))
     return LAB_OK;
@@ -957,8 +1054,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
     if (is_exact)
       whole->declared.u.until = enough(u->until, start);
-    status =
-        search_from(&whole->declared, begins ? &exact->best : NULL, NULL, options, &whole->result, &whole->best, error);
+    status = search_from(whole, begins ? exact : NULL, NULL, options, error);
     if (status == LAB_OK)
       forget_what_was_in_vain(whole);
     is_exact = status == LAB_NUMERIC ? exact->best.quality.fitted
@@ -999,7 +1095,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   if (status == LAB_OK && coarse->result.window > 0) {
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
-    status = search_from(&coarse->declared, NULL, NULL, options, &coarse->result, &coarse->best, error);
+    status = search_from(coarse, NULL, NULL, options, error);
     *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && has_found_cause(&coarse->best);
   }
   if (*done)
