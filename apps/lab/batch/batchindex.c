@@ -10,7 +10,6 @@
 #include "../base/csv.h"
 #include "../base/escape.h"
 #include "../base/outfile.h"
-#include "../report/pagetext.h"
 #include "../base/format.h"
 #include "../base/json.h"
 #include "../base/template.h"

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../base/gnuplot.h"
-#include "figures_private.h"
 
 /* A line a string; made by make. */
 static const char *const style_gp[] = {
@@ -90,7 +89,7 @@ static void put_data(const script *s, const lab_panel *panel, int number)
   const double ends[] = {x->value[0], x->value[x->n - 1]}, level[] = {*y->value, *y->value};
   const lab_line flat = {2, ends, level, 0, NULL},
                  curve = {x->n, x->value, y->value, panel->x == s->all->t ? s->all->n_runs : 0, s->all->first};
-  const size_t n = lab_envelope(y->n == 1 ? &flat : &curve, FIGURE_COLUMNS, s->point);
+  const size_t n = lab_envelope(y->n == 1 ? &flat : &curve, LAB_FIGURE_COLUMNS, s->point);
   size_t i;
   fprintf(s->file, "$curve_%d << EOD\nx,y\n", number);
   for (i = 0; i < n; i++)
@@ -209,8 +208,8 @@ static void put_figure(const script *s)
  * Out:     done  0 if there is no gnuplot */
 static int draw(const lab_figures *all, const lab_figure *figure, const char *path, int *done, lab_error *error)
 {
-  script s = {tmpfile(), all, figure, malloc(((size_t)3 * FIGURE_COLUMNS + (size_t)all->n_runs) * sizeof(lab_point)),
-              height_of(figure)};
+  script s = {tmpfile(), all, figure,
+              malloc(((size_t)3 * LAB_FIGURE_COLUMNS + (size_t)all->n_runs) * sizeof(lab_point)), height_of(figure)};
   int status = s.point ? LAB_OK : lab_fail_memory(error, "the figures");
   if (!s.file)
     status = lab_fail(error, LAB_WORLD, "no room for the script of the figures in the folder of temporary files");

@@ -63,6 +63,14 @@ lab_report_writer lab_report_html;     /* a page that needs nothing else, figure
 int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
                     lab_error *error);
 
+/* The template of a page, and to its values the styles and scripts that the program carries inside for it.
+ * In:      page    "report", or "index" of a batch
+ * Returns: to be freed; NULL without memory */
+char *lab_page_text(const char *page, cJSON *values);
+
+/* The free term that was found. */
+const pneu_term *lab_report_term(const lab_report *report, const lab_found *found);
+
 /* The unknown that is the size of something found: from its onset on, where it has one.
  * In:      param  as in pneu_param_describe
  * Returns: its place among those of the completed model, -1 if it was not fitted */

@@ -64,7 +64,7 @@ static void add_found(cJSON *to, const lab_report *report, int which)
 
 static void add_unlisted(cJSON *to, const lab_report *report, const lab_found *found)
 {
-  const pneu_term *term = &report->completed->rig.term[found->term];
+  const pneu_term *term = lab_report_term(report, found);
   cJSON *o = lab_json_append(to);
   char where[LAB_WHERE_TEXT];
   cJSON_AddStringToObject(o, "equation", lab_free_term_equation(term));

@@ -117,7 +117,8 @@ void lab_report_found_sentence(const lab_report *report, const lab_found *found,
     snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
   } else
     snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
-             lab_free_term_what(&rig->term[found->term]), lab_free_term_where(&rig->term[found->term], where));
+             lab_free_term_what(lab_report_term(report, found)),
+             lab_free_term_where(lab_report_term(report, found), where));
 }
 
 /* The sentence of each, with its name before the full stop. */

@@ -5,9 +5,7 @@
 
 #include "../../../apps/lab/metrics/recording.h"
 #include "../../../apps/lab/fit/weights.h"
-#include "../../../apps/lab/report/pagetext.h"
 #include "../../../apps/lab/report/figures.h"
-#include "../../../apps/lab/report/signature.h"
 
 enum { ROWS = 1001 };
 static const double spacing = 0.01; /* [s] */
