@@ -7,7 +7,6 @@
 #include "../base/clock.h"
 #include "../report/answer.h"
 #include "../report/figures.h"
-#include "../report/residual_table.h"
 #include "../rig/draft.h"
 #include "../run/simulation.h"
 #include "../trace/decide.h"
@@ -130,23 +129,19 @@ static int write_sentence(const lab_report *report, char **text, lab_error *erro
   *text = malloc(LAB_SENTENCE_TEXT);
   if (!*text)
     return lab_fail_memory(error, "a text");
-  lab_report_sentence(report, *text, LAB_SENTENCE_TEXT);
+  lab_report_sentence(report, *text);
   return LAB_OK;
 }
 
 static int write_answer(const lab_report *report, lab_api_answer *answer, lab_error *error)
 {
-  lab_residual_table table;
-  lab_figures *figures = NULL;
-  int status = lab_residual_table_collect(report, &table, error);
+  lab_figures *figures;
+  int status = lab_figures_make(report, &figures, error);
   if (status == LAB_OK)
-    status = lab_figures_make(report, &table, &figures, error);
-  if (status == LAB_OK)
-    status = write_texts(&(lab_sources){report, &table, figures}, answer, error);
+    status = write_texts(&(lab_sources){report, figures}, answer, error);
   if (status == LAB_OK)
     status = write_sentence(report, &answer->sentence, error);
   lab_figures_free(figures);
-  lab_residual_table_free(&table);
   return status;
 }
 

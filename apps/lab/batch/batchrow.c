@@ -145,7 +145,7 @@ void lab_row_answer(const lab_answer *a, lab_outcome *outcome)
     put_found(row, a, put_alike);
     put_errors(row, a);
     fprintf(row, ",%d,", a->now.logs.limitations.n);
-    lab_report_sentence(&a->report, sentence, sizeof sentence);
+    lab_report_sentence(&a->report, sentence);
     lab_put_users_cell(row, sentence);
     put_condition(row, &a->report.deviations);
   }

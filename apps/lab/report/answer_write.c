@@ -36,23 +36,19 @@ static int write_some(const lab_sources *from, int rows, const char *folder, int
 /* The page and the drawings of the same figures, and the rows behind them. */
 static int write_rows(const lab_report *report, const char *folder, int extent, lab_error *error)
 {
-  lab_residual_table table;
-  lab_figures *figures = NULL;
-  int status = lab_residual_table_collect(report, &table, error);
+  lab_figures *figures;
+  int status = lab_figures_make(report, &figures, error);
   if (status == LAB_OK)
-    status = lab_figures_make(report, &table, &figures, error);
-  if (status == LAB_OK)
-    status = write_some(&(lab_sources){report, &table, figures}, 1, folder, extent, error);
+    status = write_some(&(lab_sources){report, figures}, 1, folder, extent, error);
   if (status == LAB_OK)
     status = lab_figures_draw(extent >= LAB_WRITE_DRAWN ? figures : NULL, folder, extent == LAB_WRITE_FIGURES, error);
   lab_figures_free(figures);
-  lab_residual_table_free(&table);
   return status;
 }
 
 static int write_files(const lab_report *report, const char *folder, int extent, lab_error *error)
 {
-  if (lab_make_folder(folder, error) || write_some(&(lab_sources){report, NULL, NULL}, 0, folder, extent, error))
+  if (lab_make_folder(folder, error) || write_some(&(lab_sources){report, NULL}, 0, folder, extent, error))
     return error->status;
   return extent >= LAB_WRITE_PLAIN ? write_rows(report, folder, extent, error) : LAB_OK;
 }

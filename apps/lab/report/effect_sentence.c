@@ -9,6 +9,8 @@
 
 /* ---- Sizes: each from a rig and the parameter of an effect, of which the amount counts ---- */
 
+enum { NONE = -1 };
+
 typedef struct about {
   lab_rig rig;
   int param;
@@ -20,44 +22,14 @@ static double of_itself(const about *a)
   return a->value;
 }
 
-static double percent(const about *a)
-{
-  return 100 * a->value;
-}
-
 static double reciprocal(const about *a)
 {
   return 1 / a->value;
 }
 
-static double of_fill(const about *a)
-{
-  return 100 * a->value / (double)a->rig.params.fill_area;
-}
-
-static double of_stroke(const about *a)
-{
-  return 100 * a->value / (double)a->rig.params.stroke;
-}
-
-static double of_supply(const about *a)
-{
-  return 100 * a->value / (double)a->rig.params.supply_pressure;
-}
-
-static double of_friction(const about *a)
-{
-  return 100 * a->value / (double)a->rig.params.dry_friction;
-}
-
 static double friction_rise(const about *a)
 {
   return a->value * (double)a->rig.params.supply_pressure;
-}
-
-static double of_friction_rise(const about *a)
-{
-  return 100 * friction_rise(a) / (double)a->rig.params.dry_friction;
 }
 
 /* Of the straight spring's force at full stroke. */
@@ -129,27 +101,28 @@ static double leak_share(const about *a)
 
 /* ---- Words ---- */
 
-/* unit: as in lab_format_as; "": that of the parameter. most: beyond, it is left out, for what it is a share of is
- * nearly nothing; 0: it always tells. */
+/* Each amount, in a unit or as a share of a parameter. */
 static const struct {
-  const char *name, *unit;
-  double (*size)(const about *a);
-  double most;
+  const char *name, *unit; /* unit: as in lab_format_as; "": that of the parameter */
+  double (*amount)(const about *a);
+  double times;
+  int of;      /* the parameter that it is a share of; NONE: it is no share of one */
+  double most; /* beyond, it is left out, for what it is a share of is nearly nothing; 0: it always tells */
 } sizes[] = {
-    {"size", "", of_itself, 0},
-    {"percent", "%", percent, 0},
-    {"reciprocal", "J/K", reciprocal, 0},
-    {"of_fill", "%", of_fill, 1000},
-    {"of_stroke", "%", of_stroke, 1000},
-    {"of_supply", "%", of_supply, 1000},
-    {"of_friction", "%", of_friction, 1000},
-    {"of_friction_rise", "%", of_friction_rise, 1000},
-    {"friction_rise", "N", friction_rise, 0},
-    {"of_spring", "%", of_spring, 0},
-    {"fill_drop", "Pa", fill_drop, 0},
-    {"vent_drop", "Pa", vent_drop, 0},
-    {"leak", "Nl/h", leak_normal, 0},
-    {"leak_share", "%", leak_share, 1000},
+    {"size", "", of_itself, 1, NONE, 0},
+    {"percent", "%", of_itself, 100, NONE, 0},
+    {"reciprocal", "J/K", reciprocal, 1, NONE, 0},
+    {"of_fill", "%", of_itself, 100, PNEU_PARAM_fill_area, 1000},
+    {"of_stroke", "%", of_itself, 100, PNEU_PARAM_stroke, 1000},
+    {"of_supply", "%", of_itself, 100, PNEU_PARAM_supply_pressure, 1000},
+    {"of_friction", "%", of_itself, 100, PNEU_PARAM_dry_friction, 1000},
+    {"of_friction_rise", "%", friction_rise, 100, PNEU_PARAM_dry_friction, 1000},
+    {"friction_rise", "N", friction_rise, 1, NONE, 0},
+    {"of_spring", "%", of_spring, 1, NONE, 0},
+    {"fill_drop", "Pa", fill_drop, 1, NONE, 0},
+    {"vent_drop", "Pa", vent_drop, 1, NONE, 0},
+    {"leak", "Nl/h", leak_normal, 1, NONE, 0},
+    {"leak_share", "%", leak_share, 1, NONE, 1000},
 };
 
 /* A size with its unit; "" for one that is not finite or beyond what tells, and the name itself where it is none. */
@@ -157,6 +130,7 @@ static void write_size(const about *a, const char *name, size_t length, char tex
 {
   enum { SIZES = sizeof sizes / sizeof *sizes };
   char number[LAB_FORMAT_TEXT];
+  pneu_params params = a->rig.params;
   pneu_param_info info;
   double size;
   int i = 0;
@@ -165,11 +139,13 @@ static void write_size(const about *a, const char *name, size_t length, char tex
   snprintf(text, 2 * LAB_FORMAT_TEXT, "{%.*s}", (int)length, name);
   if (i == SIZES)
     return;
-  size = sizes[i].size(a);
+  size = sizes[i].times * sizes[i].amount(a);
+  if (sizes[i].of != NONE)
+    size /= (double)*pneu_param_at(&params, sizes[i].of);
   pneu_param_describe(a->param, &info);
   snprintf(text, 2 * LAB_FORMAT_TEXT, "%s",
            lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
-  if (sizes[i].size == leak_normal)
+  if (sizes[i].amount == leak_normal)
     lab_append(text, 2 * LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
   if (!isfinite(size) || (sizes[i].most > 0 && size > sizes[i].most))
     *text = '\0';

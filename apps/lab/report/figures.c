@@ -58,6 +58,7 @@ void lab_figures_free(lab_figures *figures)
   for (i = 0; i < figures->n_columns; i++)
     free(figures->column[i].value);
   free(figures->column);
+  lab_residual_table_free(&figures->table);
   free(figures->first);
   free(figures->shift);
   free(figures);

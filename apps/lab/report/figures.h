@@ -88,8 +88,9 @@ typedef struct lab_figure {
   lab_panel panel[LAB_FIGURE_PANELS];
 } lab_figure;
 
-/* Figures for which there is nothing to show are left out. */
+/* The rows of a report, and its figures; those for which there is nothing to show are left out. */
 typedef struct lab_figures {
+  lab_residual_table table;
   int n;
   lab_figure figure[LAB_FIGURE_COUNT];
   int n_columns;
@@ -123,11 +124,10 @@ const lab_curve *lab_figure_curve(const lab_figure *figure, int key);
  * A column is a list of whole numbers, each the difference from the one before, in units of 10^-k; empty for none. */
 void lab_figures_json(const lab_figures *figures, FILE *file);
 
-/* What there is to draw.
+/* What there is to show row by row and to draw.
  * Out:     figures  to be freed with lab_figures_free; NULL after an error
- * Returns: LAB_OK; LAB_WORLD without memory. */
-int lab_figures_make(const lab_report *report, const lab_residual_table *table, lab_figures **figures,
-                     lab_error *error);
+ * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
+int lab_figures_make(const lab_report *report, lab_figures **figures, lab_error *error);
 void lab_figures_free(lab_figures *figures);
 
 /* Draw each into a folder as <name>.svg, whole or not at all, by gnuplot; those that an earlier run has left there go.

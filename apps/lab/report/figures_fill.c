@@ -609,23 +609,21 @@ static void fill_all(drawing *d)
   }
 }
 
-int lab_figures_make(const lab_report *report, const lab_residual_table *table, lab_figures **figures, lab_error *error)
+int lab_figures_make(const lab_report *report, lab_figures **figures, lab_error *error)
 {
-  drawing d = {report,
-               table,
-               calloc(1, sizeof **figures),
-               NULL,
-               calloc(table->n + 1, 1),
-               report->result->n_found > 0 ? LAB_STAGE_COUNT : 1};
-  if (d.all && d.kept) {
+  lab_figures *all = *figures = calloc(1, sizeof *all);
+  drawing d = {report, &all->table, all, NULL, NULL, report->result->n_found > 0 ? LAB_STAGE_COUNT : 1};
+  int status = all ? lab_residual_table_collect(report, &all->table, error) : lab_fail_memory(error, "the figures");
+  if (status == LAB_OK && (d.kept = calloc(all->table.n + 1, 1))) {
     lay_out_time(&d);
     fill_all(&d);
   }
-  if (d.all && (!d.kept || d.all->failed)) {
-    lab_figures_free(d.all);
-    d.all = NULL;
-  }
+  if (status == LAB_OK && (!d.kept || all->failed))
+    status = lab_fail_memory(error, "the figures");
   free(d.kept);
-  *figures = d.all;
-  return d.all ? LAB_OK : lab_fail_memory(error, "the figures");
+  if (status != LAB_OK) {
+    lab_figures_free(all);
+    *figures = NULL;
+  }
+  return status;
 }

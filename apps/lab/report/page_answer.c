@@ -29,10 +29,10 @@ static void put_verdict(const lab_sources *t, cJSON *page)
   const lab_report *report = t->report;
   const int verdict = report->result->verdict;
   char text[LAB_SENTENCE_TEXT];
-  lab_report_headline(report, text, sizeof text);
+  lab_report_headline(report, text);
   lab_json_put(page, "headline", "%s", text);
   lab_page_put_coded(page, "coded_headline", text);
-  lab_report_evidence(report, text, sizeof text);
+  lab_report_evidence(report, text);
   lab_json_put(page, "evidence", "%s", text);
   lab_json_put(page, "verdict", "%s", lab_verdict_text(verdict));
   lab_json_put(page, "badge", "%s", badge[verdict]);
@@ -58,9 +58,9 @@ static void put_logs(const lab_sources *t, cJSON *page)
     last = u->run[e].log;
   }
   if (u->n_runs > 1)
-    lab_json_put(page, "rows", "%zu rows in %d runs", t->table->n, u->n_runs);
+    lab_json_put(page, "rows", "%zu rows in %d runs", t->figures->table.n, u->n_runs);
   else
-    lab_json_put(page, "rows", "%zu rows", t->table->n);
+    lab_json_put(page, "rows", "%zu rows", t->figures->table.n);
   lab_json_put(page, "logs", "%s", names);
 }
 
@@ -310,9 +310,9 @@ static void say_left(const lab_sources *t, cJSON *list)
   const int coloured = lab_residual_stats_coloured(left);
   if (coloured > 0 && r->window == 0 && (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT))
     lab_json_say(list, "The residual is no larger than noise, but not white on %d of %d channels.", coloured,
-                 t->table->n_channels);
+                 t->figures->table.n_channels);
   else if (coloured > 0)
-    lab_json_say(list, "The residual is not white on %d of %d channels.", coloured, t->table->n_channels);
+    lab_json_say(list, "The residual is not white on %d of %d channels.", coloured, t->figures->table.n_channels);
   else if (!lab_residual_stats_white(left))
     lab_json_say(list, "There are too few values to tell whether the residual is white.");
   else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_doubt(t->report))

@@ -265,8 +265,8 @@ static void put_whiteness(const lab_sources *t, cJSON *page)
   cJSON *list = cJSON_AddArrayToObject(page, "whiteness");
   const lab_search_result *r = t->report->result;
   int c;
-  for (c = 0; c < t->table->n_channels; c++) {
-    const int channel = t->table->channel[c].channel;
+  for (c = 0; c < t->figures->table.n_channels; c++) {
+    const int channel = t->figures->table.channel[c].channel;
     const lab_whiteness *before = &r->left[LAB_STAGE_BEFORE][channel].whiteness;
     const lab_whiteness *after = &r->left[LAB_STAGE_AFTER][channel].whiteness;
     const int white = lab_is_white(after);

@@ -47,8 +47,7 @@ typedef struct lab_report {
 /* What the files of an answer are written from. */
 typedef struct lab_sources {
   const lab_report *report;
-  const struct lab_residual_table *table; /* NULL where only report.json and the model are written */
-  const struct lab_figures *figures;      /* the same */
+  const struct lab_figures *figures; /* and rows; NULL where only report.json and the model are written */
 } lab_sources;
 
 /* Write a file that has been opened; errors of the stream are left to lab_out_close.
@@ -106,9 +105,9 @@ double lab_report_refit_explains(const lab_search_result *result, const lab_scor
 /* The first line: what deviates from the declared values, and what is missing, in the words of a person, with the names
  * of effects in brackets; the second: what that does to the error, "" where the log cannot carry an answer; and both.
  */
-void lab_report_headline(const lab_report *report, char *text, size_t size);
-void lab_report_evidence(const lab_report *report, char *text, size_t size);
-void lab_report_sentence(const lab_report *report, char *text, size_t size);
+void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
+void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
+void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 
 enum { LAB_EFFECT_SENTENCE = 256 };
 
@@ -118,11 +117,6 @@ enum { LAB_EFFECT_SENTENCE = 256 };
  *          param  the parameter of the effect that has its size, as in pneu_param_describe
  * Out:     text   Returns: text */
 const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char text[LAB_EFFECT_SENTENCE]);
-
-/* What has changed since the baseline: "condition" and "changes" of report.json; a sentence with a space behind it. */
-void lab_report_changes(const lab_changes *changes, cJSON *root);
-void lab_report_onset_json(cJSON *object, const char *name, const lab_onset *onset); /* NULL: nothing */
-void lab_report_change_sentence(const lab_changes *changes, char *text, size_t size);
 
 /* What one thing that was found does, as in the first line but without its name.  Out: text */
 enum { LAB_FOUND_SENTENCE = 512 };

@@ -22,6 +22,47 @@ static cJSON *add_interval(cJSON *to, const char *name, double value, const char
   return o;
 }
 
+/* "onset" or "end", where there is one. */
+static void add_onset(cJSON *o, const char *name, const lab_onset *onset)
+{
+  cJSON *at;
+  if (!onset || !onset->known)
+    return;
+  at = cJSON_AddObjectToObject(o, name);
+  cJSON_AddNumberToObject(at, "t", onset->t);
+  cJSON_AddStringToObject(at, "unit", "s");
+  lab_json_range(at, "ci95", onset->low, onset->high);
+}
+
+static void add_change(cJSON *list, const lab_change *change)
+{
+  char name[LAB_PARAM_NAME_TEXT];
+  cJSON *o = lab_json_append(list), *alike;
+  int i;
+  cJSON_AddStringToObject(o, "what", lab_change_name(change->param, name));
+  cJSON_AddStringToObject(o, "parameter", lab_fit_name(change->param, name));
+  lab_json_numbers(o, (const lab_json_named[]){{"then", change->then}, {"now", change->now}, {NULL, 0}});
+  cJSON_AddStringToObject(o, "unit", lab_change_unit(change));
+  lab_json_range(o, "ci95", change->low, change->high);
+  alike = cJSON_AddArrayToObject(o, "indistinguishable_from");
+  for (i = 0; i < change->n_alike; i++)
+    lab_json_say(alike, "%s", lab_change_name(change->alike[i], name));
+  lab_json_numbers(o,
+                   (const lab_json_named[]){{"statistic", change->statistic}, {"p_value", change->p_value}, {NULL, 0}});
+  add_onset(o, "onset", &change->begin);
+  add_onset(o, "end", &change->end);
+}
+
+static void add_changes(const lab_changes *changes, cJSON *root)
+{
+  cJSON *list;
+  int i;
+  cJSON_AddStringToObject(root, "condition", lab_since_text(changes->condition));
+  list = cJSON_AddArrayToObject(root, "changes");
+  for (i = 0; i < changes->n; i++)
+    add_change(list, &changes->change[i]);
+}
+
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
   const int j = param < 0 ? -1 : lab_report_size(report, param);
@@ -52,7 +93,7 @@ static void add_found(cJSON *to, const lab_report *report, int which)
   list = cJSON_AddObjectToObject(o, "parameters");
   add_effect_param(list, report, found->param);
   add_effect_param(list, report, found->shape);
-  lab_report_onset_json(o, "onset", lab_report_onset(report, found->param));
+  add_onset(o, "onset", lab_report_onset(report, found->param));
   lab_json_numbers(
       o, (const lab_json_named[]){
              {"statistic", found->statistic}, {"p_value", found->p_value}, {"explained", found->explained}, {NULL, 0}});
@@ -227,7 +268,7 @@ static void add_condition(cJSON *root, const lab_report *report)
     lab_json_numbers(o, (const lab_json_named[]){{"ratio", d->ratio}, {"tolerance", d->tolerance}, {NULL, 0}});
     cJSON_AddBoolToObject(o, "beyond", d->beyond);
     cJSON_AddBoolToObject(o, "held", d->held);
-    lab_report_onset_json(o, "onset", lab_report_onset(report, d->param));
+    add_onset(o, "onset", lab_report_onset(report, d->param));
   }
 }
 
@@ -275,14 +316,14 @@ static cJSON *json_of(const lab_report *report)
   cJSON *root = cJSON_CreateObject(), *o;
   char sentence[LAB_SENTENCE_TEXT];
   int i;
-  lab_report_sentence(report, sentence, sizeof sentence);
+  lab_report_sentence(report, sentence);
   cJSON_AddStringToObject(root, "verdict", lab_verdict_text(result->verdict));
   cJSON_AddStringToObject(root, "sentence", sentence);
   if (lab_report_doubt(report))
     cJSON_AddStringToObject(root, "doubt", lab_report_doubt(report));
   cJSON_AddBoolToObject(root, "complete", !result->cut_short);
   if (report->changes)
-    lab_report_changes(report->changes, root);
+    add_changes(report->changes, root);
   o = cJSON_AddArrayToObject(root, "found");
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].effect >= 0)
