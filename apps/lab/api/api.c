@@ -13,32 +13,20 @@
 
 enum { GIVEN = 1 + 3 * LAB_LOGS_MAX };
 
-/* A text that something writes. */
-typedef struct written {
-  char *text;
-  size_t size;
-  FILE *file;
-} written;
-
-static int begin(written *w, lab_error *error)
+/* In: status  of whoever wrote  Out: text; NULL after an error  Returns: status, LAB_WORLD */
+static int end(lab_writing *w, int status, char **text, lab_error *error)
 {
-  w->text = NULL;
-  w->file = open_memstream(&w->text, &w->size);
-  return w->file ? LAB_OK : lab_fail_memory(error, "a text");
+  *text = lab_writing_end(w);
+  if (status == LAB_OK)
+    return *text ? LAB_OK : lab_fail_memory(error, "a text");
+  free(*text);
+  *text = NULL;
+  return status;
 }
 
-/* In: status  of whoever wrote  Out: text; NULL after an error  Returns: status, LAB_WORLD */
-static int end(written *w, int status, char **text, lab_error *error)
+static int begin(lab_writing *w, lab_error *error)
 {
-  const int failed = ferror(w->file);
-  *text = NULL;
-  if ((fclose(w->file) || failed) && status == LAB_OK)
-    status = lab_fail_memory(error, "a text");
-  if (status == LAB_OK)
-    *text = w->text;
-  else
-    free(w->text);
-  return status;
+  return lab_writing_begin(w) ? LAB_OK : lab_fail_memory(error, "a text");
 }
 
 void lab_api_free(char *text)
@@ -102,7 +90,7 @@ static int check_request(const lab_api_request *r, lab_error *error)
 
 static int write_one(lab_report_writer *write, const lab_sources *from, char **text, lab_error *error)
 {
-  written w;
+  lab_writing w;
   if (begin(&w, error))
     return error->status;
   return end(&w, write(w.file, from, error), text, error);
@@ -232,7 +220,7 @@ static int simulate(const char *rig_name, const char *log_name, FILE *file, lab_
 int lab_api_simulate(const lab_text_given *rig, const lab_text_given *log, char **csv, lab_error *error)
 {
   const lab_text_given given[] = {*rig, log ? *log : *rig};
-  written w;
+  lab_writing w;
   int status;
   *csv = NULL;
   if (check_rig(rig, error) || begin(&w, error))
@@ -247,7 +235,7 @@ int lab_api_simulate(const lab_text_given *rig, const lab_text_given *log, char 
 
 int lab_api_draft(const lab_text_given *log, const char *const *sheet, int n, char **rig, lab_error *error)
 {
-  written w;
+  lab_writing w;
   int status;
   *rig = NULL;
   if (begin(&w, error))

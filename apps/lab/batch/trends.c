@@ -313,18 +313,17 @@ static void add_path(const lab_trend *t, cJSON *to)
 {
   const view v = view_of(t);
   const lab_sample *s;
-  char *path = NULL;
-  size_t size;
-  FILE *file = open_memstream(&path, &size);
-  if (file) {
+  lab_writing w;
+  char *path;
+  if (lab_writing_begin(&w)) {
     for (s = t->first; s <= t->last; s++) {
-      put_point(file, 'M', &v, s->at, s->value - 2 * s->deviation);
-      put_point(file, 'L', &v, s->at, s->value + 2 * s->deviation);
+      put_point(w.file, 'M', &v, s->at, s->value - 2 * s->deviation);
+      put_point(w.file, 'L', &v, s->at, s->value + 2 * s->deviation);
     }
-    put_point(file, 'M', &v, v.from, lab_line_value(&t->line, v.from));
-    put_point(file, 'L', &v, v.to, lab_line_value(&t->line, v.to));
-    fclose(file);
+    put_point(w.file, 'M', &v, v.from, lab_line_value(&t->line, v.from));
+    put_point(w.file, 'L', &v, v.to, lab_line_value(&t->line, v.to));
   }
+  path = lab_writing_end(&w);
   lab_json_put(to, "path", "%s", path ? path : "");
   free(path);
 }

@@ -97,17 +97,9 @@ cJSON *lab_metrics_object(const lab_metrics *metrics)
 static void add_step(cJSON *list, const lab_step_response *step)
 {
   cJSON *o = lab_json_append(list);
-  lab_json_numbers(o, (const lab_json_named[]){{"t", step->t},
-                                               {"from", step->from},
-                                               {"to", step->to},
-                                               {"x_from", step->x_from},
-                                               {"x_to", step->x_to},
-                                               {"dead_time", step->dead_time},
-                                               {"t63", step->t63},
-                                               {"t86", step->t86},
-                                               {"settling_time", step->settling_time},
-                                               {"overshoot", step->overshoot},
-                                               {NULL, 0}});
+  LAB_JSON_NUMBERS(o, {"t", step->t}, {"from", step->from}, {"to", step->to}, {"x_from", step->x_from},
+                   {"x_to", step->x_to}, {"dead_time", step->dead_time}, {"t63", step->t63}, {"t86", step->t86},
+                   {"settling_time", step->settling_time}, {"overshoot", step->overshoot});
   if (step->fate != LAB_STEP_GOOD)
     cJSON_AddStringToObject(o, "reason", fates[step->fate]);
 }

@@ -5,6 +5,7 @@
 
 #include "../base/escape.h"
 #include "../base/template.h"
+#include "../base/text.h"
 #include "page_private.h"
 
 /* ---- What the program carries, in pieces; made by make ---- */
@@ -83,25 +84,12 @@ char *lab_page_text(const char *page, cJSON *values)
 
 /* ---- Texts ---- */
 
-/* A text in the making. */
-typedef struct draft {
-  char *text;
-  size_t size;
-  FILE *file; /* NULL without memory */
-} draft;
-
-static int begin(draft *d)
+/* Add what was written to the page, if all went well.  Returns: 0 without memory */
+static int end(lab_writing *w, int failed, const char *name, cJSON *page)
 {
-  d->text = NULL;
-  d->file = open_memstream(&d->text, &d->size);
-  return d->file != NULL;
-}
-
-/* Add it to the page, if all went well.  Returns: 0 without memory */
-static int end(draft *d, int failed, const char *name, cJSON *page)
-{
-  const int done = d->file && fclose(d->file) == 0 && !failed && cJSON_AddStringToObject(page, name, d->text);
-  free(d->text);
+  char *text = lab_writing_end(w);
+  const int done = text && !failed && cJSON_AddStringToObject(page, name, text);
+  free(text);
   return done;
 }
 
@@ -119,19 +107,19 @@ static size_t bracketed_name(const char *at)
 
 void lab_page_put_coded(cJSON *to, const char *name, const char *text)
 {
-  draft d;
-  if (!begin(&d))
+  lab_writing w;
+  if (!lab_writing_begin(&w))
     return;
   while (*text) {
     const size_t n = bracketed_name(text), plain = n ? 0 : 1 + strcspn(text + 1, "(");
     char part[LAB_SENTENCE_TEXT];
     snprintf(part, sizeof part, "%.*s", (int)(n ? n - 2 : plain), text + (n > 0));
-    fputs(n ? "<code>" : "", d.file);
-    lab_put_html(d.file, part);
-    fputs(n ? "</code>" : "", d.file);
+    fputs(n ? "<code>" : "", w.file);
+    lab_put_html(w.file, part);
+    fputs(n ? "</code>" : "", w.file);
     text += n + plain;
   }
-  end(&d, 0, name, to);
+  end(&w, 0, name, to);
 }
 
 /* ---- Figures ---- */
@@ -141,7 +129,7 @@ static int put_figure(const lab_figure *figure, const char *template, cJSON *pag
 {
   cJSON *values = cJSON_CreateObject(), *keys = cJSON_AddArrayToObject(values, "keys");
   lab_error error;
-  draft d;
+  lab_writing w;
   int key, done;
   lab_json_put(values, "name", "%s", figure->name);
   lab_json_put(values, "title", "%s", figure->title);
@@ -155,7 +143,7 @@ static int put_figure(const lab_figure *figure, const char *template, cJSON *pag
       lab_json_put(item, "key", "%s", lab_curve_keys[key].name);
       lab_json_put(item, "label", "%s", lab_curve_keys[key].label);
     }
-  done = begin(&d) && end(&d, lab_template_write(d.file, template, values, &error), figure->name, page);
+  done = lab_writing_begin(&w) && end(&w, lab_template_write(w.file, template, values, &error), figure->name, page);
   cJSON_Delete(values);
   return done;
 }
@@ -164,11 +152,11 @@ static int put_figure(const lab_figure *figure, const char *template, cJSON *pag
 static int put_figures(const lab_figures *figures, cJSON *page)
 {
   char *template = lab_template_text(figure_html);
-  draft d;
-  int i, done = template && begin(&d);
+  lab_writing w;
+  int i, done = template && lab_writing_begin(&w);
   if (done) {
-    lab_figures_json(figures, d.file);
-    done = end(&d, 0, "curves", page);
+    lab_figures_json(figures, w.file);
+    done = end(&w, 0, "curves", page);
   }
   for (i = 0; i < figures->n && done; i++)
     done = put_figure(&figures->figure[i], template, page);
