@@ -1,6 +1,5 @@
 /* The trials beside what has been recorded, simulated. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,20 +8,10 @@
 
 /* ---- Words and choice ---- */
 
-void lab_advice_say(char text[LAB_ADVICE_TEXT], const char *format, ...)
-{
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text, LAB_ADVICE_TEXT, format, args);
-  va_end(args);
-}
-
 void lab_advice_none(lab_advice *advice, const char *reason)
 {
-  memset(advice, 0, sizeof *advice);
-  advice->kind = LAB_ADVICE_NONE;
-  advice->channel = advice->param = -1;
-  lab_advice_say(advice->text, "%s", reason);
+  *advice = (lab_advice){.kind = LAB_ADVICE_NONE, .channel = -1, .param = -1};
+  snprintf(advice->text, LAB_ADVICE_TEXT, "%.*s", LAB_ADVICE_TEXT - 1, reason);
 }
 
 int lab_trial_choose(const lab_test_plans *plans, const double *value, double enough)
@@ -94,24 +83,6 @@ static int lay_out(design *s, lab_error *error)
                      : add_trial(s, &model, &s->plans.usual, error);
 }
 
-int lab_design_open(const lab_advice_request *request, design **made, lab_advice *advice, lab_error *error)
-{
-  design *s;
-  *made = NULL;
-  if (check(request, error))
-    return error->status;
-  if (!(s = calloc(1, sizeof *s)))
-    return lab_fail_memory(error, "a set of schedules");
-  s->request = *request;
-  if (lay_out(s, error) == LAB_OK) {
-    *made = s;
-    return LAB_OK;
-  }
-  lab_design_close(s);
-  lab_advice_none(advice, error->text);
-  return error->status == LAB_WORLD ? LAB_WORLD : (error->status = LAB_OK);
-}
-
 void lab_design_close(design *s)
 {
   int i;
@@ -143,24 +114,25 @@ double lab_design_weight(const lab_advice_request *q, const lab_forecast *o, int
 }
 
 /* In:      y  slope columns, then the difference: k + 1 columns of LAB_FORECAST_CHANNELS * n */
-static void fill_bundle(bundle *b, const lab_forecast *o, int k, const double *y)
+static void fill_bundle(lab_normal *bundle, const lab_forecast *o, int k, const double *y)
 {
   const double *column[LAB_NORMAL_MAX + 1];
   int c, j;
   for (c = 0; c < LAB_FORECAST_CHANNELS; c++) {
     for (j = 0; j <= k; j++)
       column[j] = y + ((size_t)j * LAB_FORECAST_CHANNELS + (size_t)c) * (size_t)o->n;
-    lab_normal_clear(&b->channel[c], k);
-    lab_normal_add_rows(&b->channel[c], column, o->n);
+    lab_normal_clear(&bundle[c], k);
+    lab_normal_add_rows(&bundle[c], column, o->n);
   }
 }
 
-void lab_bundle_weigh(const bundle *b, const lab_advice_request *q, const lab_forecast *o, lab_normal *sum)
+void lab_design_weigh(const design *s, int i, const lab_advice_request *q, lab_normal *sum)
 {
+  const lab_normal *bundle = s->bundle[i];
   int c;
-  lab_normal_clear(sum, b->channel[0].k);
+  lab_normal_clear(sum, bundle->k);
   for (c = 0; c < LAB_FORECAST_CHANNELS; c++)
-    lab_normal_add(sum, lab_design_weight(q, o, c), &b->channel[c]);
+    lab_normal_add(sum, lab_design_weight(q, &s->forecast[i], c), &bundle[c]);
 }
 
 /* ---- Survey ---- */
@@ -178,7 +150,7 @@ static int difference(const lab_forecast *o, const pneu_params *a, const pneu_pa
 }
 
 static int survey_one(const lab_forecast *o, const lab_forecast_model *model, const pneu_params *a,
-                      const pneu_params *b, bundle *into, long *steps, lab_error *error)
+                      const pneu_params *b, lab_normal *into, long *steps, lab_error *error)
 {
   const size_t m = LAB_FORECAST_CHANNELS * (size_t)o->n;
   double *space = calloc(((size_t)model->n + 2) * m, sizeof *space);
@@ -196,8 +168,8 @@ static int survey_one(const lab_forecast *o, const lab_forecast_model *model, co
   return status;
 }
 
-int lab_design_survey(design *s, const lab_forecast_model *model, const pneu_params *a, const pneu_params *b,
-                      lab_error *error)
+static int survey(design *s, const lab_forecast_model *model, const pneu_params *a, const pneu_params *b,
+                  lab_error *error)
 {
   const long many_steps = 3000; /* smooth ones take 50 to 500 */
   int i, status = LAB_OK;
@@ -206,15 +178,36 @@ int lab_design_survey(design *s, const lab_forecast_model *model, const pneu_par
     lab_error mine;
     long steps = 0;
     int c;
-    const int at = survey_one(&s->forecast[i], model, a, b, &s->bundle[i], &steps, &mine);
+    const int at = survey_one(&s->forecast[i], model, a, b, s->bundle[i], &steps, &mine);
     s->failed[i] = at != LAB_OK;
     s->jerky[i] = steps > many_steps;
     for (c = 0; at != LAB_OK && c < LAB_FORECAST_CHANNELS; c++)
-      lab_normal_clear(&s->bundle[i].channel[c], model->n);
+      lab_normal_clear(&s->bundle[i][c], model->n);
     if (at == LAB_WORLD) {
 #pragma omp critical(scene_error)
       *error = mine, status = at;
     }
   }
   return status;
+}
+
+int lab_design_open(const lab_advice_request *request, const lab_forecast_model *model, const pneu_params *a,
+                    const pneu_params *b, design **made, lab_advice *advice, lab_error *error)
+{
+  design *s;
+  *made = NULL;
+  if (check(request, error))
+    return error->status;
+  if (!(s = calloc(1, sizeof *s)))
+    return lab_fail_memory(error, "a set of schedules");
+  s->request = *request;
+  if (lay_out(s, error)) {
+    lab_advice_none(advice, error->text);
+    error->status = error->status == LAB_WORLD ? LAB_WORLD : LAB_OK;
+  } else if (survey(s, model, a, b, error) == LAB_OK) {
+    *made = s;
+    return LAB_OK;
+  }
+  lab_design_close(s);
+  return error->status;
 }
