@@ -88,15 +88,7 @@ static int check_request(const lab_api_request *r, lab_error *error)
   return r->budget >= 0 ? LAB_OK : lab_fail(error, LAB_USAGE, "budget: expected seconds, found %g", r->budget);
 }
 
-static int write_one(lab_report_writer *write, const lab_sources *from, char **text, lab_error *error)
-{
-  lab_writing w;
-  if (begin(&w, error))
-    return error->status;
-  return end(&w, write(w.file, from, error), text, error);
-}
-
-static int write_texts(const lab_sources *from, lab_api_answer *answer, lab_error *error)
+static int write_answer(const lab_report *report, lab_api_answer *answer, lab_error *error)
 {
   const struct {
     lab_report_writer *write;
@@ -105,30 +97,17 @@ static int write_texts(const lab_sources *from, lab_api_answer *answer, lab_erro
              {lab_report_html, &answer->html},
              {lab_report_model, &answer->model},
              {lab_report_residual, &answer->residual}};
-  size_t i;
-  for (i = 0; i < sizeof all / sizeof all[0]; i++)
-    if (write_one(all[i].write, from, all[i].text, error))
-      return error->status;
-  return LAB_OK;
-}
-
-static int write_sentence(const lab_report *report, char **text, lab_error *error)
-{
-  *text = malloc(LAB_SENTENCE_TEXT);
-  if (!*text)
-    return lab_fail_memory(error, "a text");
-  lab_report_sentence(report, *text);
-  return LAB_OK;
-}
-
-static int write_answer(const lab_report *report, lab_api_answer *answer, lab_error *error)
-{
   lab_figures *figures;
+  lab_writing w;
+  size_t i;
   int status = lab_figures_make(report, &figures, error);
+  for (i = 0; i < sizeof all / sizeof all[0] && status == LAB_OK; i++)
+    if ((status = begin(&w, error)) == LAB_OK)
+      status = end(&w, all[i].write(w.file, &(lab_sources){report, figures}, error), all[i].text, error);
+  if (status == LAB_OK && !(answer->sentence = malloc(LAB_SENTENCE_TEXT)))
+    status = lab_fail_memory(error, "a text");
   if (status == LAB_OK)
-    status = write_texts(&(lab_sources){report, figures}, answer, error);
-  if (status == LAB_OK)
-    status = write_sentence(report, &answer->sentence, error);
+    lab_report_sentence(report, answer->sentence);
   lab_figures_free(figures);
   return status;
 }
@@ -196,25 +175,21 @@ void lab_api_stop(void)
 
 /* ---- simulate ---- */
 
-static int simulate_log(const pneu_model *model, const lab_rig *rig, const char *name, FILE *file, lab_error *error)
-{
-  lab_log log;
-  int status = lab_log_read(name, &rig->log, (double)rig->params.ambient_pressure, &log, error);
-  if (status != LAB_OK)
-    return status;
-  status = lab_simulation_write(model, rig, &log, file, error);
-  lab_log_free(&log);
-  return status;
-}
-
 static int simulate(const char *rig_name, const char *log_name, FILE *file, lab_error *error)
 {
   lab_rig rig;
+  lab_log log;
   pneu_model model;
+  int status;
   if (lab_rig_read(rig_name, &rig, error) || lab_rig_model(&rig, &model, error))
     return error->status;
-  return log_name ? simulate_log(&model, &rig, log_name, file, error)
-                  : lab_simulation_write_standard(&model, file, error);
+  if (!log_name)
+    return lab_simulation_write_standard(&model, file, error);
+  if (lab_log_read(log_name, &rig.log, (double)rig.params.ambient_pressure, &log, error))
+    return error->status;
+  status = lab_simulation_write(&model, &rig, &log, file, error);
+  lab_log_free(&log);
+  return status;
 }
 
 int lab_api_simulate(const lab_text_given *rig, const lab_text_given *log, char **csv, lab_error *error)

@@ -39,19 +39,16 @@ static void cut(const char *row, cut_row *to)
     to->cell[n].begin = empty;
 }
 
-static double error_of(const cut_row *row, int channel, int stage)
-{
-  const char *cell = row->cell[LAB_ROW_ERRORS + channel * LAB_ROW_STAGES + stage].begin;
-  return *cell ? strtod(cell, NULL) : (double)NAN;
-}
-
 /* The error of the worst channel.  Returns: NaN if there is none */
 static double worst(const cut_row *row, int stage)
 {
   double most = (double)NAN;
   int c;
-  for (c = 0; c < LAB_ROW_CHANNELS; c++)
-    most = fmax(most, error_of(row, c, stage));
+  for (c = 0; c < LAB_ROW_CHANNELS; c++) {
+    const char *cell = row->cell[LAB_ROW_ERRORS + c * LAB_ROW_STAGES + stage].begin;
+    if (*cell)
+      most = fmax(most, strtod(cell, NULL));
+  }
   return most;
 }
 

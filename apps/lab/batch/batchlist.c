@@ -70,34 +70,23 @@ static int read_column(lab_fleet_list *list, char *cell, lab_error *error)
   return LAB_OK;
 }
 
-static int has_column(const lab_fleet_list *list, int column)
-{
-  int i, any = 0;
-  for (i = 0; i < list->n_columns; i++)
-    any |= list->column[i] == column;
-  return any;
-}
-
-/* The mark that stands first in a line, or the usual one. */
-static char mark_in(const char *line)
-{
-  const char first = line[strcspn(line, ",;\t\r\n")];
-  return first == ';' || first == '\t' ? first : ',';
-}
-
 static int read_columns(lab_fleet_list *list, lab_error *error)
 {
-  int i;
-  list->csv.mark = mark_in(list->csv.begin);
+  const char first = list->csv.begin[strcspn(list->csv.begin, ",;\t\r\n")];
+  int i, column;
+  list->csv.mark = first == ';' || first == '\t' ? first : ',';
   if (lab_csv_cut(&list->csv, error))
     return error->status;
   for (i = 0; i < list->csv.n && i < LAB_CSV_CELLS; i++)
     if (read_column(list, list->csv.cell[i].begin, error))
       return error->status;
-  for (i = 0; i < COLUMNS; i++)
-    if (columns[i].is_needed && !has_column(list, i))
+  for (column = 0; column < COLUMNS; column++) {
+    for (i = 0; i < list->n_columns && list->column[i] != column; i++)
+      ;
+    if (columns[column].is_needed && i == list->n_columns)
       return lab_fail(error, LAB_DATA, "expected a header like name,rig,log,holdout; there is no column %s",
-                      columns[i].name);
+                      columns[column].name);
+  }
   return LAB_OK;
 }
 

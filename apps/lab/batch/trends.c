@@ -166,17 +166,12 @@ static void judge(lab_trend *trend, int n)
   }
 }
 
-static int is_same(const lab_sample *a, const lab_sample *b)
-{
-  return !strcmp(a->rig, b->rig) && !strcmp(a->parameter, b->parameter);
-}
-
 /* One trend from the samples of a parameter.  Returns: the sample after them */
 static const lab_sample *gather(const lab_sample *first, const lab_sample *end, lab_trend *t)
 {
   const lab_sample *s;
   *t = (lab_trend){.first = first};
-  for (s = first; s < end && is_same(first, s); s++)
+  for (s = first; s < end && !strcmp(first->rig, s->rig) && !strcmp(first->parameter, s->parameter); s++)
     lab_line_add(&t->line, s->at, s->value, s->deviation);
   t->last = s - 1;
   return s;

@@ -161,20 +161,15 @@ static void judge_legs(const lab_metrics_work *m, lab_path *path)
 
 /* ---- Both paths ---- */
 
-/* As many rows as it takes to see a small movement through the noise, if there are so many. */
-static size_t rows_a_point(const lab_metrics_work *m)
-{
-  const double needed = m->least / (rest_share * m->record->stroke);
-  return (size_t)fmin(fmax(ceil(needed * needed), 1), 1 + (double)(m->record->n / POINTS));
-}
-
 /* Static points of one kind or the other. */
 static void choose_points(const lab_metrics_work *m, lab_path *path)
 {
   const lab_record *r = m->record;
   const int set = lab_command_is_set(r->command);
   const double *signal = set ? r->u : r->p;
-  const size_t each = rows_a_point(m);
+  /* as many rows as it takes to see a small movement through the noise, if there are so many */
+  const double needed = m->least / (rest_share * r->stroke);
+  const size_t each = (size_t)fmin(fmax(ceil(needed * needed), 1), 1 + (double)(r->n / POINTS));
   const double noise = set ? 0 : m->noise_p;
   path->held = 1;
   path->least = m->least;

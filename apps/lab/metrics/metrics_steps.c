@@ -259,18 +259,12 @@ static void measure_level(const stepping *s, double share, double *time, double 
   *error = at.error + s->hold->bracket;
 }
 
-/* Rows to average so that noise alone does not leave the band; 0 where the hold has not ten times as many. */
-static size_t rows_to_average(const stepping *s, double band)
-{
-  const double needed = fmax(ceil(pow(band_noise * s->noise / band, 2)), 1);
-  return 10 * needed <= (double)(s->end - s->begin) ? (size_t)needed : 0;
-}
-
 /* Between the last mean of some rows that is outside for certain and the first from which on all may be inside. */
 static void measure_settling(const stepping *s, lab_step_response *step)
 {
   const double band = settled_share * s->change;
-  const size_t each = rows_to_average(s, band);
+  const double needed = fmax(ceil(pow(band_noise * s->noise / band, 2)), 1); /* rows, so that noise does not leave it */
+  const size_t each = 10 * needed <= (double)(s->end - s->begin) ? (size_t)needed : 0;
   const double margin = level_noise * s->noise / sqrt((double)each);
   double sure = s->r->t[s->begin], inside = sure, t = 0, y = 0;
   size_t i, n = 0;

@@ -164,11 +164,6 @@ static int hold_out(lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
-static int judge_all(lab_answer *a, lab_error *error)
-{
-  return retrace(a, error) ? error->status : hold_out(a, error);
-}
-
 /* ---- The test to record next ---- */
 
 /* The rig and the longest of its records, as the search for a trial sees them. */
@@ -411,7 +406,8 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
     return error->status;
   a->report.trace_s = a->now.result.score_s;
   on_progress(q, "evaluating on the held-out logs");
-  if (judge_all(a, error) || lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error))
+  if (retrace(a, error) || hold_out(a, error) ||
+      lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error))
     return error->status;
   if (!a->now.result.cut_short) {
     on_progress(q, "looking for the test to record next");

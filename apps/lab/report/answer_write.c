@@ -7,11 +7,12 @@
 #include "../base/interrupt.h"
 #include "../base/outfile.h"
 
-/* Files of an answer, the extent from which on each is always there, and what writes it. */
+/* Files of an answer, the extent from which on each is always there, and what writes it; figures are drawn by
+ * lab_figures_draw. */
 static const struct {
   const char *name;
   int extent;
-  int rows; /* 1: it needs table and figures */
+  int rows; /* 1: it needs rows and figures; these come last */
   lab_report_writer *write;
 } files[] = {{"model.cfg", LAB_WRITE_PLAIN, 0, lab_report_model},
              {"model.h", LAB_WRITE_PLAIN, 0, lab_report_header},
@@ -22,35 +23,23 @@ static const struct {
              {"response.svg", LAB_WRITE_FIGURES, 1, NULL},
              {"residual.svg", LAB_WRITE_FIGURES, 1, NULL}};
 
-/* Those that need rows, or those that do not; figures are drawn by lab_figures_draw. */
-static int write_some(const lab_sources *from, int rows, const char *folder, int extent, lab_error *error)
+static int write_files(const lab_report *report, const char *folder, int extent, lab_error *error)
 {
+  lab_figures *figures = NULL;
+  int status = lab_make_folder(folder, error);
   size_t i;
-  for (i = 0; i < sizeof files / sizeof *files; i++)
-    if (files[i].write && files[i].rows == rows && files[i].extent <= extent &&
-        lab_report_file(folder, files[i].name, files[i].write, from, error))
-      return error->status;
-  return LAB_OK;
-}
-
-/* The page and the drawings of the same figures, and the rows behind them. */
-static int write_rows(const lab_report *report, const char *folder, int extent, lab_error *error)
-{
-  lab_figures *figures;
-  int status = lab_figures_make(report, &figures, error);
-  if (status == LAB_OK)
-    status = write_some(&(lab_sources){report, figures}, 1, folder, extent, error);
-  if (status == LAB_OK)
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    if (!files[i].write || files[i].extent > extent)
+      continue;
+    if (status == LAB_OK && files[i].rows && !figures)
+      status = lab_figures_make(report, &figures, error);
+    if (status == LAB_OK)
+      status = lab_report_file(folder, files[i].name, files[i].write, &(lab_sources){report, figures}, error);
+  }
+  if (status == LAB_OK && extent >= LAB_WRITE_PLAIN)
     status = lab_figures_draw(extent >= LAB_WRITE_DRAWN ? figures : NULL, folder, extent == LAB_WRITE_FIGURES, error);
   lab_figures_free(figures);
   return status;
-}
-
-static int write_files(const lab_report *report, const char *folder, int extent, lab_error *error)
-{
-  if (lab_make_folder(folder, error) || write_some(&(lab_sources){report, NULL}, 0, folder, extent, error))
-    return error->status;
-  return extent >= LAB_WRITE_PLAIN ? write_rows(report, folder, extent, error) : LAB_OK;
 }
 
 int lab_answer_write(const lab_answer *answer, const char *folder, int extent, lab_error *error)

@@ -134,8 +134,7 @@ static void put_changes(const lab_changes *changes, cJSON *page)
 static void put_strength(const lab_sources *t, const lab_found *found, cJSON *item)
 {
   char sentence[LAB_FOUND_SENTENCE];
-  lab_report_found_sentence(t->report, found, sentence);
-  lab_json_put(item, "sentence", "%s", sentence);
+  lab_json_put(item, "sentence", "%s", lab_report_found_sentence(t->report, found, sentence));
   lab_page_put_share(item, "explained", found->explained);
   lab_json_put(item, "statistic", "%s", LAB_NUMBER(found->statistic, 3));
   if (found->effect >= 0) /* that of a free term depends on its values */

@@ -118,8 +118,8 @@ enum { LAB_EFFECT_SENTENCE = 256 };
  * Out:     text   Returns: text */
 const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char text[LAB_EFFECT_SENTENCE]);
 
-/* What one thing that was found does, as in the first line but without its name.  Out: text */
+/* What one thing that was found does, as in the first line but without its name.  Out: text  Returns: text */
 enum { LAB_FOUND_SENTENCE = 512 };
-void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE]);
+const char *lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE]);
 
 #endif

@@ -73,22 +73,16 @@ static void add_effect_param(cJSON *to, const lab_report *report, int param)
                report->result->fit.high[j]);
 }
 
-static void add_sentence(cJSON *to, const lab_report *report, const lab_found *found)
-{
-  char sentence[LAB_FOUND_SENTENCE];
-  lab_report_found_sentence(report, found, sentence);
-  cJSON_AddStringToObject(to, "sentence", sentence);
-}
-
 static void add_found(cJSON *to, const lab_report *report, int which)
 {
   const lab_found *found = &report->result->found[which];
   const pneu_effect *effect = pneu_effect_at(found->effect);
   cJSON *o = lab_json_append(to), *list;
+  char sentence[LAB_FOUND_SENTENCE];
   int i;
   cJSON_AddStringToObject(o, "effect", effect->name);
   cJSON_AddStringToObject(o, "equation", effect->equation);
-  add_sentence(o, report, found);
+  cJSON_AddStringToObject(o, "sentence", lab_report_found_sentence(report, found, sentence));
   list = cJSON_AddObjectToObject(o, "parameters");
   add_effect_param(list, report, found->param);
   add_effect_param(list, report, found->shape);
@@ -104,12 +98,12 @@ static void add_unlisted(cJSON *to, const lab_report *report, const lab_found *f
 {
   const pneu_term *term = lab_report_term(report, found);
   cJSON *o = lab_json_append(to);
-  char where[LAB_WHERE_TEXT];
+  char where[LAB_WHERE_TEXT], sentence[LAB_FOUND_SENTENCE];
   cJSON_AddStringToObject(o, "equation", lab_free_term_equation(term));
   cJSON_AddStringToObject(o, "argument", lab_term_arguments[term->argument].key);
   cJSON_AddStringToObject(o, "what", lab_free_term_what(term));
   cJSON_AddStringToObject(o, "where", lab_free_term_where(term, where));
-  add_sentence(o, report, found);
+  cJSON_AddStringToObject(o, "sentence", lab_report_found_sentence(report, found, sentence));
   LAB_JSON_NUMBERS(o, {"statistic", found->statistic}, {"degrees", found->degrees},
                    {"p_value", lab_report_chance(report, found)}, {"explained", found->explained});
 }

@@ -112,13 +112,12 @@ static int add_deviations(char *text, const lab_report *report)
 
 /* ---- What is missing ---- */
 
-void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
+const char *lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
 {
   char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT], since[LAB_SINCE_TEXT];
-  const lab_rig *rig = &report->completed->rig;
   lab_rig last;
-  lab_rig_at(rig, INFINITY, &last);
   if (found->effect >= 0) {
+    lab_rig_at(&report->completed->rig, INFINITY, &last);
     lab_effect_sentence(&last, found->effect, found->param, sentence);
     lab_report_since(lab_report_onset(report, found->param), since);
     snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
@@ -126,6 +125,7 @@ void lab_report_found_sentence(const lab_report *report, const lab_found *found,
     snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
              lab_free_term_what(lab_report_term(report, found)),
              lab_free_term_where(lab_report_term(report, found), where));
+  return text;
 }
 
 /* The sentence of each, with its name before the full stop. */

@@ -28,10 +28,8 @@ static void survey(const lab_unknowns *u, lab_residual_table *v)
     const lab_run *x = &u->run[e];
     v->n += x->n;
     for (c = 0; c < x->n_channels; c++)
-      if (!lab_residual_table_channel(v, x->channel[c])) {
-        v->channel[v->n_channels].channel = x->channel[c];
-        v->channel[v->n_channels++].sigma = x->sigma[c];
-      }
+      if (!lab_residual_table_channel(v, x->channel[c]))
+        v->channel[v->n_channels++].channel = x->channel[c];
   }
   v->n_runs = u->n_runs;
 }

@@ -10,7 +10,6 @@ enum lab_argument { LAB_ARGUMENT_P, LAB_ARGUMENT_X, LAB_ARGUMENT_V, LAB_ARGUMENT
 
 typedef struct lab_residual_channel {
   int channel;                        /* enum lab_channel */
-  double sigma;                       /* noise in the first run that measures it, SI */
   double *measured;                   /* SI; NaN in a gap, as in the arrays below */
   double *predicted[LAB_STAGE_COUNT]; /* SI, as its sensor would show it */
   double *residual[LAB_STAGE_COUNT];  /* [1] measured less predicted, in noise */
