@@ -59,8 +59,6 @@ void lab_figures_free(lab_figures *figures)
     free(figures->column[i].value);
   free(figures->column);
   lab_residual_table_free(&figures->table);
-  free(figures->first);
-  free(figures->shift);
   free(figures);
 }
 

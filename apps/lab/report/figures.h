@@ -97,9 +97,9 @@ typedef struct lab_figures {
   lab_figure_column *column;
   int t; /* column of time, on whose axis runs follow each other */
   int n_runs;
-  size_t *first; /* of each run: the entry of time with which it begins */
-  double *shift; /* [s] and by how much the axis has it later than its log */
-  int failed;    /* without memory */
+  size_t first[LAB_RUNS_MAX]; /* of each run: the entry of time with which it begins */
+  double shift[LAB_RUNS_MAX]; /* [s] and by how much the axis has it later than its log */
+  int failed;                 /* without memory */
 } lab_figures;
 
 /* Add a column: scale * value of the rows that are kept.

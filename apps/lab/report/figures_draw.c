@@ -7,10 +7,7 @@
 
 #include "../base/gnuplot.h"
 
-/* A line a string; made by make. */
-static const char *const style_gp[] = {
-#include "study/figures/style.gp.inc"
-    NULL};
+#include "study/figures/style.gp.inc" /* style_gp; made by make */
 
 /* Places in the drawing: of the first panel, above each, of the axis below; sides as shares of the width. */
 enum { TOP = 95, KEY = 25, ABOVE = 45, AXIS = 40 };

@@ -294,13 +294,10 @@ static void lay_out_time(const drawing *d)
   lab_point *point = malloc(((size_t)3 * LAB_FIGURE_COLUMNS + (size_t)v->n_runs) * sizeof *point);
   double *axis = malloc((v->n + 1) * sizeof *axis);
   d->all->n_runs = v->n_runs;
-  d->all->first = calloc((size_t)v->n_runs + 1, sizeof *d->all->first);
-  d->all->shift = calloc((size_t)v->n_runs + 1, sizeof *d->all->shift);
-  if (point && axis && d->all->first && d->all->shift) {
+  d->all->failed = !point || !axis;
+  if (point && axis) {
     keep_rows(d, point);
     lay_out_runs(d, decimals_of_time(v), axis);
-  } else {
-    d->all->failed = 1;
   }
   free(point);
   free(axis);

@@ -50,8 +50,7 @@ static int allocate(lab_residual_table *v, lab_error *error)
   size_t used = 0;
   int c, i;
   v->memory = malloc(arrays * v->n * sizeof *v->memory);
-  v->first = calloc((size_t)v->n_runs + 1, sizeof *v->first);
-  if (!v->memory || !v->first)
+  if (!v->memory)
     return lab_fail_memory(error, "the report");
   v->t = take(v, &used);
   v->set_position = take(v, &used);
@@ -70,7 +69,6 @@ static int allocate(lab_residual_table *v, lab_error *error)
 void lab_residual_table_free(lab_residual_table *v)
 {
   free(v->memory);
-  free(v->first);
   memset(v, 0, sizeof *v);
 }
 

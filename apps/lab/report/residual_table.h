@@ -19,7 +19,7 @@ typedef struct lab_residual_channel {
 typedef struct lab_residual_table {
   size_t n;
   int n_runs;
-  size_t *first;                        /* row with which each run begins, then n */
+  size_t first[LAB_RUNS_MAX + 1];       /* row with which each run begins, then n */
   double *t;                            /* [s] of the log; of later runs, moved to follow the one before */
   double *argument[LAB_ARGUMENT_COUNT]; /* SI, of the completed model; u as in the log where it has one */
   double *set_position;                 /* [1] share of the stroke; NaN where a log has none */
