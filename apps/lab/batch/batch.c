@@ -386,13 +386,9 @@ static int lock(const batch *b, lab_error *error)
 static int lead(batch *b, const lab_jobs *jobs, lab_error *error)
 {
   totals t = {{0}, LAB_OK};
-  int status = lab_fleet_list_check(&b->list, &b->n, error);
-  if (status == LAB_OK)
-    status = lock(b, error);
-  if (status == LAB_OK)
-    status = move_to_list(b, error);
-  if (status != LAB_OK)
-    return status;
+  int status;
+  if (lab_fleet_list_check(&b->list, &b->n, error) || lock(b, error) || move_to_list(b, error))
+    return error->status;
   lab_progress_begin(&b->progress, "closeloop", b->how->quiet);
   status = lab_jobs_run(jobs, error);
   lab_progress_end(&b->progress);

@@ -4,14 +4,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "../base/clock.h"
+#include "../base/interrupt.h"
+#include "../base/outfile.h"
 #include "../base/text.h"
 #include "../discriminate/forecast.h"
 #include "../fit/drift.h"
 #include "../fit/weights.h"
 #include "../metrics/recording.h"
-#include "../trace/search.h"
+#include "figures.h"
 
 static void on_progress(const lab_request *q, const char *what)
 {
@@ -93,22 +96,25 @@ static int judge(const lab_rig *model, const lab_run *run, int n, const lab_unkn
                  lab_error *error)
 {
   lab_unknowns *u = malloc(sizeof *u);
-  int status = u ? LAB_OK : lab_fail_memory(error, "the errors of a model");
-  if (status == LAB_OK && fitted)
-    status = fit_own(model, run, n, fitted, u, error);
-  else if (status == LAB_OK)
+  int status;
+  if (!u)
+    return lab_fail_memory(error, "the errors of a model");
+  if (!fitted)
     lab_unknowns_none(model, run, n, u);
-  if (status == LAB_OK)
-    status = lab_loop_errors(u, errors, error);
+  status = (fitted && fit_own(model, run, n, fitted, u, error)) || lab_loop_errors(u, errors, error) ? error->status
+                                                                                                     : LAB_OK;
   free(u);
   return status;
 }
 
-/* Errors on each log held out, by itself. */
-static int judge_logs(lab_answer *a, lab_error *error)
+/* Errors on what was held out: of the models on the way there, and on each log by itself. */
+static int judge_each(lab_answer *a, lab_error *error)
 {
   lab_logs *held = &a->held;
   int i, first = 0;
+  for (i = 0; i < a->now.result.n_path; i++)
+    if (judge(&a->now.result.path[i].rig, held->run, held->n, NULL, &a->report.holdout_path[i], error))
+      return error->status;
   for (i = 0; i < held->n_logs; i++) {
     lab_holdout_log *log = &a->report.held[i];
     int n = 0;
@@ -143,23 +149,19 @@ static int hold_out(lab_answer *a, lab_error *error)
 {
   lab_report *report = &a->report;
   lab_logs *held = &a->held;
-  int i, status;
   if (held->n == 0)
     return LAB_OK;
   if (a->now.completed.rig.n_onsets > a->rig.n_onsets)
     lab_limitation(&a->now.logs.limitations,
                    "what begins at %.6g s of the log begins at the same time of a held-out log",
                    a->now.completed.rig.onset[a->rig.n_onsets].from);
-  status = judge(&a->now.declared.rig, held->run, held->n, NULL, &report->holdout_before, error);
-  if (status == LAB_OK)
-    status = judge(&a->now.completed.rig, held->run, held->n, NULL, &report->holdout_after, error);
-  for (i = 0; i < a->now.result.n_path && status == LAB_OK; i++)
-    status = judge(&a->now.result.path[i].rig, held->run, held->n, NULL, &report->holdout_path[i], error);
-  if (status == LAB_OK)
-    status = judge_logs(a, error);
-  report->has_holdout = status == LAB_OK;
-  if (status != LAB_NUMERIC)
-    return status;
+  report->has_holdout = !judge(&a->now.declared.rig, held->run, held->n, NULL, &report->holdout_before, error) &&
+                        !judge(&a->now.completed.rig, held->run, held->n, NULL, &report->holdout_after, error) &&
+                        !judge_each(a, error);
+  if (report->has_holdout)
+    return LAB_OK;
+  if (error->status != LAB_NUMERIC)
+    return error->status;
   lab_limitation(&a->now.logs.limitations, "held-out log not judged: %s", error->text);
   return LAB_OK;
 }
@@ -420,16 +422,14 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 
 int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error)
 {
-  lab_answer *a = calloc(1, sizeof *a);
-  int status = a ? read_files(request, a, error) : lab_fail_memory(error, "the answer");
-  if (status == LAB_OK)
-    status = close_loop(request, a, error);
-  if (status != LAB_OK && a) {
-    lab_answer_free(a);
-    a = NULL;
-  }
-  *answer = a;
-  return status;
+  lab_answer *a = *answer = calloc(1, sizeof *a);
+  if (!a)
+    return lab_fail_memory(error, "the answer");
+  if (read_files(request, a, error) == LAB_OK && close_loop(request, a, error) == LAB_OK)
+    return LAB_OK;
+  lab_answer_free(a);
+  *answer = NULL;
+  return error->status;
 }
 
 void lab_answer_free(lab_answer *answer)
@@ -438,4 +438,79 @@ void lab_answer_free(lab_answer *answer)
   lab_logs_close(&answer->then.logs);
   lab_logs_close(&answer->held);
   free(answer);
+}
+
+/* ---- Writing ---- */
+
+/* Files of an answer, the extent from which on each is always there, and what writes it; figures are drawn by
+ * lab_figures_draw. */
+static const struct {
+  const char *name;
+  int extent;
+  int rows; /* 1: it needs rows and figures; these come last */
+  lab_report_writer *write;
+} files[] = {{"model.cfg", LAB_WRITE_PLAIN, 0, lab_report_model},
+             {"model.h", LAB_WRITE_PLAIN, 0, lab_report_header},
+             {"effects.def", LAB_WRITE_PLAIN, 0, lab_report_catalogue},
+             {"report.json", LAB_WRITE_JSON, 0, lab_report_json},
+             {"residual.csv", LAB_WRITE_PLAIN, 1, lab_report_residual},
+             {"report.html", LAB_WRITE_PLAIN, 1, lab_report_html},
+             {"response.svg", LAB_WRITE_FIGURES, 1, NULL},
+             {"residual.svg", LAB_WRITE_FIGURES, 1, NULL}};
+
+static int write_files(const lab_report *report, const char *folder, int extent, lab_error *error)
+{
+  lab_figures *figures = NULL;
+  int status = lab_make_folder(folder, error);
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    if (!files[i].write || files[i].extent > extent)
+      continue;
+    if (status == LAB_OK && files[i].rows && !figures)
+      status = lab_figures_make(report, &figures, error);
+    if (status == LAB_OK)
+      status = lab_report_file(folder, files[i].name, files[i].write, &(lab_sources){report, figures}, error);
+  }
+  if (status == LAB_OK && extent >= LAB_WRITE_PLAIN)
+    status = lab_figures_draw(extent >= LAB_WRITE_DRAWN ? figures : NULL, folder, extent == LAB_WRITE_FIGURES, error);
+  lab_figures_free(figures);
+  return status;
+}
+
+int lab_answer_write(const lab_answer *answer, const char *folder, int extent, lab_error *error)
+{
+  int status;
+  lab_interrupt_hold();
+  status = write_files(&answer->report, folder, extent, error);
+  lab_interrupt_release();
+  return status;
+}
+
+static void path_in(const char *folder, const char *name, char path[LAB_PATH_TEXT + 32])
+{
+  snprintf(path, LAB_PATH_TEXT + 32, "%s/%s", folder, name);
+}
+
+void lab_answer_remove(const char *folder)
+{
+  char path[LAB_PATH_TEXT + 32];
+  lab_error error;
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    path_in(folder, files[i].name, path);
+    remove(path);
+  }
+  lab_figures_draw(NULL, folder, 0, &error);
+}
+
+int lab_answer_is_there(const char *folder, int extent)
+{
+  char path[LAB_PATH_TEXT + 32];
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    path_in(folder, files[i].name, path);
+    if (files[i].extent <= extent && access(path, R_OK))
+      return 0;
+  }
+  return 1;
 }

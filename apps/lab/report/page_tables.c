@@ -4,7 +4,6 @@
 
 #include "../base/format.h"
 #include "../base/quantile.h"
-#include "../metrics/metricstext.h"
 #include "page_private.h"
 
 int lab_page_has_completed(const lab_sources *t)

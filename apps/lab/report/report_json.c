@@ -3,7 +3,6 @@
 
 #include "../base/json.h"
 #include "../base/text.h"
-#include "../metrics/metricstext.h"
 #include "../rig/rigterm.h"
 #include "../trace/freeterms.h"
 #include "report.h"
