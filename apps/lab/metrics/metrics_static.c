@@ -56,17 +56,12 @@ static int add_held(const lab_metrics_work *m, const double *signal, double nois
   size_t k;
   for (k = 0; k < m->n_holds; k++) {
     const lab_hold *hold = &m->hold[k];
-    lab_point *at = &path->point[path->n];
     const lab_rest s = lab_rest_of(r, signal, hold->begin, hold->end, noise);
     const lab_rest x = lab_rest_of(r, r->x, hold->begin, hold->end, m->noise_x);
     if (!(s.drift <= rest_share * lab_span(r)) || !(x.drift <= rest_share * r->stroke))
       continue;
-    at->s = s.level;
-    at->x = x.level;
-    at->run = hold->run;
-    at->t = r->t[hold->end - 1];
-    path->n++;
-    off += is_off_stops(m, at->x);
+    path->point[path->n++] = (lab_point){hold->run, r->t[hold->end - 1], s.level, x.level};
+    off += is_off_stops(m, x.level);
   }
   return off;
 }

@@ -54,25 +54,19 @@ static portion mean_of_part(const lab_record *r, const double *value, size_t beg
 /* ---- Levels of the command ---- */
 
 /* A command is constant from row to row. */
-static size_t held_until(const double *u, size_t i, size_t end)
-{
-  size_t j = i + 1;
-  while (j < end && u[j] == u[i])
-    j++;
-  return j;
-}
-
 static void commands_of_run(lab_metrics_work *m, int run)
 {
   const lab_record *r = m->record;
   const size_t first = r->first[run], end = r->first[run + 1];
-  size_t i, next;
-  for (i = first; i < end; i = next) {
+  size_t i = first;
+  while (i < end) {
     lab_hold *hold = &m->hold[m->n_holds++];
-    next = held_until(r->u, i, end);
-    *hold = (lab_hold){run, i, next, r->u[i], r->t[i], 0, 0, 0};
+    *hold = (lab_hold){run, i, i + 1, r->u[i], r->t[i], 0, 0, 0};
     if (r->bracketed && i > first)
       hold->bracket = r->t[i] - r->t[i - 1];
+    while (hold->end < end && r->u[hold->end] == r->u[i])
+      hold->end++;
+    i = hold->end;
   }
 }
 
@@ -202,7 +196,6 @@ static instant solve(const stepping *s, size_t lo, size_t hi, double level)
 {
   double n = 0, st = 0, sy = 0, stt = 0, sty = 0, last = (double)NAN, widest = 0, slope;
   const double origin = s->r->t[hi];
-  instant at;
   size_t i;
   for (i = lo; i <= hi; i++) {
     const int start = i + 1 == s->begin;
@@ -215,14 +208,10 @@ static instant solve(const stepping *s, size_t lo, size_t hi, double level)
     n++, st += t, sy += y, stt += t * t, sty += t * y;
   }
   slope = (n * sty - st * sy) / (n * stt - st * st);
-  if (n < 2 || !(slope > 0)) {
-    at.t = origin - widest / 2;
-    at.error = widest / 2;
-    return at;
-  }
-  at.t = origin + (st + (n * level - sy) / slope) / n;
-  at.error = widest / 2 + (2 * s->noise / sqrt(n) + level / s->change * s->doubt) / slope;
-  return at;
+  if (n < 2 || !(slope > 0))
+    return (instant){origin - widest / 2, widest / 2};
+  return (instant){origin + (st + (n * level - sy) / slope) / n,
+                   widest / 2 + (2 * s->noise / sqrt(n) + level / s->change * s->doubt) / slope};
 }
 
 /* When the response first passes a level for good: beyond it by more than noise, from below it by as much. A level
@@ -230,7 +219,6 @@ static instant solve(const stepping *s, size_t lo, size_t hi, double level)
 static instant pass(const stepping *s, double level)
 {
   const double margin = fmin(level_noise * s->noise, level);
-  instant never = {(double)NAN, (double)NAN};
   size_t i, lo = s->begin - 1;
   for (i = s->begin; i < s->end; i++) {
     const double y = height(s, i);
@@ -239,7 +227,7 @@ static instant pass(const stepping *s, double level)
     if (y >= level + margin)
       return solve(s, lo, i, level);
   }
-  return never;
+  return (instant){(double)NAN, (double)NAN};
 }
 
 static void measure_dead_time(const stepping *s, lab_step_response *step)
@@ -302,16 +290,6 @@ static void measure_overshoot(const stepping *s, lab_step_response *step)
   step->overshoot_error = 100 * chance / s->change;
 }
 
-static void measure_times(const stepping *s, lab_step_response *step)
-{
-  measure_dead_time(s, step);
-  measure_level(s, share_63, &step->t63, &step->t63_error);
-  measure_level(s, share_86, &step->t86, &step->t86_error);
-  measure_level(s, share_stroke, &step->stroke_time, &step->stroke_error);
-  measure_settling(s, step);
-  measure_overshoot(s, step);
-}
-
 /* Whether a step can be measured. */
 static int judge(const lab_metrics_work *m, const lab_hold *hold, const lab_rest *before, const lab_rest *after)
 {
@@ -347,7 +325,12 @@ static void measure_step(const lab_metrics_work *m, const lab_hold *from, const 
   s.sign = step->x_to > step->x_from ? 1 : -1;
   s.change = fabs(step->x_to - step->x_from);
   s.from = step->x_from;
-  measure_times(&s, step);
+  measure_dead_time(&s, step);
+  measure_level(&s, share_63, &step->t63, &step->t63_error);
+  measure_level(&s, share_86, &step->t86, &step->t86_error);
+  measure_level(&s, share_stroke, &step->stroke_time, &step->stroke_error);
+  measure_settling(&s, step);
+  measure_overshoot(&s, step);
 }
 
 static int measure_steps(lab_metrics_work *m, lab_error *error)

@@ -157,17 +157,10 @@ static void put_axes(const script *s, int i)
     fputs("set format x \"\"\nunset xlabel\n", s->file);
 }
 
-/* Whether a curve has a value: what a model that cannot be followed would have shown has none. */
-static int has_values(const script *s, const lab_curve *curve)
-{
-  const lab_figure_column *y = &s->all->column[curve->y];
-  double low, high;
-  return lab_range(y->value, y->n, &low, &high);
-}
-
 static void put_panel(const script *s, int i, double top)
 {
   const lab_panel *panel = &s->figure->panel[i];
+  double low, high;
   int c, drawn = 0;
   fputs("@NEXT\n", s->file);
   for (c = 0; c < panel->n_curves; c++)
@@ -175,7 +168,8 @@ static void put_panel(const script *s, int i, double top)
   put_place(s, i, top);
   put_axes(s, i);
   for (c = 0; c < panel->n_curves; c++) {
-    if (!has_values(s, &panel->curve[c]))
+    const lab_figure_column *y = &s->all->column[panel->curve[c].y];
+    if (!lab_range(y->value, y->n, &low, &high)) /* what a model that cannot be followed would have shown */
       continue;
     fprintf(s->file, "%s $curve_%d using \"x\":%s\"y\" ", drawn++ ? "," : "plot", c,
             panel->curve[c].form == LAB_FORM_BAND ? "(-column(\"y\")):" : "");

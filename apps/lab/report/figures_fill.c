@@ -17,8 +17,8 @@ enum {
   ARGUMENT_HEIGHT = 105,
   CORRELATION_HEIGHT = 165,
   TERM_HEIGHT = 205,
-  BINS = 30, /* of an argument, and rows that one has at least */
-  BIN_LEAST = 10,
+  BINS = 30,      /* of an argument */
+  BIN_LEAST = 10, /* rows of a bin that counts */
   CYCLE_POINTS = 73,
   TERM_POINTS = CYCLE_POINTS + PNEU_TERM_KNOTS
 };

@@ -201,7 +201,7 @@ cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list)
 
 static void put_parameter(const lab_sources *t, int j, cJSON *list)
 {
-  const lab_unknowns *before = t->report->declared; /* anything was added */
+  const lab_unknowns *before = t->report->declared; /* as they were before anything was added */
   const lab_unknown *x = &t->report->completed->unknown[j];
   const lab_format shown = lab_format_as(unit_of(x));
   pneu_params declared = t->report->rig->params;
