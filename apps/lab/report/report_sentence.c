@@ -1,5 +1,4 @@
-/* The answer in words: what has changed, what deviates, what is missing, what that does to the error, what limits it.
- */
+/* The answer in words: what an effect does, what has changed, deviates or is missing, and what limits the answer. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,8 +16,7 @@ static const double wider = 1.1; /* times, from which on a wide interval is wort
 /* Append to the text of an answer. */
 #define ADD(text, ...) lab_append(text, LAB_SENTENCE_TEXT, __VA_ARGS__)
 
-/* ---- An effect, in the words of its file; its sizes each from a rig and its parameter, of which the amount counts
- * ---- */
+/* ---- An effect: its sizes, each from a rig and its parameter, of which the amount counts ---- */
 
 enum { NONE = -1 };
 
