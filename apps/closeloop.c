@@ -131,7 +131,7 @@ static int run_one(const lab_cli *cli, lab_error *error)
   status = lab_answer_find(&q, &answer, error);
   if (status == LAB_OK) {
     status = write_answer(answer, &progress, cli->quiet, error);
-    lab_report_sentence(&answer->report, sentence, sizeof sentence);
+    lab_report_sentence(&answer->report, sentence);
     if (status == LAB_OK)
       status = lab_out_say(sentence, error);
     lab_answer_free(answer);

@@ -9,7 +9,6 @@
 #include "lab/rig/rig.h"
 #include "lab/run/standard.h"
 #include "lab/metrics/recording.h"
-#include "lab/metrics/metricstext.h"
 
 static const char *out_path;
 static int standard, figures, json;

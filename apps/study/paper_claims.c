@@ -270,20 +270,16 @@ static void add_claim(const table *claims, size_t row, const table *causes, doub
             table_text(causes, why, "words"), statement, table_text(causes, why, "severity"), word[*statement != 0]);
 }
 
-static const char *const claim_lines[] = {
+/* claims_csv, causes_csv; made by make */
 #include "study/paper/claims.csv.inc"
-};
-
-static const char *const cause_lines[] = {
 #include "study/paper/causes.csv.inc"
-};
 
 static void add_claims(const claim_value *value, size_t n, table *t)
 {
   table claims, causes;
   size_t row;
-  table_load_lines(claim_lines, sizeof claim_lines / sizeof *claim_lines, &claims);
-  table_load_lines(cause_lines, sizeof cause_lines / sizeof *cause_lines, &causes);
+  table_load_lines(claims_csv, sizeof claims_csv / sizeof *claims_csv - 1, &claims);
+  table_load_lines(causes_csv, sizeof causes_csv / sizeof *causes_csv - 1, &causes);
   for (row = 0; row < table_rows(&claims); row++)
     add_claim(&claims, row, &causes, value_of(table_text(&claims, row, "item"), value, n), t);
   t->failed |= claims.failed || causes.failed;

@@ -8,9 +8,7 @@
 #include "conclusions.h"
 #include "verdicts.h"
 
-static const char *const template[] = {
-#include "study/paper/report.md.inc"
-    NULL};
+#include "study/paper/report.md.inc" /* report_md; made by make */
 
 /* Smallest and largest value met. */
 typedef struct span {
@@ -434,7 +432,7 @@ int report_make(const study *s, lab_error *error)
   int status = put_all(s, page, error);
   snprintf(path, sizeof path, "%s/REPORT.md", s->results);
   if (status == LAB_OK)
-    status = lab_template_file(path, template, page, error);
+    status = lab_template_file(path, report_md, page, error);
   cJSON_Delete(page);
   if (status == LAB_OK)
     study_note_saved(s, "REPORT.md");

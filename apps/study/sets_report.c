@@ -13,9 +13,7 @@
 #include "../lab/rig/rig.h"
 #include "sets.h"
 
-static const char *const template[] = {
-#include "study/measured/report.md.inc"
-    NULL};
+#include "study/measured/report.md.inc" /* report_md; made by make */
 
 enum { PATH_TEXT = 1024, NAMES_TEXT = 512 };
 
@@ -633,7 +631,7 @@ int sets_report(const sets_result *result, int n, const char *out_dir, lab_error
   int status = put_all(result, n, out_dir, page, error);
   snprintf(path, sizeof path, "%s/REPORT.md", out_dir);
   if (status == LAB_OK)
-    status = lab_template_file(path, template, page, error);
+    status = lab_template_file(path, report_md, page, error);
   cJSON_Delete(page);
   return status;
 }

@@ -7,39 +7,26 @@
 #include "../base/clock.h"
 #include "../report/answer.h"
 #include "../report/figures.h"
-#include "../report/residual_table.h"
 #include "../rig/draft.h"
 #include "../run/simulation.h"
 #include "../trace/decide.h"
 
 enum { GIVEN = 1 + 3 * LAB_LOGS_MAX };
 
-/* A text that something writes. */
-typedef struct written {
-  char *text;
-  size_t size;
-  FILE *file;
-} written;
-
-static int begin(written *w, lab_error *error)
+/* In: status  of whoever wrote  Out: text; NULL after an error  Returns: status, LAB_WORLD */
+static int end(lab_writing *w, int status, char **text, lab_error *error)
 {
-  w->text = NULL;
-  w->file = open_memstream(&w->text, &w->size);
-  return w->file ? LAB_OK : lab_fail_memory(error, "a text");
+  *text = lab_writing_end(w);
+  if (status == LAB_OK)
+    return *text ? LAB_OK : lab_fail_memory(error, "a text");
+  free(*text);
+  *text = NULL;
+  return status;
 }
 
-/* In: status  of whoever wrote  Out: text; NULL after an error  Returns: status, LAB_WORLD */
-static int end(written *w, int status, char **text, lab_error *error)
+static int begin(lab_writing *w, lab_error *error)
 {
-  const int failed = ferror(w->file);
-  *text = NULL;
-  if ((fclose(w->file) || failed) && status == LAB_OK)
-    status = lab_fail_memory(error, "a text");
-  if (status == LAB_OK)
-    *text = w->text;
-  else
-    free(w->text);
-  return status;
+  return lab_writing_begin(w) ? LAB_OK : lab_fail_memory(error, "a text");
 }
 
 void lab_api_free(char *text)
@@ -101,15 +88,7 @@ static int check_request(const lab_api_request *r, lab_error *error)
   return r->budget >= 0 ? LAB_OK : lab_fail(error, LAB_USAGE, "budget: expected seconds, found %g", r->budget);
 }
 
-static int write_one(lab_report_writer *write, const lab_sources *from, char **text, lab_error *error)
-{
-  written w;
-  if (begin(&w, error))
-    return error->status;
-  return end(&w, write(w.file, from, error), text, error);
-}
-
-static int write_texts(const lab_sources *from, lab_api_answer *answer, lab_error *error)
+static int write_answer(const lab_report *report, lab_api_answer *answer, lab_error *error)
 {
   const struct {
     lab_report_writer *write;
@@ -118,35 +97,18 @@ static int write_texts(const lab_sources *from, lab_api_answer *answer, lab_erro
              {lab_report_html, &answer->html},
              {lab_report_model, &answer->model},
              {lab_report_residual, &answer->residual}};
+  lab_figures *figures;
+  lab_writing w;
   size_t i;
-  for (i = 0; i < sizeof all / sizeof all[0]; i++)
-    if (write_one(all[i].write, from, all[i].text, error))
-      return error->status;
-  return LAB_OK;
-}
-
-static int write_sentence(const lab_report *report, char **text, lab_error *error)
-{
-  *text = malloc(LAB_SENTENCE_TEXT);
-  if (!*text)
-    return lab_fail_memory(error, "a text");
-  lab_report_sentence(report, *text, LAB_SENTENCE_TEXT);
-  return LAB_OK;
-}
-
-static int write_answer(const lab_report *report, lab_api_answer *answer, lab_error *error)
-{
-  lab_residual_table table;
-  lab_figures *figures = NULL;
-  int status = lab_residual_table_collect(report, &table, error);
+  int status = lab_figures_make(report, &figures, error);
+  for (i = 0; i < sizeof all / sizeof all[0] && status == LAB_OK; i++)
+    if ((status = begin(&w, error)) == LAB_OK)
+      status = end(&w, all[i].write(w.file, &(lab_sources){report, figures}, error), all[i].text, error);
+  if (status == LAB_OK && !(answer->sentence = malloc(LAB_SENTENCE_TEXT)))
+    status = lab_fail_memory(error, "a text");
   if (status == LAB_OK)
-    status = lab_figures_make(report, &table, &figures, error);
-  if (status == LAB_OK)
-    status = write_texts(&(lab_sources){report, &table, figures}, answer, error);
-  if (status == LAB_OK)
-    status = write_sentence(report, &answer->sentence, error);
+    lab_report_sentence(report, answer->sentence);
   lab_figures_free(figures);
-  lab_residual_table_free(&table);
   return status;
 }
 
@@ -213,31 +175,27 @@ void lab_api_stop(void)
 
 /* ---- simulate ---- */
 
-static int simulate_log(const pneu_model *model, const lab_rig *rig, const char *name, FILE *file, lab_error *error)
-{
-  lab_log log;
-  int status = lab_log_read(name, &rig->log, (double)rig->params.ambient_pressure, &log, error);
-  if (status != LAB_OK)
-    return status;
-  status = lab_simulation_write(model, rig, &log, file, error);
-  lab_log_free(&log);
-  return status;
-}
-
 static int simulate(const char *rig_name, const char *log_name, FILE *file, lab_error *error)
 {
   lab_rig rig;
+  lab_log log;
   pneu_model model;
+  int status;
   if (lab_rig_read(rig_name, &rig, error) || lab_rig_model(&rig, &model, error))
     return error->status;
-  return log_name ? simulate_log(&model, &rig, log_name, file, error)
-                  : lab_simulation_write_standard(&model, file, error);
+  if (!log_name)
+    return lab_simulation_write_standard(&model, file, error);
+  if (lab_log_read(log_name, &rig.log, (double)rig.params.ambient_pressure, &log, error))
+    return error->status;
+  status = lab_simulation_write(&model, &rig, &log, file, error);
+  lab_log_free(&log);
+  return status;
 }
 
 int lab_api_simulate(const lab_text_given *rig, const lab_text_given *log, char **csv, lab_error *error)
 {
   const lab_text_given given[] = {*rig, log ? *log : *rig};
-  written w;
+  lab_writing w;
   int status;
   *csv = NULL;
   if (check_rig(rig, error) || begin(&w, error))
@@ -252,7 +210,7 @@ int lab_api_simulate(const lab_text_given *rig, const lab_text_given *log, char 
 
 int lab_api_draft(const lab_text_given *log, const char *const *sheet, int n, char **rig, lab_error *error)
 {
-  written w;
+  lab_writing w;
   int status;
   *rig = NULL;
   if (begin(&w, error))

@@ -26,4 +26,9 @@ const char *lab_format_brief(double value, const char *unit, char text[LAB_FORMA
 /* A p-value: two digits; "below 1e-300" where it has vanished. */
 const char *lab_format_p(double p, char text[LAB_FORMAT_TEXT]);
 
+/* The same into a text of their own, which is there until the block ends. */
+#define LAB_NUMBER(value, digits)         lab_format_number(value, digits, (char[LAB_FORMAT_TEXT]){0})
+#define LAB_QUANTITY(value, unit, digits) lab_format_quantity(value, unit, digits, (char[LAB_FORMAT_TEXT]){0})
+#define LAB_P_VALUE(p)                    lab_format_p(p, (char[LAB_FORMAT_TEXT]){0})
+
 #endif

@@ -4,20 +4,21 @@
 #include <stdlib.h>
 
 #include "escape.h"
+#include "text.h"
 
 /* ---- Values ---- */
 
 static cJSON *text_of(const char *before, const char *format, va_list list)
 {
-  char *text = NULL;
-  size_t size;
-  FILE *file = open_memstream(&text, &size);
-  cJSON *value = NULL;
-  if (file) {
-    fputs(before, file);
-    vfprintf(file, format, list);
-    value = fclose(file) == 0 ? cJSON_CreateString(text) : NULL;
+  lab_writing w;
+  cJSON *value;
+  char *text;
+  if (lab_writing_begin(&w)) {
+    fputs(before, w.file);
+    vfprintf(w.file, format, list);
   }
+  text = lab_writing_end(&w);
+  value = text ? cJSON_CreateString(text) : NULL;
   free(text);
   return value;
 }

@@ -21,8 +21,9 @@ void lab_json_join(cJSON *list, const char *between, const char *format, ...) LA
 /* Add an item that has values of its own to a list.  Returns: NULL without list or memory */
 cJSON *lab_json_append(cJSON *list);
 
-/* Add numbers under their names; one that is not finite becomes null.
+/* Add numbers under their names; one that is not finite becomes null. LAB_JSON_NUMBERS(to, {"name", value}, ...)
  * In:      number  up to one without a name */
+#define LAB_JSON_NUMBERS(to, ...) lab_json_numbers(to, (const lab_json_named[]){__VA_ARGS__, {NULL, 0}})
 typedef struct lab_json_named {
   const char *name;
   double value;

@@ -5,6 +5,7 @@
 
 #include "escape.h"
 #include "outfile.h"
+#include "text.h"
 
 /* Objects from the innermost outwards. */
 typedef struct scope {
@@ -140,15 +141,10 @@ int lab_template_write(FILE *file, const char *template, const cJSON *values, la
 
 char *lab_template_text(const char *const *piece)
 {
-  char *text = NULL;
-  size_t size;
-  FILE *file = open_memstream(&text, &size);
-  for (; file && *piece; piece++)
-    fputs(*piece, file);
-  if (file && fclose(file) == 0)
-    return text;
-  free(text);
-  return NULL;
+  lab_writing w;
+  for (lab_writing_begin(&w); w.file && *piece; piece++)
+    fputs(*piece, w.file);
+  return lab_writing_end(&w);
 }
 
 int lab_template_file(const char *path, const char *const *piece, const cJSON *values, lab_error *error)

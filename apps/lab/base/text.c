@@ -226,6 +226,22 @@ const char *lab_file_name(const char *path)
   return slash ? slash + 1 : path;
 }
 
+FILE *lab_writing_begin(lab_writing *w)
+{
+  w->text = NULL;
+  return w->file = open_memstream(&w->text, &w->size);
+}
+
+char *lab_writing_end(lab_writing *w)
+{
+  int failed = !w->file || ferror(w->file);
+  failed |= w->file && fclose(w->file) != 0;
+  if (!failed)
+    return w->text;
+  free(w->text);
+  return NULL;
+}
+
 void lab_append(char *text, size_t size, const char *format, ...)
 {
   const size_t used = strlen(text);

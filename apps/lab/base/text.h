@@ -39,6 +39,19 @@ int lab_text_read(const char *path, lab_text *text, lab_error *error);
 
 void lab_text_free(lab_text *text);
 
+/* A text in the making, of any length. */
+typedef struct lab_writing {
+  FILE *file;
+  char *text;
+  size_t size;
+} lab_writing;
+
+/* Begin.  Returns: the stream to write to; NULL without memory */
+FILE *lab_writing_begin(lab_writing *w);
+
+/* End, also one that has not begun.  Returns: the text, to be freed; NULL where there was no memory */
+char *lab_writing_end(lab_writing *w);
+
 /* The name of a file without its folders, for what is kept or sent: an error has the path, an answer the name. */
 const char *lab_file_name(const char *path);
 

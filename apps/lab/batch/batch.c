@@ -9,7 +9,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "batchdone.h"
 #include "batchindex.h"
 #include "batchlist.h"
 #include "../base/checksum.h"
@@ -52,9 +51,13 @@ static lab_cost cost_since(double start)
   return cost;
 }
 
-static void folder_of(const batch *b, const char *name, char folder[LAB_PATH_TEXT])
+/* The path of something in the folder of the results, in a text that is there until the block ends. */
+#define IN_FOLDER(b, name) in_folder(b, name, (char[LAB_PATH_TEXT]){0})
+
+static const char *in_folder(const batch *b, const char *name, char path[LAB_PATH_TEXT])
 {
-  snprintf(folder, LAB_PATH_TEXT, "%s/%s", b->out, name);
+  snprintf(path, LAB_PATH_TEXT, "%s/%s", b->out, name);
+  return path;
 }
 
 static void limit(int what, rlim_t most)
@@ -80,14 +83,19 @@ static void bound(const batch *b)
 
 /* ---- Whether a line is done ---- */
 
+/* Cut the logs of a cell.  Out: text, path, which points into it  Returns: how many; -1 if there are too many */
+static int split(const char *cell, char text[LAB_FLEET_ENTRY_TEXT], const char *path[LAB_LOGS_MAX])
+{
+  return lab_split(strcpy(text, cell), ';', path, LAB_LOGS_MAX);
+}
+
 static uint64_t add_files(uint64_t key, const char *list)
 {
   char text[LAB_FLEET_ENTRY_TEXT];
   const char *path[LAB_LOGS_MAX];
-  int i, n;
+  const int n = split(list, text, path);
+  int i;
   key = lab_checksum_text(key, list);
-  strcpy(text, list);
-  n = lab_split(text, ';', path, LAB_LOGS_MAX);
   for (i = 0; i < n; i++)
     key = lab_checksum_file(key, path[i]);
   return key;
@@ -122,9 +130,8 @@ static uint64_t key_of(const batch *b, const lab_fleet_entry *e)
 
 static int is_done(const batch *b, const lab_fleet_entry *e, uint64_t key)
 {
-  char folder[LAB_PATH_TEXT];
+  const char *folder = IN_FOLDER(b, e->name);
   lab_done done;
-  folder_of(b, e->name, folder);
   return lab_done_read(folder, &done) && key && done.key == key &&
          (done.outcome.status != LAB_OK ||
           (done.extent >= b->how->extent && lab_answer_is_there(folder, b->how->extent)));
@@ -140,10 +147,9 @@ static int next(void *context, void *to)
   lab_error never; /* the list has been checked */
   int more;
   while (lab_fleet_list_next(&b->list, &j->entry, &more, &never) == LAB_OK && more) {
-    char folder[LAB_PATH_TEXT];
+    const char *folder = IN_FOLDER(b, j->entry.name);
     j->key = key_of(b, &j->entry);
     if (!is_done(b, &j->entry, j->key)) {
-      folder_of(b, j->entry.name, folder);
       lab_done_remove(folder);
       lab_answer_remove(folder);
       return 1;
@@ -160,13 +166,9 @@ static int done(void *context, const void *what, const void *result, lab_error *
 {
   batch *b = context;
   const job *j = what;
-  char folder[LAB_PATH_TEXT];
-  lab_done d;
-  d.outcome = *(const lab_outcome *)result;
-  d.extent = b->how->extent;
+  lab_done d = {.outcome = *(const lab_outcome *)result, .extent = b->how->extent};
   d.key = d.outcome.status == LAB_WORLD ? 0 : j->key; /* the world may be better next time */
-  folder_of(b, j->entry.name, folder);
-  if (lab_done_write(folder, &d, error))
+  if (lab_done_write(IN_FOLDER(b, j->entry.name), &d, error))
     return error->status;
   lab_progress_count(&b->progress, ++b->done, b->n, b->before);
   return LAB_OK;
@@ -185,16 +187,9 @@ static int ask(batch *b, const lab_fleet_entry *e, lab_answer **answer, lab_erro
 {
   char log_text[LAB_FLEET_ENTRY_TEXT], held_text[LAB_FLEET_ENTRY_TEXT];
   const char *log[LAB_LOGS_MAX], *held[LAB_LOGS_MAX];
-  lab_request q = {0};
-  strcpy(log_text, e->log);
-  strcpy(held_text, e->holdout);
-  q.rig = e->rig;
-  q.log = log;
-  q.n_logs = lab_split(log_text, ';', log, LAB_LOGS_MAX);
-  q.holdout = held;
-  q.n_holdout = lab_split(held_text, ';', held, LAB_LOGS_MAX);
-  q.alpha = b->how->alpha;
-  q.min_gain = b->how->min_gain;
+  lab_request q = {.rig = e->rig, .log = log, .holdout = held, .alpha = b->how->alpha, .min_gain = b->how->min_gain};
+  q.n_logs = split(e->log, log_text, log);
+  q.n_holdout = split(e->holdout, held_text, held);
   q.on_progress = look_for_leader;
   q.context = b;
   if (q.n_logs < 0 || q.n_holdout < 0)
@@ -213,16 +208,14 @@ static void work(void *context, const void *what, void *result)
   batch *b = context;
   const job *j = what;
   lab_outcome *outcome = result;
-  char folder[LAB_PATH_TEXT];
   lab_answer *answer = NULL;
   lab_error error;
   bound(b);
-  folder_of(b, j->entry.name, folder);
   if (ask(b, &j->entry, &answer, &error)) {
     lab_row_error(&error, outcome);
   } else {
     look_for_leader(b, "writing");
-    if (lab_answer_write(answer, folder, b->how->extent, &error))
+    if (lab_answer_write(answer, IN_FOLDER(b, j->entry.name), b->how->extent, &error))
       lab_row_error(&error, outcome);
     else
       lab_row_answer(answer, outcome);
@@ -270,9 +263,8 @@ static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals
   lab_fleet_entry e;
   int more, status;
   while ((status = lab_fleet_list_next(&b->list, &e, &more, error)) == LAB_OK && more) {
-    char folder[LAB_PATH_TEXT];
+    const char *folder = IN_FOLDER(b, e.name);
     lab_done d;
-    folder_of(b, e.name, folder);
     if (!lab_done_read(folder, &d))
       return lab_fail(error, LAB_DATA, "%s: the record of what was done has gone during the run; run it again", folder);
     lab_put_users_cell(rows, e.name);
@@ -280,7 +272,7 @@ static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals
     lab_put_users_cell(costs, e.name);
     fprintf(costs, ",%.3f,%.3f,%.1f\n", d.outcome.cost.seconds, d.outcome.cost.cpu, d.outcome.cost.memory);
     count(t, &d.outcome);
-    if (lab_index_add(index, e.name, &d.outcome, error) ||
+    if (lab_index_add(index, e.name, &d, error) ||
         (d.outcome.status == LAB_OK && lab_history_add(&b->history, &e, folder, error)))
       return error->status;
   }
@@ -289,15 +281,12 @@ static int copy_rows(batch *b, FILE *rows, FILE *costs, lab_index *index, totals
 
 static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
 {
-  char path[LAB_PATH_TEXT];
   lab_outfile rows, costs;
   int status;
-  folder_of(b, "batch.csv", path);
   lab_fleet_list_restart(&b->list);
-  if (lab_out_open(&rows, path, error))
+  if (lab_out_open(&rows, IN_FOLDER(b, "batch.csv"), error))
     return error->status;
-  folder_of(b, "batch.cost.csv", path);
-  if (lab_out_open(&costs, path, error)) {
+  if (lab_out_open(&costs, IN_FOLDER(b, "batch.cost.csv"), error)) {
     lab_out_abandon(&rows);
     return error->status;
   }
@@ -307,30 +296,21 @@ static int write_tables(batch *b, lab_index *index, totals *t, lab_error *error)
   return lab_out_end(&rows, status, error);
 }
 
-/* trends.csv, and the page that shows it too. */
-static int write_trends(batch *b, lab_index *index, lab_error *error)
-{
-  char path[LAB_PATH_TEXT];
-  lab_trends trends = {0};
-  int status;
-  folder_of(b, "trends.csv", path);
-  lab_history_sort(&b->history);
-  status = lab_trends_find(&b->history, &trends, error);
-  if (status == LAB_OK)
-    status = lab_trends_write(&trends, path, error);
-  if (status == LAB_OK)
-    status = lab_index_write(index, b->how->list, &trends, b->out, error);
-  lab_trends_free(&trends);
-  return status;
-}
-
-/* batch.csv and what goes with it. */
+/* batch.csv and what goes with it: trends.csv, and the page that shows these too. */
 static int write_all(batch *b, totals *t, lab_error *error)
 {
   lab_index index = {0};
+  lab_trends trends = {0};
   int status = write_tables(b, &index, t, error);
-  if (status == LAB_OK)
-    status = write_trends(b, &index, error);
+  if (status == LAB_OK) {
+    lab_history_sort(&b->history);
+    status = lab_trends_find(&b->history, &trends, error) ||
+                     lab_trends_write(&trends, IN_FOLDER(b, "trends.csv"), error) ||
+                     lab_index_write(&index, b->how->list, &trends, b->out, error)
+                 ? error->status
+                 : LAB_OK;
+  }
+  lab_trends_free(&trends);
   lab_history_free(&b->history);
   lab_index_free(&index);
   return status;
@@ -390,15 +370,11 @@ static int move_to_list(void *context, lab_error *error)
 /* Two runs in one folder would be in each other's way. The lock goes with the process, however it ends. */
 static int lock(const batch *b, lab_error *error)
 {
-  struct flock whole;
-  char path[LAB_PATH_TEXT];
+  const char *path = IN_FOLDER(b, ".lock");
+  struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
   int file;
   if (lab_make_folder(b->out, error))
     return error->status;
-  folder_of(b, ".lock", path);
-  memset(&whole, 0, sizeof whole);
-  whole.l_type = F_WRLCK;
-  whole.l_whence = SEEK_SET;
   file = open(path, O_RDWR | O_CREAT, 0666);
   if (file < 0)
     return lab_fail(error, LAB_WORLD, "%s: cannot be written: %s", path, strerror(errno));
@@ -411,13 +387,9 @@ static int lock(const batch *b, lab_error *error)
 static int lead(batch *b, const lab_jobs *jobs, lab_error *error)
 {
   totals t = {{0}, LAB_OK};
-  int status = lab_fleet_list_check(&b->list, &b->n, error);
-  if (status == LAB_OK)
-    status = lock(b, error);
-  if (status == LAB_OK)
-    status = move_to_list(b, error);
-  if (status != LAB_OK)
-    return status;
+  int status;
+  if (lab_fleet_list_check(&b->list, &b->n, error) || lock(b, error) || move_to_list(b, error))
+    return error->status;
   lab_progress_begin(&b->progress, "closeloop", b->how->quiet);
   status = lab_jobs_run(jobs, error);
   lab_progress_end(&b->progress);

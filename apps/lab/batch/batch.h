@@ -7,7 +7,8 @@
  * depends neither on how many worked at once, nor on how often the run was stopped, nor on the folder that it was
  * started in.
  *
- * Memory: the list itself, 16 bytes a line while it is checked, and 0.3 kB for each value of a dated line.
+ * Memory: the list itself, 16 bytes a line while it is checked; half a kB a line for its row on the page, and
+ * 0.3 kB for each value of a dated line.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCH_H
 #define LAB_BATCH_H

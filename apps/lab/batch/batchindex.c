@@ -6,11 +6,9 @@
 
 #include <cjson/cJSON.h>
 
-#include "batchdone.h"
 #include "../base/csv.h"
 #include "../base/escape.h"
 #include "../base/outfile.h"
-#include "../report/pagetext.h"
 #include "../base/format.h"
 #include "../base/json.h"
 #include "../base/template.h"
@@ -41,19 +39,16 @@ static void cut(const char *row, cut_row *to)
     to->cell[n].begin = empty;
 }
 
-static double error_of(const cut_row *row, int channel, int stage)
-{
-  const char *cell = row->cell[LAB_ROW_ERRORS + channel * LAB_ROW_STAGES + stage].begin;
-  return *cell ? strtod(cell, NULL) : (double)NAN;
-}
-
 /* The error of the worst channel.  Returns: NaN if there is none */
 static double worst(const cut_row *row, int stage)
 {
   double most = (double)NAN;
   int c;
-  for (c = 0; c < LAB_ROW_CHANNELS; c++)
-    most = fmax(most, error_of(row, c, stage));
+  for (c = 0; c < LAB_ROW_CHANNELS; c++) {
+    const char *cell = row->cell[LAB_ROW_ERRORS + c * LAB_ROW_STAGES + stage].begin;
+    if (*cell)
+      most = fmax(most, strtod(cell, NULL));
+  }
   return most;
 }
 
@@ -70,44 +65,36 @@ static int severity_of(const cut_row *row)
 
 /* ---- Order ---- */
 
-static int grow(lab_index *index, lab_error *error)
+int lab_index_add(lab_index *index, const char *name, const lab_done *done, lab_error *error)
 {
-  lab_index_entry *grown;
-  if (index->n < index->room)
-    return LAB_OK;
-  index->room = 2 * index->room + 256;
-  grown = realloc(index->entry, (size_t)index->room * sizeof *grown);
-  if (!grown)
-    return lab_fail_memory(error, "index.html");
-  index->entry = grown;
-  return LAB_OK;
-}
-
-int lab_index_add(lab_index *index, const char *name, const lab_outcome *outcome, lab_error *error)
-{
-  lab_index_entry *entry;
+  lab_index_entry *entry = realloc(index->entry, (size_t)(index->n + 1) * sizeof *entry);
   cut_row row;
   double gain;
-  if (grow(index, error))
-    return error->status;
-  cut(outcome->row, &row);
-  gain = worst(&row, BEFORE) / worst(&row, AFTER);
-  entry = &index->entry[index->n];
-  entry->severity = severity_of(&row);
-  entry->gain = isfinite(gain) ? gain : 0;
-  entry->line = index->n;
-  entry->name = strdup(name);
-  if (!entry->name)
+  if (!entry)
     return lab_fail_memory(error, "index.html");
+  index->entry = entry;
+  entry += index->n;
+  cut(done->outcome.row, &row);
+  gain = worst(&row, BEFORE) / worst(&row, AFTER);
+  *entry = (lab_index_entry){.name = strdup(name),
+                             .row = strdup(done->outcome.row),
+                             .page = done->outcome.status != LAB_OK    ? NULL
+                                     : done->extent >= LAB_WRITE_PLAIN ? "report.html"
+                                                                       : "report.json",
+                             .severity = severity_of(&row),
+                             .gain = isfinite(gain) ? gain : 0,
+                             .line = index->n};
   index->n++;
-  return LAB_OK;
+  return entry->name && entry->row ? LAB_OK : lab_fail_memory(error, "index.html");
 }
 
 void lab_index_free(lab_index *index)
 {
   int i;
-  for (i = 0; i < index->n; i++)
+  for (i = 0; i < index->n; i++) {
     free(index->entry[i].name);
+    free(index->entry[i].row);
+  }
   free(index->entry);
   memset(index, 0, sizeof *index);
 }
@@ -133,21 +120,20 @@ static void put_text(FILE *file, const char *text)
 
 static void put_error(FILE *file, double error)
 {
-  char text[LAB_FORMAT_TEXT];
-  put_text(file, isnan(error) ? "" : lab_format_number(error, 3, text));
+  put_text(file, isnan(error) ? "" : LAB_NUMBER(error, 3));
 }
 
 /* The name, with a link to what was written about it. */
-static void put_name(FILE *file, const char *name, const lab_done *done)
+static void put_name(FILE *file, const lab_index_entry *entry)
 {
   fputs("<th scope=\"row\">", file);
-  if (done->outcome.status == LAB_OK) {
+  if (entry->page) {
     fputs("<a href=\"", file);
-    lab_put_address(file, name);
-    fputs(done->extent >= LAB_WRITE_PLAIN ? "/report.html\">" : "/report.json\">", file);
+    lab_put_address(file, entry->name);
+    fprintf(file, "/%s\">", entry->page);
   }
-  lab_put_html(file, name);
-  fputs(done->outcome.status == LAB_OK ? "</a></th>" : "</th>", file);
+  lab_put_html(file, entry->name);
+  fputs(entry->page ? "</a></th>" : "</th>", file);
 }
 
 /* "1.36e-08 m2 + 3 K/W": each size as engineers write it; what is no size as it is */
@@ -156,7 +142,7 @@ static void put_sizes(FILE *file, char *text)
   const char *plus = "";
   fputs("<td>", file);
   while (text && *text) {
-    char *next = strstr(text, " + "), *unit, shown[LAB_FORMAT_TEXT];
+    char *next = strstr(text, " + "), *unit;
     double value;
     if (next) {
       *next = '\0';
@@ -164,22 +150,21 @@ static void put_sizes(FILE *file, char *text)
     }
     value = strtod(text, &unit);
     fputs(plus, file);
-    lab_put_html(file, unit > text && *unit == ' ' && strlen(unit) < 24 ? lab_format_quantity(value, unit + 1, 4, shown)
-                                                                        : text);
+    lab_put_html(file, unit > text && *unit == ' ' && strlen(unit) < 24 ? LAB_QUANTITY(value, unit + 1, 4) : text);
     plus = " + ";
     text = next;
   }
   fputs("</td>", file);
 }
 
-static void put_row(FILE *file, const char *name, const lab_done *done)
+static void put_row(FILE *file, const lab_index_entry *entry)
 {
+  const char *severity = severities[entry->severity];
   cut_row row;
-  cut(done->outcome.row, &row);
+  cut(entry->row, &row);
   fputs("<tr>", file);
-  put_name(file, name, done);
-  fprintf(file, "<td><span class=\"badge %s\">%s</span></td>", severities[severity_of(&row)],
-          severities[severity_of(&row)]);
+  put_name(file, entry);
+  fprintf(file, "<td><span class=\"badge %s\">%s</span></td>", severity, severity);
   put_text(file, row.cell[LAB_ROW_FOUND].begin);
   put_sizes(file, row.cell[LAB_ROW_SIZE].begin);
   put_text(file, row.cell[LAB_ROW_ALIKE].begin);
@@ -212,57 +197,37 @@ static void add_counts(const lab_index *index, cJSON *page)
   }
 }
 
-static cJSON *values_of(const lab_index *index, const char *list, const lab_trends *trends)
-{
-  cJSON *page = cJSON_CreateObject();
-  cJSON_AddStringToObject(page, "list", lab_file_name(list));
-  lab_json_put(page, "lines", "%d line%s", index->n, index->n == 1 ? "" : "s");
-  cJSON_AddStringToObject(page, "version", PNEU_VERSION);
-  add_counts(index, page);
-  lab_trends_page(trends, page);
-  return page;
-}
-
-static int put_rows(const lab_index *index, const char *folder, FILE *file, lab_error *error)
-{
-  lab_done *done = malloc(sizeof *done);
-  int i, status = done ? LAB_OK : lab_fail_memory(error, "index.html");
-  for (i = 0; i < index->n && status == LAB_OK; i++) {
-    char path[LAB_PATH_TEXT + 160];
-    snprintf(path, sizeof path, "%s/%s", folder, index->entry[i].name);
-    if (lab_done_read(path, done))
-      put_row(file, index->entry[i].name, done);
-    else
-      status = lab_fail(error, LAB_DATA, "%s: the record of what was done has gone during the run; run it again", path);
-  }
-  free(done);
-  return status;
-}
-
 /* The template on both sides of its place for the rows, which may be many. */
-static int put_page(const lab_index *index, const cJSON *page, char *template, const char *folder, FILE *file,
-                    lab_error *error)
+static int put_page(const lab_index *index, const cJSON *page, char *template, FILE *file, lab_error *error)
 {
   static const char place[] = "<!-- rows -->\n";
   char *rows = strstr(template, place);
+  int i;
   if (!rows)
     return lab_fail(error, LAB_DATA, "template: no place for the rows");
   *rows = '\0';
-  if (lab_template_write(file, template, page, error) || put_rows(index, folder, file, error))
+  if (lab_template_write(file, template, page, error))
     return error->status;
+  for (i = 0; i < index->n; i++)
+    put_row(file, &index->entry[i]);
   return lab_template_write(file, rows + strlen(place), page, error);
 }
 
 int lab_index_write(lab_index *index, const char *list, const lab_trends *trends, const char *folder, lab_error *error)
 {
-  cJSON *page = values_of(index, list, trends);
+  cJSON *page = cJSON_CreateObject();
   char path[LAB_PATH_TEXT + 160], *template = lab_page_text("index", page);
   lab_outfile out;
   int status = template ? LAB_OK : lab_fail_memory(error, "index.html");
+  lab_json_put(page, "list", "%s", lab_file_name(list));
+  lab_json_put(page, "lines", "%d line%s", index->n, index->n == 1 ? "" : "s");
+  lab_json_put(page, "version", "%s", PNEU_VERSION);
+  add_counts(index, page);
+  lab_trends_page(trends, page);
   qsort(index->entry, (size_t)index->n, sizeof *index->entry, by_severity);
   snprintf(path, sizeof path, "%s/index.html", folder);
   if (status == LAB_OK && (status = lab_out_open(&out, path, error)) == LAB_OK)
-    status = lab_out_end(&out, put_page(index, page, template, folder, out.file, error), error);
+    status = lab_out_end(&out, put_page(index, page, template, out.file, error), error);
   cJSON_Delete(page);
   free(template);
   return status;

@@ -6,25 +6,26 @@
 #include "batchrow.h"
 #include "trends.h"
 
-/* A line of the list, as far as its place on the page goes. */
+/* A line of the list, as the page shows it. */
 typedef struct lab_index_entry {
-  char *name;
-  int severity; /* 0: the worst */
-  double gain;  /* error before over that after, of the channel that is worst */
-  int line;     /* of those in the list */
+  char *name, *row; /* row: as in lab_outcome */
+  const char *page; /* what was written about it, NULL: nothing */
+  int severity;     /* 0: the worst */
+  double gain;      /* error before over that after, of the channel that is worst */
+  int line;         /* of those in the list */
 } lab_index_entry;
 
 /* Begins as {0}. */
 typedef struct lab_index {
-  int n, room;
+  int n;
   lab_index_entry *entry;
 } lab_index;
 
 /* Returns: LAB_OK; LAB_WORLD without memory. */
-int lab_index_add(lab_index *index, const char *name, const lab_outcome *outcome, lab_error *error);
+int lab_index_add(lab_index *index, const char *name, const lab_done *done, lab_error *error);
 void lab_index_free(lab_index *index);
 
-/* Sort and write the page; each line's row is read again from its folder (batchdone.h).
+/* Sort and write the page.
  * In:      list    path of the list, whose file name is the heading
  *          trends  of its rigs
  *          folder  of the batch

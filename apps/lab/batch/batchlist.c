@@ -16,18 +16,19 @@ enum { OTHERS = sizeof others / sizeof *others };
 
 /* ---- Columns ---- */
 
-enum column { NAME, RIG, LOG, HOLDOUT, DATE, COLUMNS, NOTHING = -1 };
+/* Where a line has the cell of a column, and its room. */
+#define CELL(name) offsetof(lab_fleet_entry, name), sizeof((lab_fleet_entry *)NULL)->name
 
-static const char *const column_names[COLUMNS] = {"name", "rig", "log", "holdout", "date"};
-static const int is_needed[COLUMNS] = {0, 1, 1, 0, 0};
-
-static char *place_of(lab_fleet_entry *e, int column, size_t *size)
-{
-  char *const place[COLUMNS] = {e->name, e->rig, e->log, e->holdout, e->date};
-  const size_t sizes[COLUMNS] = {sizeof e->name, sizeof e->rig, sizeof e->log, sizeof e->holdout, sizeof e->date};
-  *size = sizes[column];
-  return place[column];
-}
+static const struct {
+  const char *name;
+  int is_needed;
+  size_t at, size;
+} columns[] = {{"name", 0, CELL(name)},
+               {"rig", 1, CELL(rig)},
+               {"log", 1, CELL(log)},
+               {"holdout", 0, CELL(holdout)},
+               {"date", 0, CELL(date)}};
+enum { COLUMNS = sizeof columns / sizeof *columns, NOTHING = -1 };
 
 /* ---- Lines ---- */
 
@@ -56,7 +57,7 @@ static int read_column(lab_fleet_list *list, char *cell, lab_error *error)
   int i, column;
   for (; *c; c++)
     *c = (char)tolower((unsigned char)*c);
-  column = lab_name_index(cell, column_names, COLUMNS, sizeof *column_names);
+  column = lab_name_index(cell, columns, COLUMNS, sizeof *columns);
   for (i = 0; column >= 0 && i < list->n_columns; i++)
     if (list->column[i] == column)
       return lab_fail(error, LAB_DATA, "the column %s is there twice", cell);
@@ -64,39 +65,28 @@ static int read_column(lab_fleet_list *list, char *cell, lab_error *error)
     return lab_fail(error, LAB_DATA,
                     "expected a header like name,rig,log,holdout; found the unknown column \"%s\"; the nearest known "
                     "one is %s",
-                    cell, lab_name_nearest(cell, column_names, COLUMNS, sizeof *column_names));
+                    cell, lab_name_nearest(cell, columns, COLUMNS, sizeof *columns));
   list->column[list->n_columns++] = column;
   return LAB_OK;
 }
 
-static int has_column(const lab_fleet_list *list, int column)
-{
-  int i, any = 0;
-  for (i = 0; i < list->n_columns; i++)
-    any |= list->column[i] == column;
-  return any;
-}
-
-/* The mark that stands first in a line, or the usual one. */
-static char mark_in(const char *line)
-{
-  const char first = line[strcspn(line, ",;\t\r\n")];
-  return first == ';' || first == '\t' ? first : ',';
-}
-
 static int read_columns(lab_fleet_list *list, lab_error *error)
 {
-  int i;
-  list->csv.mark = mark_in(list->csv.begin);
+  const char first = list->csv.begin[strcspn(list->csv.begin, ",;\t\r\n")];
+  int i, column;
+  list->csv.mark = first == ';' || first == '\t' ? first : ',';
   if (lab_csv_cut(&list->csv, error))
     return error->status;
   for (i = 0; i < list->csv.n && i < LAB_CSV_CELLS; i++)
     if (read_column(list, list->csv.cell[i].begin, error))
       return error->status;
-  for (i = 0; i < COLUMNS; i++)
-    if (is_needed[i] && !has_column(list, i))
+  for (column = 0; column < COLUMNS; column++) {
+    for (i = 0; i < list->n_columns && list->column[i] != column; i++)
+      ;
+    if (columns[column].is_needed && i == list->n_columns)
       return lab_fail(error, LAB_DATA, "expected a header like name,rig,log,holdout; there is no column %s",
-                      column_names[i]);
+                      columns[column].name);
+  }
   return LAB_OK;
 }
 
@@ -182,8 +172,6 @@ static int fill(const lab_fleet_list *list, lab_fleet_entry *e, lab_error *error
   for (i = 0; i < csv->n && i < LAB_CSV_CELLS; i++) {
     const char *text = lab_trim(csv->cell[i].begin);
     const int column = i < list->n_columns ? list->column[i] : NOTHING;
-    size_t size;
-    char *place;
     if (!*text)
       continue;
     if (column == NOTHING)
@@ -192,17 +180,14 @@ static int fill(const lab_fleet_list *list, lab_fleet_entry *e, lab_error *error
                       csv->mark == '\t'  ? "a tab"
                       : csv->mark == ',' ? ","
                                          : ";");
-    place = place_of(e, column, &size);
-    if (strlen(text) >= size)
-      return lab_fail(error, LAB_DATA, "column %s: expected at most %d bytes, found %d", column_names[column],
-                      (int)size - 1, (int)strlen(text));
-    strcpy(place, text);
+    if (strlen(text) >= columns[column].size)
+      return lab_fail(error, LAB_DATA, "column %s: expected at most %d bytes, found %d", columns[column].name,
+                      (int)columns[column].size - 1, (int)strlen(text));
+    strcpy((char *)e + columns[column].at, text);
   }
-  for (i = 0; i < COLUMNS; i++) {
-    size_t size;
-    if (is_needed[i] && !*place_of(e, i, &size))
-      return lab_fail(error, LAB_DATA, "column %s is empty; every line needs a rig file and a log", column_names[i]);
-  }
+  for (i = 0; i < COLUMNS; i++)
+    if (columns[i].is_needed && !*((const char *)e + columns[i].at))
+      return lab_fail(error, LAB_DATA, "column %s is empty; every line needs a rig file and a log", columns[i].name);
   if (read_date(e, error) || (!*e->name && name_after_log(e, error)))
     return error->status;
   return check_name(e, error);
@@ -249,20 +234,15 @@ static int find_double(called *names, int n, const char *path, lab_error *error)
 static int read_names(lab_fleet_list *list, called **names, int *n, lab_error *error)
 {
   lab_fleet_entry entry;
-  int more, room = 0;
-  for (*n = 0;; ++*n) {
-    const int status = lab_fleet_list_next(list, &entry, &more, error);
-    if (status != LAB_OK || !more)
-      return status;
-    if (*n == room) {
-      called *grown = realloc(*names, (size_t)(room = 2 * room + 256) * sizeof *grown);
-      if (!grown)
-        return lab_fail_memory(error, list->csv.path);
-      *names = grown;
-    }
-    (*names)[*n].name = lab_checksum_text(LAB_CHECKSUM_SEED, entry.name);
-    (*names)[*n].line = entry.line;
+  int more, status;
+  for (*n = 0; (status = lab_fleet_list_next(list, &entry, &more, error)) == LAB_OK && more; ++*n) {
+    called *grown = realloc(*names, (size_t)(*n + 1) * sizeof *grown);
+    if (!grown)
+      return lab_fail_memory(error, list->csv.path);
+    *names = grown;
+    grown[*n] = (called){lab_checksum_text(LAB_CHECKSUM_SEED, entry.name), entry.line};
   }
+  return status;
 }
 
 int lab_fleet_list_check(lab_fleet_list *list, int *n, lab_error *error)

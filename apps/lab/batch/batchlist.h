@@ -9,7 +9,7 @@
  * - Between cells stands the mark that the header has: comma, semicolon or tab. A cell may be in quotes, "" is a quote
  *   in it. Several logs in one cell are separated by semicolons (in quotes if the cells are, too).
  * - Without a name, a line is called as its first log: may/p2.csv is may-p2.
- * - A date is a day or a moment by ISO 8601; lines with the same rig file and dates make a history (history.h).
+ * - A date is a day or a moment by ISO 8601; lines with the same rig file and dates make a history (trends.h).
  * - Empty lines, and lines that begin with #, are left out.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCHLIST_H

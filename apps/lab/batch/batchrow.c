@@ -1,15 +1,20 @@
 #include "batchrow.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
 #include "../base/escape.h"
 #include "../base/format.h"
+#include "../base/outfile.h"
+#include "../base/text.h"
 #include "../rig/rigterm.h"
 #include "../trace/freeterms.h"
 
 /* Channels that a model predicts. */
 static const int channels[LAB_ROW_CHANNELS] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
+
+enum { FOUND_CELLS = LAB_ROW_ERRORS - LAB_ROW_FOUND };
 
 /* Errors over the noise. */
 static const char *const stages[LAB_ROW_STAGES] = {"before", "after", "holdout_before", "holdout_after"};
@@ -26,63 +31,44 @@ void lab_row_header(FILE *file)
 
 /* ---- What was found ---- */
 
-/* "chamber_leak", or "unlisted force over x" */
-static void put_name(FILE *file, const lab_answer *a, const lab_found *found)
+/* "chamber_leak", "1.36e-08 m2", and what the log cannot tell from it; or "unlisted force over x", and where it acts.
+ */
+static void add_found(const lab_answer *a, const lab_found *found, char cell[FOUND_CELLS][LAB_ROW_TEXT / 2])
 {
-  const pneu_term *term = &a->now.completed.rig.term[found->term < 0 ? 0 : found->term];
-  if (found->effect >= 0)
-    fputs(pneu_effect_at(found->effect)->name, file);
-  else
-    fprintf(file, "unlisted %s over %s", lab_free_term_equation(term), lab_term_arguments[term->argument].key);
-}
-
-/* The effect's parameter with its unit; where a free term acts. */
-static void put_size(FILE *file, const lab_answer *a, const lab_found *found)
-{
+  enum { ROOM = LAB_ROW_TEXT / 2 };
   char where[LAB_WHERE_TEXT];
-  const int j = found->effect >= 0 ? lab_report_size(&a->report, found->param) : -1;
-  if (found->effect < 0)
-    fputs(lab_free_term_where(&a->now.completed.rig.term[found->term], where), file);
-  else if (j >= 0)
-    fprintf(file, "%.6g %s", a->now.completed.unknown[j].value, a->now.completed.unknown[j].unit);
-}
-
-/* What the log cannot tell from it. */
-static void put_alike(FILE *file, const lab_answer *a, const lab_found *found)
-{
-  int i;
-  (void)a;
-  for (i = 0; i < found->n_alike; i++)
-    fprintf(file, "%s%s", i ? " " : "", pneu_effect_at(found->alike[i])->name);
-}
-
-/* One cell about all that was found, joined with " + ". */
-static void put_found(FILE *row, const lab_answer *a, void (*put)(FILE *, const lab_answer *, const lab_found *))
-{
-  char text[LAB_ROW_TEXT / 2];
-  FILE *cell = fmemopen(text, sizeof text, "w");
-  int i;
-  text[0] = '\0';
-  for (i = 0; cell && i < a->now.result.n_found; i++) {
-    fputs(i ? " + " : "", cell);
-    put(cell, a, &a->now.result.found[i]);
+  int i, j;
+  if (found->effect < 0) {
+    const pneu_term *term = lab_report_term(&a->report, found);
+    lab_append(cell[0], ROOM, "unlisted %s over %s", lab_free_term_equation(term),
+               lab_term_arguments[term->argument].key);
+    lab_append(cell[1], ROOM, "%s", lab_free_term_where(term, where));
+  } else {
+    lab_append(cell[0], ROOM, "%s", pneu_effect_at(found->effect)->name);
+    if ((j = lab_report_size(&a->report, found->param)) >= 0)
+      lab_append(cell[1], ROOM, "%.6g %s", a->now.completed.unknown[j].value, a->now.completed.unknown[j].unit);
   }
-  if (cell)
-    fclose(cell);
-  text[sizeof text - 1] = '\0';
-  fputc(',', row);
-  lab_put_cell(row, text);
+  for (i = 0; i < found->n_alike; i++)
+    lab_append(cell[2], ROOM, "%s%s", i ? " " : "", pneu_effect_at(found->alike[i])->name);
+}
+
+/* Cells about all that was found, joined with " + ". */
+static void put_found(FILE *row, const lab_answer *a)
+{
+  char cell[FOUND_CELLS][LAB_ROW_TEXT / 2] = {"", "", ""};
+  int i, k;
+  for (i = 0; i < a->now.result.n_found; i++) {
+    for (k = 0; i > 0 && k < FOUND_CELLS; k++)
+      lab_append(cell[k], sizeof cell[k], " + ");
+    add_found(a, &a->now.result.found[i], cell);
+  }
+  for (k = 0; k < FOUND_CELLS; k++) {
+    fputc(',', row);
+    lab_put_cell(row, cell[k]);
+  }
 }
 
 /* ---- Numbers ---- */
-
-static void put_number(FILE *row, double value)
-{
-  if (isfinite(value))
-    fprintf(row, ",%.6g", value);
-  else
-    fputc(',', row);
-}
 
 static void put_errors(FILE *row, const lab_answer *a)
 {
@@ -92,30 +78,27 @@ static void put_errors(FILE *row, const lab_answer *a)
   int c, s;
   for (c = 0; c < LAB_ROW_CHANNELS; c++)
     for (s = 0; s < LAB_ROW_STAGES; s++)
-      put_number(row, (s < 2 || report->has_holdout) && !isnan(error[s]->rmse[channels[c]])
-                          ? error[s]->in_noise[channels[c]]
-                          : (double)NAN);
+      if ((s < 2 || report->has_holdout) && !isnan(error[s]->rmse[channels[c]]) &&
+          isfinite(error[s]->in_noise[channels[c]]))
+        fprintf(row, ",%.6g", error[s]->in_noise[channels[c]]);
+      else
+        fputc(',', row);
 }
 
 /* ---- Condition ---- */
 
-/* Over what was declared; where that is 0, as it was found. */
-static void put_deviation(FILE *file, const lab_deviation *d)
-{
-  char found[LAB_FORMAT_TEXT];
-  if (isfinite(d->ratio))
-    fprintf(file, "%s x%.3g", d->name, d->ratio);
-  else
-    fprintf(file, "%s %s", d->name, lab_format_quantity(d->found, d->unit, 3, found));
-}
-
+/* Deviations over what was declared; where that is 0, as they were found. */
 static void put_condition(FILE *row, const lab_deviations *all)
 {
   int i;
   fprintf(row, ",%s,", lab_condition_text(all->condition));
   for (i = 0; i < all->n; i++) {
-    fputs(i ? " + " : "", row);
-    put_deviation(row, &all->of[i]);
+    const lab_deviation *d = &all->of[i];
+    fprintf(row, "%s%s ", i ? " + " : "", d->name);
+    if (isfinite(d->ratio))
+      fprintf(row, "x%.3g", d->ratio);
+    else
+      fputs(LAB_QUANTITY(d->found, d->unit, 3), row);
   }
 }
 
@@ -140,12 +123,10 @@ void lab_row_answer(const lab_answer *a, lab_outcome *outcome)
   FILE *row = open_row(outcome);
   if (row) {
     fputs(lab_verdict_text(a->now.result.verdict), row);
-    put_found(row, a, put_name);
-    put_found(row, a, put_size);
-    put_found(row, a, put_alike);
+    put_found(row, a);
     put_errors(row, a);
     fprintf(row, ",%d,", a->now.logs.limitations.n);
-    lab_report_sentence(&a->report, sentence, sizeof sentence);
+    lab_report_sentence(&a->report, sentence);
     lab_put_users_cell(row, sentence);
     put_condition(row, &a->report.deviations);
   }
@@ -166,4 +147,63 @@ void lab_row_error(const lab_error *error, lab_outcome *outcome)
     fputs(",,", row);
   }
   close_row(row, outcome);
+}
+
+/* ---- On the disk ---- */
+
+static void path_in(const char *folder, char path[LAB_PATH_TEXT + 32])
+{
+  snprintf(path, LAB_PATH_TEXT + 32, "%s/.done", folder);
+}
+
+/* Two lines: numbers, and the row. The end of the second tells that it is whole. */
+static int read_lines(FILE *file, lab_done *done)
+{
+  lab_cost *cost = &done->outcome.cost;
+  char line[160];
+  size_t length;
+  if (!fgets(line, sizeof line, file) || sscanf(line, "%" SCNx64 " %d %d %lf %lf %lf", &done->key, &done->extent,
+                                                &done->outcome.status, &cost->seconds, &cost->cpu, &cost->memory) != 6)
+    return 0;
+  if (!fgets(done->outcome.row, sizeof done->outcome.row, file))
+    return 0;
+  length = strlen(done->outcome.row);
+  if (length == 0 || done->outcome.row[length - 1] != '\n')
+    return 0;
+  done->outcome.row[length - 1] = '\0';
+  return 1;
+}
+
+int lab_done_read(const char *folder, lab_done *done)
+{
+  char path[LAB_PATH_TEXT + 32];
+  FILE *file;
+  int whole;
+  path_in(folder, path);
+  memset(done, 0, sizeof *done);
+  file = fopen(path, "r");
+  whole = file && read_lines(file, done);
+  if (file)
+    fclose(file);
+  return whole;
+}
+
+int lab_done_write(const char *folder, const lab_done *done, lab_error *error)
+{
+  const lab_cost *cost = &done->outcome.cost;
+  char path[LAB_PATH_TEXT + 32];
+  lab_outfile out;
+  path_in(folder, path);
+  if (lab_out_open(&out, path, error))
+    return error->status;
+  fprintf(out.file, "%016" PRIx64 " %d %d %.3f %.3f %.1f\n%s\n", done->key, done->extent, done->outcome.status,
+          cost->seconds, cost->cpu, cost->memory, done->outcome.row);
+  return lab_out_close(&out, error);
+}
+
+void lab_done_remove(const char *folder)
+{
+  char path[LAB_PATH_TEXT + 32];
+  path_in(folder, path);
+  remove(path);
 }

@@ -1,8 +1,9 @@
-/* One line of batch.csv: what an answer comes to.
+/* One line of batch.csv: what an answer comes to, and what is kept of it in its folder.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCHROW_H
 #define LAB_BATCHROW_H
 
+#include <stdint.h>
 #include <stdio.h>
 
 #include "../report/answer.h"
@@ -43,5 +44,20 @@ void lab_row_header(FILE *file);
 /* Out: outcome, but for its cost */
 void lab_row_answer(const lab_answer *answer, lab_outcome *outcome);
 void lab_row_error(const lab_error *error, lab_outcome *outcome);
+
+/* The same on the disk: the file .done in the folder of the line, whole or absent. */
+typedef struct lab_done {
+  uint64_t key; /* of all that went into it; 0: to be done again in any case */
+  int extent;   /* what was written of the answer */
+  lab_outcome outcome;
+} lab_done;
+
+/* Read what is in a folder.  Returns: 0 if nothing is, or nothing whole */
+int lab_done_read(const char *folder, lab_done *done);
+
+/* Write it; the folder is made.  Returns: LAB_OK, LAB_WORLD. */
+int lab_done_write(const char *folder, const lab_done *done, lab_error *error);
+
+void lab_done_remove(const char *folder);
 
 #endif

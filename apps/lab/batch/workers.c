@@ -17,14 +17,11 @@
 int lab_workers_open(lab_workers *workers, const lab_jobs *jobs, lab_error *error)
 {
   int i;
-  workers->jobs = jobs;
-  workers->n = 0;
-  workers->worker = calloc((size_t)jobs->at_once, sizeof *workers->worker);
+  *workers = (lab_workers){.jobs = jobs, .worker = calloc((size_t)jobs->at_once, sizeof *workers->worker)};
   if (!workers->worker)
     return lab_fail_memory(error, "the jobs at once");
-  workers->n = jobs->at_once;
-  for (i = 0; i < workers->n; i++) {
-    lab_worker *h = &workers->worker[i];
+  for (i = 0; i < jobs->at_once; i++) {
+    lab_worker *h = &workers->worker[workers->n++];
     h->job = malloc(jobs->job_size);
     h->result = malloc(jobs->result_size);
     if (!h->job || !h->result)

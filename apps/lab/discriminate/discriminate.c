@@ -2,12 +2,334 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "../fit/fit.h"
 #include "discriminate_private.h"
 
 static const double clear = 5;      /* [sigma] separates */
 static const double decisive = 100; /* [sigma] clear, with room for noise that is 20 times less kind than white noise */
-static const double better = 2;     /* times what has been recorded gives, or it is hardly worth the trouble */
+static const double near_enough = 1e-3; /* [sigma^2] of chi-square, and as a share of it */
+static const double better = 2;         /* times what has been recorded gives, or it is hardly worth the trouble */
+
+/* ---- The trials beside what has been recorded, simulated ---- */
+
+/* The trials and what has been recorded, which comes last. */
+typedef struct design {
+  lab_advice_request request;
+  lab_test_plans plans;
+  int n; /* of forecasts */
+  lab_forecast forecast[LAB_TEST_PLAN_MAX + 1];
+  lab_schedule schedule[LAB_TEST_PLAN_MAX + 1];
+  pneu_input input[LAB_TEST_PLAN_MAX + 1][LAB_TEST_PLAN_STEPS];
+  /* Normal equations of each record, one matrix for each foreseen channel, unweighted. */
+  lab_normal bundle[LAB_TEST_PLAN_MAX + 1][LAB_FORECAST_CHANNELS];
+  int failed[LAB_TEST_PLAN_MAX + 1]; /* not 0: could not be simulated; its bundle is empty */
+  int jerky[LAB_TEST_PLAN_MAX + 1];  /* not 0: stick-slip throughout, too long to simulate many times */
+} design;
+
+/* ---- Words and choice ---- */
+
+static void say_nothing(lab_advice *advice, const char *reason)
+{
+  *advice = (lab_advice){.kind = LAB_ADVICE_NONE, .channel = -1, .param = -1};
+  snprintf(advice->text, LAB_ADVICE_TEXT, "%.*s", LAB_ADVICE_TEXT - 1, reason);
+}
+
+int lab_trial_choose(const lab_test_plans *plans, const double *value, double enough)
+{
+  const double tie = 0.9;
+  double most = -1;
+  int i, best = -1;
+  for (i = 0; i < plans->n; i++)
+    if (value[i] > most)
+      most = value[i];
+  most = fmin(most, enough);
+  for (i = 0; i < plans->n; i++)
+    if (value[i] >= tie * most && (best < 0 || plans->plan[i].duration < plans->plan[best].duration))
+      best = i;
+  return best;
+}
+
+/* ---- Opening ---- */
+
+static int check(const lab_advice_request *q, lab_error *error)
+{
+  int c, any = 0;
+  for (c = 0; c < LAB_FORECAST_CHANNELS; c++) {
+    const double noise = q->noise[lab_forecast_channels[c]];
+    any |= noise > 0;
+    if (!isnan(noise) && !(noise > 0))
+      return lab_fail(error, LAB_DATA, "expected noise of channel %s above 0, found %g",
+                      lab_channels[lab_forecast_channels[c]].key, noise);
+  }
+  if (!any)
+    return lab_fail(error, LAB_DATA, "expected a recorded channel among p, x, T and ps");
+  if (!(q->spacing > 0))
+    return lab_fail(error, LAB_DATA, "expected a spacing of rows above 0 s, found %g", q->spacing);
+  return LAB_OK;
+}
+
+static int add_forecast(design *s, const lab_schedule *schedule, double duration, lab_error *error)
+{
+  lab_forecast *forecast = &s->forecast[s->n];
+  if (lab_forecast_open(s->request.rig, schedule, s->plans.settle, duration, s->request.spacing, forecast, error))
+    return error->status;
+  s->n++;
+  return LAB_OK;
+}
+
+static int add_trial(design *s, const pneu_model *model, const lab_test_plan *plan, lab_error *error)
+{
+  pneu_input *input = s->input[s->n];
+  int i;
+  for (i = 0; i < plan->n; i++) {
+    pneu_input_default(model, &input[i]);
+    input[i].u = (pneu_real)plan->u[i];
+  }
+  s->schedule[s->n] = (lab_schedule){(size_t)plan->n, plan->t, input};
+  return add_forecast(s, &s->schedule[s->n], plan->duration, error);
+}
+
+static int lay_out(design *s, lab_error *error)
+{
+  const lab_advice_request *q = &s->request;
+  pneu_model model;
+  int i;
+  if (lab_test_plans_build(q->rig, &s->plans, error) || lab_rig_model(q->rig, &model, error))
+    return error->status;
+  for (i = 0; i < s->plans.n; i++)
+    if (add_trial(s, &model, &s->plans.plan[i], error))
+      return error->status;
+  return q->recorded ? add_forecast(s, q->recorded, q->recorded_duration, error)
+                     : add_trial(s, &model, &s->plans.usual, error);
+}
+
+static void close_design(design *s)
+{
+  int i;
+  for (i = 0; s && i < s->n; i++)
+    lab_forecast_close(&s->forecast[i]);
+  free(s);
+}
+
+int lab_side_add(lab_forecast_model *s, int param, lab_error *error)
+{
+  int j;
+  for (j = 0; j < s->n; j++)
+    if (s->param[j] == param)
+      return LAB_OK;
+  if (s->n == LAB_NORMAL_MAX)
+    return lab_fail(error, LAB_DATA, "more than %d parameters to fit again", (int)LAB_NORMAL_MAX);
+  s->scale[s->n] = lab_forecast_scale(&s->params, param);
+  s->param[s->n++] = param;
+  return LAB_OK;
+}
+
+/* ---- Normal equations ---- */
+
+/* What a value of a foreseen channel weighs [1/SI^2] where it is sampled; 0 where it is not recorded. */
+static double weight_of(const lab_advice_request *q, const lab_forecast *o, int place)
+{
+  const double noise = q->noise[lab_forecast_channels[place]];
+  const double rows = o->n > 1 ? (o->t[1] - o->t[0]) / q->spacing : 1;
+  return isnan(noise) ? 0 : rows / (noise * noise);
+}
+
+/* In:      y  slope columns, then the difference: k + 1 columns of LAB_FORECAST_CHANNELS * n */
+static void fill_bundle(lab_normal *bundle, const lab_forecast *o, int k, const double *y)
+{
+  const double *column[LAB_NORMAL_MAX + 1];
+  int c, j;
+  for (c = 0; c < LAB_FORECAST_CHANNELS; c++) {
+    for (j = 0; j <= k; j++)
+      column[j] = y + ((size_t)j * LAB_FORECAST_CHANNELS + (size_t)c) * (size_t)o->n;
+    lab_normal_clear(&bundle[c], k);
+    lab_normal_add_rows(&bundle[c], column, o->n);
+  }
+}
+
+/* What forecast i says.  Out: sum  over the recorded channels, weighted */
+static void weigh(const design *s, int i, const lab_advice_request *q, lab_normal *sum)
+{
+  const lab_normal *bundle = s->bundle[i];
+  int c;
+  lab_normal_clear(sum, bundle->k);
+  for (c = 0; c < LAB_FORECAST_CHANNELS; c++)
+    lab_normal_add(sum, weight_of(q, &s->forecast[i], c), &bundle[c]);
+}
+
+/* ---- Survey ---- */
+
+/* The last column: how the predictions of two models differ.  In: y  scratch, one column */
+static int difference(const lab_forecast *o, const pneu_params *a, const pneu_params *b, double *y, double *column,
+                      lab_error *error)
+{
+  int i;
+  if (lab_forecast_run(o, a, column, NULL, error) || lab_forecast_run(o, b, y, NULL, error))
+    return error->status;
+  for (i = 0; i < LAB_FORECAST_CHANNELS * o->n; i++)
+    column[i] -= y[i];
+  return LAB_OK;
+}
+
+static int survey_one(const lab_forecast *o, const lab_forecast_model *model, const pneu_params *a,
+                      const pneu_params *b, lab_normal *into, long *steps, lab_error *error)
+{
+  const size_t m = LAB_FORECAST_CHANNELS * (size_t)o->n;
+  double *space = calloc(((size_t)model->n + 2) * m, sizeof *space);
+  double *last, *y;
+  int status;
+  if (!space)
+    return lab_fail_memory(error, "a response");
+  last = space + (size_t)model->n * m;
+  y = last + m;
+  if ((status = lab_forecast_run(o, &model->params, y, steps, error)) == LAB_OK &&
+      (status = lab_forecast_slopes(o, model, y, space, error)) == LAB_OK &&
+      (!a || (status = difference(o, a, b, y, last, error)) == LAB_OK))
+    fill_bundle(into, o, model->n, space);
+  free(space);
+  return status;
+}
+
+static int survey(design *s, const lab_forecast_model *model, const pneu_params *a, const pneu_params *b,
+                  lab_error *error)
+{
+  const long many_steps = 3000; /* smooth ones take 50 to 500 */
+  int i, status = LAB_OK;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < s->n; i++) {
+    lab_error mine;
+    long steps = 0;
+    int c;
+    const int at = survey_one(&s->forecast[i], model, a, b, s->bundle[i], &steps, &mine);
+    s->failed[i] = at != LAB_OK;
+    s->jerky[i] = steps > many_steps;
+    for (c = 0; at != LAB_OK && c < LAB_FORECAST_CHANNELS; c++)
+      lab_normal_clear(&s->bundle[i][c], model->n);
+    if (at == LAB_WORLD) {
+#pragma omp critical(scene_error)
+      *error = mine, status = at;
+    }
+  }
+  return status;
+}
+
+/* Check a request, lay out its trials, and fill their bundles with the slopes of a model and the difference of two
+ * others. Where no command moves the stem, advice says so and *made is NULL. In:      a, b  may be NULL: no difference
+ * Out:     made  to be closed
+ * Returns: as lab_discriminate. */
+static int open_design(const lab_advice_request *request, const lab_forecast_model *model, const pneu_params *a,
+                       const pneu_params *b, design **made, lab_advice *advice, lab_error *error)
+{
+  design *s;
+  *made = NULL;
+  if (check(request, error))
+    return error->status;
+  if (!(s = calloc(1, sizeof *s)))
+    return lab_fail_memory(error, "a set of schedules");
+  s->request = *request;
+  if (lay_out(s, error)) {
+    say_nothing(advice, error->text);
+    error->status = error->status == LAB_WORLD ? LAB_WORLD : LAB_OK;
+  } else if (survey(s, model, a, b, error) == LAB_OK) {
+    *made = s;
+    return LAB_OK;
+  }
+  close_design(s);
+  return error->status;
+}
+
+/* ---- A model that is fitted to what another one predicts ---- */
+
+typedef struct pursuit {
+  const lab_advice_request *request;
+  const lab_forecast *forecast;
+  const lab_forecast_model *model;
+  size_t m;                                             /* values of a prediction */
+  double *goal;                                         /* what it is fitted to */
+  double known[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1]; /* rows of the other records */
+} pursuit;
+
+/* The prediction beside its goal, over the noise, and what the other records say once the model has changed by theta,
+ * which is in the units of its parameters. */
+static int residuals(void *context, const double *theta, double *r, lab_error *error)
+{
+  const pursuit *p = context;
+  const int k = p->model->n, n = p->forecast->n;
+  pneu_params params = p->model->params;
+  int c, i, j;
+  for (j = 0; j < k; j++)
+    lab_forecast_shift(&params, p->model->param[j], theta[j], p->model->scale[j]);
+  if (lab_forecast_run(p->forecast, &params, r, NULL, error))
+    return error->status;
+  for (c = 0; c < LAB_FORECAST_CHANNELS; c++) {
+    const double root = sqrt(weight_of(p->request, p->forecast, c));
+    for (i = c * n; i < (c + 1) * n; i++)
+      r[i] = root > 0 ? root * (p->goal[i] - r[i]) : 0;
+  }
+  for (i = 0; i <= k; i++) {
+    double *row = &r[p->m + (size_t)i];
+    *row = p->known[i][k];
+    for (j = 0; j < k; j++)
+      *row -= p->known[i][j] * theta[j];
+  }
+  return LAB_OK;
+}
+
+/* A model without a slope cannot be pursued with: its parameter would stand still. */
+static int slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
+{
+  const pursuit *p = context;
+  const size_t m = p->m + (size_t)p->model->n + 1;
+  double at[LAB_NORMAL_MAX], least, most;
+  size_t i;
+  memcpy(at, theta, (size_t)p->model->n * sizeof *at);
+  lab_forecast_bounds(&p->model->params, p->model->param[j], p->model->scale[j], &least, &most);
+  at[j] += at[j] + lab_forecast_step > most ? -lab_forecast_step : lab_forecast_step;
+  if (residuals(context, at, column, error))
+    return error->status == LAB_NUMERIC ? (error->status = LAB_DATA) : error->status;
+  for (i = 0; i < m; i++)
+    column[i] = (column[i] - r[i]) / (at[j] - theta[j]);
+  return LAB_OK;
+}
+
+static int pursue(pursuit *p, double *apart, lab_error *error)
+{
+  double theta[LAB_NORMAL_MAX] = {0}, lower[LAB_NORMAL_MAX], upper[LAB_NORMAL_MAX];
+  const lab_fit_problem problem = {.n = p->model->n,
+                                   .m = p->m + (size_t)p->model->n + 1,
+                                   .lower = lower,
+                                   .upper = upper,
+                                   .context = p,
+                                   .residuals = residuals,
+                                   .slope = slope,
+                                   .enough = near_enough,
+                                   .enough_share = near_enough};
+  double chi2;
+  int j;
+  for (j = 0; j < p->model->n; j++)
+    lab_forecast_bounds(&p->model->params, p->model->param[j], p->model->scale[j], &lower[j], &upper[j]);
+  if (lab_fit(&problem, theta, &chi2, error))
+    return error->status;
+  *apart = sqrt(chi2);
+  return LAB_OK;
+}
+
+int lab_discrepancy(const lab_advice_request *q, const lab_forecast *o, const pneu_params *goal,
+                    const lab_forecast_model *model, const lab_normal *known, double *apart, lab_error *error)
+{
+  pursuit p = {.request = q, .forecast = o, .model = model, .m = LAB_FORECAST_CHANNELS * (size_t)o->n};
+  int status;
+  lab_normal_rows(known, p.known);
+  if (!(p.goal = malloc(p.m * sizeof *p.goal)))
+    return lab_fail_memory(error, "a response");
+  if ((status = lab_forecast_run(o, goal, p.goal, NULL, error)) == LAB_OK)
+    status = pursue(&p, apart, error);
+  free(p.goal);
+  return status;
+}
 
 /* ---- Two models ---- */
 
@@ -100,9 +422,9 @@ static void known_before(const design *s, int i, lab_normal *known)
 {
   const int last = s->n - 1;
   if (i == last)
-    lab_normal_clear(known, s->bundle[last].channel[0].k);
+    lab_normal_clear(known, s->bundle[last]->k);
   else
-    lab_bundle_weigh(&s->bundle[last], &s->request, &s->forecast[last], known);
+    weigh(s, last, &s->request, known);
 }
 
 /* Estimate by the slopes of the model midway. */
@@ -111,7 +433,7 @@ static double estimate(const design *s, const lab_advice_request *q, const pair 
   lab_normal normal, known, a, b;
   if (s->failed[i])
     return (double)NAN;
-  lab_bundle_weigh(&s->bundle[i], q, &s->forecast[i], &normal);
+  weigh(s, i, q, &normal);
   known_before(s, i, &known);
   lab_normal_add(&normal, 1, &known);
   take_side(&normal, &p->middle, &p->a, 1, &a);
@@ -194,10 +516,11 @@ static void say_trial(const design *s, lab_advice *advice)
 {
   char most[32], least[32];
   advice->kind = LAB_ADVICE_TEST;
-  lab_advice_say(advice->text, "%s", advice->plan.text);
-  lab_advice_say(advice->why, "In %.0f s the two models would differ by %s after a refit; %s alone gives %s.",
-                 advice->plan.duration, sigmas(advice->separation, most),
-                 s->request.recorded ? "what has been recorded" : "a fill and vent", sigmas(advice->usual, least));
+  snprintf(advice->text, LAB_ADVICE_TEXT, "%s", advice->plan.text);
+  snprintf(advice->why, LAB_ADVICE_TEXT,
+           "In %.0f s the two models would differ by %s after a refit; %s alone gives %s.", advice->plan.duration,
+           sigmas(advice->separation, most), s->request.recorded ? "what has been recorded" : "a fill and vent",
+           sigmas(advice->usual, least));
 }
 
 static void say_sensor(double noise, lab_advice *advice)
@@ -205,13 +528,12 @@ static void say_sensor(double noise, lab_advice *advice)
   const lab_channel_info *channel = &lab_channels[advice->channel];
   char most[32], least[32];
   advice->kind = LAB_ADVICE_SENSOR;
-  lab_advice_say(advice->text,
-                 "no schedule of the set separates them with these sensors; record %s (%s) as well, in this test: %s",
-                 channel->key, channel->meaning, advice->plan.text);
-  lab_advice_say(
-      advice->why,
-      "With a sensor of noise %.3g %s the two models would differ by %s after a refit; without it by about %s.", noise,
-      channel->unit, sigmas(advice->with_sensor, most), sigmas(advice->separation, least));
+  snprintf(advice->text, LAB_ADVICE_TEXT,
+           "no schedule of the set separates them with these sensors; record %s (%s) as well, in this test: %s",
+           channel->key, channel->meaning, advice->plan.text);
+  snprintf(advice->why, LAB_ADVICE_TEXT,
+           "With a sensor of noise %.3g %s the two models would differ by %s after a refit; without it by about %s.",
+           noise, channel->unit, sigmas(advice->with_sensor, most), sigmas(advice->separation, least));
 }
 
 /* ---- A sensor more ---- */
@@ -257,7 +579,7 @@ static int advise_sensor(const design *s, const pair *p, lab_advice *advice, lab
 static int advise(const design *s, const pair *p, lab_advice *advice, lab_error *error)
 {
   int best;
-  lab_advice_none(advice, "");
+  say_nothing(advice, "");
   if (settle(s, &s->request, p, s->n - 1, &advice->usual, error) ||
       find_best(s, &s->request, p, fmax(decisive, better * advice->usual), &best, &advice->separation, error))
     return error->status;
@@ -267,14 +589,13 @@ static int advise(const design *s, const pair *p, lab_advice *advice, lab_error 
     return LAB_OK;
   }
   if (best < 0) {
-    lab_advice_none(advice, "no schedule of the set can be simulated with both models");
+    say_nothing(advice, "no schedule of the set can be simulated with both models");
     return LAB_OK;
   }
-  lab_advice_say(
-      advice->text,
-      "no schedule of the set separates them with these sensors (about %.1f sigma), nor with one more for p, "
-      "x, T or ps",
-      advice->separation);
+  snprintf(advice->text, LAB_ADVICE_TEXT,
+           "no schedule of the set separates them with these sensors (about %.1f sigma), nor with one more for p, "
+           "x, T or ps",
+           advice->separation);
   return advise_sensor(s, p, advice, error);
 }
 
@@ -284,13 +605,133 @@ int lab_discriminate(const lab_advice_request *request, const pneu_params *a, co
   design *s;
   pair p;
   int status;
-  if (make_pair(request, a, b, &p, error))
+  if (make_pair(request, a, b, &p, error) || open_design(request, &p.middle, a, b, &s, advice, error))
     return error->status;
-  status = lab_design_open(request, &s, advice, error);
-  if (status != LAB_OK || !s)
-    return status;
-  if ((status = lab_design_survey(s, &p.middle, a, b, error)) == LAB_OK)
-    status = advise(s, &p, advice, error);
-  lab_design_close(s);
+  status = s ? advise(s, &p, advice, error) : LAB_OK;
+  close_design(s);
   return status;
+}
+
+/* ---- Which trial narrows what is known least ---- */
+
+/* Half widths of 95 % intervals over the scales of the parameters, by forecast: the last is what has been recorded, the
+ * others come on top of it. */
+typedef struct widths {
+  double of[LAB_TEST_PLAN_MAX + 1][LAB_NORMAL_MAX];
+} widths;
+
+static void find_widths(const lab_normal *normal, double *width)
+{
+  const double normal_95 = 1.959963984540054;
+  double prior[LAB_NORMAL_MAX];
+  int j;
+  for (j = 0; j < normal->k; j++)
+    prior[j] = 10; /* anything from nothing to many times the value */
+  lab_normal_deviations(normal, prior, width);
+  for (j = 0; j < normal->k; j++)
+    width[j] *= normal_95;
+}
+
+/* A trial that cannot be simulated adds nothing. */
+static void find_all(const design *s, widths *w)
+{
+  lab_normal present, normal;
+  int i;
+  weigh(s, s->n - 1, &s->request, &present);
+  find_widths(&present, w->of[s->n - 1]);
+  for (i = 0; i < s->n - 1; i++) {
+    weigh(s, i, &s->request, &normal);
+    lab_normal_add(&normal, 1, &present);
+    find_widths(&normal, w->of[i]);
+  }
+}
+
+/* The widest interval but for those that are done. */
+static int widest(const double *width, int n, const int *done)
+{
+  int j, at = -1;
+  for (j = 0; j < n; j++)
+    if (!done[j] && (at < 0 || width[j] > width[at]))
+      at = j;
+  return at;
+}
+
+/* "±3.2 %" */
+static const char *percent(double width, char text[32])
+{
+  if (width > 1)
+    snprintf(text, 32, "over ±100 %%"); /* as wide as the value */
+  else
+    snprintf(text, 32, "±%.2g %%", 100 * width);
+  return text;
+}
+
+/* An effect at its neutral value has no size yet: what is known is how large it could be unseen. */
+static int is_neutral(const pneu_params *params, int param)
+{
+  pneu_params copy = *params;
+  pneu_param_info info;
+  if (param == LAB_PARAM_ORIFICE_AREA || param < PNEU_PARAM_BASE_COUNT)
+    return 0;
+  pneu_param_describe(param, &info);
+  return !info.shape && *pneu_param_at(&copy, param) == info.neutral;
+}
+
+static void say_precision(const pneu_params *params, lab_advice *advice)
+{
+  char name[LAB_PARAM_NAME_TEXT], before[32], after[32];
+  lab_fit_name(advice->param, name);
+  snprintf(advice->text, LAB_ADVICE_TEXT, "%s", advice->plan.text);
+  if (is_neutral(params, advice->param))
+    snprintf(advice->why, LAB_ADVICE_TEXT,
+             "This test would lower the detection limit of %s from %.0f %% to %.2g %% of its usual size.", name,
+             100 * advice->before, 100 * advice->after);
+  else
+    snprintf(advice->why, LAB_ADVICE_TEXT, "This test would narrow the interval of %s from %s to %s.", name,
+             percent(advice->before, before), percent(advice->after, after));
+}
+
+/* Narrow the widest interval that can be narrowed. */
+static void narrow(const design *s, const lab_forecast_model *model, const widths *w, lab_advice *advice)
+{
+  const double *now = w->of[s->n - 1], worth_while = 0.9;
+  int done[LAB_NORMAL_MAX] = {0}, j;
+  say_nothing(advice, "no schedule of the set narrows an interval by a tenth");
+  while ((j = widest(now, model->n, done)) >= 0) {
+    double gain[LAB_TEST_PLAN_MAX];
+    int i;
+    for (i = 0; i < s->plans.n; i++)
+      gain[i] = now[j] / w->of[i][j];
+    i = lab_trial_choose(&s->plans, gain, (double)INFINITY);
+    done[j] = 1;
+    if (i < 0 || !(worth_while * gain[i] > 1))
+      continue;
+    advice->kind = LAB_ADVICE_TEST;
+    advice->plan = s->plans.plan[i];
+    advice->param = model->param[j];
+    advice->before = now[j];
+    advice->after = w->of[i][j];
+    say_precision(&model->params, advice);
+    return;
+  }
+}
+
+int lab_advise_precision(const lab_advice_request *request, const pneu_params *params, lab_advice *advice,
+                         lab_error *error)
+{
+  lab_forecast_model model = {*params, 0, {0}, {0}};
+  widths w;
+  design *s;
+  int j;
+  for (j = 0; j < request->n_fit; j++)
+    if (lab_side_add(&model, request->fit[j], error))
+      return error->status;
+  if (open_design(request, &model, NULL, NULL, &s, advice, error))
+    return error->status;
+  if (s) {
+    find_all(s, &w);
+    narrow(s, &model, &w, advice);
+  }
+  close_design(s);
+  return LAB_OK;
 }

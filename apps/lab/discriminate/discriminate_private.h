@@ -1,4 +1,4 @@
-/* What the files of discriminate.h share.
+/* Parts of discriminate.c that are tried by themselves.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_DISCRIMINATE_PRIVATE_H
 #define LAB_DISCRIMINATE_PRIVATE_H
@@ -6,44 +6,9 @@
 #include "forecast.h"
 #include "discriminate.h"
 
-/* Normal equations of a record, one matrix for each foreseen channel, unweighted. */
-typedef struct bundle {
-  lab_normal channel[LAB_FORECAST_CHANNELS];
-} bundle;
-
-/* The trials and what has been recorded, which comes last. */
-typedef struct design {
-  lab_advice_request request;
-  lab_test_plans plans;
-  int n; /* of forecasts */
-  lab_forecast forecast[LAB_TEST_PLAN_MAX + 1];
-  lab_schedule schedule[LAB_TEST_PLAN_MAX + 1];
-  pneu_input input[LAB_TEST_PLAN_MAX + 1][LAB_TEST_PLAN_STEPS];
-  bundle bundle[LAB_TEST_PLAN_MAX + 1];
-  int failed[LAB_TEST_PLAN_MAX + 1]; /* not 0: could not be simulated; the bundle is empty */
-  int jerky[LAB_TEST_PLAN_MAX + 1];  /* not 0: stick-slip throughout, too long to simulate many times */
-} design;
-
-/* Check an request and lay out its trials. Where no command moves the stem, advice says so and *made is NULL.
- * Returns: as lab_discriminate. */
-int lab_design_open(const lab_advice_request *request, design **made, lab_advice *advice, lab_error *error);
-void lab_design_close(design *s);
-
 /* Take up a parameter that is not there yet, in the unit that suits s->params.
  * Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_side_add(lab_forecast_model *s, int param, lab_error *error);
-
-/* What a value of a foreseen channel weighs [1/SI^2] where it is sampled; 0 where it is not recorded. */
-double lab_design_weight(const lab_advice_request *q, const lab_forecast *o, int place);
-
-/* Out:     sum  over the recorded channels, weighted */
-void lab_bundle_weigh(const bundle *b, const lab_advice_request *q, const lab_forecast *o, lab_normal *sum);
-
-/* Fill the bundles of all forecasts with the slopes of a model and the difference of two others.
- * In:      a, b  may be NULL: no difference
- * Returns: LAB_OK, LAB_WORLD. */
-int lab_design_survey(design *s, const lab_forecast_model *model, const pneu_params *a, const pneu_params *b,
-                      lab_error *error);
 
 /* How far [sigma] a model stays from another's prediction, however it is fitted again within the bounds of its
  * parameters.
@@ -56,8 +21,5 @@ int lab_discrepancy(const lab_advice_request *q, const lab_forecast *o, const pn
  * In:      value  by trial; NaN: not to be had
  * Returns: the trial, -1 if there is none. */
 int lab_trial_choose(const lab_test_plans *plans, const double *value, double enough);
-
-void lab_advice_none(lab_advice *advice, const char *reason);
-void lab_advice_say(char text[LAB_ADVICE_TEXT], const char *format, ...) LAB_PRINTF(2, 3);
 
 #endif

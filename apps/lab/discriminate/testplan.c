@@ -24,55 +24,42 @@ typedef struct template
 }
 template;
 
-static const template usual = {"fill and vent", {{0, -1, 0.5}, {1, 1, 2}, {-1, 0, 2}}};
+/* clang-format off */
+
+/* Moves: both orifices shut for some seconds, fully open up or down to a travel, home to the lower stop. */
+#define SHUT(seconds)  {0, ANYWHERE, seconds}
+#define UP_TO(level)   {1, level, 0}
+#define DOWN_TO(level) {-1, level, 0}
+#define HOME           {-1, 0, 2}
+
+static const template usual = {"fill and vent", {SHUT(0.5), {1, 1, 2}, HOME}};
 
 static const template templates[] = {
-    {"hold at 20 % travel with both orifices shut for 10 s", {{0, -1, 0.5}, {1, 0.2, 0}, {0, -1, 10}, {-1, 0, 2}}},
-    {"hold at 50 % travel with both orifices shut for 10 s", {{0, -1, 0.5}, {1, 0.5, 0}, {0, -1, 10}, {-1, 0, 2}}},
-    {"hold at 80 % travel with both orifices shut for 10 s", {{0, -1, 0.5}, {1, 0.8, 0}, {0, -1, 10}, {-1, 0, 2}}},
-    {"hold at 20 % travel with both orifices shut for 30 s", {{0, -1, 0.5}, {1, 0.2, 0}, {0, -1, 30}, {-1, 0, 2}}},
-    {"hold at 50 % travel with both orifices shut for 30 s", {{0, -1, 0.5}, {1, 0.5, 0}, {0, -1, 30}, {-1, 0, 2}}},
-    {"hold at 80 % travel with both orifices shut for 30 s", {{0, -1, 0.5}, {1, 0.8, 0}, {0, -1, 30}, {-1, 0, 2}}},
+    {"hold at 20 % travel with both orifices shut for 10 s", {SHUT(0.5), UP_TO(0.2), SHUT(10), HOME}},
+    {"hold at 50 % travel with both orifices shut for 10 s", {SHUT(0.5), UP_TO(0.5), SHUT(10), HOME}},
+    {"hold at 80 % travel with both orifices shut for 10 s", {SHUT(0.5), UP_TO(0.8), SHUT(10), HOME}},
+    {"hold at 20 % travel with both orifices shut for 30 s", {SHUT(0.5), UP_TO(0.2), SHUT(30), HOME}},
+    {"hold at 50 % travel with both orifices shut for 30 s", {SHUT(0.5), UP_TO(0.5), SHUT(30), HOME}},
+    {"hold at 80 % travel with both orifices shut for 30 s", {SHUT(0.5), UP_TO(0.8), SHUT(30), HOME}},
     {"staircase of short openings, five steps up and five down, with both orifices shut for 2 s after each",
-     {{0, -1, 0.5}, {1, 0.2, 0},  {0, -1, 2}, {1, 0.4, 0},  {0, -1, 2},   {1, 0.6, 0}, {0, -1, 2},
-      {1, 0.8, 0},  {0, -1, 2},   {1, 1, 0},  {0, -1, 2},   {-1, 0.8, 0}, {0, -1, 2},  {-1, 0.6, 0},
-      {0, -1, 2},   {-1, 0.4, 0}, {0, -1, 2}, {-1, 0.2, 0}, {0, -1, 2},   {-1, 0, 2}}},
+     {SHUT(0.5), UP_TO(0.2), SHUT(2), UP_TO(0.4), SHUT(2), UP_TO(0.6), SHUT(2), UP_TO(0.8), SHUT(2), UP_TO(1),
+      SHUT(2), DOWN_TO(0.8), SHUT(2), DOWN_TO(0.6), SHUT(2), DOWN_TO(0.4), SHUT(2), DOWN_TO(0.2), SHUT(2), HOME}},
     {"slow stroke from 45 to 55 % travel and back with 5 % opening",
-     {{0, -1, 0.5}, {1, 0.45, 0}, {0.05, 0.55, 0}, {-0.05, 0.45, 0}, {-1, 0, 2}}},
+     {SHUT(0.5), UP_TO(0.45), {0.05, 0.55, 0}, {-0.05, 0.45, 0}, HOME}},
     {"slow stroke from 45 to 55 % travel and back with 10 % opening",
-     {{0, -1, 0.5}, {1, 0.45, 0}, {0.1, 0.55, 0}, {-0.1, 0.45, 0}, {-1, 0, 2}}},
+     {SHUT(0.5), UP_TO(0.45), {0.1, 0.55, 0}, {-0.1, 0.45, 0}, HOME}},
     {"three full strokes up and down, fully open, with 1 s on each stop",
-     {{0, -1, 0.5}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}}},
+     {SHUT(0.5), {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}, {1, 1, 1}, {-1, 0, 1}}},
     {"staged vent from full travel: shut for 3 s at 75, 50 and 25 % travel",
-     {{0, -1, 0.5},
-      {1, 1, 2},
-      {-1, 0.75, 0},
-      {0, -1, 3},
-      {-1, 0.5, 0},
-      {0, -1, 3},
-      {-1, 0.25, 0},
-      {0, -1, 3},
-      {-1, 0, 2}}},
+     {SHUT(0.5), {1, 1, 2}, DOWN_TO(0.75), SHUT(3), DOWN_TO(0.5), SHUT(3), DOWN_TO(0.25), SHUT(3), HOME}},
     {"small steps between 45 and 55 % travel, with both orifices shut for 1 s after each",
-     {{0, -1, 0.5},
-      {1, 0.5, 0},
-      {0, -1, 1},
-      {1, 0.55, 0},
-      {0, -1, 1},
-      {-1, 0.45, 0},
-      {0, -1, 1},
-      {1, 0.55, 0},
-      {0, -1, 1},
-      {-1, 0.45, 0},
-      {0, -1, 1},
-      {1, 0.55, 0},
-      {0, -1, 1},
-      {-1, 0.45, 0},
-      {0, -1, 1},
-      {-1, 0, 2}}},
-    {"fill and vent with 15 s on each stop", {{0, -1, 0.5}, {1, 1, 15}, {-1, 0, 15}}},
+     {SHUT(0.5), UP_TO(0.5), SHUT(1), UP_TO(0.55), SHUT(1), DOWN_TO(0.45), SHUT(1), UP_TO(0.55), SHUT(1),
+      DOWN_TO(0.45), SHUT(1), UP_TO(0.55), SHUT(1), DOWN_TO(0.45), SHUT(1), HOME}},
+    {"fill and vent with 15 s on each stop", {SHUT(0.5), {1, 1, 15}, {-1, 0, 15}}},
     {"vent only, from rest on the upper stop", {{1, -1, 0.5}, {-1, 0, 5}}},
 };
+
+/* clang-format on */
 
 enum { TEMPLATES = sizeof templates / sizeof templates[0] };
 
@@ -158,15 +145,6 @@ int lab_test_plan_start(const pneu_model *model, const pneu_input *input, double
   return LAB_OK;
 }
 
-static void append(lab_test_plan *plan, double u, double seconds)
-{
-  if (!(seconds > 0))
-    return;
-  plan->t[plan->n] = plan->duration;
-  plan->u[plan->n++] = u;
-  plan->duration += seconds;
-}
-
 /* Do one move.  Returns: whether it can be done. */
 static int make_move(walk *w, const move *m, lab_test_plan *plan)
 {
@@ -180,20 +158,22 @@ static int make_move(walk *w, const move *m, lab_test_plan *plan)
   if (seconds >= limit && m->level > 0 && m->level < 1)
     return 0; /* on the way to a stop it may end short of it: that too is a record */
   seconds += m->seconds;
-  append(plan, m->u, seconds);
+  if (seconds > 0) {
+    plan->t[plan->n] = plan->duration;
+    plan->u[plan->n++] = m->u;
+    plan->duration += seconds;
+  }
   return plan->duration <= longest && run(w->model, &input, seconds, NULL, &w->state) == PNEU_OK;
 }
 
 /* Follow a template.  Returns: whether the rig can. */
 static int follow(const pneu_model *model, const template *from, double stroke_time, double settle, lab_test_plan *plan)
 {
-  walk w;
+  walk w = {.model = model, .stroke_time = stroke_time};
   pneu_input input;
   lab_error ignored;
   int i;
   memset(plan, 0, sizeof *plan);
-  w.model = model;
-  w.stroke_time = stroke_time;
   snprintf(plan->text, sizeof plan->text, "%s", from->text);
   pneu_input_default(model, &input);
   input.u = (pneu_real)from->step[0].u;

@@ -120,8 +120,7 @@ double lab_asymmetry_lag_time(const lab_edge *e, double *rms)
   double y[GRID + 1], misfit = 0;
   const double duration = resample(e, y);
   const double T = fit_lag(y, &misfit) * duration;
-  if (rms)
-    *rms = sqrt(misfit);
+  *rms = sqrt(misfit);
   return T;
 }
 
@@ -133,8 +132,7 @@ double lab_asymmetry_ramp_time(const lab_edge *e, double *rms)
   for (i = 0; i <= GRID; i++)
     s[i] = (double)i / GRID;
   misfit = line_fit(s, y, &a, &b);
-  if (rms)
-    *rms = sqrt(misfit);
+  *rms = sqrt(misfit);
   return duration / b;
 }
 

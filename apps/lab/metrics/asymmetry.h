@@ -34,7 +34,7 @@ int lab_asymmetry_measure(const lab_edge *up, const lab_edge *down, lab_asymmetr
 
 /* Time constant of a first-order lag with delay and free gain, least squares over 5 % to 95 % of the travel:
  * the time constant is searched, gain and delay follow linearly.
- * Out:     rms  over travel (may be NULL)
+ * Out:     rms  over travel
  * Returns: [s]; at a hundred times the stroke time the stroke is as good as straight. */
 double lab_asymmetry_lag_time(const lab_edge *e, double *rms);
 

@@ -17,6 +17,9 @@
 #define LAB_METRICS_H
 
 #include <stddef.h>
+#include <stdio.h>
+
+#include <cjson/cJSON.h>
 
 #include "../base/message.h"
 
@@ -141,5 +144,21 @@ int lab_metrics_measure(const lab_record *record, lab_metrics *metrics, lab_erro
 /* What steps and static figures refer to, in words. */
 const char *lab_metrics_step_signal(int command);
 const char *lab_metrics_static_signal(int command);
+
+enum { LAB_METRIC_SHOWN = 64 };
+
+/* "0.842", "<= 0.21", "-"
+ * Returns: text */
+const char *lab_metric_value(const lab_metric *metric, char text[LAB_METRIC_SHOWN]);
+
+/* Write a table of all figures, and of the steps. */
+void lab_metrics_print(FILE *file, const lab_metrics *metrics);
+
+/* { "<key>": { "value":, "unit":, "uncertainty":, "at_most":, "standard":, "basis": }, ... }, or
+ * { "<key>": { "value": null, "unit":, "reason": } } */
+cJSON *lab_metrics_object(const lab_metrics *metrics);
+
+/* Write an object with the signals, the figures and the steps.  Returns: LAB_OK, LAB_WORLD. */
+int lab_metrics_json(FILE *file, const lab_metrics *metrics, lab_error *error);
 
 #endif

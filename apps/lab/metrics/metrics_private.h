@@ -59,14 +59,10 @@ enum { LAB_SEEN = 4 }; /* standard deviations from which on a movement is seen *
 void lab_metric_set(lab_metrics_work *m, int metric, double value, double uncertainty, const char *format, ...)
     LAB_PRINTF(5, 6);
 /* Say why there is none. */
-void lab_metric_absent(lab_metrics_work *m, int metric, const char *format, ...) LAB_PRINTF(3, 4);
-void lab_metrics_absent(lab_metrics_work *m, int first, int last, const char *reason);
+#define lab_metric_absent(m, metric, ...) lab_metric_set(m, metric, (double)NAN, (double)NAN, __VA_ARGS__)
 
 /* Of the rated travel, from which on a stroke is a full one. */
 #define LAB_FULL_STROKE 0.9
-
-/* Whether a position [m] is well off both stops. */
-int lab_is_off_stops(const lab_metrics_work *m, double x);
 
 /* How far apart the ends of a leg are [m]. */
 double lab_leg_travel(const lab_path *path, const lab_leg *leg);
@@ -81,16 +77,9 @@ typedef struct lab_rest {
 lab_rest lab_rest_of(const lab_record *r, const double *value, size_t begin, size_t end, double noise);
 
 int lab_holds_find(lab_metrics_work *m, lab_error *error);    /* levels of the command */
-int lab_steps_measure(lab_metrics_work *m, lab_error *error); /* responses to steps */
-int lab_steps_report(lab_metrics_work *m, lab_error *error);  /* their figures */
-int lab_strokes_measure(lab_metrics_work *m, lab_error *error);
-int lab_path_find(lab_metrics_work *m, lab_error *error); /* static points, and rows */
-void lab_staircase_measure(lab_metrics_work *m);          /* dead band, resolution */
-void lab_loop_measure(lab_metrics_work *m);               /* hysteresis, linearity; after the staircase */
-void lab_energy_measure(lab_metrics_work *m);
-
-/* Say what figures of steps in one direction are missing for. */
-void lab_steps_deny(lab_metrics_work *m, int metric, int up);
+int lab_steps_measure(lab_metrics_work *m, lab_error *error); /* responses to steps, and full strokes */
+int lab_path_find(lab_metrics_work *m, lab_error *error);     /* static points, and rows */
+void lab_static_measure(lab_metrics_work *m);                 /* dead band, resolution, hysteresis, linearity */
 
 /* Free a path's memory. */
 void lab_path_free(lab_path *path);

@@ -43,7 +43,6 @@ int lab_recording_open(const lab_rig *rig, size_t rows, size_t runs, lab_recordi
     return error->status;
   describe(rig, &model, r);
   recording->room = rows + 1;
-  recording->room_runs = runs;
   recording->memory = malloc(TAPE_COLUMNS * recording->room * sizeof *recording->memory);
   recording->first = calloc(runs + 1, sizeof *recording->first);
   if (!recording->memory || !recording->first)
@@ -175,15 +174,6 @@ int lab_recording_simulate(const pneu_model *model, const lab_rig *rig, const la
 
 /* ---- Runs of a bench ---- */
 
-static size_t rows_of(const lab_unknowns *u)
-{
-  size_t rows = 0;
-  int e;
-  for (e = 0; e < u->n_runs; e++)
-    rows += u->run[e].n;
-  return rows;
-}
-
 static const double *channel_of(const lab_run *e, int channel)
 {
   const double *value = channel < 0 ? NULL : e->log->value[channel];
@@ -199,25 +189,6 @@ static double noise_of(const lab_unknowns *u, int channel)
       if (u->run[e].channel[c] == channel)
         return u->run[e].sigma[c];
   return u->rig.noise[channel];
-}
-
-static int record_measured(const lab_unknowns *u, lab_recording *recording, lab_error *error)
-{
-  int e;
-  if (lab_recording_open(&u->rig, rows_of(u), (size_t)u->n_runs, recording, error))
-    return error->status;
-  recording->record.bracketed = 1;
-  take_command(u->run[0].log, recording);
-  recording->record.noise_p = noise_of(u, LAB_CHANNEL_P);
-  recording->record.noise_x = noise_of(u, LAB_CHANNEL_X);
-  for (e = 0; e < u->n_runs; e++) {
-    const lab_run *x = &u->run[e];
-    const double *const value[] = {channel_of(x, LAB_CHANNEL_TIME),
-                                   command_of(recording, channel_of(x, lab_log_command(x->log))),
-                                   channel_of(x, LAB_CHANNEL_P), channel_of(x, LAB_CHANNEL_X), NULL};
-    add_run(recording, x->n, value);
-  }
-  return LAB_OK;
 }
 
 /* The model of one run: what it has for itself in the place of what all share. */
@@ -243,16 +214,36 @@ int lab_run_respond(const lab_unknowns *u, int run, lab_response *response, lab_
                                                                                                     : LAB_OK;
 }
 
-static int record_predicted(const lab_unknowns *u, lab_recording *recording, lab_error *error)
+/* Append a run as it was measured. */
+static void add_measured(const lab_run *x, lab_recording *recording)
 {
+  const double *const value[] = {channel_of(x, LAB_CHANNEL_TIME),
+                                 command_of(recording, channel_of(x, lab_log_command(x->log))),
+                                 channel_of(x, LAB_CHANNEL_P), channel_of(x, LAB_CHANNEL_X), NULL};
+  add_run(recording, x->n, value);
+}
+
+/* All runs, as they were measured or as the model does them. */
+static int record(const lab_unknowns *u, int predicted, lab_recording *recording, lab_error *error)
+{
+  size_t rows = 0;
   int e;
-  if (lab_recording_open(&u->rig, rows_of(u), (size_t)u->n_runs, recording, error))
+  for (e = 0; e < u->n_runs; e++)
+    rows += u->run[e].n;
+  if (lab_recording_open(&u->rig, rows, (size_t)u->n_runs, recording, error))
     return error->status;
   take_command(u->run[0].log, recording);
-  if (u->rig.laws.pressure_input) /* the pressure is the measured one */
+  recording->record.bracketed = !predicted;
+  if (!predicted || u->rig.laws.pressure_input) /* that pressure is the measured one */
     recording->record.noise_p = noise_of(u, LAB_CHANNEL_P);
+  if (!predicted)
+    recording->record.noise_x = noise_of(u, LAB_CHANNEL_X);
   for (e = 0; e < u->n_runs; e++) {
     lab_response response;
+    if (!predicted) {
+      add_measured(&u->run[e], recording);
+      continue;
+    }
     if (lab_run_respond(u, e, &response, error))
       return error->status;
     lab_recording_add_response(recording, &response);
@@ -261,13 +252,10 @@ static int record_predicted(const lab_unknowns *u, lab_recording *recording, lab
   return LAB_OK;
 }
 
-/* ---- Both ---- */
-
-static int measure(int (*record)(const lab_unknowns *u, lab_recording *recording, lab_error *error),
-                   const lab_unknowns *u, lab_metrics *metrics, lab_error *error)
+static int measure(const lab_unknowns *u, int predicted, lab_metrics *metrics, lab_error *error)
 {
   lab_recording recording;
-  int status = record(u, &recording, error);
+  int status = record(u, predicted, &recording, error);
   if (status == LAB_OK)
     status = lab_metrics_measure(&recording.record, metrics, error);
   lab_recording_close(&recording);
@@ -277,10 +265,10 @@ static int measure(int (*record)(const lab_unknowns *u, lab_recording *recording
 int lab_metrics_compare(const lab_unknowns *u, lab_metrics *measured, lab_metrics *predicted, lab_error *error)
 {
   lab_record none = {0};
-  int status = measure(record_measured, u, measured, error);
+  int status = measure(u, 0, measured, error);
   if (status != LAB_OK)
     return status;
-  status = measure(record_predicted, u, predicted, error);
+  status = measure(u, 1, predicted, error);
   if (status == LAB_OK || status == LAB_WORLD)
     return status;
   none.command = measured->command;

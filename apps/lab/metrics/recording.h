@@ -9,7 +9,7 @@
 
 typedef struct lab_recording {
   lab_record record;
-  size_t room, room_runs;
+  size_t room; /* of rows */
   double *memory;
   size_t *first;
 } lab_recording;

@@ -3,12 +3,18 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "../base/clock.h"
+#include "../base/interrupt.h"
+#include "../base/outfile.h"
+#include "../base/text.h"
+#include "../discriminate/forecast.h"
 #include "../fit/drift.h"
 #include "../fit/weights.h"
 #include "../metrics/recording.h"
-#include "../trace/search.h"
+#include "figures.h"
 
 static void on_progress(const lab_request *q, const char *what)
 {
@@ -50,14 +56,175 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
   return read_held_out(q, a, error);
 }
 
-/* ---- Figures of merit ---- */
+/* ---- How far a model is from logs: those that it was fitted to, and those that it has not seen ---- */
 
-/* Of what was measured, and of what the completed model makes of the same commands. */
-static int appraise(lab_answer *a, lab_error *error)
+/* Begin where a fit of the same runs has ended. */
+static void start_from(const lab_unknowns *fitted, lab_unknowns *u)
 {
-  a->report.measured = &a->measured;
-  a->report.predicted = &a->predicted;
-  return lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error);
+  int j, k;
+  for (j = 0; j < u->n; j++)
+    for (k = 0; k < fitted->n; k++) {
+      const lab_unknown *x = &fitted->unknown[k];
+      if (x->kind == u->unknown[j].kind && x->run == u->unknown[j].run && x->index == u->unknown[j].index)
+        u->unknown[j].value = x->value;
+    }
+}
+
+/* Fit to runs what each log has for itself, and the instants at which the command changed, within the row that shows
+ * each; nothing that the logs share.
+ * In:      fitted  the final model of the same runs */
+static int fit_own(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_unknowns *u,
+                   lab_error *error)
+{
+  lab_rig own = *model;
+  int j;
+  for (own.n_fit = j = 0; j < model->n_fit; j++)
+    if (model->fit_per_log[j]) {
+      own.fit_per_log[own.n_fit] = 1;
+      own.fit[own.n_fit++] = model->fit[j];
+    }
+  if (lab_unknowns_open(&own, run, n, u, error))
+    return error->status;
+  start_from(fitted, u);
+  return u->n > 0 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
+}
+
+/* Error of a model on runs.
+ * In:      fitted  the final model of these runs, and what is theirs is fitted again; NULL: they are others, and
+ * nothing is */
+static int judge(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_errors *errors,
+                 lab_error *error)
+{
+  lab_unknowns *u = malloc(sizeof *u);
+  int status;
+  if (!u)
+    return lab_fail_memory(error, "the errors of a model");
+  if (!fitted)
+    lab_unknowns_none(model, run, n, u);
+  status = (fitted && fit_own(model, run, n, fitted, u, error)) || lab_loop_errors(u, errors, error) ? error->status
+                                                                                                     : LAB_OK;
+  free(u);
+  return status;
+}
+
+/* Errors on what was held out: of the models on the way there, and on each log by itself. */
+static int judge_each(lab_answer *a, lab_error *error)
+{
+  lab_logs *held = &a->held;
+  int i, first = 0;
+  for (i = 0; i < a->now.result.n_path; i++)
+    if (judge(&a->now.result.path[i].rig, held->run, held->n, NULL, &a->report.holdout_path[i], error))
+      return error->status;
+  for (i = 0; i < held->n_logs; i++) {
+    lab_holdout_log *log = &a->report.held[i];
+    int n = 0;
+    while (first + n < held->n && held->run[first + n].log == &held->log[i])
+      n++;
+    log->name = lab_file_name(held->log[i].path);
+    if (judge(&a->now.declared.rig, &held->run[first], n, NULL, &log->before, error) ||
+        judge(&a->now.completed.rig, &held->run[first], n, NULL, &log->after, error))
+      return error->status;
+    first += n;
+  }
+  a->report.n_held = held->n_logs;
+  return LAB_OK;
+}
+
+/* Errors of the models on the way there, on the logs that they were fitted to; NaN of one that cannot follow them. */
+static int retrace(lab_answer *a, lab_error *error)
+{
+  int i, c, status = LAB_OK;
+  for (i = 0; i < a->now.result.n_path && status == LAB_OK; i++) {
+    lab_errors *errors = &a->report.fitted_path[i];
+    status = judge(&a->now.result.path[i].rig, a->now.logs.run, a->now.logs.n, &a->now.completed, errors, error);
+    for (c = 0; c < LAB_CHANNEL_COUNT && status == LAB_NUMERIC; c++)
+      errors->rmse[c] = errors->in_noise[c] = (double)NAN;
+    status = status == LAB_NUMERIC ? LAB_OK : status;
+  }
+  return status;
+}
+
+/* A model that cannot follow the held-out log has no error on it; that is said, and the rest is written. */
+static int hold_out(lab_answer *a, lab_error *error)
+{
+  lab_report *report = &a->report;
+  lab_logs *held = &a->held;
+  if (held->n == 0)
+    return LAB_OK;
+  if (a->now.completed.rig.n_onsets > a->rig.n_onsets)
+    lab_limitation(&a->now.logs.limitations,
+                   "what begins at %.6g s of the log begins at the same time of a held-out log",
+                   a->now.completed.rig.onset[a->rig.n_onsets].from);
+  report->has_holdout = !judge(&a->now.declared.rig, held->run, held->n, NULL, &report->holdout_before, error) &&
+                        !judge(&a->now.completed.rig, held->run, held->n, NULL, &report->holdout_after, error) &&
+                        !judge_each(a, error);
+  if (report->has_holdout)
+    return LAB_OK;
+  if (error->status != LAB_NUMERIC)
+    return error->status;
+  lab_limitation(&a->now.logs.limitations, "held-out log not judged: %s", error->text);
+  return LAB_OK;
+}
+
+/* ---- The test to record next ---- */
+
+/* The rig and the longest of its records, as the search for a trial sees them. */
+static void inquire(const lab_report *report, lab_advice_request *q)
+{
+  const lab_unknowns *u = report->completed;
+  const lab_run *x = &u->run[0];
+  const double *t;
+  int e, c;
+  for (e = 1; e < u->n_runs; e++)
+    if (u->run[e].n > x->n)
+      x = &u->run[e];
+  t = x->log->value[LAB_CHANNEL_TIME] + x->first;
+  *q = (lab_advice_request){.rig = report->rig,
+                            .n_fit = report->rig->n_fit,
+                            .fit = report->rig->fit,
+                            .recorded = &x->inputs.schedule,
+                            .recorded_duration = t[x->n - 1] - t[0]};
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    q->noise[c] = (double)NAN;
+  for (c = 0; c < x->n_channels; c++)
+    q->noise[x->channel[c]] = x->sigma[c];
+  q->spacing = q->recorded_duration / (double)(x->n > 1 ? x->n - 1 : 1);
+}
+
+/* Whether anything was recorded that a test can be foreseen for. */
+static int can_foresee(const lab_advice_request *q)
+{
+  int c;
+  for (c = 0; c < LAB_FORECAST_CHANNELS; c++)
+    if (q->noise[lab_forecast_channels[c]] > 0)
+      return 1;
+  return 0;
+}
+
+static int advise(lab_answer *a, lab_error *error)
+{
+  lab_report *report = &a->report;
+  const lab_search_result *r = report->result;
+  int fit[LAB_PARAM_COUNT], i, alike = 0;
+  lab_advice_request q;
+  lab_rig last;
+  lab_rig_at(&report->completed->rig, INFINITY, &last);
+  inquire(report, &q);
+  if (!can_foresee(&q))
+    return LAB_OK;
+  for (i = 0; i < r->n_found; i++) {
+    const lab_found *found = &r->found[i];
+    alike += found->n_alike;
+    if (found->n_alike > 0 && lab_discriminate(&q, &last.params, &found->alike_params[0], &report->separate[i], error))
+      return error->status;
+  }
+  if (alike > 0 || r->window > 0 || report->completed->rig.n_terms > 0)
+    return LAB_OK;
+  memcpy(fit, q.fit, (size_t)q.n_fit * sizeof *fit);
+  for (i = 0; i < r->n_found; i++)
+    fit[q.n_fit++] = r->found[i].param;
+  q.fit = fit;
+  return lab_advise_precision(&q, &last.params, &report->next, error);
 }
 
 /* ---- The loop ---- */
@@ -69,15 +236,6 @@ static int decline(lab_unknowns *u, lab_search_result *result, lab_error *error)
     return error->status;
   result->verdict = LAB_VERDICT_UNDECIDED;
   return lab_unknowns_intervals(u, &result->fit, error);
-}
-
-static void begin_report(lab_answer *a)
-{
-  a->report.rig = &a->rig;
-  a->report.declared = &a->now.declared;
-  a->report.completed = &a->now.completed;
-  a->report.result = &a->now.result;
-  a->report.limitations = &a->now.logs.limitations;
 }
 
 /* Only deviations that begin within the log. */
@@ -235,7 +393,13 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
   const allowance time = {lab_cpu_time(), q->budget};
   const double start = lab_clock();
   double fit_s;
-  begin_report(a);
+  a->report = (lab_report){.rig = &a->rig,
+                           .declared = &a->now.declared,
+                           .completed = &a->now.completed,
+                           .result = &a->now.result,
+                           .limitations = &a->now.logs.limitations,
+                           .measured = &a->measured,
+                           .predicted = &a->predicted};
   if (fit_to(q, &a->rig, &time, &a->now, &fit_s, error))
     return error->status;
   a->report.fit_s = lab_clock() - start;
@@ -244,11 +408,12 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
     return error->status;
   a->report.trace_s = a->now.result.score_s;
   on_progress(q, "evaluating on the held-out logs");
-  if (lab_answer_judge(a, error) || appraise(a, error))
+  if (retrace(a, error) || hold_out(a, error) ||
+      lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error))
     return error->status;
   if (!a->now.result.cut_short) {
     on_progress(q, "looking for the test to record next");
-    if (lab_answer_advise(a, error))
+    if (advise(a, error))
       return error->status;
   }
   a->report.total_s = lab_clock() - start;
@@ -257,16 +422,14 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 
 int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error)
 {
-  lab_answer *a = calloc(1, sizeof *a);
-  int status = a ? read_files(request, a, error) : lab_fail_memory(error, "the answer");
-  if (status == LAB_OK)
-    status = close_loop(request, a, error);
-  if (status != LAB_OK && a) {
-    lab_answer_free(a);
-    a = NULL;
-  }
-  *answer = a;
-  return status;
+  lab_answer *a = *answer = calloc(1, sizeof *a);
+  if (!a)
+    return lab_fail_memory(error, "the answer");
+  if (read_files(request, a, error) == LAB_OK && close_loop(request, a, error) == LAB_OK)
+    return LAB_OK;
+  lab_answer_free(a);
+  *answer = NULL;
+  return error->status;
 }
 
 void lab_answer_free(lab_answer *answer)
@@ -275,4 +438,79 @@ void lab_answer_free(lab_answer *answer)
   lab_logs_close(&answer->then.logs);
   lab_logs_close(&answer->held);
   free(answer);
+}
+
+/* ---- Writing ---- */
+
+/* Files of an answer, the extent from which on each is always there, and what writes it; figures are drawn by
+ * lab_figures_draw. */
+static const struct {
+  const char *name;
+  int extent;
+  int rows; /* 1: it needs rows and figures; these come last */
+  lab_report_writer *write;
+} files[] = {{"model.cfg", LAB_WRITE_PLAIN, 0, lab_report_model},
+             {"model.h", LAB_WRITE_PLAIN, 0, lab_report_header},
+             {"effects.def", LAB_WRITE_PLAIN, 0, lab_report_catalogue},
+             {"report.json", LAB_WRITE_JSON, 0, lab_report_json},
+             {"residual.csv", LAB_WRITE_PLAIN, 1, lab_report_residual},
+             {"report.html", LAB_WRITE_PLAIN, 1, lab_report_html},
+             {"response.svg", LAB_WRITE_FIGURES, 1, NULL},
+             {"residual.svg", LAB_WRITE_FIGURES, 1, NULL}};
+
+static int write_files(const lab_report *report, const char *folder, int extent, lab_error *error)
+{
+  lab_figures *figures = NULL;
+  int status = lab_make_folder(folder, error);
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    if (!files[i].write || files[i].extent > extent)
+      continue;
+    if (status == LAB_OK && files[i].rows && !figures)
+      status = lab_figures_make(report, &figures, error);
+    if (status == LAB_OK)
+      status = lab_report_file(folder, files[i].name, files[i].write, &(lab_sources){report, figures}, error);
+  }
+  if (status == LAB_OK && extent >= LAB_WRITE_PLAIN)
+    status = lab_figures_draw(extent >= LAB_WRITE_DRAWN ? figures : NULL, folder, extent == LAB_WRITE_FIGURES, error);
+  lab_figures_free(figures);
+  return status;
+}
+
+int lab_answer_write(const lab_answer *answer, const char *folder, int extent, lab_error *error)
+{
+  int status;
+  lab_interrupt_hold();
+  status = write_files(&answer->report, folder, extent, error);
+  lab_interrupt_release();
+  return status;
+}
+
+static void path_in(const char *folder, const char *name, char path[LAB_PATH_TEXT + 32])
+{
+  snprintf(path, LAB_PATH_TEXT + 32, "%s/%s", folder, name);
+}
+
+void lab_answer_remove(const char *folder)
+{
+  char path[LAB_PATH_TEXT + 32];
+  lab_error error;
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    path_in(folder, files[i].name, path);
+    remove(path);
+  }
+  lab_figures_draw(NULL, folder, 0, &error);
+}
+
+int lab_answer_is_there(const char *folder, int extent)
+{
+  char path[LAB_PATH_TEXT + 32];
+  size_t i;
+  for (i = 0; i < sizeof files / sizeof *files; i++) {
+    path_in(folder, files[i].name, path);
+    if (files[i].extent <= extent && access(path, R_OK))
+      return 0;
+  }
+  return 1;
 }

@@ -45,14 +45,6 @@ typedef struct lab_answer {
 int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error);
 void lab_answer_free(lab_answer *answer);
 
-/* Add to the report of an answer, of whose models it tells:
- *   judge   the errors of the declared model, of the completed one and of each between them, on the logs fitted and on
- *           those held out. On these nothing is fitted: their errors are those of what `simulate` predicts. A model
- * that cannot follow a held-out log is a limitation. advise  the tests to record next, or why there are none Returns:
- * LAB_OK, LAB_NUMERIC, LAB_WORLD. */
-int lab_answer_judge(lab_answer *answer, lab_error *error);
-int lab_answer_advise(lab_answer *answer, lab_error *error);
-
 /* How much of an answer to write; each is more than the one before. */
 enum lab_output {
   LAB_WRITE_JSON,   /* report.json */

@@ -1,132 +1,53 @@
 #include "figures.h"
 
-#include <ctype.h>
-#include <stdarg.h>
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "figures_private.h"
+const lab_curve_key lab_curve_keys[LAB_KEYS] = {
+    {"band", "99 % of white noise", "99 % of noise", "sand", "#DDD5B0", 0},
+    {"command", "", "", "grey", "#767676", 1.5},
+    {"measured", "measured", "measured", "wide", "#C4C4C4", 6},
+    {"before", "declared model, fitted", "declared", "vermillion", "#D55E00", 1.5},
+    {"after", "completed model", "completed", "blue", "#0072B2", 1.5},
+    {"term", "", "", "blue", "#0072B2", 1.5},
+    {"sheet", "as declared", "declared", "orange", "#E69F00", 1.5},
+    {"found", "as found", "found", "green", "#009E73", 1.5},
+    {"baseline", "as it was", "baseline", "purple", "#CC79A7", 1.5}};
 
-const double lab_figure_two_sided_99 = 2.5758293035489004;
+const lab_curve_form lab_curve_forms[LAB_FORMS] = {{"line", "lines"},    {"dashed", "lines dt (7,3)"},
+                                                   {"steps", "steps"},   {"points", "linespoints pt 7 ps 0.4"},
+                                                   {"bars", "impulses"}, {"band", "filledcurves"}};
 
-const char *const lab_figure_names[LAB_FIGURE_COUNT] = {"signature", "response",        "residual",
-                                                        "arguments", "autocorrelation", "unlisted"};
+static const double steps = 5000; /* at least, that a range is divided into */
 
-/* In that order. */
-static const struct {
-  const char *reading;
-  int (*fill)(const drawing *d);
-} known[LAB_FIGURE_COUNT] = {
-    {"A loop wider than its lines has more friction than dry friction, or was run fast. Green lines apart from the "
-     "orange "
-     "ones: a value is not as declared.",
-     lab_figure_signature},
-    {"Where the lines leave the grey, the model is wrong; the figure of the residual magnifies this.",
-     lab_figure_response},
-    {"A good model leaves an even residual within the band. Humps and spikes show when the model errs. Each panel has "
-     "its own scale.",
-     lab_figure_residual},
-    {"Points outside the band say at which pressure, position, velocity or command the model errs. p, x and v are "
-     "the model's own.",
-     lab_figure_arguments},
-    {"Bars beyond the band mean that the residual has a pattern, so that the model is incomplete or the declared noise "
-     "is wrong. The p-value is that of the Ljung-Box test on all lags of the last model; below 0.01 the residual is "
-     "not white.",
-     lab_figure_autocorrelation},
-    {"Knots that the model hardly reaches are uncertain. Over a cycle, time is the t of the log.",
-     lab_figure_unlisted}};
-
-/* ---- What figures have in common ---- */
-
-void lab_figure_entitle(const drawing *d, const char *title, const char *subtitle)
+static int decimals_of(const lab_figure_column *c)
 {
-  d->figure->title = title;
-  d->figure->subtitle = subtitle;
+  double low, high, range;
+  if (!lab_range(c->value, c->n, &low, &high))
+    return 0;
+  range = high > low ? high - low : fabs(high);
+  return range > 0 ? (int)fmin(fmax(ceil(log10(steps / range)), 0), 12) : 0;
 }
 
-void lab_figure_tell(const drawing *d, const char *format, ...)
+int lab_figures_add_column(lab_figures *figures, const double *value, const unsigned char *keep, size_t n, double scale,
+                           int decimals)
 {
-  const size_t used = strlen(d->figure->alt);
-  va_list list;
-  va_start(list, format);
-  vsnprintf(d->figure->alt + used, LAB_FIGURE_ALT - used, format, list);
-  va_end(list);
-}
-
-lab_panel *lab_figure_panel(const drawing *d, const char *name, const char *unit, int height)
-{
-  lab_panel *panel = &d->figure->panel[d->figure->n++];
-  snprintf(panel->name, sizeof panel->name, "%s", name);
-  panel->unit = unit;
-  panel->height = height;
-  panel->x_name = "t";
-  panel->x_unit = "s";
-  panel->x = d->all->t;
-  return panel;
-}
-
-const char *lab_figure_channel_name(int channel, char text[LAB_FORMAT_TEXT])
-{
-  char *at;
-  snprintf(text, LAB_FORMAT_TEXT, "%s %s", lab_channels[channel].quantity, lab_channels[channel].key);
-  *text = (char)toupper((unsigned char)*text);
-  while ((at = strchr(text, '_')))
-    *at = ' ';
-  return text;
-}
-
-const char *lab_figure_stage_name(int channel, int stage, char text[2 * LAB_FORMAT_TEXT])
-{
-  char name[LAB_FORMAT_TEXT];
-  snprintf(text, 2 * LAB_FORMAT_TEXT, "%s, %s model", lab_figure_channel_name(channel, name),
-           stage == LAB_STAGE_BEFORE ? "declared" : "completed");
-  return text;
-}
-
-int lab_figure_has_completed(const drawing *d)
-{
-  return d->report->result->n_found > 0;
-}
-
-int lab_figure_stages(const drawing *d)
-{
-  return lab_figure_has_completed(d) ? LAB_STAGE_COUNT : 1;
-}
-
-int lab_figure_key(int stage)
-{
-  return stage == LAB_STAGE_BEFORE ? LAB_KEY_BEFORE : LAB_KEY_AFTER;
-}
-
-/* ---- All of them ---- */
-
-static void fill_all(drawing *d)
-{
-  lab_figures *all = d->all;
-  int i;
-  for (i = 0; i < LAB_FIGURE_COUNT; i++) {
-    d->figure = &all->figure[all->n];
-    d->figure->name = lab_figure_names[i];
-    d->figure->reading = known[i].reading;
-    d->figure->across = 1;
-    all->n += known[i].fill(d) != 0;
+  lab_figure_column *all = realloc(figures->column, (size_t)(figures->n_columns + 1) * sizeof *all);
+  lab_figure_column c = {0, decimals, malloc((n + 1) * sizeof(double))};
+  size_t i;
+  figures->column = all ? all : figures->column;
+  if (!all || !c.value) {
+    free(c.value);
+    figures->failed = 1;
+    return 0;
   }
-}
-
-int lab_figures_make(const lab_report *report, const lab_residual_table *table, lab_figures **figures, lab_error *error)
-{
-  drawing d = {report, table, calloc(1, sizeof **figures), NULL, calloc(table->n + 1, 1)};
-  if (d.all && d.kept) {
-    lab_figure_lay_out_time(&d);
-    fill_all(&d);
-  }
-  if (d.all && (!d.kept || d.all->failed)) {
-    lab_figures_free(d.all);
-    d.all = NULL;
-  }
-  free(d.kept);
-  *figures = d.all;
-  return d.all ? LAB_OK : lab_fail_memory(error, "the figures");
+  for (i = 0; i < n; i++)
+    if (!keep || keep[i])
+      c.value[c.n++] = scale * value[i];
+  if (decimals < 0)
+    c.decimals = decimals_of(&c);
+  all[figures->n_columns] = c;
+  return figures->n_columns++;
 }
 
 void lab_figures_free(lab_figures *figures)
@@ -137,7 +58,75 @@ void lab_figures_free(lab_figures *figures)
   for (i = 0; i < figures->n_columns; i++)
     free(figures->column[i].value);
   free(figures->column);
-  free(figures->first);
-  free(figures->shift);
+  lab_residual_table_free(&figures->table);
   free(figures);
+}
+
+void lab_panel_curve(lab_panel *panel, int key, int form, int y)
+{
+  panel->curve[panel->n_curves++] = (lab_curve){key, form, y};
+}
+
+const lab_curve *lab_figure_curve(const lab_figure *figure, int key)
+{
+  int i, c;
+  for (i = 0; i < figure->n; i++)
+    for (c = 0; c < figure->panel[i].n_curves; c++)
+      if (figure->panel[i].curve[c].key == key)
+        return &figure->panel[i].curve[c];
+  return NULL;
+}
+
+/* ---- JSON: all its texts are words of this program ---- */
+
+/* "10000,3,,-2" */
+static void put_differences(FILE *file, const lab_figure_column *column)
+{
+  const double scale = pow(10, column->decimals);
+  long long last = 0;
+  size_t i;
+  for (i = 0; i < column->n; i++) {
+    const long long now = isfinite(column->value[i]) ? llround(scale * column->value[i]) : last;
+    fprintf(file, isfinite(column->value[i]) ? "%s%lld" : "%s", i > 0 ? "," : "", now - last);
+    last = now;
+  }
+}
+
+static void put_panel(FILE *file, const lab_panel *panel)
+{
+  int c;
+  fprintf(file, "{\"name\":\"%s\",\"unit\":\"%s\",\"x_name\":\"%s\",\"x_unit\":\"%s\",\"height\":%d,", panel->name,
+          panel->unit, panel->x_name, panel->x_unit, panel->height);
+  fprintf(file, "\"reach\":%.4g,\"x\":%d,\"curves\":[", panel->reach, panel->x);
+  for (c = 0; c < panel->n_curves; c++)
+    fprintf(file, "%s{\"key\":\"%s\",\"form\":\"%s\",\"y\":%d}", c > 0 ? "," : "",
+            lab_curve_keys[panel->curve[c].key].name, lab_curve_forms[panel->curve[c].form].name, panel->curve[c].y);
+  fputs("]}", file);
+}
+
+void lab_figures_json(const lab_figures *figures, FILE *file)
+{
+  const lab_figure *figure = figures->figure;
+  int i, k;
+  for (i = 0; i < figures->n_columns; i++) {
+    fprintf(file, "%s{\"k\":%d,\"d\":\"", i > 0 ? "," : "{\"columns\":[", figures->column[i].decimals);
+    put_differences(file, &figures->column[i]);
+    fputs("\"}", file);
+  }
+  fprintf(file, "],\"t\":%d,\"runs\":[", figures->t);
+  for (i = 0; i < figures->n_runs; i++)
+    fprintf(file, "%s{\"entry\":%zu,\"shift\":%.15g}", i > 0 ? "," : "", figures->first[i], figures->shift[i]);
+  for (k = 0; k < LAB_KEYS; k++)
+    fprintf(file, "%s\"%s\":{\"brief\":\"%s\",\"colour\":\"%s\",\"width\":%g}", k > 0 ? "," : "],\"keys\":{",
+            lab_curve_keys[k].name, lab_curve_keys[k].brief, lab_curve_keys[k].colour, lab_curve_keys[k].width);
+  fputs("},\"panels\":{", file);
+  for (i = 0; i < figures->n; i++, figure++) {
+    fprintf(file, "%s\"%s\":[", i > 0 ? "," : "", figure->name);
+    for (k = 0; k < figure->n; k++) {
+      fputs(k > 0 ? "," : "", file);
+      put_panel(file, &figure->panel[k]);
+    }
+    fputc(']', file);
+  }
+  fputs("}}", file);
 }

@@ -8,6 +8,7 @@
 
 #include "../base/array.h"
 #include "../base/format.h"
+#include "reduce.h"
 #include "residual_table.h"
 
 /* What a curve is of: row of lab_curve_keys. */
@@ -15,7 +16,7 @@ enum lab_curve_key_id {
   LAB_KEY_BAND,
   LAB_KEY_COMMAND,
   LAB_KEY_MEASURED,
-  LAB_KEY_BEFORE,
+  LAB_KEY_BEFORE, /* this and the next one in the order of enum lab_stage */
   LAB_KEY_AFTER,
   LAB_KEY_TERM,
   LAB_KEY_SHEET,
@@ -61,6 +62,7 @@ typedef struct lab_curve {
   int key, form, y; /* y: its column */
 } lab_curve;
 
+enum { LAB_FIGURE_COLUMNS = 360 /* of the envelope of a curve over time */ };
 enum { LAB_PANEL_CURVES = 13, LAB_FIGURE_PANELS = 2 * LAB_CHANNEL_COUNT * LAB_ARGUMENT_COUNT };
 
 typedef struct lab_panel {
@@ -86,17 +88,18 @@ typedef struct lab_figure {
   lab_panel panel[LAB_FIGURE_PANELS];
 } lab_figure;
 
-/* Figures for which there is nothing to show are left out. */
+/* The rows of a report, and its figures; those for which there is nothing to show are left out. */
 typedef struct lab_figures {
+  lab_residual_table table;
   int n;
   lab_figure figure[LAB_FIGURE_COUNT];
   int n_columns;
   lab_figure_column *column;
   int t; /* column of time, on whose axis runs follow each other */
   int n_runs;
-  size_t *first; /* of each run: the entry of time with which it begins */
-  double *shift; /* [s] and by how much the axis has it later than its log */
-  int failed;    /* without memory */
+  size_t first[LAB_RUNS_MAX]; /* of each run: the entry of time with which it begins */
+  double shift[LAB_RUNS_MAX]; /* [s] and by how much the axis has it later than its log */
+  int failed;                 /* without memory */
 } lab_figures;
 
 /* Add a column: scale * value of the rows that are kept.
@@ -121,11 +124,10 @@ const lab_curve *lab_figure_curve(const lab_figure *figure, int key);
  * A column is a list of whole numbers, each the difference from the one before, in units of 10^-k; empty for none. */
 void lab_figures_json(const lab_figures *figures, FILE *file);
 
-/* What there is to draw.
+/* What there is to show row by row and to draw.
  * Out:     figures  to be freed with lab_figures_free; NULL after an error
- * Returns: LAB_OK; LAB_WORLD without memory. */
-int lab_figures_make(const lab_report *report, const lab_residual_table *table, lab_figures **figures,
-                     lab_error *error);
+ * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
+int lab_figures_make(const lab_report *report, lab_figures **figures, lab_error *error);
 void lab_figures_free(lab_figures *figures);
 
 /* Draw each into a folder as <name>.svg, whole or not at all, by gnuplot; those that an earlier run has left there go.
@@ -133,5 +135,36 @@ void lab_figures_free(lab_figures *figures);
  *          demanded  whether it is an error if there is no gnuplot; else none is drawn
  * Returns: LAB_OK; LAB_WORLD if gnuplot fails or a file cannot be written. */
 int lab_figures_draw(const lab_figures *figures, const char *folder, int demanded, lab_error *error);
+
+/* ---- Valve signature: the pressures that balance the stem over its travel, in either direction ---- */
+
+enum { LAB_SIGNATURE_POINTS = 51 };
+
+/* Lines of a signature: the stem is about to move down, has no dry friction, is about to move up. */
+enum lab_signature_line { LAB_SIGNATURE_DOWN, LAB_SIGNATURE_SPRING, LAB_SIGNATURE_UP, LAB_SIGNATURE_LINES };
+
+typedef struct lab_signature {
+  double x[LAB_SIGNATURE_POINTS];                      /* [m] from stop to stop */
+  double p[LAB_SIGNATURE_LINES][LAB_SIGNATURE_POINTS]; /* [Pa] gauge */
+  double bench_lower, bench_upper;                     /* [Pa] bench set: of the spring alone at either stop */
+  double spring_rate;                                  /* [N/m] mean over the stroke, as the pressure shows it */
+  double band;                                         /* [Pa] between up and down at mid travel */
+} lab_signature;
+
+/* The signature of a rig, with what its effects and free terms do to forces at rest; a force that builds up over
+ * travel, such as spring_hysteresis, is left out. Returns: LAB_OK; LAB_DATA for a parameter out of bounds or a vessel,
+ * which has none. */
+int lab_signature_make(const lab_rig *rig, lab_signature *signature, lab_error *error);
+
+/* The rigs of a report that have a signature: as declared, as found, and as the baseline has it, if there is one.
+ * Out:     model
+ * Returns: their number. */
+enum { LAB_SIGNATURE_MODELS = 3 };
+typedef struct lab_signature_model {
+  int key; /* enum lab_curve_key_id */
+  const lab_rig *rig;
+  lab_signature signature;
+} lab_signature_model;
+int lab_signature_models(const lab_report *report, lab_signature_model model[LAB_SIGNATURE_MODELS]);
 
 #endif

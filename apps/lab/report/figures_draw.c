@@ -6,12 +6,8 @@
 #include <string.h>
 
 #include "../base/gnuplot.h"
-#include "figures_private.h"
 
-/* A line a string; made by make. */
-static const char *const style_gp[] = {
-#include "study/figures/style.gp.inc"
-    NULL};
+#include "study/figures/style.gp.inc" /* style_gp; made by make */
 
 /* Places in the drawing: of the first panel, above each, of the axis below; sides as shares of the width. */
 enum { TOP = 95, KEY = 25, ABOVE = 45, AXIS = 40 };
@@ -90,7 +86,7 @@ static void put_data(const script *s, const lab_panel *panel, int number)
   const double ends[] = {x->value[0], x->value[x->n - 1]}, level[] = {*y->value, *y->value};
   const lab_line flat = {2, ends, level, 0, NULL},
                  curve = {x->n, x->value, y->value, panel->x == s->all->t ? s->all->n_runs : 0, s->all->first};
-  const size_t n = lab_envelope(y->n == 1 ? &flat : &curve, FIGURE_COLUMNS, s->point);
+  const size_t n = lab_envelope(y->n == 1 ? &flat : &curve, LAB_FIGURE_COLUMNS, s->point);
   size_t i;
   fprintf(s->file, "$curve_%d << EOD\nx,y\n", number);
   for (i = 0; i < n; i++)
@@ -161,17 +157,10 @@ static void put_axes(const script *s, int i)
     fputs("set format x \"\"\nunset xlabel\n", s->file);
 }
 
-/* Whether a curve has a value: what a model that cannot be followed would have shown has none. */
-static int has_values(const script *s, const lab_curve *curve)
-{
-  const lab_figure_column *y = &s->all->column[curve->y];
-  double low, high;
-  return lab_range(y->value, y->n, &low, &high);
-}
-
 static void put_panel(const script *s, int i, double top)
 {
   const lab_panel *panel = &s->figure->panel[i];
+  double low, high;
   int c, drawn = 0;
   fputs("@NEXT\n", s->file);
   for (c = 0; c < panel->n_curves; c++)
@@ -179,7 +168,8 @@ static void put_panel(const script *s, int i, double top)
   put_place(s, i, top);
   put_axes(s, i);
   for (c = 0; c < panel->n_curves; c++) {
-    if (!has_values(s, &panel->curve[c]))
+    const lab_figure_column *y = &s->all->column[panel->curve[c].y];
+    if (!lab_range(y->value, y->n, &low, &high)) /* what a model that cannot be followed would have shown */
       continue;
     fprintf(s->file, "%s $curve_%d using \"x\":%s\"y\" ", drawn++ ? "," : "plot", c,
             panel->curve[c].form == LAB_FORM_BAND ? "(-column(\"y\")):" : "");
@@ -209,8 +199,8 @@ static void put_figure(const script *s)
  * Out:     done  0 if there is no gnuplot */
 static int draw(const lab_figures *all, const lab_figure *figure, const char *path, int *done, lab_error *error)
 {
-  script s = {tmpfile(), all, figure, malloc(((size_t)3 * FIGURE_COLUMNS + (size_t)all->n_runs) * sizeof(lab_point)),
-              height_of(figure)};
+  script s = {tmpfile(), all, figure,
+              malloc(((size_t)3 * LAB_FIGURE_COLUMNS + (size_t)all->n_runs) * sizeof(lab_point)), height_of(figure)};
   int status = s.point ? LAB_OK : lab_fail_memory(error, "the figures");
   if (!s.file)
     status = lab_fail(error, LAB_WORLD, "no room for the script of the figures in the folder of temporary files");

@@ -73,6 +73,11 @@ int lab_report_catalogue(FILE *file, const lab_sources *from, lab_error *error)
   return LAB_OK;
 }
 
+const pneu_term *lab_report_term(const lab_report *report, const lab_found *found)
+{
+  return &report->completed->rig.term[found->term];
+}
+
 int lab_report_size(const lab_report *report, int param)
 {
   const int j = lab_unknowns_find_onset(report->completed, param);
@@ -120,7 +125,6 @@ double lab_report_in_noise(const lab_errors *errors)
 
 double lab_report_chance(const lab_report *report, const lab_found *found)
 {
-  return found->effect >= 0
-             ? found->p_value
-             : lab_free_term_p_value(&report->completed->rig.term[found->term], found->statistic, found->degrees);
+  return found->effect >= 0 ? found->p_value
+                            : lab_free_term_p_value(lab_report_term(report, found), found->statistic, found->degrees);
 }

@@ -47,8 +47,7 @@ typedef struct lab_report {
 /* What the files of an answer are written from. */
 typedef struct lab_sources {
   const lab_report *report;
-  const struct lab_residual_table *table; /* NULL where only report.json and the model are written */
-  const struct lab_figures *figures;      /* the same */
+  const struct lab_figures *figures; /* and rows; NULL where only report.json and the model are written */
 } lab_sources;
 
 /* Write a file that has been opened; errors of the stream are left to lab_out_close.
@@ -62,6 +61,14 @@ lab_report_writer lab_report_html;     /* a page that needs nothing else, figure
 /* Write one of them into a folder, whole or not at all.  Returns: LAB_OK; LAB_DATA for a path too long; LAB_WORLD. */
 int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
                     lab_error *error);
+
+/* The template of a page, and to its values the styles and scripts that the program carries inside for it.
+ * In:      page    "report", or "index" of a batch
+ * Returns: to be freed; NULL without memory */
+char *lab_page_text(const char *page, cJSON *values);
+
+/* The free term that was found. */
+const pneu_term *lab_report_term(const lab_report *report, const lab_found *found);
 
 /* The unknown that is the size of something found: from its onset on, where it has one.
  * In:      param  as in pneu_param_describe
@@ -98,9 +105,9 @@ double lab_report_refit_explains(const lab_search_result *result, const lab_scor
 /* The first line: what deviates from the declared values, and what is missing, in the words of a person, with the names
  * of effects in brackets; the second: what that does to the error, "" where the log cannot carry an answer; and both.
  */
-void lab_report_headline(const lab_report *report, char *text, size_t size);
-void lab_report_evidence(const lab_report *report, char *text, size_t size);
-void lab_report_sentence(const lab_report *report, char *text, size_t size);
+void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
+void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
+void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 
 enum { LAB_EFFECT_SENTENCE = 256 };
 
@@ -111,13 +118,8 @@ enum { LAB_EFFECT_SENTENCE = 256 };
  * Out:     text   Returns: text */
 const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char text[LAB_EFFECT_SENTENCE]);
 
-/* What has changed since the baseline: "condition" and "changes" of report.json; a sentence with a space behind it. */
-void lab_report_changes(const lab_changes *changes, cJSON *root);
-void lab_report_onset_json(cJSON *object, const char *name, const lab_onset *onset); /* NULL: nothing */
-void lab_report_change_sentence(const lab_changes *changes, char *text, size_t size);
-
-/* What one thing that was found does, as in the first line but without its name.  Out: text */
+/* What one thing that was found does, as in the first line but without its name.  Out: text  Returns: text */
 enum { LAB_FOUND_SENTENCE = 512 };
-void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE]);
+const char *lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE]);
 
 #endif

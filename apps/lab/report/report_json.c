@@ -3,7 +3,6 @@
 
 #include "../base/json.h"
 #include "../base/text.h"
-#include "../metrics/metricstext.h"
 #include "../rig/rigterm.h"
 #include "../trace/freeterms.h"
 #include "report.h"
@@ -22,6 +21,46 @@ static cJSON *add_interval(cJSON *to, const char *name, double value, const char
   return o;
 }
 
+/* "onset" or "end", where there is one. */
+static void add_onset(cJSON *o, const char *name, const lab_onset *onset)
+{
+  cJSON *at;
+  if (!onset || !onset->known)
+    return;
+  at = cJSON_AddObjectToObject(o, name);
+  cJSON_AddNumberToObject(at, "t", onset->t);
+  cJSON_AddStringToObject(at, "unit", "s");
+  lab_json_range(at, "ci95", onset->low, onset->high);
+}
+
+static void add_change(cJSON *list, const lab_change *change)
+{
+  char name[LAB_PARAM_NAME_TEXT];
+  cJSON *o = lab_json_append(list), *alike;
+  int i;
+  cJSON_AddStringToObject(o, "what", lab_change_name(change->param, name));
+  cJSON_AddStringToObject(o, "parameter", lab_fit_name(change->param, name));
+  LAB_JSON_NUMBERS(o, {"then", change->then}, {"now", change->now});
+  cJSON_AddStringToObject(o, "unit", lab_change_unit(change));
+  lab_json_range(o, "ci95", change->low, change->high);
+  alike = cJSON_AddArrayToObject(o, "indistinguishable_from");
+  for (i = 0; i < change->n_alike; i++)
+    lab_json_say(alike, "%s", lab_change_name(change->alike[i], name));
+  LAB_JSON_NUMBERS(o, {"statistic", change->statistic}, {"p_value", change->p_value});
+  add_onset(o, "onset", &change->begin);
+  add_onset(o, "end", &change->end);
+}
+
+static void add_changes(const lab_changes *changes, cJSON *root)
+{
+  cJSON *list;
+  int i;
+  cJSON_AddStringToObject(root, "condition", lab_since_text(changes->condition));
+  list = cJSON_AddArrayToObject(root, "changes");
+  for (i = 0; i < changes->n; i++)
+    add_change(list, &changes->change[i]);
+}
+
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
   const int j = param < 0 ? -1 : lab_report_size(report, param);
@@ -33,29 +72,21 @@ static void add_effect_param(cJSON *to, const lab_report *report, int param)
                report->result->fit.high[j]);
 }
 
-static void add_sentence(cJSON *to, const lab_report *report, const lab_found *found)
-{
-  char sentence[LAB_FOUND_SENTENCE];
-  lab_report_found_sentence(report, found, sentence);
-  cJSON_AddStringToObject(to, "sentence", sentence);
-}
-
 static void add_found(cJSON *to, const lab_report *report, int which)
 {
   const lab_found *found = &report->result->found[which];
   const pneu_effect *effect = pneu_effect_at(found->effect);
   cJSON *o = lab_json_append(to), *list;
+  char sentence[LAB_FOUND_SENTENCE];
   int i;
   cJSON_AddStringToObject(o, "effect", effect->name);
   cJSON_AddStringToObject(o, "equation", effect->equation);
-  add_sentence(o, report, found);
+  cJSON_AddStringToObject(o, "sentence", lab_report_found_sentence(report, found, sentence));
   list = cJSON_AddObjectToObject(o, "parameters");
   add_effect_param(list, report, found->param);
   add_effect_param(list, report, found->shape);
-  lab_report_onset_json(o, "onset", lab_report_onset(report, found->param));
-  lab_json_numbers(
-      o, (const lab_json_named[]){
-             {"statistic", found->statistic}, {"p_value", found->p_value}, {"explained", found->explained}, {NULL, 0}});
+  add_onset(o, "onset", lab_report_onset(report, found->param));
+  LAB_JSON_NUMBERS(o, {"statistic", found->statistic}, {"p_value", found->p_value}, {"explained", found->explained});
   list = cJSON_AddArrayToObject(o, "indistinguishable_from");
   for (i = 0; i < found->n_alike; i++)
     lab_json_say(list, "%s", pneu_effect_at(found->alike[i])->name);
@@ -64,19 +95,16 @@ static void add_found(cJSON *to, const lab_report *report, int which)
 
 static void add_unlisted(cJSON *to, const lab_report *report, const lab_found *found)
 {
-  const pneu_term *term = &report->completed->rig.term[found->term];
+  const pneu_term *term = lab_report_term(report, found);
   cJSON *o = lab_json_append(to);
-  char where[LAB_WHERE_TEXT];
+  char where[LAB_WHERE_TEXT], sentence[LAB_FOUND_SENTENCE];
   cJSON_AddStringToObject(o, "equation", lab_free_term_equation(term));
   cJSON_AddStringToObject(o, "argument", lab_term_arguments[term->argument].key);
   cJSON_AddStringToObject(o, "what", lab_free_term_what(term));
   cJSON_AddStringToObject(o, "where", lab_free_term_where(term, where));
-  add_sentence(o, report, found);
-  lab_json_numbers(o, (const lab_json_named[]){{"statistic", found->statistic},
-                                               {"degrees", found->degrees},
-                                               {"p_value", lab_report_chance(report, found)},
-                                               {"explained", found->explained},
-                                               {NULL, 0}});
+  cJSON_AddStringToObject(o, "sentence", lab_report_found_sentence(report, found, sentence));
+  LAB_JSON_NUMBERS(o, {"statistic", found->statistic}, {"degrees", found->degrees},
+                   {"p_value", lab_report_chance(report, found)}, {"explained", found->explained});
 }
 
 static void add_errors(cJSON *to, const char *name, const lab_errors *errors)
@@ -108,19 +136,14 @@ static void add_log(cJSON *root, const lab_unknowns *u)
     last = x->log;
     o = lab_json_append(list);
     cJSON_AddStringToObject(o, "log", lab_file_name(x->log->path));
-    lab_json_numbers(
-        o, (const lab_json_named[]){{"clock_step_s", x->log->clock_step}, {"clock_jitter_s", x->jitter}, {NULL, 0}});
+    LAB_JSON_NUMBERS(o, {"clock_step_s", x->log->clock_step}, {"clock_jitter_s", x->jitter});
     for (c = 0; c < x->n_channels; c++) {
       const int at = x->channel[c];
       channel = cJSON_AddObjectToObject(o, lab_channels[at].quantity);
       cJSON_AddStringToObject(channel, "unit", lab_channels[at].unit);
-      lab_json_numbers(channel, (const lab_json_named[]){{"noise", x->sigma[c]},
-                                                         {"noise_declared", x->rig->noise[at]},
-                                                         {"resolution", x->resolution[c]},
-                                                         {"correlation", x->colour[c].memory * x->colour[c].share},
-                                                         {"hum", x->log->hum[at].amplitude},
-                                                         {"hum_hz", x->log->hum[at].frequency},
-                                                         {NULL, 0}});
+      LAB_JSON_NUMBERS(channel, {"noise", x->sigma[c]}, {"noise_declared", x->rig->noise[at]},
+                       {"resolution", x->resolution[c]}, {"correlation", x->colour[c].memory * x->colour[c].share},
+                       {"hum", x->log->hum[at].amplitude}, {"hum_hz", x->log->hum[at].frequency});
     }
   }
 }
@@ -138,11 +161,8 @@ static void add_whiteness(cJSON *root, const lab_search_result *r)
     for (i = 0; i < LAB_STAGE_COUNT; i++) {
       const lab_whiteness *w = &r->left[i][c].whiteness;
       stage = cJSON_AddObjectToObject(o, name[i]);
-      lab_json_numbers(stage, (const lab_json_named[]){{"lag1", w->correlation[1]},
-                                                       {"statistic", w->statistic},
-                                                       {"degrees", w->degrees},
-                                                       {"p_value", w->p_value},
-                                                       {NULL, 0}});
+      LAB_JSON_NUMBERS(stage, {"lag1", w->correlation[1]}, {"statistic", w->statistic}, {"degrees", w->degrees},
+                       {"p_value", w->p_value});
       cJSON_AddBoolToObject(stage, "white", lab_is_white(w));
     }
   }
@@ -171,7 +191,7 @@ static void add_parameter(cJSON *to, const lab_report *report, int j)
   cJSON *o = add_interval(to, x->name, x->value, x->unit, fit->low[j], fit->high[j]);
   lab_deviation d;
   if (lab_deviation_of(report->rig, report->completed, fit, j, &d))
-    lab_json_numbers(o, (const lab_json_named[]){{"declared", d.declared}, {"tolerance", d.tolerance}, {NULL, 0}});
+    LAB_JSON_NUMBERS(o, {"declared", d.declared}, {"tolerance", d.tolerance});
 }
 
 static void add_parameters(cJSON *to, const lab_report *report)
@@ -200,12 +220,9 @@ static void add_candidates(cJSON *to, const lab_search_result *r)
     pneu_param_describe(c->param, &info);
     cJSON_AddStringToObject(o, "effect", pneu_effect_at(c->effect)->name);
     cJSON_AddStringToObject(o, "parameter", info.name);
-    lab_json_numbers(o, (const lab_json_named[]){{"statistic", c->statistic},
-                                                 {"p_value", c->p_value},
-                                                 {"explained", lab_report_refit_explains(r, c)},
-                                                 {"explained_by_slope", c->explained},
-                                                 {"visible", c->visible},
-                                                 {NULL, 0}});
+    LAB_JSON_NUMBERS(o, {"statistic", c->statistic}, {"p_value", c->p_value},
+                     {"explained", lab_report_refit_explains(r, c)}, {"explained_by_slope", c->explained},
+                     {"visible", c->visible});
   }
 }
 
@@ -222,12 +239,12 @@ static void add_condition(cJSON *root, const lab_report *report)
     const lab_deviation *d = &all->of[i];
     cJSON *o = lab_json_append(list);
     cJSON_AddStringToObject(o, "parameter", d->name);
-    lab_json_numbers(o, (const lab_json_named[]){{"declared", d->declared}, {"found", d->found}, {NULL, 0}});
+    LAB_JSON_NUMBERS(o, {"declared", d->declared}, {"found", d->found});
     add_unit_and_interval(o, d->unit, d->lower, d->upper);
-    lab_json_numbers(o, (const lab_json_named[]){{"ratio", d->ratio}, {"tolerance", d->tolerance}, {NULL, 0}});
+    LAB_JSON_NUMBERS(o, {"ratio", d->ratio}, {"tolerance", d->tolerance});
     cJSON_AddBoolToObject(o, "beyond", d->beyond);
     cJSON_AddBoolToObject(o, "held", d->held);
-    lab_report_onset_json(o, "onset", lab_report_onset(report, d->param));
+    add_onset(o, "onset", lab_report_onset(report, d->param));
   }
 }
 
@@ -235,7 +252,7 @@ static cJSON *add_model(cJSON *list, const char *name, double chi2, double bic)
 {
   cJSON *o = lab_json_append(list);
   cJSON_AddStringToObject(o, "model", name);
-  lab_json_numbers(o, (const lab_json_named[]){{"chi2", chi2}, {"bic", bic}, {NULL, 0}});
+  LAB_JSON_NUMBERS(o, {"chi2", chi2}, {"bic", bic});
   return o;
 }
 
@@ -275,14 +292,14 @@ static cJSON *json_of(const lab_report *report)
   cJSON *root = cJSON_CreateObject(), *o;
   char sentence[LAB_SENTENCE_TEXT];
   int i;
-  lab_report_sentence(report, sentence, sizeof sentence);
+  lab_report_sentence(report, sentence);
   cJSON_AddStringToObject(root, "verdict", lab_verdict_text(result->verdict));
   cJSON_AddStringToObject(root, "sentence", sentence);
   if (lab_report_doubt(report))
     cJSON_AddStringToObject(root, "doubt", lab_report_doubt(report));
   cJSON_AddBoolToObject(root, "complete", !result->cut_short);
   if (report->changes)
-    lab_report_changes(report->changes, root);
+    add_changes(report->changes, root);
   o = cJSON_AddArrayToObject(root, "found");
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].effect >= 0)
@@ -311,10 +328,8 @@ static cJSON *json_of(const lab_report *report)
   add_steps(root, report);
   lab_report_limits(report, cJSON_AddArrayToObject(root, "limitations"));
   add_metrics(root, report);
-  lab_json_numbers(cJSON_AddObjectToObject(root, "timing"), (const lab_json_named[]){{"fit_s", report->fit_s},
-                                                                                     {"trace_s", report->trace_s},
-                                                                                     {"total_s", report->total_s},
-                                                                                     {NULL, 0}});
+  LAB_JSON_NUMBERS(cJSON_AddObjectToObject(root, "timing"), {"fit_s", report->fit_s}, {"trace_s", report->trace_s},
+                   {"total_s", report->total_s});
   return root;
 }
 

@@ -1,36 +1,237 @@
-/* The answer in words: what deviates, what is missing, and what that does to the error. */
+/* The answer in words: what an effect does, what has changed, deviates or is missing, and what limits the answer. */
 #include <ctype.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "../base/format.h"
+#include "../base/json.h"
+#include "../base/text.h"
 #include "../trace/freeterms.h"
 #include "report.h"
 
 enum { DEVIATIONS_TOLD = 3 };
+static const double wider = 1.1; /* times, from which on a wide interval is worth a word */
 
-typedef struct words {
-  char *text;
-  size_t size;
-} words;
+/* Append to the text of an answer. */
+#define ADD(text, ...) lab_append(text, LAB_SENTENCE_TEXT, __VA_ARGS__)
 
-static void add(const words *w, const char *format, ...) LAB_PRINTF(2, 3);
+/* ---- An effect: its sizes, each from a rig and its parameter, of which the amount counts ---- */
 
-static void add(const words *w, const char *format, ...)
+enum { NONE = -1 };
+
+typedef struct about {
+  lab_rig rig;
+  int param;
+  double value; /* of it, without its sign */
+} about;
+
+static double of_itself(const about *a)
 {
-  const size_t used = strlen(w->text);
-  va_list list;
-  va_start(list, format);
-  vsnprintf(w->text + used, w->size - used, format, list);
-  va_end(list);
+  return a->value;
 }
 
-/* ", " or " and " before item i of n, nothing before the first. */
-static const char *joint(int i, int n)
+static double reciprocal(const about *a)
 {
-  return i == 0 ? "" : i + 1 < n ? ", " : " and ";
+  return 1 / a->value;
+}
+
+static double friction_rise(const about *a)
+{
+  return a->value * (double)a->rig.params.supply_pressure;
+}
+
+/* Of the straight spring's force at full stroke. */
+static double of_spring(const about *a)
+{
+  const pneu_params *p = &a->rig.params;
+  const double stroke = (double)p->stroke;
+  return 100 * a->value * pow(stroke, 3) / ((double)p->spring_rate * (stroke + (double)p->spring_preload));
+}
+
+/* Flow of an orifice between supply and ambient pressure [kg/s]. */
+static double full_flow(const about *a, double area)
+{
+  const pneu_params *p = &a->rig.params;
+  pneu_model model;
+  pneu_flow flow;
+  lab_error error;
+  if (lab_rig_model(&a->rig, &model, &error))
+    return (double)NAN;
+  pneu_orifice(&model, a->rig.laws.flow, (pneu_real)area, p->supply_pressure + p->ambient_pressure,
+               p->supply_temperature, p->ambient_pressure, &flow);
+  return (double)flow.q;
+}
+
+static double fill_drop(const about *a)
+{
+  return a->value * full_flow(a, (double)a->rig.params.fill_area);
+}
+
+static double vent_drop(const about *a)
+{
+  return a->value * full_flow(a, (double)a->rig.params.vent_area);
+}
+
+/* What leaves a chamber at supply pressure while both orifices are shut [kg/s]. */
+static double outflow(const lab_rig *rig)
+{
+  const pneu_params *p = &rig->params;
+  const pneu_input input = {.supply_pressure = p->supply_pressure};
+  const pneu_state state = {
+      .p = p->supply_pressure, .T = p->ambient_temperature, .x = p->stroke, .mode = PNEU_MODE_STUCK};
+  pneu_model model;
+  pneu_output out;
+  lab_error error;
+  if (lab_rig_model(rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
+    return (double)NAN;
+  return (double)out.mass_out;
+}
+
+/* How much more that is with the effect than without [kg/s]. */
+static double leak(const about *a)
+{
+  lab_rig without = a->rig;
+  *pneu_param_at(&without.params, a->param) = 0;
+  return outflow(&a->rig) - outflow(&without);
+}
+
+/* In litres at 0 degC and 101325 Pa (DIN 1343) an hour. */
+static double leak_normal(const about *a)
+{
+  const double density = 101325 / ((double)a->rig.params.gas_constant * 273.15);
+  return leak(a) / density * 1e3 * 3600;
+}
+
+static double leak_share(const about *a)
+{
+  return 100 * leak(a) / full_flow(a, (double)a->rig.params.fill_area);
+}
+
+/* Each amount, in a unit or as a share of a parameter. */
+static const struct {
+  const char *name, *unit; /* unit: as in lab_format_as; "": that of the parameter */
+  double (*amount)(const about *a);
+  double times;
+  int of;      /* the parameter that it is a share of; NONE: it is no share of one */
+  double most; /* beyond, it is left out, for what it is a share of is nearly nothing; 0: it always tells */
+} sizes[] = {
+    {"size", "", of_itself, 1, NONE, 0},
+    {"percent", "%", of_itself, 100, NONE, 0},
+    {"reciprocal", "J/K", reciprocal, 1, NONE, 0},
+    {"of_fill", "%", of_itself, 100, PNEU_PARAM_fill_area, 1000},
+    {"of_stroke", "%", of_itself, 100, PNEU_PARAM_stroke, 1000},
+    {"of_supply", "%", of_itself, 100, PNEU_PARAM_supply_pressure, 1000},
+    {"of_friction", "%", of_itself, 100, PNEU_PARAM_dry_friction, 1000},
+    {"of_friction_rise", "%", friction_rise, 100, PNEU_PARAM_dry_friction, 1000},
+    {"friction_rise", "N", friction_rise, 1, NONE, 0},
+    {"of_spring", "%", of_spring, 1, NONE, 0},
+    {"fill_drop", "Pa", fill_drop, 1, NONE, 0},
+    {"vent_drop", "Pa", vent_drop, 1, NONE, 0},
+    {"leak", "Nl/h", leak_normal, 1, NONE, 0},
+    {"leak_share", "%", leak_share, 1, NONE, 1000},
+};
+
+/* A size with its unit; "" for one that is not finite or beyond what tells, and the name itself where it is none. */
+static void write_size(const about *a, const char *name, size_t length, char text[2 * LAB_FORMAT_TEXT])
+{
+  enum { SIZES = sizeof sizes / sizeof *sizes };
+  char number[LAB_FORMAT_TEXT];
+  pneu_params params = a->rig.params;
+  pneu_param_info info;
+  double size;
+  int i = 0;
+  while (i < SIZES && (strlen(sizes[i].name) != length || strncmp(sizes[i].name, name, length) != 0))
+    i++;
+  snprintf(text, 2 * LAB_FORMAT_TEXT, "{%.*s}", (int)length, name);
+  if (i == SIZES)
+    return;
+  size = sizes[i].times * sizes[i].amount(a);
+  if (sizes[i].of != NONE)
+    size /= (double)*pneu_param_at(&params, sizes[i].of);
+  pneu_param_describe(a->param, &info);
+  snprintf(text, 2 * LAB_FORMAT_TEXT, "%s",
+           lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
+  if (sizes[i].amount == leak_normal)
+    lab_append(text, 2 * LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
+  if (!isfinite(size) || (sizes[i].most > 0 && size > sizes[i].most))
+    *text = '\0';
+}
+
+/* One of the two words of {+more|less}. */
+static void write_word(const char *at, int negative, char text[2 * LAB_FORMAT_TEXT])
+{
+  const char *second = at + strcspn(at, "|") + 1;
+  if (negative)
+    snprintf(text, 2 * LAB_FORMAT_TEXT, "%.*s", (int)strcspn(second, "}"), second);
+  else
+    snprintf(text, 2 * LAB_FORMAT_TEXT, "%.*s", (int)(second - at) - 1, at);
+}
+
+const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char text[LAB_EFFECT_SENTENCE])
+{
+  about a = {*rig, param, 0};
+  const double value = (double)*pneu_param_at(&a.rig.params, param);
+  const char *at = pneu_effect_sentence(effect);
+  char part[2 * LAB_FORMAT_TEXT];
+  size_t used = 0, comma = 0;
+  a.value = fabs(value);
+  for (*text = '\0'; *at; used = strlen(text)) {
+    const char *close = strchr(at, '}');
+    if (*at == ',')
+      comma = used;
+    if (*at != '{') {
+      lab_append(text, LAB_EFFECT_SENTENCE, "%c", *at++);
+      continue;
+    }
+    if (at[1] == '+')
+      write_word(at + 2, value < 0, part);
+    else
+      write_size(&a, at + 1, (size_t)(close - at) - 1, part);
+    at = close + 1;
+    lab_append(text, LAB_EFFECT_SENTENCE, "%s", part);
+    if (!*part && comma) { /* drop what hangs on it */
+      text[comma] = '\0';
+      at += strcspn(at, ",.");
+    }
+  }
+  return text;
+}
+
+/* ---- What has changed since the baseline ---- */
+
+/* "dry_friction from 480 N to 724 N (1.51 times) since 14.2 s" */
+static void say_change(const lab_change *change, char text[LAB_SENTENCE_TEXT])
+{
+  char name[LAB_PARAM_NAME_TEXT];
+  const char *unit = lab_change_unit(change), *now = LAB_QUANTITY(change->now, unit, 3);
+  lab_change_name(change->param, name);
+  if (change->then == 0)
+    ADD(text, "%s of %s", name, now);
+  else
+    ADD(text, "%s from %s to %s (%s times)", name, LAB_QUANTITY(change->then, unit, 3), now,
+        LAB_NUMBER(change->now / change->then, 3));
+  if (change->begin.known)
+    ADD(text, " since %s s", LAB_NUMBER(change->begin.t, 4));
+  if (change->end.known)
+    ADD(text, " until %s s", LAB_NUMBER(change->end.t, 4));
+}
+
+static void add_changes(const lab_changes *changes, char text[LAB_SENTENCE_TEXT])
+{
+  int i;
+  if (changes->condition == LAB_SINCE_UNCHANGED)
+    ADD(text, "As it was: nothing has changed since the baseline. ");
+  if (changes->condition == LAB_SINCE_CANNOT_TELL)
+    ADD(text, "Whether anything has changed since the baseline cannot be told: %s. ", changes->why);
+  if (changes->condition != LAB_SINCE_CHANGED)
+    return;
+  ADD(text, "Changed since the baseline: ");
+  for (i = 0; i < changes->n; i++) {
+    ADD(text, "%s", i ? ", " : "");
+    say_change(&changes->change[i], text);
+  }
+  ADD(text, ". ");
 }
 
 /* ---- What deviates ---- */
@@ -43,95 +244,83 @@ static const struct {
              {"orifice_area", "the area of both orifices", NULL, NULL}};
 
 /* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa" */
-static void add_ratio(const words *w, const lab_deviation *d, const char *less, const char *more)
+static void add_ratio(char *text, const lab_deviation *d, const char *less, const char *more)
 {
   const double percent = 100 * (d->ratio - 1);
-  char found[LAB_FORMAT_TEXT], declared[LAB_FORMAT_TEXT];
   if (!isfinite(d->ratio))
-    add(w, "%s in place of %s", lab_format_quantity(d->found, d->unit, 3, found),
-        lab_format_quantity(d->declared, d->unit, 3, declared));
+    ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
   else if (d->ratio >= 2 || d->ratio < 0.5)
-    add(w, "%.2g times its sheet", d->ratio);
+    ADD(text, "%.2g times its sheet", d->ratio);
   else if (less)
-    add(w, "%.2g %% %s", fabs(percent), percent < 0 ? less : more);
+    ADD(text, "%.2g %% %s", fabs(percent), percent < 0 ? less : more);
   else
-    add(w, "%.2g %% %s its sheet", fabs(percent), percent < 0 ? "below" : "above");
+    ADD(text, "%.2g %% %s its sheet", fabs(percent), percent < 0 ? "below" : "above");
 }
 
-static void add_ratio_of(const words *w, const lab_deviation *d, int first)
+static void add_deviation(char *text, const lab_report *report, const lab_deviation *d, int first)
 {
-  const char *verb = first ? "is " : "";
-  char name[LAB_PARAM_NAME_TEXT];
-  size_t i;
-  for (i = 0; i < sizeof plain / sizeof *plain; i++)
-    if (!strcmp(plain[i].name, d->name)) {
-      add(w, "%s %s", plain[i].called, verb);
-      add_ratio(w, d, plain[i].less, plain[i].more);
-      return;
-    }
-  snprintf(name, sizeof name, "%s", d->name);
-  for (i = 0; name[i]; i++)
-    if (name[i] == '_' || name[i] == '.')
-      name[i] = ' ';
-  add(w, "the %s %s", name, verb);
-  add_ratio(w, d, NULL, NULL);
-}
-
-static void add_deviation(const words *w, const lab_report *report, const lab_deviation *d, int first)
-{
-  char since[LAB_SINCE_TEXT];
-  add_ratio_of(w, d, first);
-  add(w, "%s", lab_report_since(lab_report_onset(report, d->param), since));
+  enum { PLAIN = sizeof plain / sizeof *plain };
+  char name[LAB_PARAM_NAME_TEXT + 4], since[LAB_SINCE_TEXT], *at;
+  int i = 0;
+  while (i < PLAIN && strcmp(plain[i].name, d->name) != 0)
+    i++;
+  snprintf(name, sizeof name, "the %s", d->name);
+  while ((at = strpbrk(name, "_.")))
+    *at = ' ';
+  ADD(text, "%s %s", i < PLAIN ? plain[i].called : name, first ? "is " : "");
+  add_ratio(text, d, i < PLAIN ? plain[i].less : NULL, i < PLAIN ? plain[i].more : NULL);
+  ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
 
 /* Those beyond their tolerance.  Returns: their number */
-static int add_deviations(const words *w, const lab_report *report)
+static int add_deviations(char *text, const lab_report *report)
 {
   const lab_deviations *all = &report->deviations;
-  char *begin = w->text + strlen(w->text);
+  char *begin = text + strlen(text);
   int i, n = 0, told = 0;
   for (i = 0; i < all->n; i++)
     n += all->of[i].beyond != 0;
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
     if (all->of[i].beyond) {
-      add(w, "%s", told ? ", " : "");
-      add_deviation(w, report, &all->of[i], told++ == 0);
+      ADD(text, "%s", told ? ", " : "");
+      add_deviation(text, report, &all->of[i], told++ == 0);
     }
   if (n > told)
-    add(w, ", and %d more", n - told);
+    ADD(text, ", and %d more", n - told);
   *begin = (char)toupper((unsigned char)*begin);
   return n;
 }
 
 /* ---- What is missing ---- */
 
-void lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
+const char *lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
 {
   char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT], since[LAB_SINCE_TEXT];
-  const lab_rig *rig = &report->completed->rig;
   lab_rig last;
-  lab_rig_at(rig, INFINITY, &last);
   if (found->effect >= 0) {
+    lab_rig_at(&report->completed->rig, INFINITY, &last);
     lab_effect_sentence(&last, found->effect, found->param, sentence);
     lab_report_since(lab_report_onset(report, found->param), since);
     snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
   } else
     snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
-             lab_free_term_what(&rig->term[found->term]), lab_free_term_where(&rig->term[found->term], where));
+             lab_free_term_what(lab_report_term(report, found)),
+             lab_free_term_where(lab_report_term(report, found), where));
+  return text;
 }
 
 /* The sentence of each, with its name before the full stop. */
-static void add_found(const words *w, const lab_report *report)
+static void add_found(char *text, const lab_report *report)
 {
   const lab_search_result *r = report->result;
   int i;
   for (i = 0; i < r->n_found; i++) {
     char sentence[LAB_FOUND_SENTENCE];
     lab_report_found_sentence(report, &r->found[i], sentence);
-    add(w, "%s%.*s", i ? " " : "", (int)strlen(sentence) - 1, sentence);
+    ADD(text, "%s%.*s", i ? " " : "", (int)strlen(sentence) - 1, sentence);
     if (r->found[i].effect >= 0)
-      add(w, " (%s)", pneu_effect_at(r->found[i].effect)->name);
-    add(w, ".");
+      ADD(text, " (%s)", pneu_effect_at(r->found[i].effect)->name);
+    ADD(text, ".");
   }
 }
 
@@ -152,94 +341,152 @@ static const char *nothing(const lab_report *report, int deviates)
              : "Nothing is missing.";
 }
 
-void lab_report_headline(const lab_report *report, char *text, size_t size)
+void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
-  const words w = {text, size};
   const lab_search_result *r = report->result;
   int deviates;
   *text = '\0';
   if (report->changes)
-    lab_report_change_sentence(report->changes, text, size);
+    add_changes(report->changes, text);
   if (lab_report_doubt(report)) {
-    add(&w, "Undecided: %s", lab_report_doubt(report));
+    ADD(text, "Undecided: %s", lab_report_doubt(report));
     return;
   }
-  deviates = add_deviations(&w, report) > 0;
+  deviates = add_deviations(text, report) > 0;
   if (r->verdict == LAB_VERDICT_NONE) {
-    add(&w, "%s", nothing(report, deviates));
+    ADD(text, "%s", nothing(report, deviates));
     return;
   }
-  add(&w, deviates ? ". " : "");
+  ADD(text, deviates ? ". " : "");
   if (r->verdict == LAB_VERDICT_UNDECIDED)
-    add(&w, "Something%s is missing, but the log does not say what.", deviates ? " else" : "");
+    ADD(text, "Something%s is missing, but the log does not say what.", deviates ? " else" : "");
   else
-    add_found(&w, report);
+    add_found(text, report);
 }
 
 /* ---- What that does to the error ---- */
 
-/* "laminar_leak, heat_transfer and a free term" */
-static void add_names(const words *w, const lab_search_result *r)
-{
-  int i;
-  for (i = 0; i < r->n_found; i++)
-    add(w, "%s%s", joint(i, r->n_found),
-        r->found[i].effect >= 0 ? pneu_effect_at(r->found[i].effect)->name : "a free term");
-}
-
-static void add_undecided(const words *w, const lab_search_result *r)
+/* "With the best candidates, laminar_leak, heat_transfer and a free term, the error falls ..." */
+static void add_undecided(char *text, const lab_search_result *r)
 {
   const double before = lab_report_in_noise(&r->before), after = lab_report_in_noise(&r->after);
-  if (r->n_found == 0) {
-    add(w, "The residual is %.2f times the noise, and no effect of the catalogue explains it.", after);
+  const int n = r->n_found;
+  int i;
+  if (n == 0) {
+    ADD(text, "The residual is %.2f times the noise, and no effect of the catalogue explains it.", after);
     return;
   }
-  add(w, "With the best candidate%s, ", r->n_found > 1 ? "s" : "");
-  add_names(w, r);
-  add(w, ", the error falls from %.2f to %.2f times the noise, but what is left is not noise.", before, after);
+  ADD(text, "With the best candidate%s, ", n > 1 ? "s" : "");
+  for (i = 0; i < n; i++)
+    ADD(text, "%s%s",
+        i == 0      ? ""
+        : i + 1 < n ? ", "
+                    : " and ",
+        r->found[i].effect >= 0 ? pneu_effect_at(r->found[i].effect)->name : "a free term");
+  ADD(text, ", the error falls from %.2f to %.2f times the noise, but what is left is not noise.", before, after);
 }
 
-static void add_small(const words *w, const lab_search_result *r)
+static void add_small(char *text, const lab_search_result *r)
 {
   const int more = r->n_listed + r->has_small - 1;
-  add(w, " Significant, but lowering the error by less than --min-gain: %s",
+  ADD(text, " Significant, but lowering the error by less than --min-gain: %s",
       r->n_listed ? pneu_effect_at(r->listed[0])->name : "a free term");
-  add(w, more > 0 ? " and %d more." : ".", more);
+  ADD(text, more > 0 ? " and %d more." : ".", more);
 }
 
-void lab_report_evidence(const lab_report *report, char *text, size_t size)
+void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
-  const words w = {text, size};
   const lab_search_result *r = report->result;
   const char *with = r->n_found > 1 ? "With them" : "With it";
   *text = '\0';
   if (lab_report_doubt(report))
     return;
   if (r->verdict == LAB_VERDICT_UNDECIDED)
-    add_undecided(&w, r);
+    add_undecided(text, r);
   else if (r->window > 0 && r->n_found > 0)
-    add(&w, "%s the stem sticks and slips as it does in the log; the instants of single slips cannot be predicted.",
+    ADD(text, "%s the stem sticks and slips as it does in the log; the instants of single slips cannot be predicted.",
         with);
   else if (r->n_found > 0)
-    add(&w, "%s the error falls from %.2f to %.2f times the noise.", with, lab_report_in_noise(&r->before),
+    ADD(text, "%s the error falls from %.2f to %.2f times the noise.", with, lab_report_in_noise(&r->before),
         lab_report_in_noise(&r->after));
   else
-    add(&w, "The declared model leaves %.2f times the noise.", lab_report_in_noise(&r->after));
+    ADD(text, "The declared model leaves %.2f times the noise.", lab_report_in_noise(&r->after));
   if (r->verdict == LAB_VERDICT_NONE && is_small(r))
-    add_small(&w, r);
+    add_small(text, r);
   if (r->cut_short)
-    add(&w, " The search was ended by --budget: this is the best answer so far.");
+    ADD(text, " The search was ended by --budget: this is the best answer so far.");
 }
 
-void lab_report_sentence(const lab_report *report, char *text, size_t size)
+void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
-  size_t used;
-  lab_report_headline(report, text, size);
-  used = strlen(text);
-  if (used + 1 < size) {
-    text[used] = ' ';
-    lab_report_evidence(report, text + used + 1, size - used - 1);
-    if (!text[used + 1])
-      text[used] = '\0';
+  char evidence[LAB_SENTENCE_TEXT];
+  lab_report_headline(report, text);
+  lab_report_evidence(report, evidence);
+  ADD(text, *evidence ? " %s" : "%s", evidence);
+}
+
+/* ---- What it has to be read with: remarks on the logs, and what the fit could not determine ---- */
+
+/* The next clause of the remark of a fit that is of use to a reader: not one on instants of the command, which have no
+ * name.
+ * In/out:  remark  moves on
+ * Out:     clause  where it begins
+ * Returns: its length, 0 at the end */
+static int next_clause(const char **limitation, const char **clause)
+{
+  while (**limitation) {
+    const char *end = strstr(*limitation, "; "), *name = strstr(*limitation, "switch_");
+    const int length = (int)(end ? end - *limitation : (long)strlen(*limitation));
+    *clause = *limitation;
+    *limitation += length + (end ? 2 : 0);
+    if (!name || name >= *clause + length)
+      return length;
   }
+  return 0;
+}
+
+void lab_report_undetermined(const lab_report *report, char text[LAB_FIT_UNDETERMINED_TEXT])
+{
+  const char *limitation = report->result->fit.undetermined, *clause;
+  const char *const full = limitation + LAB_FIT_UNDETERMINED_TEXT - 1; /* what ends here was cut */
+  int length;
+  char *to = text;
+  for (*to = '\0'; (length = next_clause(&limitation, &clause)) > 0 && clause + length < full;)
+    to += sprintf(to, "%s%.*s", to > text ? "; " : "", length, clause);
+}
+
+static void add_clauses(const lab_report *report, cJSON *list)
+{
+  char text[LAB_FIT_UNDETERMINED_TEXT];
+  const char *limitation = text, *clause;
+  int length;
+  lab_report_undetermined(report, text);
+  while ((length = next_clause(&limitation, &clause)) > 0)
+    lab_json_say(list, "Among the fitted values, %.*s.", length, clause);
+}
+
+/* Intervals that are wide because there is more noise than declared, or because the model is not the whole truth. */
+static void add_widening(const lab_search_result *r, cJSON *list)
+{
+  const double times = sqrt(r->fit.reduced_chi2);
+  if (!(times > wider) || r->window > 0)
+    return;
+  lab_json_say(
+      list,
+      r->verdict == LAB_VERDICT_UNDECIDED || r->verdict == LAB_VERDICT_UNLISTED
+          ? "More than noise is left, so intervals are %.2g times as wide as noise alone would make them."
+      : lab_residual_stats_white(r->left[LAB_STAGE_AFTER])
+          ? "The residual is white, so the sensors seem to be %.2g times as noisy as the rig file says. The intervals "
+            "allow for that."
+          : "The sensors seem to be %.2g times as noisy as the rig file says. The intervals allow for that.",
+      times);
+}
+
+void lab_report_limits(const lab_report *report, cJSON *list)
+{
+  int i;
+  for (i = 0; report->limitations && i < report->limitations->n; i++)
+    lab_json_say(list, "%s", report->limitations->text[i]);
+  add_widening(report->result, list);
+  add_clauses(report, list);
 }

@@ -1,6 +1,7 @@
-#include "residual_table.h"
+#include "figures.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,10 +28,8 @@ static void survey(const lab_unknowns *u, lab_residual_table *v)
     const lab_run *x = &u->run[e];
     v->n += x->n;
     for (c = 0; c < x->n_channels; c++)
-      if (!lab_residual_table_channel(v, x->channel[c])) {
-        v->channel[v->n_channels].channel = x->channel[c];
-        v->channel[v->n_channels++].sigma = x->sigma[c];
-      }
+      if (!lab_residual_table_channel(v, x->channel[c]))
+        v->channel[v->n_channels++].channel = x->channel[c];
   }
   v->n_runs = u->n_runs;
 }
@@ -51,8 +50,7 @@ static int allocate(lab_residual_table *v, lab_error *error)
   size_t used = 0;
   int c, i;
   v->memory = malloc(arrays * v->n * sizeof *v->memory);
-  v->first = calloc((size_t)v->n_runs + 1, sizeof *v->first);
-  if (!v->memory || !v->first)
+  if (!v->memory)
     return lab_fail_memory(error, "the report");
   v->t = take(v, &used);
   v->set_position = take(v, &used);
@@ -71,7 +69,6 @@ static int allocate(lab_residual_table *v, lab_error *error)
 void lab_residual_table_free(lab_residual_table *v)
 {
   free(v->memory);
-  free(v->first);
   memset(v, 0, sizeof *v);
 }
 
@@ -188,4 +185,54 @@ const char *lab_argument_unit(const lab_report *report, int argument)
 {
   static const char *const unit[LAB_ARGUMENT_COUNT] = {"Pa", "m", "m/s", "1"};
   return argument == LAB_ARGUMENT_U && report->rig->params.proportional_band > 0 ? "Pa" : unit[argument];
+}
+
+/* ---- residual.csv ---- */
+
+static void put_head(FILE *file, const lab_residual_table *v)
+{
+  int c;
+  fputs("run [1],t [s]", file);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    const lab_channel_info *info = &lab_channels[c];
+    if (lab_residual_table_channel(v, c))
+      fprintf(file, ",%s [%s],%s_before [%s],%s_after [%s],%s_residual_before [1],%s_residual_after [1]", info->key,
+              info->unit, info->key, info->unit, info->key, info->unit, info->key, info->key);
+  }
+  fputc('\n', file);
+}
+
+/* One row of one channel; empty where the run does not have it, and in a gap. */
+static void put_cell(FILE *file, const lab_residual_channel *mine, size_t row)
+{
+  if (isnan(mine->measured[row]))
+    fputs(",,,,,", file);
+  else
+    fprintf(file, ",%.9g,%.9g,%.9g,%.5g,%.5g", mine->measured[row], mine->predicted[LAB_STAGE_BEFORE][row],
+            mine->predicted[LAB_STAGE_AFTER][row], mine->residual[LAB_STAGE_BEFORE][row],
+            mine->residual[LAB_STAGE_AFTER][row]);
+}
+
+static void put_run(FILE *file, const lab_residual_table *v, int run, const lab_run *x)
+{
+  size_t i;
+  int c;
+  for (i = 0; i < x->n; i++) {
+    fprintf(file, "%d,%.9g", run + 1, x->log->value[LAB_CHANNEL_TIME][x->first + i]);
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      if (lab_residual_table_channel(v, c))
+        put_cell(file, lab_residual_table_channel(v, c), v->first[run] + i);
+    fputc('\n', file);
+  }
+}
+
+int lab_report_residual(FILE *file, const lab_sources *from, lab_error *error)
+{
+  const lab_residual_table *v = &from->figures->table;
+  int run;
+  (void)error;
+  put_head(file, v);
+  for (run = 0; run < v->n_runs; run++)
+    put_run(file, v, run, &from->report->completed->run[run]);
+  return LAB_OK;
 }

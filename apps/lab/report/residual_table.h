@@ -10,7 +10,6 @@ enum lab_argument { LAB_ARGUMENT_P, LAB_ARGUMENT_X, LAB_ARGUMENT_V, LAB_ARGUMENT
 
 typedef struct lab_residual_channel {
   int channel;                        /* enum lab_channel */
-  double sigma;                       /* noise in the first run that measures it, SI */
   double *measured;                   /* SI; NaN in a gap, as in the arrays below */
   double *predicted[LAB_STAGE_COUNT]; /* SI, as its sensor would show it */
   double *residual[LAB_STAGE_COUNT];  /* [1] measured less predicted, in noise */
@@ -20,7 +19,7 @@ typedef struct lab_residual_channel {
 typedef struct lab_residual_table {
   size_t n;
   int n_runs;
-  size_t *first;                        /* row with which each run begins, then n */
+  size_t first[LAB_RUNS_MAX + 1];       /* row with which each run begins, then n */
   double *t;                            /* [s] of the log; of later runs, moved to follow the one before */
   double *argument[LAB_ARGUMENT_COUNT]; /* SI, of the completed model: the noise of what was measured is also
                                            in the residual; u as in the log where it has one */

@@ -1,4 +1,4 @@
-/* apps/lab/batch/batchlist, batchdone, batchrow, workers, batch */
+/* apps/lab/batch/batchlist, batchrow, workers, batch */
 #include "../../scratch.h"
 
 #include <errno.h>
@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 
 #include "../../../apps/lab/batch/batch.h"
-#include "../../../apps/lab/batch/batchdone.h"
 #include "../../../apps/lab/batch/batchindex.h"
 #include "../../../apps/lab/batch/batchlist.h"
 #include "../../../apps/lab/base/checksum.h"
@@ -296,14 +295,11 @@ static void test_lab_row__error__has_the_headers_cells(void **state)
 
 static void add_line(lab_index *index, const char *name, const char *row, int extent, int status)
 {
-  char folder[700];
   lab_done done = {0};
-  snprintf(folder, sizeof folder, "%s/%s", scratch_path("indexed"), name);
   strcpy(done.outcome.row, row);
   done.extent = extent;
   done.outcome.status = status;
-  assert_int_equal(lab_done_write(folder, &done, &error), LAB_OK);
-  assert_int_equal(lab_index_add(index, name, &done.outcome, &error), LAB_OK);
+  assert_int_equal(lab_index_add(index, name, &done, &error), LAB_OK);
 }
 
 /* The worst first: by verdict, effects by how much of the error they explain, then in the order of the list. */

@@ -4,7 +4,6 @@
 
 #include <cjson/cJSON.h>
 
-#include "../../../apps/lab/metrics/metricstext.h"
 #include "../../../apps/lab/metrics/recording.h"
 #include "../../../apps/study/sets.h"
 

@@ -5,9 +5,7 @@
 
 #include "../../../apps/lab/metrics/recording.h"
 #include "../../../apps/lab/fit/weights.h"
-#include "../../../apps/lab/report/pagetext.h"
 #include "../../../apps/lab/report/figures.h"
-#include "../../../apps/lab/report/signature.h"
 
 enum { ROWS = 1001 };
 static const double spacing = 0.01; /* [s] */
@@ -105,16 +103,13 @@ static int forget_report(void **state)
 /* Write the report into a folder. */
 static void write_report(const lab_report *told, const char *folder)
 {
-  lab_residual_table table;
   lab_figures *figures;
   mkdir(folder, 0777);
-  assert_int_equal(lab_residual_table_collect(told, &table, &error), LAB_OK);
-  assert_int_equal(lab_figures_make(told, &table, &figures, &error), LAB_OK);
+  assert_int_equal(lab_figures_make(told, &figures, &error), LAB_OK);
   assert_int_equal(lab_figures_draw(figures, folder, 1, &error), LAB_OK);
-  assert_int_equal(
-      lab_report_file(folder, "report.html", lab_report_html, &(lab_sources){told, &table, figures}, &error), LAB_OK);
+  assert_int_equal(lab_report_file(folder, "report.html", lab_report_html, &(lab_sources){told, figures}, &error),
+                   LAB_OK);
   lab_figures_free(figures);
-  lab_residual_table_free(&table);
 }
 
 /* The page of the report; kept. */
@@ -591,9 +586,9 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   assert_contains(text, ">white<");
   assert_null(strstr(text, ">not white<"));
   free(text);
-  assert_int_equal(lab_report_file(scratch_path("memory"), "report.json", lab_report_json,
-                                   &(lab_sources){&told, NULL, NULL}, &error),
-                   LAB_OK);
+  assert_int_equal(
+      lab_report_file(scratch_path("memory"), "report.json", lab_report_json, &(lab_sources){&told, NULL}, &error),
+      LAB_OK);
   text = scratch_read(scratch_path("memory/report.json"));
   assert_contains(text, "\"whiteness\":");
   assert_null(strstr(text, "\"white\":\tfalse"));
@@ -611,9 +606,9 @@ static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
   double found;
   (void)state;
   mkdir(scratch_path("json"), 0777);
-  assert_int_equal(lab_report_file(scratch_path("json"), "report.json", lab_report_json,
-                                   &(lab_sources){&report, NULL, NULL}, &error),
-                   LAB_OK);
+  assert_int_equal(
+      lab_report_file(scratch_path("json"), "report.json", lab_report_json, &(lab_sources){&report, NULL}, &error),
+      LAB_OK);
   text = scratch_read(scratch_path("json/report.json"));
   root = cJSON_Parse(text);
   found =

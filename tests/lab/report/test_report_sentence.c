@@ -121,7 +121,7 @@ static lab_report answer(int verdict, int n_found)
 
 static const char *sentence_of(const lab_report *report)
 {
-  lab_report_sentence(report, text, sizeof text);
+  lab_report_sentence(report, text);
   return text;
 }
 
@@ -166,18 +166,18 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   (void)state;
   d->condition = LAB_CONDITION_AS_DECLARED;
   d->of[d->n++] = deviation("dead_volume", 1.2, 0);
-  lab_report_headline(&report, text, sizeof text);
+  lab_report_headline(&report, text);
   assert_string_equal(text, "Nothing is missing, and every declared value is within its tolerance.");
   d->condition = LAB_CONDITION_DEVIATES;
   d->of[0] = deviation("dry_friction", 3.7, 1);
   d->of[d->n++] = deviation("spring_rate", 0.75, 1);
   d->of[d->n++] = deviation("dead_volume", 1.2, 0);
-  lab_report_headline(&report, text, sizeof text);
+  lab_report_headline(&report, text);
   assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft; nothing else is missing.");
   d->of[2].beyond = 1;
   d->of[d->n++] = deviation("area", 0.4, 1);
   d->of[d->n++] = deviation("stroke", 0.95, 1);
-  lab_report_headline(&report, text, sizeof text);
+  lab_report_headline(&report, text);
   assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft, the dead volume 20 % above its "
                             "sheet, and 2 more; nothing else is missing.");
   report = answer(LAB_VERDICT_EFFECT, 1);
@@ -185,7 +185,7 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   report.deviations.of[0] = deviation("external_force", (double)NAN, 1);
   report.deviations.of[0].declared = 0;
   report.deviations.of[0].found = 12;
-  lab_report_headline(&report, text, sizeof text);
+  lab_report_headline(&report, text);
   assert_string_equal(text, "The external force is 12.0 N in place of 0 N. Every command acts 20.0 ms late "
                             "(dead_time).");
 }
