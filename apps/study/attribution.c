@@ -1,5 +1,4 @@
 /* Which part of the air process makes the asymmetry: every combination of its causes, and the Shapley share of each. */
-#include "linearflow.h"
 #include "products.h"
 #include "hypotheses.h"
 #include "stroke.h"

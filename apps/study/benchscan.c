@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "speeds.h"
 #include "stroke.h"
 
 pneu_params bench_params(const pneu_params *base, double low, double width)

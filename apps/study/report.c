@@ -6,7 +6,7 @@
 #include "../lab/base/json.h"
 #include "../lab/base/template.h"
 #include "conclusions.h"
-#include "verdicts.h"
+#include "hypotheses.h"
 
 static const char *const template[] = {
 #include "study/paper/report.md.inc"

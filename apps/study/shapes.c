@@ -8,7 +8,6 @@
 #include "../lab/log/log.h"
 #include "products.h"
 #include "hypotheses.h"
-#include "speeds.h"
 #include "stroke.h"
 
 /* ---- Eq. (1): a first-order lag up, an integrator down ---- */

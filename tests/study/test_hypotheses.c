@@ -3,9 +3,7 @@
 
 #include <math.h>
 
-#include "../../apps/study/speeds.h"
-#include "../../apps/study/stroke.h"
-#include "../../apps/study/verdicts.h"
+#include "../../apps/study/hypotheses.h"
 
 static lab_error error;
 
