@@ -30,7 +30,7 @@ static int measure(const study_cell *c, int present, lab_asymmetry *r, lab_error
     p.swept_ratio = 0;
   }
   if (!(present >> PLACE & 1))
-    hypotheses[H4_BENCH_OFFSET].without(&p, &laws);
+    hypothesis_without(H4_BENCH_OFFSET, &p, &laws);
   return stroke_measure(&p, &p, &laws, r, error);
 }
 

@@ -88,24 +88,6 @@ int bench_scan_range(const bench_scan *scan, int quantity, double limit, double 
   return best > 0;
 }
 
-double bench_scan_max(const bench_scan *scan, int quantity)
-{
-  double value = scan->value[quantity][0];
-  int i;
-  for (i = 1; i < SCAN_POINTS; i++)
-    value = fmax(value, scan->value[quantity][i]);
-  return value;
-}
-
-double bench_scan_min(const bench_scan *scan, int quantity)
-{
-  double value = scan->value[quantity][0];
-  int i;
-  for (i = 1; i < SCAN_POINTS; i++)
-    value = fmin(value, scan->value[quantity][i]);
-  return value;
-}
-
 /* ln of the duration ratio on a bench set; NaN where it cannot be had. */
 static double log_durations(const pneu_params *base, const pneu_laws *law, double low, double width, double *asymmetry)
 {

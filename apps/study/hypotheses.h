@@ -15,12 +15,13 @@ enum { H1_RATE, H2_PRELOAD, H3_LIMITER, H4_BENCH_OFFSET, H5_UNEQUAL_ORIFICES, H6
 typedef struct hypothesis {
   const char *name, *words; /* "H1", what it names */
   const char *paper;        /* its own verdict, section 7 */
-  void (*without)(pneu_params *p, pneu_laws *laws);
-  void (*vary)(const study *s, double value, pneu_params *p); /* figures 15 to 19; NULL: not varied */
-  double scale;                                               /* brings its SI value to the unit of the figure */
+  double scale;             /* of the first five: brings what is varied from SI to the unit of the figure */
 } hypothesis;
 
 extern const hypothesis hypotheses[HYPOTHESES];
+
+/* Take a cause away; of HYPOTHESES nothing. */
+void hypothesis_without(int cause, pneu_params *p, pneu_laws *laws);
 
 /* ---- Verdicts ---- */
 
