@@ -9,7 +9,6 @@
 #include "../base/text.h"
 #include "../log/log.h"
 #include "rig.h"
-#include "actuators.h"
 #include "rigkeys.h"
 #include "sheetwords.h"
 
