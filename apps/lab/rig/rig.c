@@ -7,7 +7,6 @@
 #include "../base/escape.h"
 #include "../base/names.h"
 #include "rigkeys.h"
-#include "rigonset.h"
 #include "rigterm.h"
 #include "sheet.h"
 #include "tolerance.h"
@@ -193,16 +192,23 @@ static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab
   return LAB_OK;
 }
 
-static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
+/* The name of something that can be fitted. */
+static int read_fit_name(const config_setting_t *setting, int *index, lab_error *error)
 {
   char text[LAB_PARAM_COUNT][LAB_PARAM_NAME_TEXT];
   const char *names[LAB_PARAM_COUNT];
-  int i, index, status = lab_config_list(list, 0, LAB_PARAM_COUNT, error);
+  int i;
   for (i = 0; i < LAB_PARAM_COUNT; i++)
     names[i] = lab_fit_name(i, text[i]);
+  return lab_config_choice(setting, names, LAB_PARAM_COUNT, sizeof names[0], index, error);
+}
+
+static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
+{
+  int i, index, status = lab_config_list(list, 0, LAB_PARAM_COUNT, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
     const config_setting_t *setting = config_setting_get_elem(list, (unsigned)i);
-    status = lab_config_choice(setting, names, LAB_PARAM_COUNT, sizeof names[0], &index, error);
+    status = read_fit_name(setting, &index, error);
     if (status == LAB_OK)
       status = add_fit(setting, index, rig, error);
     if (status == LAB_OK)
@@ -287,6 +293,62 @@ static int read_unlisted(const config_setting_t *list, lab_rig *rig, lab_error *
   return lab_terms_read(list, LAB_TERM_MAX, rig->term, &rig->n_terms, error);
 }
 
+/* ---- What begins within a log ---- */
+
+enum { PARAMETER, FROM, VALUE, KEYS };
+static const char *const keys[KEYS] = {"parameter", "from", "value"};
+
+static const double narrowest = 1e-3, widest = 1e3; /* factor on the area of an orifice */
+
+/* Members of one onset, in the order of `keys`; all must be there. */
+static int find_members(const config_setting_t *group, config_setting_t *member[KEYS], lab_error *error)
+{
+  int k, status = lab_config_is_group(group, error);
+  if (status == LAB_OK)
+    status = lab_config_known(group, keys, KEYS, sizeof keys[0], error);
+  for (k = 0; status == LAB_OK && k < KEYS; k++) {
+    member[k] = config_setting_get_member((config_setting_t *)group, keys[k]);
+    if (!member[k])
+      status = lab_config_fail(group, error, "expected the keys parameter, from and value; %s is missing", keys[k]);
+  }
+  return status;
+}
+
+static int read_onset_value(const config_setting_t *setting, lab_rig_onset *onset, lab_error *error)
+{
+  pneu_param_info info;
+  if (onset->param == LAB_PARAM_ORIFICE_AREA)
+    return lab_config_quantity(setting, "1", narrowest, widest, &onset->value, error);
+  pneu_param_describe(onset->param, &info);
+  return lab_config_quantity(setting, info.unit, (double)info.lower, (double)info.upper, &onset->value, error);
+}
+
+static int read_onset(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  lab_rig_onset *onset = &rig->onset[rig->n_onsets];
+  config_setting_t *member[KEYS];
+  if (find_members(group, member, error) || read_fit_name(member[PARAMETER], &onset->param, error) ||
+      lab_config_quantity(member[FROM], "s", -INFINITY, INFINITY, &onset->from, error) ||
+      read_onset_value(member[VALUE], onset, error))
+    return error->status;
+  if (rig->n_onsets > 0 && onset->from < onset[-1].from)
+    return lab_config_fail(member[FROM], error,
+                           "expected no earlier time than that of the entry before, %g s, found %g s", onset[-1].from,
+                           onset->from);
+  rig->n_onsets++;
+  return LAB_OK;
+}
+
+static int read_onsets(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  int i, status = lab_config_list(list, 0, LAB_ONSETS_MAX, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(list); i++)
+    status = read_onset(config_setting_get_elem(list, (unsigned)i), rig, error);
+  return status;
+}
+
+/* ---- All sections ---- */
+
 /* By lab_sheet_read, when all else is known. */
 static int read_later(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
@@ -312,7 +374,7 @@ static const struct section {
     {"positioner", read_positioner},
     {"effects", read_effects},
     {"unlisted", read_unlisted},
-    {"onset", lab_onsets_read},
+    {"onset", read_onsets},
     {"tolerance", lab_tolerance_read},
     {"tube", read_later},
     {"log", read_log},

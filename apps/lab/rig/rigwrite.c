@@ -6,7 +6,6 @@
 #include "../base/escape.h"
 #include "../base/number.h"
 #include "rigkeys.h"
-#include "rigonset.h"
 #include "rigterm.h"
 #include "tolerance.h"
 
@@ -129,6 +128,23 @@ static void write_effects(FILE *file, const lab_rig *rig)
     fputs("};\n", file);
 }
 
+static void write_onsets(FILE *file, const lab_rig *rig)
+{
+  char name[LAB_PARAM_NAME_TEXT], from[LAB_NUMBER_TEXT], value[LAB_NUMBER_TEXT];
+  int i;
+  for (i = 0; i < rig->n_onsets; i++) {
+    const lab_rig_onset *onset = &rig->onset[i];
+    pneu_param_info info = {.unit = "1"};
+    if (onset->param != LAB_PARAM_ORIFICE_AREA)
+      pneu_param_describe(onset->param, &info);
+    fprintf(file, "%s  { parameter = \"%s\"; from = \"%s s\"; value = \"%s %s\"; }", i ? ",\n" : "onset = (\n",
+            lab_fit_name(onset->param, name), lab_number_write(onset->from, from),
+            lab_number_write(onset->value, value), info.unit);
+  }
+  if (rig->n_onsets)
+    fputs("\n);\n", file);
+}
+
 static void write_remark(FILE *file, const char *remark)
 {
   while (remark && *remark) {
@@ -150,7 +166,7 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
   write_positioner(file, rig);
   write_effects(file, rig);
   lab_terms_write(file, rig->term, rig->n_terms);
-  lab_onsets_write(file, rig);
+  write_onsets(file, rig);
   lab_log_format_write(file, &rig->log);
 }
 
