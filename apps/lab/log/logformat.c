@@ -541,14 +541,13 @@ static int read_key(const config_setting_t *setting, const struct log_key *key, 
 /* Column texts must be readable now, not at the first log. */
 static int check_columns(const config_setting_t *group, const lab_log_format *format, lab_error *error)
 {
-  const lab_column_frame frame = {0, format->stroke, format->command_is_pressure, format->signal};
   lab_column column;
   int i;
   for (i = 0; i < format->n_columns; i++)
-    if (lab_column_read(format->column[i], &frame, &column, error))
+    if (lab_column_read(format->column[i], format, &column, error))
       return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "columns"), error);
   for (i = 0; i < format->n_quantities; i++)
-    if (lab_column_read(format->quantity[i].column, &frame, &column, error))
+    if (lab_column_read(format->quantity[i].column, format, &column, error))
       return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "quantities"), error);
   return LAB_OK;
 }

@@ -1,13 +1,11 @@
-#include "logheader.h"
+#include "logread.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "logmap.h"
 #include "../base/encoding.h"
-
 #include "../base/number.h"
 
 const char *lab_log_quote(const char *text, char shown[LAB_QUOTE])
@@ -29,23 +27,11 @@ static void scale_column(const lab_log_format *format, lab_column *column)
   column->scale *= format->scale[c];
 }
 
-static int read_column(const char *text, const lab_log_format *format, double ambient, lab_column *column,
-                       lab_error *error)
+static int read_column(const char *text, const lab_log_format *format, lab_column *column, lab_error *error)
 {
-  const lab_column_frame frame = {ambient, format->stroke, format->command_is_pressure, format->signal};
-  if (lab_column_read(text, &frame, column, error))
+  if (lab_column_read(text, format, column, error))
     return error->status;
   scale_column(format, column);
-  return LAB_OK;
-}
-
-static int add_column(const char *text, const lab_log_format *format, double ambient, lab_header *header,
-                      lab_error *error)
-{
-  int i = header->n++;
-  strcpy(header->text[i], text);
-  if (read_column(text, format, ambient, &header->column[i], error))
-    return lab_fail_in(error, "column %d", header->n);
   return LAB_OK;
 }
 
@@ -180,26 +166,23 @@ static int fail_without_rows(const lab_csv *csv, lab_error *error)
                   csv->path, csv->line, before.text);
 }
 
-static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *guess, double ambient,
-                        lab_header *header, lab_error *error)
+static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *guess, lab_header *header,
+                        char said[LAB_READ_AS_TEXT], lab_error *error)
 {
   lab_heading heading[LAB_COLUMN_MAX];
-  char said[LAB_MAP_TEXT] = "";
   int i, n = 0;
   memset(heading, 0, sizeof heading);
   csv->mark = format->delimiter;
   if (guess->guessed ? read_guessed(csv, format, guess, heading, &n, error)
                      : read_first(csv, format, heading, &n, error))
     return error->status;
-  if (lab_map_columns(heading, n, guess->guessed, format, ambient, header, said, error))
+  if (guess->guessed)
+    lab_guess_say(guess, format, said);
+  if (lab_map_columns(heading, n, guess->guessed, format, header, said, error))
     return lab_map_is_named(heading, n) || guess->guessed ? fail_in_header(csv, guess, error)
                                                           : fail_without_rows(csv, error);
   for (i = 0; i < n; i++)
     scale_column(format, &header->column[i]);
-  if (guess->guessed)
-    lab_guess_say(guess, format, header->said);
-  if (*said)
-    lab_append(header->said, sizeof header->said, "%s%s", guess->guessed ? "; " : "", said);
   return LAB_OK;
 }
 
@@ -213,14 +196,17 @@ static int skip_lines(lab_csv *csv, int n, lab_error *error)
 }
 
 /* Columns as the rig file lists them, with the words of a long file. */
-static int take_listed(const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+static int take_listed(const lab_log_format *format, lab_header *header, lab_error *error)
 {
   int i;
-  for (i = 0; i < format->n_columns; i++)
-    if (add_column(format->column[i], format, ambient, header, error))
-      return lab_fail_in(error, "log.columns");
+  for (i = 0; i < format->n_columns; i++) {
+    strcpy(header->text[i], format->column[i]);
+    if (read_column(format->column[i], format, &header->column[i], error))
+      return lab_fail_in(error, "log.columns: column %d", i + 1);
+  }
+  header->n = format->n_columns;
   for (i = 0; i < format->n_quantities; i++)
-    if (read_column(format->quantity[i].column, format, ambient, &header->quantity[i], error))
+    if (read_column(format->quantity[i].column, format, &header->quantity[i], error))
       return lab_fail_in(error, "log.quantities");
   return LAB_OK;
 }
@@ -274,18 +260,19 @@ static int check_long(const lab_header *header, const lab_log_format *format, la
                   "log.quantities, or none of the three");
 }
 
-int lab_header_read(lab_csv *csv, lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+int lab_header_read(lab_csv *csv, lab_log_format *format, lab_header *header, char said[LAB_READ_AS_TEXT],
+                    lab_error *error)
 {
   lab_guess guess;
   int i;
   header->n = header->has_stamps = 0;
-  *header->said = '\0';
+  *said = '\0';
   memset(header->quantity, 0, sizeof header->quantity);
   if (lab_guess_form(csv, format, &guess, error) || skip_lines(csv, format->skip_lines, error) ||
-      take_listed(format, ambient, header, error))
+      take_listed(format, header, error))
     return error->status;
   csv->mark = format->delimiter;
-  if (header->n == 0 && read_columns(csv, format, &guess, ambient, header, error))
+  if (header->n == 0 && read_columns(csv, format, &guess, header, said, error))
     return error->status;
   csv->comment = format->comment;
   for (i = 0; i < header->n; i++)

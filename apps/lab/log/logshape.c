@@ -1,4 +1,4 @@
-#include "logshape.h"
+#include "logread.h"
 
 #include <math.h>
 #include <stdlib.h>
