@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/encoding.h"
 #include "../base/number.h"
 
 const char *lab_log_quote(const char *text, char shown[LAB_QUOTE])
@@ -43,13 +42,6 @@ static int has_control(const char *text)
 }
 
 /* ---- The header line, and what stands around it ---- */
-
-/* A first line that begins with a number is a row: the file has no header. */
-static int begins_with_number(const lab_cell *cell, const lab_log_format *format)
-{
-  double value;
-  return lab_number_read(cell->begin, cell->end, format->decimal, format->thousands, &value) == LAB_NUMBER_FINITE;
-}
 
 /* The file has no header: show log.columns with as many columns as it has. */
 static int ask_for_columns(const lab_csv *csv, int cells, lab_error *error)
@@ -94,24 +86,18 @@ static int read_headings(lab_csv *csv, const lab_log_format *format, lab_heading
   return LAB_OK;
 }
 
-static int read_units(lab_csv *csv, int n, lab_heading *heading, lab_error *error)
-{
-  int i;
-  if (lab_csv_cut(csv, error))
-    return error->status;
-  for (i = 0; i < n && i < csv->n && i < LAB_CSV_CELLS; i++)
-    lab_encode_cell(lab_trim(csv->cell[i].begin), heading[i].below, LAB_HEADING_TEXT);
-  return LAB_OK;
-}
-
-static int read_stamps(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, lab_error *error)
+/* A line below the headings: that of their units, or the first row, which shows which of them are dates or times. */
+static int read_below(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, int is_units,
+                      lab_error *error)
 {
   int i;
   if (lab_csv_cut(csv, error))
     return error->status;
   for (i = 0; i < n && i < csv->n && i < LAB_CSV_CELLS; i++) {
     const lab_cell *cell = &csv->cell[i];
-    if (!lab_stamp_read(cell->begin, cell->end, format->date, &heading[i].stamp))
+    if (is_units)
+      lab_encode_cell(lab_trim(cell->begin), heading[i].below, LAB_HEADING_TEXT);
+    else if (!lab_stamp_read(cell->begin, cell->end, format->date, &heading[i].stamp))
       heading[i].stamp = (lab_stamp){0};
   }
   return LAB_OK;
@@ -126,8 +112,8 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
   if (!guess->header)
     return ask_for_columns(csv, guess->cells, error);
   if (read_headings(csv, format, heading, n, error) || (guess->units && go_to(csv, guess->units, error)) ||
-      (guess->units && read_units(csv, *n, heading, error)) || go_to(csv, guess->data, error) ||
-      read_stamps(csv, format, *n, heading, error))
+      (guess->units && read_below(csv, format, *n, heading, 1, error)) || go_to(csv, guess->data, error) ||
+      read_below(csv, format, *n, heading, 0, error))
     return lab_csv_fail_in(csv, error);
   *n = guess->cells;
   lab_csv_restart(csv);
@@ -137,6 +123,7 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
 /* A header in the first line that is no comment. */
 static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *heading, int *n, lab_error *error)
 {
+  double number;
   int more;
   csv->comment = format->comment;
   if (lab_csv_line(csv, &more, error))
@@ -146,7 +133,8 @@ static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *h
                     csv->path);
   if (lab_csv_cut(csv, error))
     return lab_csv_fail_in(csv, error);
-  if (begins_with_number(csv->cell, format))
+  if (lab_number_read(csv->cell->begin, csv->cell->end, format->decimal, format->thousands, &number) ==
+      LAB_NUMBER_FINITE) /* a row: the file has no header */
     return ask_for_columns(csv, csv->n, error);
   return read_headings(csv, format, heading, n, error) ? lab_csv_fail_in(csv, error) : LAB_OK;
 }
