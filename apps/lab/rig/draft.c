@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
 #include "../base/escape.h"
 #include "../base/noise.h"
 #include "../base/text.h"
@@ -162,13 +163,8 @@ typedef struct range {
 
 static range range_of(const draft *d, int channel)
 {
-  const double *value = d->log.value[channel];
-  range r = {INFINITY, -INFINITY};
-  size_t i;
-  for (i = 0; value && i < d->log.n; i++) {
-    r.low = fmin(r.low, value[i]);
-    r.high = fmax(r.high, value[i]);
-  }
+  range r;
+  lab_range(d->log.value[channel], has(d, channel) ? d->log.n : 0, &r.low, &r.high);
   return r;
 }
 
