@@ -195,14 +195,9 @@ static void put_errors(const story *s, cJSON *to)
 
 /* ---- What was asked ---- */
 
-static const config_setting_t *list_of(const config_setting_t *set, const char *key)
-{
-  return config_setting_get_member((config_setting_t *)set, key);
-}
-
 static int is_fitted(const config_setting_t *set, const char *log)
 {
-  const config_setting_t *logs = list_of(set, "fit");
+  const config_setting_t *logs = lab_config_member(set, "fit");
   int i;
   for (i = 0; i < config_setting_length(logs); i++)
     if (!strcmp(config_setting_get_string_elem(logs, i), log))
@@ -212,7 +207,7 @@ static int is_fitted(const config_setting_t *set, const char *log)
 
 static void put_logs(const config_setting_t *set, const char *key, const char *also_fitted, cJSON *to)
 {
-  const config_setting_t *logs = list_of(set, key);
+  const config_setting_t *logs = lab_config_member(set, key);
   cJSON *list = cJSON_CreateArray();
   int i;
   for (i = 0; i < config_setting_length(logs); i++) {
@@ -518,7 +513,7 @@ static void put_left(const sets_left *left, double scale, double noise, cJSON *i
 static int put_channel(const config_setting_t *set, const table *residual, const char *quantity, const char *unit,
                        double noise, cJSON *list, lab_error *error)
 {
-  const config_setting_t *logs = list_of(set, "fit");
+  const config_setting_t *logs = lab_config_member(set, "fit");
   const int channel = sets_channel(quantity);
   const int runs = sets_left_runs(residual), is_log = config_setting_length(logs) == runs;
   double scale, offset;

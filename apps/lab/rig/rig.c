@@ -115,8 +115,8 @@ static int read_laws(const config_setting_t *group, lab_rig *rig, lab_error *err
   if (!effect)
     return LAB_OK;
   if (pneu_effect_find(effect) < 0)
-    return lab_config_fail(config_setting_get_member((config_setting_t *)group, "friction"), error,
-                           "this build of the library has no effect %s", effect);
+    return lab_config_fail(lab_config_member(group, "friction"), error, "this build of the library has no effect %s",
+                           effect);
   first = pneu_effect_params(pneu_effect_find(effect), &count);
   for (i = first; i < first + count; i++) {
     pneu_param_info info;
@@ -300,20 +300,6 @@ static const char *const keys[KEYS] = {"parameter", "from", "value"};
 
 static const double narrowest = 1e-3, widest = 1e3; /* factor on the area of an orifice */
 
-/* Members of one onset, in the order of `keys`; all must be there. */
-static int find_members(const config_setting_t *group, config_setting_t *member[KEYS], lab_error *error)
-{
-  int k, status = lab_config_is_group(group, error);
-  if (status == LAB_OK)
-    status = lab_config_known(group, keys, KEYS, sizeof keys[0], error);
-  for (k = 0; status == LAB_OK && k < KEYS; k++) {
-    member[k] = config_setting_get_member((config_setting_t *)group, keys[k]);
-    if (!member[k])
-      status = lab_config_fail(group, error, "expected the keys parameter, from and value; %s is missing", keys[k]);
-  }
-  return status;
-}
-
 static int read_onset_value(const config_setting_t *setting, lab_rig_onset *onset, lab_error *error)
 {
   pneu_param_info info;
@@ -326,8 +312,9 @@ static int read_onset_value(const config_setting_t *setting, lab_rig_onset *onse
 static int read_onset(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
   lab_rig_onset *onset = &rig->onset[rig->n_onsets];
-  config_setting_t *member[KEYS];
-  if (find_members(group, member, error) || read_fit_name(member[PARAMETER], &onset->param, error) ||
+  const config_setting_t *member[KEYS];
+  if (lab_config_members(group, keys, KEYS, KEYS, member, error) ||
+      read_fit_name(member[PARAMETER], &onset->param, error) ||
       lab_config_quantity(member[FROM], "s", -INFINITY, INFINITY, &onset->from, error) ||
       read_onset_value(member[VALUE], onset, error))
     return error->status;
@@ -477,7 +464,7 @@ static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
   const config_setting_t *root = config_root_setting(config);
   int i, status = lab_config_known(root, sections, SECTIONS, sizeof sections[0], error);
   for (i = 0; status == LAB_OK && i < SECTIONS; i++) {
-    const config_setting_t *member = config_setting_get_member((config_setting_t *)root, sections[i].name);
+    const config_setting_t *member = lab_config_member(root, sections[i].name);
     if (member)
       status = sections[i].read(member, rig, error);
   }
