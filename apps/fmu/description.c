@@ -8,6 +8,7 @@
 #include <libxml/xmlwriter.h>
 
 #include "../lab/base/escape.h"
+#include "../lab/base/units.h"
 #include "carried.h"
 
 /* ---- Writing XML, by libxml2: well-formed and escaped whatever the texts are ---- */
@@ -88,62 +89,22 @@ enum { BASES = 4 };
 /* Attributes of BaseUnit. */
 static const char *const base_names[BASES] = {"kg", "m", "s", "K"};
 
-static const struct {
-  const char *symbol;
-  int exponent[BASES];
-} symbols[] = {
-    {"1", {0, 0, 0, 0}},  {"kg", {1, 0, 0, 0}},   {"m", {0, 1, 0, 0}},  {"s", {0, 0, 1, 0}},  {"K", {0, 0, 0, 1}},
-    {"N", {1, 1, -2, 0}}, {"Pa", {1, -1, -2, 0}}, {"J", {1, 2, -2, 0}}, {"W", {1, 2, -3, 0}},
-};
-enum { SYMBOLS = sizeof symbols / sizeof symbols[0] };
-
-static const int *symbol_at(const char *text, size_t length)
-{
-  int i;
-  for (i = 0; i < SYMBOLS; i++)
-    if (strlen(symbols[i].symbol) == length && strncmp(text, symbols[i].symbol, length) == 0)
-      return symbols[i].exponent;
-  return NULL;
-}
-
-/* The power behind a symbol: "2" of "m2", or "^1.5", the only form with a fraction; 1 where there is none. */
-static double power_at(const char **text)
-{
-  char *end;
-  double power = 1;
-  if (**text == '^') {
-    power = strtod(*text + 1, &end);
-    *text = end;
-  } else if (**text >= '0' && **text <= '9') {
-    power = (double)strtol(*text, &end, 10);
-    *text = end;
-  }
-  return power;
-}
-
-/* Exponents of a unit such as "N.s/m", "kg/s" or "1".
- * Returns: 0 where it has none in whole numbers, or a symbol that is not known. */
+/* Exponents of a unit.  Returns: 0 where it has none in whole numbers, or one of another base unit */
 static int exponents_of(const char *unit, int exponent[BASES])
 {
-  double sum[BASES] = {0}, sign = 1;
-  int i;
-  while (*unit) {
-    const size_t length = *unit == '1' ? 1 : strcspn(unit, "./^0123456789");
-    const int *base = symbol_at(unit, length);
-    double power;
-    if (!base)
+  char text[LAB_UNIT_TEXT], *part;
+  lab_error ignored;
+  memset(exponent, 0, BASES * sizeof *exponent);
+  if (lab_unit_dimension(unit, text, &ignored))
+    return 0;
+  for (part = strtok(text, "."); part && strcmp(part, "1") != 0; part = strtok(NULL, ".")) {
+    const size_t n = strcspn(part, "-0123456789");
+    int i = 0;
+    while (i < BASES && (strlen(base_names[i]) != n || strncmp(part, base_names[i], n) != 0))
+      i++;
+    if (i == BASES)
       return 0;
-    unit += length;
-    power = sign * power_at(&unit);
-    for (i = 0; i < BASES; i++)
-      sum[i] += power * base[i];
-    sign = *unit == '/' ? -1 : 1;
-    unit += *unit != '\0';
-  }
-  for (i = 0; i < BASES; i++) {
-    if (sum[i] != floor(sum[i]))
-      return 0;
-    exponent[i] = (int)sum[i];
+    exponent[i] = part[n] ? atoi(part + n) : 1;
   }
   return 1;
 }
