@@ -63,6 +63,7 @@ static int keep_every(lab_log *log, size_t every, size_t offset, lab_error *erro
 typedef struct instant {
   double t; /* [s] */
   size_t row;
+  int line; /* of the file */
 } instant;
 
 /* Rows of one instant stay in the order of the log. */
@@ -86,7 +87,7 @@ static int take_only(const lab_log *log, const instant *at, size_t n, int channe
     const double now = log->value[channel][at[i].row];
     if (!isnan(now) && !isnan(*value) && *value != now)
       return lab_fail(error, LAB_DATA, "%s:%d: expected one value of %s at t = %g s, found another before", log->path,
-                      log->line[at[i].row], lab_channels[channel].key, at[i].t);
+                      at[i].line, lab_channels[channel].key, at[i].t);
     *value = isnan(now) ? *value : now;
   }
   return LAB_OK;
@@ -117,49 +118,34 @@ static size_t alike(const lab_log *log, const instant *order, size_t i)
   return n;
 }
 
-static int unite_channel(const lab_log *log, const instant *order, rule *take, int channel, double *made,
-                         lab_error *error)
+/* Each instant becomes one row, whose line is that of its first. */
+static int unite_all(lab_log *log, instant *order, double *made, rule *take, lab_error *error)
 {
   size_t i, n = 0;
-  for (i = 0; i < log->n; i += alike(log, order, i))
-    if (take(log, &order[i], alike(log, order, i), channel, &made[n++], error))
-      return error->status;
-  memcpy(log->value[channel], made, n * sizeof *made);
-  return LAB_OK;
-}
-
-/* The line of an instant is that of its first row. */
-static size_t unite_lines(lab_log *log, const instant *order, double *scratch)
-{
-  size_t i, n = 0, k;
-  for (i = 0; i < log->n; i += alike(log, order, i))
-    scratch[n++] = log->line[order[i].row];
-  for (k = 0; k < n; k++)
-    log->line[k] = (int)scratch[k];
-  return n;
-}
-
-static int unite_all(lab_log *log, instant *order, double *scratch, rule *take, lab_error *error)
-{
-  size_t i;
   int c;
   for (i = 0; i < log->n; i++)
-    order[i] = (instant){log->value[LAB_CHANNEL_TIME][i], i};
+    order[i] = (instant){log->value[LAB_CHANNEL_TIME][i], i, log->line[i]};
   qsort(order, log->n, sizeof *order, by_time);
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (log->value[c] && unite_channel(log, order, take, c, scratch, error))
-      return error->status;
-  log->n = unite_lines(log, order, scratch);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    for (i = n = 0; log->value[c] && i < log->n; i += alike(log, order, i))
+      if (take(log, &order[i], alike(log, order, i), c, &made[n++], error))
+        return error->status;
+    if (log->value[c])
+      memcpy(log->value[c], made, n * sizeof *made);
+  }
+  for (i = n = 0; i < log->n; i += alike(log, order, i))
+    log->line[n++] = order[i].line;
+  log->n = n;
   return LAB_OK;
 }
 
 static int unite(lab_log *log, rule *take, lab_error *error)
 {
   instant *order = malloc(log->n * sizeof *order);
-  double *scratch = malloc(log->n * sizeof *scratch);
-  int status = order && scratch ? unite_all(log, order, scratch, take, error) : lab_fail_memory(error, log->path);
+  double *made = malloc(log->n * sizeof *made);
+  int status = order && made ? unite_all(log, order, made, take, error) : lab_fail_memory(error, log->path);
   free(order);
-  free(scratch);
+  free(made);
   return status;
 }
 

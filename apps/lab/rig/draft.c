@@ -15,20 +15,14 @@
 
 enum { SHEET_TEXT = LAB_SHEET_WORDS * (LAB_SHEET_VALUE + 64), LEAST_ROWS = 20, WINDOWS = 200 };
 
-/* What the log says of a parameter: NaN where it says nothing. */
-typedef struct derived {
-  double value[PNEU_PARAM_BASE_COUNT];
-  const char *from[PNEU_PARAM_BASE_COUNT];
-} derived;
-
 typedef struct draft {
   lab_sheet_word word[LAB_SHEET_WORDS];
   int n, n_said;                /* of words; those behind the said ones are of the actuator that was named */
   const lab_actuator *actuator; /* NULL: none was named */
   lab_rig rig;                  /* of the sheet alone, defaults elsewhere, and then with what was derived */
   lab_log log;
-  int x_is_share; /* x is a share of the stroke: its range does not tell the stroke */
-  derived derived;
+  int x_is_share;                             /* x is a share of the stroke: its range does not tell the stroke */
+  const char *derived[PNEU_PARAM_BASE_COUNT]; /* from what of the log; NULL: it says nothing of the parameter */
   lab_error *error;
 } draft;
 
@@ -176,8 +170,7 @@ static void derive(draft *d, int param, double value, const char *from)
     return;
   pneu_param_describe(param, &info);
   value = fmin(fmax(value, (double)info.lower), (double)info.upper);
-  d->derived.value[param] = value;
-  d->derived.from[param] = from;
+  d->derived[param] = from;
   *pneu_param_at(&d->rig.params, param) = (pneu_real)value;
 }
 
@@ -239,8 +232,9 @@ static void add_row(branch *b, double x, double p)
 
 /* The straight lines of p over x up and down, of one slope. */
 typedef struct lines {
-  double slope, at_0,
-      apart; /* [Pa/m], [Pa] of their middle, half their distance [Pa]; NaN where the log does not tell */
+  double slope; /* [Pa/m]; NaN, as the others, where the log does not tell */
+  double at_0;  /* [Pa] of their middle */
+  double apart; /* [Pa] half their distance */
 } lines;
 
 static lines fit_lines(const draft *d)
@@ -335,8 +329,7 @@ enum { NEEDED = sizeof needed / sizeof needed[0] };
 static void put_key(FILE *file, const draft *d, const lab_key *key)
 {
   const lab_sheet_word *word = find_word(d, key->group, key->key);
-  const char *from =
-      key->kind == LAB_KEY_PARAM && key->param < PNEU_PARAM_BASE_COUNT ? d->derived.from[key->param] : NULL;
+  const char *from = key->kind == LAB_KEY_PARAM ? d->derived[key->param] : NULL;
   pneu_param_info info;
   size_t i;
   if (word) {
@@ -397,7 +390,7 @@ static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
   pneu_param_info info;
   int i, any = 0;
   for (i = 0; i < NEEDED; i++) {
-    if (is_param_said(d, needed[i]) || (d->derived.from[needed[i]] && !fitted[i]))
+    if (is_param_said(d, needed[i]) || (d->derived[needed[i]] && !fitted[i]))
       continue;
     pneu_param_describe(needed[i], &info);
     fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", info.name);
@@ -410,7 +403,7 @@ static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
 static void put_fit(FILE *file, const draft *d)
 {
   const int p = has(d, LAB_CHANNEL_P), x = has(d, LAB_CHANNEL_X), u = lab_log_command(&d->log) >= 0;
-  const int spring = d->derived.from[PNEU_PARAM_spring_rate] != NULL;
+  const int spring = d->derived[PNEU_PARAM_spring_rate] != NULL;
   const struct {
     int param, can;
   } fit[] = {{PNEU_PARAM_fill_area, u && (p || x)},
