@@ -3,7 +3,7 @@
 #ifndef FMU_DESCRIPTION_H
 #define FMU_DESCRIPTION_H
 
-#include "modeldata.h"
+#include "../lab/rig/rig.h"
 #include "variables.h"
 
 /* What an FMU is made from. */

@@ -1,6 +1,7 @@
 #include "export.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 
 #include "carried.h"
 #include "description.h"
+#include "../lab/base/checksum.h"
 #include "../lab/base/outfile.h"
 
 enum { PATH_TEXT = 256 };
@@ -20,6 +22,58 @@ static const char *const platforms[] = {NULL, "aarch64-linux"};
 #else
 static const char *const platforms[] = {NULL, NULL}; /* sources only */
 #endif
+
+/* ---- The model as the FMU has it ---- */
+
+typedef char fmu_room_for_terms[(int)FMU_TERM_MAX >= (int)LAB_TERM_MAX ? 1 : -1];
+
+static uint64_t add_numbers(uint64_t sum, const fmu_data *data)
+{
+  pneu_params params = data->params;
+  const int laws[] = {data->law.gas, data->law.flow, data->law.pressure_input, data->law.position_input, data->n_terms};
+  int i, k;
+  for (i = 0; i < PNEU_PARAM_COUNT; i++)
+    sum = lab_checksum(sum, pneu_param_at(&params, i), sizeof(pneu_real));
+  sum = lab_checksum(sum, laws, sizeof laws);
+  for (i = 0; i < data->n_terms; i++) {
+    const pneu_term *term = &data->term[i];
+    const int whole[] = {term->equation, term->argument, term->n};
+    sum = lab_checksum(sum, whole, sizeof whole);
+    sum = lab_checksum(sum, &term->from, sizeof term->from);
+    sum = lab_checksum(sum, &term->to, sizeof term->to);
+    for (k = 0; k < term->n; k++)
+      sum = lab_checksum(sum, &term->value[k], sizeof term->value[k]);
+  }
+  return sum;
+}
+
+static void make_token(fmu_data *data, int fmi)
+{
+  uint64_t sum[2] = {LAB_CHECKSUM_SEED, ~LAB_CHECKSUM_SEED};
+  int i, k;
+  for (k = 0; k < 2; k++) {
+    sum[k] = lab_checksum(sum[k], &fmi, sizeof fmi);
+    for (i = 0; fmu_files[i].name; i++)
+      sum[k] = lab_checksum(sum[k], fmu_files[i].bytes, fmu_files[i].size);
+    sum[k] = add_numbers(sum[k], data);
+  }
+  snprintf(data->token, sizeof data->token, "{%08" PRIx32 "-%04x-%04x-%04x-%012" PRIx64 "}", (uint32_t)(sum[0] >> 32),
+           (unsigned)(sum[0] >> 16 & 0xffff), (unsigned)(sum[0] & 0xffff), (unsigned)(sum[1] >> 48),
+           sum[1] & UINT64_C(0xffffffffffff));
+}
+
+/* The data of a rig; their token is made from the model, from the version of FMI and from what export-fmu carries: the
+ * same model gives the same token. */
+static void data_of(const lab_rig *rig, int fmi, fmu_data *data)
+{
+  memset(data, 0, sizeof *data);
+  strcpy(data->mark, FMU_MARK);
+  data->params = rig->params;
+  data->law = rig->laws;
+  data->n_terms = rig->n_terms;
+  memcpy(data->term, rig->term, (size_t)rig->n_terms * sizeof rig->term[0]);
+  make_token(data, fmi);
+}
 
 /* What is at hand while an FMU is made. */
 typedef struct maker {
@@ -225,7 +279,7 @@ int fmu_export(const lab_rig *rig, int fmi, const char *path, lab_error *error)
   m.d.fmi = fmi;
   m.d.rig = rig;
   identify(rig->name, m.d.identifier);
-  fmu_data_of(rig, fmi, &m.d.data);
+  data_of(rig, fmi, &m.d.data);
   fmu_list_of(&m.d.data, &model, &m.d.list);
   snprintf(own_path, sizeof own_path, "%s.fmu", m.d.identifier);
   status = begin_archive(&m, error);
