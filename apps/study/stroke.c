@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../lab/base/line.h"
+
 static const double longest = 400; /* [s] for one stroke */
 
 /* ---- Flow laws ---- */
@@ -298,16 +300,11 @@ double speed_at_pressure(const speed_edge *e, double p)
 
 double speed_exponent(const speed_edge *e, double P_a)
 {
-  double n = SPEED_POINTS, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  lab_line line = {0};
   int i;
-  for (i = 0; i < SPEED_POINTS; i++) {
-    const double x = log(e->p[i] + P_a), y = log(e->v[i]);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  for (i = 0; i < SPEED_POINTS; i++)
+    lab_line_add(&line, log(e->p[i] + P_a), log(e->v[i]), 1);
+  return lab_line_slope(&line);
 }
 
 double speed_crossing(const speed_pair *pair)

@@ -6,6 +6,7 @@
 
 #include "../base/array.h"
 #include "../base/escape.h"
+#include "../base/line.h"
 #include "../base/noise.h"
 #include "../base/text.h"
 #include "../log/log.h"
@@ -207,11 +208,6 @@ static void derive_travel(draft *d)
          "a tenth of the swept volume; with tubes, of which nothing is known");
 }
 
-/* Sums over the rows in which the stem moves one way. */
-typedef struct branch {
-  double n, x, p, xx, xp;
-} branch;
-
 /* Which way the stem moves in row i: 1, -1, or 0 where it hardly does, or is next to a stop. */
 static int way_of(const draft *d, const range *r, size_t i, size_t w)
 {
@@ -219,15 +215,6 @@ static int way_of(const draft *d, const range *r, size_t i, size_t w)
   if (!(x[i] > r->low + 0.1 * span && x[i] < r->high - 0.1 * span) || !(fabs(dx) > 0.01 * span))
     return 0;
   return dx > 0 ? 1 : -1;
-}
-
-static void add_row(branch *b, double x, double p)
-{
-  b->n++;
-  b->x += x;
-  b->p += p;
-  b->xx += x * x;
-  b->xp += x * p;
 }
 
 /* The straight lines of p over x up and down, of one slope. */
@@ -242,20 +229,19 @@ static lines fit_lines(const draft *d)
   const double *p = d->log.value[LAB_CHANNEL_P], *x = d->log.value[LAB_CHANNEL_X];
   const range r = range_of(d, LAB_CHANNEL_X);
   const size_t w = d->log.n / (5 * WINDOWS) + 1;
-  branch up = {0}, down = {0};
+  lab_line up = {0}, down = {0};
   lines l;
   size_t i;
   for (i = w; i + w < d->log.n; i++) {
     const int way = way_of(d, &r, i, w);
     if (way && isfinite(p[i]))
-      add_row(way > 0 ? &up : &down, x[i], p[i]);
+      lab_line_add(way > 0 ? &up : &down, x[i], p[i], 1);
   }
   if (up.n < LEAST_ROWS || down.n < LEAST_ROWS)
     return (lines){NAN, NAN, NAN};
-  l.slope = (up.xp - up.x * up.p / up.n + down.xp - down.x * down.p / down.n) /
-            (up.xx - up.x * up.x / up.n + down.xx - down.x * down.x / down.n);
-  l.at_0 = ((up.p - l.slope * up.x) / up.n + (down.p - l.slope * down.x) / down.n) / 2;
-  l.apart = ((up.p - l.slope * up.x) / up.n - (down.p - l.slope * down.x) / down.n) / 2;
+  l.slope = (up.xy + down.xy) / (up.xx + down.xx);
+  l.at_0 = (up.level - l.slope * up.middle + down.level - l.slope * down.middle) / 2;
+  l.apart = (up.level - l.slope * up.middle - down.level + l.slope * down.middle) / 2;
   return l;
 }
 
