@@ -7,6 +7,7 @@
 
 #include "../lab/base/array.h"
 #include "../lab/base/config.h"
+#include "../lab/base/names.h"
 #include "../lab/log/log.h"
 #include "../lab/rig/rig.h"
 #include "sets.h"
@@ -113,14 +114,13 @@ static int cut(const config_setting_t *group, const lab_log *log, pile *p, lab_e
   const char *steps = group ? sets_text(group, "steps") : "", *strokes = group ? sets_text(group, "strokes") : "";
   const char *key = *steps ? steps : strokes;
   double low, high;
-  int c = 0;
+  int c;
   if (!*key) {
     add_log_runs(p, log);
     return LAB_OK;
   }
-  while (c < LAB_CHANNEL_COUNT && strcmp(lab_channels[c].key, key) != 0)
-    c++;
-  if (c == LAB_CHANNEL_COUNT || !log->value[c] || !lab_range(log->value[c], log->n, &low, &high))
+  c = lab_name_index(key, lab_channels, LAB_CHANNEL_COUNT, sizeof *lab_channels);
+  if (c < 0 || !log->value[c] || !lab_range(log->value[c], log->n, &low, &high))
     return lab_config_fail(group, error, "replicates: %s has no channel %s", log->path, key);
   (*steps ? add_steps : add_strokes)(p, log, c, low, high);
   return LAB_OK;

@@ -6,6 +6,7 @@
 
 #include "../lab/base/config.h"
 #include "../lab/base/json.h"
+#include "../lab/base/names.h"
 #include "../lab/base/template.h"
 #include "../lab/base/text.h"
 #include "../lab/base/units.h"
@@ -254,11 +255,7 @@ static const char *verdict_word(const story *s)
 /* Returns: the last if there is no error to judge by */
 static int verdict_of(const story *s)
 {
-  const char *verdict = isnan(s->after.value) ? "" : verdict_word(s);
-  int i = 0;
-  while (i < VERDICTS - 1 && strcmp(verdict, verdicts[i][0]) != 0)
-    i++;
-  return i;
+  return lab_name_index(isnan(s->after.value) ? "" : verdict_word(s), verdicts, VERDICTS, sizeof *verdicts);
 }
 
 static void join(char names[NAMES_TEXT], const char *name)

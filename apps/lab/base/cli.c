@@ -43,11 +43,7 @@ static void fill(struct table *table, const lab_program *program, lab_cli *cli)
 /* Row of the option --out, which -o stands for in every program that has it; -1: there is none. */
 static int row_of_out(const struct table *table)
 {
-  int i;
-  for (i = 0; i < table->n; i++)
-    if (strcmp(table->row[i].name, "out") == 0)
-      return i;
-  return -1;
+  return lab_name_index("out", table->row, (size_t)table->n, sizeof table->row[0]);
 }
 
 /* Every line of a text in its column. */
