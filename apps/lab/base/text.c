@@ -144,7 +144,7 @@ static int grow(lab_text *text, size_t *room)
   return 1;
 }
 
-static int read_stream(FILE *file, const char *path, lab_text *text, lab_error *error)
+int lab_text_stream(FILE *file, const char *path, lab_text *text, lab_error *error)
 {
   size_t room = 1 << 15, got;
   do {
@@ -247,7 +247,7 @@ static int read_file(const char *path, lab_text *text, lab_error *error)
   int status;
   if (!file)
     return error->status;
-  status = read_stream(file, path, text, error);
+  status = lab_text_stream(file, path, text, error);
   fclose(file);
   return status;
 }

@@ -38,6 +38,12 @@ void lab_text_give(const lab_text_given *given, int n);
  *          into text where its kind is known; LAB_WORLD if it cannot be read. */
 int lab_text_read(const char *path, lab_text *text, lab_error *error);
 
+/* The bytes of an open file, up to a part with a 0 byte unless they are UTF-16.
+ * In:      path  for messages
+ * In/out:  text  empty; to be freed, also after an error
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_text_stream(FILE *file, const char *path, lab_text *text, lab_error *error);
+
 void lab_text_free(lab_text *text);
 
 /* The name of a file without its folders, for what is kept or sent: an error has the path, an answer the name. */
