@@ -34,8 +34,7 @@ static pneu_params on_springs(const pneu_params *p, double low, double high)
 static pneu_params in_vacuum(const pneu_params *nominal)
 {
   pneu_params p = *nominal;
-  pneu_param_info ambient;
-  pneu_param_describe(PNEU_PARAM_ambient_pressure, &ambient);
+  const pneu_param_info ambient = lab_param_info(PNEU_PARAM_ambient_pressure);
   p.ambient_pressure = fmax(0.01 * bench_pressure(&p, 0, -1), ambient.lower);
   p.fill_area /= 10;
   p.vent_area /= 10;

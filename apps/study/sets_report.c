@@ -484,15 +484,13 @@ static int put_given(const story *s, lab_rig *rig, cJSON *to, lab_error *error)
   const char *name = sets_text(s->set, "given");
   const cJSON *p = at_keys(s->json, "parameters", name, NULL);
   const int i = pneu_param_find(name);
-  pneu_param_info info;
   double given, low, high;
   if (!*name)
     return LAB_OK;
   if (i < 0 || !interval_of(p, &low, &high))
     return lab_config_fail(s->set, error, "given: %s is not among the parameters that were fitted", name);
-  pneu_param_describe(i, &info);
-  given = (double)*pneu_param_at(&rig->params, i);
-  lab_json_put(to, "known", "%s = %.4g %s; found %+.2g %% from it, which is %s", name, given, info.unit,
+  given = lab_param_value(rig, i);
+  lab_json_put(to, "known", "%s = %.4g %s; found %+.2g %% from it, which is %s", name, given, lab_param_info(i).unit,
                100 * (number_of(p, "value") / given - 1), given >= low && given <= high ? "within" : "outside");
   return LAB_OK;
 }

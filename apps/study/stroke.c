@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../lab/base/line.h"
+#include "../lab/rig/rig.h"
 
 static const double longest = 400; /* [s] for one stroke */
 
@@ -126,10 +127,9 @@ static int one_stroke(const pneu_model *model, pneu_state *state, double u, stro
 
 static int make_model(const pneu_params *params, const pneu_laws *law, pneu_model *model, lab_error *error)
 {
-  pneu_param_info info;
   int bad, status = linear_model_init(model, params, law, &bad);
   if (status == PNEU_E_PARAM) {
-    pneu_param_describe(bad, &info);
+    const pneu_param_info info = lab_param_info(bad);
     return lab_fail(error, LAB_DATA, "%s is outside %g .. %g %s", info.name, info.lower, info.upper, info.unit);
   }
   return status == PNEU_OK ? LAB_OK : lab_fail(error, LAB_DATA, "%s", pneu_status_text(status));

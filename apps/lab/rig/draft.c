@@ -166,10 +166,9 @@ static range range_of(const draft *d, int channel)
 /* A parameter that the sheet does not say, within its bounds. */
 static void derive(draft *d, int param, double value, const char *from)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   if (is_param_said(d, param) || !isfinite(value))
     return;
-  pneu_param_describe(param, &info);
   value = fmin(fmax(value, (double)info.lower), (double)info.upper);
   d->derived[param] = from;
   *pneu_param_at(&d->rig.params, param) = (pneu_real)value;
@@ -297,10 +296,7 @@ static void derive_orifices(draft *d)
 
 static void put_value(FILE *file, const draft *d, int param)
 {
-  pneu_params p = d->rig.params;
-  pneu_param_info info;
-  pneu_param_describe(param, &info);
-  fprintf(file, "\"%.4g %s\"", (double)*pneu_param_at(&p, param), info.unit);
+  fprintf(file, "\"%.4g %s\"", lab_param_value(&d->rig, param), lab_param_info(param).unit);
 }
 
 /* What every draft has. */
@@ -316,7 +312,6 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
 {
   const lab_sheet_word *word = find_word(d, key->group, key->key);
   const char *from = key->kind == LAB_KEY_PARAM ? d->derived[key->param] : NULL;
-  pneu_param_info info;
   size_t i;
   if (word) {
     fprintf(file, "  %s = %s; // %s\n", key->key, word->value, source_of(d, word));
@@ -324,12 +319,12 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
   }
   if (key->kind != LAB_KEY_PARAM || is_said(d, key))
     return;
-  pneu_param_describe(key->param, &info);
   for (i = 0; i < NEEDED; i++)
     if (needed[i] == key->param) {
       fprintf(file, "  %s = ", key->key);
       put_value(file, d, key->param);
-      fprintf(file, from ? "; // derived: %s\n" : "; // NOT KNOWN, a default: %s\n", from ? from : info.meaning);
+      fprintf(file, from ? "; // derived: %s\n" : "; // NOT KNOWN, a default: %s\n",
+              from ? from : lab_param_info(key->param).meaning);
     }
 }
 
@@ -373,13 +368,11 @@ static void put_laws(FILE *file, const draft *d)
  * In:      fitted  whether each of `needed` is */
 static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
 {
-  pneu_param_info info;
   int i, any = 0;
   for (i = 0; i < NEEDED; i++) {
     if (is_param_said(d, needed[i]) || (d->derived[needed[i]] && !fitted[i]))
       continue;
-    pneu_param_describe(needed[i], &info);
-    fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", info.name);
+    fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", lab_param_info(needed[i]).name);
   }
   if (any)
     fputs(" }; // starts and defaults: to be away from them is no deviation\n", file);
@@ -406,11 +399,9 @@ static void put_fit(FILE *file, const draft *d)
       "// What the log can determine, and the sheet does not say; the rest is known to its usual tolerance.\nfit = ( ",
       file);
   for (i = 0; i < sizeof fit / sizeof fit[0]; i++) {
-    pneu_param_info info;
     if (!fit[i].can || is_param_said(d, fit[i].param))
       continue;
-    pneu_param_describe(fit[i].param, &info);
-    fprintf(file, "%s\"%s\"", between, info.name);
+    fprintf(file, "%s\"%s\"", between, lab_param_info(fit[i].param).name);
     between = ", ";
     for (k = 0; k < NEEDED; k++)
       fitted[k] |= needed[k] == fit[i].param;

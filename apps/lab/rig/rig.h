@@ -93,6 +93,12 @@ void lab_rig_at(const lab_rig *rig, double t, lab_rig *now);
 /* Whether the rig file declares a positioner. */
 int lab_rig_has_positioner(const lab_rig *rig);
 
+/* What the library says of a parameter, or as much of LAB_PARAM_ORIFICE_AREA, a factor on both areas. */
+pneu_param_info lab_param_info(int param);
+
+/* The value of a parameter of the library. */
+double lab_param_value(const lab_rig *rig, int param);
+
 /* Name of something fitted: "dry_friction", "orifice_area", "chamber_leak.leak_area".
  * In:      index  0 <= index < LAB_PARAM_COUNT
  * Out:     name   Returns: name */

@@ -11,11 +11,9 @@
 
 static void write_param(FILE *file, const lab_rig *rig, const char *key, int param, int indent)
 {
-  pneu_params p = rig->params;
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   char number[LAB_NUMBER_TEXT];
-  pneu_param_describe(param, &info);
-  lab_number_write((double)*pneu_param_at(&p, param), number);
+  lab_number_write(lab_param_value(rig, param), number);
   if (strcmp(info.unit, "1") == 0)
     fprintf(file, "%*s%s = %s;\n", indent, "", key, number);
   else
@@ -86,14 +84,10 @@ static void write_inputs(FILE *file, const lab_rig *rig)
 static int is_written(const lab_rig *rig, int effect)
 {
   const char *law = lab_friction_effects[rig->friction];
-  pneu_params p = rig->params;
   int i, count, first = pneu_effect_params(effect, &count);
-  for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    if (*pneu_param_at(&p, i) != info.neutral)
+  for (i = first; i < first + count; i++)
+    if (lab_param_value(rig, i) != (double)lab_param_info(i).neutral)
       return 1;
-  }
   return law && strcmp(law, pneu_effect_at(effect)->name) == 0;
 }
 
@@ -101,11 +95,8 @@ static void write_effect(FILE *file, const lab_rig *rig, int effect, int indent)
 {
   int i, count, first = pneu_effect_params(effect, &count);
   fprintf(file, "%*s%s = {\n", indent, "", pneu_effect_at(effect)->name);
-  for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    write_param(file, rig, info.name, i, indent + 2);
-  }
+  for (i = first; i < first + count; i++)
+    write_param(file, rig, lab_param_info(i).name, i, indent + 2);
   fprintf(file, "%*s};\n", indent, "");
 }
 
@@ -134,12 +125,9 @@ static void write_onsets(FILE *file, const lab_rig *rig)
   int i;
   for (i = 0; i < rig->n_onsets; i++) {
     const lab_rig_onset *onset = &rig->onset[i];
-    pneu_param_info info = {.unit = "1"};
-    if (onset->param != LAB_PARAM_ORIFICE_AREA)
-      pneu_param_describe(onset->param, &info);
     fprintf(file, "%s  { parameter = \"%s\"; from = \"%s s\"; value = \"%s %s\"; }", i ? ",\n" : "onset = (\n",
             lab_fit_name(onset->param, name), lab_number_write(onset->from, from),
-            lab_number_write(onset->value, value), info.unit);
+            lab_number_write(onset->value, value), lab_param_info(onset->param).unit);
   }
   if (rig->n_onsets)
     fputs("\n);\n", file);
@@ -173,12 +161,10 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
 /* A parameter in C, with what comes before and after it. */
 static void write_c(FILE *file, const lab_rig *rig, int param, const char *before)
 {
-  pneu_params p = rig->params;
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   char number[LAB_NUMBER_TEXT];
-  pneu_param_describe(param, &info);
-  fprintf(file, "%s(pneu_real)%s, /* %s [%s] */ \\\n", before,
-          lab_number_write((double)*pneu_param_at(&p, param), number), info.name, info.unit);
+  fprintf(file, "%s(pneu_real)%s, /* %s [%s] */ \\\n", before, lab_number_write(lab_param_value(rig, param), number),
+          info.name, info.unit);
 }
 
 /* Parameters of the effects that are not neutral, or of all, each by its name. */

@@ -25,8 +25,7 @@ int lab_sheet_has(const char *group, const char *key)
 static int put(const config_setting_t *from, int param, double value, const config_setting_t *other, lab_rig *rig,
                lab_error *error)
 {
-  pneu_param_info info;
-  pneu_param_describe(param, &info);
+  const pneu_param_info info = lab_param_info(param);
   if (other)
     return lab_config_fail(from, error, "%s is there too: give one of them", config_setting_name(other));
   if (!(value >= (double)info.lower && value <= (double)info.upper))
