@@ -75,6 +75,7 @@ static void xml_real(document *xml, const char *attribute, double value)
   xml_text(xml, attribute, text);
 }
 
+/* Close all that is open. */
 static int xml_end(document *xml, lab_error *error)
 {
   note(xml, xmlTextWriterEndDocument(xml->writer));
@@ -392,7 +393,6 @@ int fmu_describe(FILE *file, const fmu_description *d, lab_error *error)
   xml_close(&xml);
   variables(&xml, d);
   structure(&xml, d);
-  xml_close(&xml);
   return xml_end(&xml, error);
 }
 
@@ -412,9 +412,6 @@ int fmu_describe_build(FILE *file, const fmu_description *d, lab_error *error)
   xml_text(&xml, "name", "m");
   xml_text(&xml, "external", "true");
   xml_text(&xml, "description", "the C library's mathematics, where that is apart");
-  xml_close(&xml);
-  xml_close(&xml);
-  xml_close(&xml);
   return xml_end(&xml, error);
 }
 
@@ -440,8 +437,5 @@ int fmu_describe_icon(FILE *file, const fmu_description *d, lab_error *error)
   xml_close(&xml);
   xml_open(&xml, "Icon");
   corners(&xml);
-  xml_close(&xml);
-  xml_close(&xml);
-  xml_close(&xml);
   return xml_end(&xml, error);
 }
