@@ -6,7 +6,6 @@
 #include "../base/config.h"
 #include "../base/names.h"
 #include "../base/number.h"
-#include "rigkeys.h"
 
 /* What a share is one of. */
 enum span { OF_VALUE, OF_SUPPLY, OF_STROKE };
