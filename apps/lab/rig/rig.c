@@ -200,8 +200,10 @@ static int read_fit_name(const config_setting_t *setting, int *index, lab_error 
   return lab_config_choice(setting, names, LAB_PARAM_COUNT, sizeof names[0], index, error);
 }
 
-static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
+/* The lists fit and fit_per_log. */
+static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
 {
+  const int per_log = strcmp(config_setting_name(list), "fit_per_log") == 0;
   int i, index, status = lab_config_list(list, 0, LAB_PARAM_COUNT, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
     const config_setting_t *setting = config_setting_get_elem(list, (unsigned)i);
@@ -212,16 +214,6 @@ static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig
       rig->fit_per_log[rig->n_fit - 1] = (unsigned char)per_log;
   }
   return status;
-}
-
-static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
-{
-  return read_fit_list(list, 0, rig, error);
-}
-
-static int read_fit_per_log(const config_setting_t *list, lab_rig *rig, lab_error *error)
-{
-  return read_fit_list(list, 1, rig, error);
 }
 
 /* Channel of a key in the noise group, "pressure" or "p"; time and command have no noise. */
@@ -344,7 +336,7 @@ static const struct section {
     {"gas", read_keys},
     {"laws", read_laws},
     {"fit", read_fit},
-    {"fit_per_log", read_fit_per_log},
+    {"fit_per_log", read_fit},
     {"noise", read_noise},
     {"inputs", read_inputs},
     {"positioner", read_positioner},
