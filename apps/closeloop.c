@@ -8,7 +8,7 @@
 #include "lab/trace/decide.h"
 #include "lab/batch/batch.h"
 #include "lab/rig/draft.h"
-#include "lab/rig/sheetask.h"
+#include "lab/rig/sheetwords.h"
 #include "lab/base/cli.h"
 #include "lab/base/escape.h"
 #include "lab/base/interrupt.h"

@@ -4,26 +4,15 @@
 
 #include "apps/fmu/carried.inc"
 
-const fmu_file *fmu_carried(int i)
+const fmu_file *fmu_carried(const char *name)
 {
-  return i < (int)(sizeof files / sizeof files[0]) ? &files[i] : NULL;
-}
-
-const fmu_file *fmu_carried_find(const char *name)
-{
-  int i = 0;
-  while (strcmp(files[i].name, name) != 0)
-    i++;
-  return &files[i];
+  const fmu_file *file = fmu_files;
+  while (strcmp(file->name, name) != 0)
+    file++;
+  return file;
 }
 
 int fmu_is_source(const fmu_file *file, int fmi)
 {
   return strchr(file->name, '/') && !strstr(file->name, fmi == 2 ? "/fmi3" : "/fmi2");
-}
-
-int fmu_is_compiled(const fmu_file *file)
-{
-  const size_t length = strlen(file->name);
-  return length > 2 && strcmp(file->name + length - 2, ".c") == 0;
 }

@@ -11,14 +11,12 @@ typedef struct fmu_file {
   size_t size;
 } fmu_file;
 
-/* File i, NULL past the last. */
-const fmu_file *fmu_carried(int i);
+extern const fmu_file fmu_files[]; /* the last one has no name */
 
 /* By name, which must be there. */
-const fmu_file *fmu_carried_find(const char *name);
+const fmu_file *fmu_carried(const char *name);
 
-/* Whether it is a source of an FMU of that version of FMI; and whether that is to be compiled. */
+/* Whether it is a source of an FMU of that version of FMI. */
 int fmu_is_source(const fmu_file *file, int fmi);
-int fmu_is_compiled(const fmu_file *file);
 
 #endif

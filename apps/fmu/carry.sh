@@ -9,9 +9,9 @@ for pair in "$@"; do
   n=$((n + 1))
 done
 n=0
-echo 'static const fmu_file files[] = {'
+echo 'const fmu_file fmu_files[] = {'
 for pair in "$@"; do
   printf '{"%s", file_%d, sizeof file_%d},\n' "${pair%%=*}" $n $n
   n=$((n + 1))
 done
-echo '};'
+echo '{0, 0, 0}};'

@@ -3,22 +3,22 @@
 #ifndef FMU_DESCRIPTION_H
 #define FMU_DESCRIPTION_H
 
+#include "../lab/rig/rig.h"
 #include "variables.h"
-#include "xml.h"
 
+/* What an FMU is made from. */
 typedef struct fmu_description {
   int fmi; /* 2 or 3 */
-  const char *name;
-  const char *identifier; /* the name as C allows it */
-  const fmu_data *data;
-  const fmu_list *list;
+  const lab_rig *rig;
+  char identifier[LAB_NAME_TEXT + 1]; /* its name as C allows it */
+  fmu_data data;
+  fmu_list list;
 } fmu_description;
 
-/* modelDescription.xml */
-void fmu_describe(fmu_xml *xml, const fmu_description *d);
-
-/* sources/buildDescription.xml and terminalsAndIcons/terminalsAndIcons.xml of FMI 3. */
-void fmu_describe_build(fmu_xml *xml, const fmu_description *d);
-void fmu_describe_icon(fmu_xml *xml, const fmu_description *d);
+/* Write modelDescription.xml, and of FMI 3 sources/buildDescription.xml and terminalsAndIcons/terminalsAndIcons.xml.
+ * Returns: LAB_OK, LAB_WORLD. */
+int fmu_describe(FILE *file, const fmu_description *d, lab_error *error);
+int fmu_describe_build(FILE *file, const fmu_description *d, lab_error *error);
+int fmu_describe_icon(FILE *file, const fmu_description *d, lab_error *error);
 
 #endif

@@ -1,6 +1,7 @@
 #include "export.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 
 #include "carried.h"
 #include "description.h"
-#include "modeldata.h"
+#include "../lab/base/checksum.h"
 #include "../lab/base/outfile.h"
 
 enum { PATH_TEXT = 256 };
@@ -22,118 +23,130 @@ static const char *const platforms[] = {NULL, "aarch64-linux"};
 static const char *const platforms[] = {NULL, NULL}; /* sources only */
 #endif
 
-/* ---- A zip archive in memory, by libzip; the same files give the same bytes, because none has a date ---- */
+/* ---- The model as the FMU has it ---- */
 
-typedef struct package {
-  zip_source_t *source; /* the archive */
+typedef char fmu_room_for_terms[(int)FMU_TERM_MAX >= (int)LAB_TERM_MAX ? 1 : -1];
+
+static uint64_t add_numbers(uint64_t sum, const fmu_data *data)
+{
+  pneu_params params = data->params;
+  const int laws[] = {data->law.gas, data->law.flow, data->law.pressure_input, data->law.position_input, data->n_terms};
+  int i, k;
+  for (i = 0; i < PNEU_PARAM_COUNT; i++)
+    sum = lab_checksum(sum, pneu_param_at(&params, i), sizeof(pneu_real));
+  sum = lab_checksum(sum, laws, sizeof laws);
+  for (i = 0; i < data->n_terms; i++) {
+    const pneu_term *term = &data->term[i];
+    const int whole[] = {term->equation, term->argument, term->n};
+    sum = lab_checksum(sum, whole, sizeof whole);
+    sum = lab_checksum(sum, &term->from, sizeof term->from);
+    sum = lab_checksum(sum, &term->to, sizeof term->to);
+    for (k = 0; k < term->n; k++)
+      sum = lab_checksum(sum, &term->value[k], sizeof term->value[k]);
+  }
+  return sum;
+}
+
+static void make_token(fmu_data *data, int fmi)
+{
+  uint64_t sum[2] = {LAB_CHECKSUM_SEED, ~LAB_CHECKSUM_SEED};
+  int i, k;
+  for (k = 0; k < 2; k++) {
+    sum[k] = lab_checksum(sum[k], &fmi, sizeof fmi);
+    for (i = 0; fmu_files[i].name; i++)
+      sum[k] = lab_checksum(sum[k], fmu_files[i].bytes, fmu_files[i].size);
+    sum[k] = add_numbers(sum[k], data);
+  }
+  snprintf(data->token, sizeof data->token, "{%08" PRIx32 "-%04x-%04x-%04x-%012" PRIx64 "}", (uint32_t)(sum[0] >> 32),
+           (unsigned)(sum[0] >> 16 & 0xffff), (unsigned)(sum[0] & 0xffff), (unsigned)(sum[1] >> 48),
+           sum[1] & UINT64_C(0xffffffffffff));
+}
+
+/* The data of a rig; their token is made from the model, from the version of FMI and from what export-fmu carries: the
+ * same model gives the same token. */
+static void data_of(const lab_rig *rig, int fmi, fmu_data *data)
+{
+  memset(data, 0, sizeof *data);
+  strcpy(data->mark, FMU_MARK);
+  data->params = rig->params;
+  data->law = rig->laws;
+  data->n_terms = rig->n_terms;
+  memcpy(data->term, rig->term, (size_t)rig->n_terms * sizeof rig->term[0]);
+  make_token(data, fmi);
+}
+
+/* What is at hand while an FMU is made. */
+typedef struct maker {
+  fmu_description d;
+  zip_source_t *archive; /* in memory */
   zip_t *zip;
-} package;
+} maker;
+
+/* ---- A zip archive, by libzip; the same files give the same bytes, because none has a date ---- */
 
 enum { NO_TIME = 0, NO_DATE = 1 << 5 | 1 }; /* 1980-01-01, the earliest that a zip archive knows */
 #define PLAIN_FILE ((zip_uint32_t)0100644 << 16)
 
-/* Begin; to be ended by write_package, or drop_package after an error.  Returns: LAB_OK, LAB_WORLD. */
-static int begin_package(package *p, lab_error *error)
+static int begin_archive(maker *m, lab_error *error)
 {
-  p->zip = NULL;
-  p->source = zip_source_buffer_create(NULL, 0, 0, NULL);
-  if (p->source)
-    p->zip = zip_open_from_source(p->source, ZIP_TRUNCATE, NULL);
-  if (p->zip) {
-    zip_source_keep(p->source);
-    return LAB_OK;
-  }
-  if (p->source)
-    zip_source_free(p->source);
-  p->source = NULL;
-  return lab_fail_memory(error, "the archive");
-}
-
-/* A source that owns a copy of the bytes; NULL without memory. */
-static zip_source_t *copy_in(const void *bytes, size_t size)
-{
-  zip_source_t *source = zip_source_buffer_create(NULL, 0, 0, NULL);
-  if (source && (zip_source_begin_write(source) || zip_source_write(source, bytes, size) != (zip_int64_t)size ||
-                 zip_source_commit_write(source))) {
-    zip_source_free(source);
-    return NULL;
-  }
-  return source;
-}
-
-/* Add a file.  In: bytes  copied.  Returns: LAB_OK, LAB_WORLD. */
-static int add_file(package *p, const char *name, const void *bytes, size_t size, lab_error *error)
-{
-  zip_source_t *source = copy_in(bytes, size);
-  zip_int64_t at;
-  if (!source)
-    return lab_fail_memory(error, name);
-  at = zip_file_add(p->zip, name, source, 0);
-  if (at < 0) {
-    zip_source_free(source);
-    return lab_fail(error, LAB_WORLD, "%s: cannot go into the archive: %s", name, zip_strerror(p->zip));
-  }
-  if (zip_file_set_dostime(p->zip, (zip_uint64_t)at, NO_TIME, NO_DATE, 0) ||
-      zip_file_set_external_attributes(p->zip, (zip_uint64_t)at, 0, ZIP_OPSYS_UNIX, PLAIN_FILE))
-    return lab_fail(error, LAB_WORLD, "%s: cannot go into the archive: %s", name, zip_strerror(p->zip));
+  m->archive = zip_source_buffer_create(NULL, 0, 0, NULL);
+  m->zip = m->archive ? zip_open_from_source(m->archive, ZIP_TRUNCATE, NULL) : NULL;
+  if (!m->zip)
+    return lab_fail_memory(error, "the archive");
+  zip_source_keep(m->archive);
   return LAB_OK;
 }
 
-static int copy_out(zip_source_t *source, FILE *file)
+/* In: owned  not 0: the archive frees the bytes, also after an error */
+static int add_file(maker *m, const char *name, const void *bytes, size_t size, int owned, lab_error *error)
+{
+  zip_source_t *source = zip_source_buffer(m->zip, bytes, size, owned);
+  zip_int64_t at;
+  if (!source) {
+    free(owned ? (void *)bytes : NULL);
+    return lab_fail_memory(error, name);
+  }
+  at = zip_file_add(m->zip, name, source, 0);
+  if (at < 0)
+    zip_source_free(source);
+  if (at < 0 || zip_file_set_dostime(m->zip, (zip_uint64_t)at, NO_TIME, NO_DATE, 0) ||
+      zip_file_set_external_attributes(m->zip, (zip_uint64_t)at, 0, ZIP_OPSYS_UNIX, PLAIN_FILE))
+    return lab_fail(error, LAB_WORLD, "%s: cannot go into the archive: %s", name, zip_strerror(m->zip));
+  return LAB_OK;
+}
+
+static int copy_out(zip_source_t *source, FILE *file, lab_error *error)
 {
   char part[16384];
-  zip_int64_t n;
-  if (zip_source_open(source))
-    return -1;
-  while ((n = zip_source_read(source, part, sizeof part)) > 0)
-    fwrite(part, 1, (size_t)n, file);
-  zip_source_close(source);
-  return n < 0 ? -1 : 0;
+  zip_int64_t n = -1;
+  if (zip_source_open(source) == 0) {
+    while ((n = zip_source_read(source, part, sizeof part)) > 0)
+      fwrite(part, 1, (size_t)n, file);
+    zip_source_close(source);
+  }
+  return n < 0 ? lab_fail_memory(error, "the archive") : LAB_OK;
 }
 
-static void drop_package(package *p)
-{
-  if (p->zip)
-    zip_discard(p->zip);
-  if (p->source)
-    zip_source_free(p->source);
-  p->zip = NULL;
-  p->source = NULL;
-}
-
-/* Put the archive into a file, whole or not at all.  Returns: LAB_OK, LAB_WORLD. */
-static int write_package(package *p, const char *path, lab_error *error)
+/* Put the archive into a file, whole or not at all. */
+static int write_archive(maker *m, const char *path, lab_error *error)
 {
   lab_outfile out;
-  if (zip_close(p->zip)) {
-    lab_fail(error, LAB_WORLD, "the archive cannot be made: %s", zip_strerror(p->zip));
-    drop_package(p);
+  if (zip_close(m->zip))
+    return lab_fail(error, LAB_WORLD, "the archive cannot be made: %s", zip_strerror(m->zip));
+  m->zip = NULL;
+  if (lab_out_open(&out, path, error))
     return error->status;
-  }
-  p->zip = NULL;
-  if (lab_out_open(&out, path, error) == LAB_OK) {
-    if (copy_out(p->source, out.file) == 0)
-      lab_out_close(&out, error);
-    else {
-      lab_out_abandon(&out);
-      lab_fail_memory(error, "the archive");
-    }
-  }
-  drop_package(p);
-  return error->status;
+  return lab_out_end(&out, copy_out(m->archive, out.file, error), error);
+}
+
+static void end_archive(maker *m)
+{
+  if (m->zip)
+    zip_discard(m->zip);
+  zip_source_free(m->archive);
 }
 
 /* ---- What goes into it ---- */
-
-/* What is at hand while an FMU is made. */
-typedef struct maker {
-  const lab_rig *rig;
-  fmu_data data;
-  fmu_list list;
-  char identifier[LAB_NAME_TEXT + 1];
-  fmu_description description;
-  package package;
-} maker;
 
 /* "37-13" is no name in C: "_37_13" is. */
 static void identify(const char *name, char *identifier)
@@ -145,92 +158,100 @@ static void identify(const char *name, char *identifier)
   *identifier = '\0';
 }
 
-static int add_xml(maker *m, const char *name, void (*describe)(fmu_xml *, const fmu_description *), lab_error *error)
-{
-  fmu_xml xml;
-  char *text;
-  size_t size;
-  fmu_xml_begin(&xml);
-  describe(&xml, &m->description);
-  if (fmu_xml_end(&xml, &text, &size, error) == LAB_OK)
-    add_file(&m->package, name, text, size, error);
-  free(text);
-  return error->status;
-}
-
 static int add_carried(maker *m, const char *name, const char *carried, lab_error *error)
 {
-  const fmu_file *file = fmu_carried_find(carried);
-  return add_file(&m->package, name, file->bytes, file->size, error);
+  const fmu_file *file = fmu_carried(carried);
+  return add_file(m, name, file->bytes, file->size, 0, error);
+}
+
+/* Writes a file of the FMU.  Returns: LAB_OK, LAB_WORLD. */
+typedef int writer(FILE *file, const fmu_description *d, lab_error *error);
+
+/* Add what depends on the model. */
+static int add_written(maker *m, const char *name, writer *write, lab_error *error)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *file = open_memstream(&text, &size);
+  int status = file ? write(file, &m->d, error) : lab_fail_memory(error, name);
+  if (file && fclose(file) != 0 && status == LAB_OK)
+    status = lab_fail_memory(error, name);
+  if (status == LAB_OK)
+    return add_file(m, name, text, size, 1, error);
+  free(text);
+  return status;
+}
+
+/* The shared library, with the data in their place. */
+static int write_binary(FILE *file, const fmu_description *d, lab_error *error)
+{
+  const fmu_file *library = fmu_carried(d->fmi == 2 ? "fmu2.so" : "fmu3.so");
+  size_t at = 0; /* where the data begin */
+  while (at + sizeof d->data <= library->size && memcmp(library->bytes + at, FMU_MARK, sizeof FMU_MARK) != 0)
+    at++;
+  if (at + sizeof d->data > library->size)
+    return lab_fail(error, LAB_WORLD, "%s as built has no place for a model: build export-fmu again without -flto",
+                    library->name);
+  fwrite(library->bytes, 1, at, file);
+  fwrite(&d->data, 1, sizeof d->data, file);
+  at += sizeof d->data;
+  fwrite(library->bytes + at, 1, library->size - at, file);
+  return LAB_OK;
+}
+
+/* model_data.h, for who compiles the sources. */
+static int write_header(FILE *file, const fmu_description *d, lab_error *error)
+{
+  (void)error;
+  fprintf(file, "/* The model, by export-fmu; for libpneu " PNEU_VERSION " with its whole catalogue. */\n");
+  fprintf(file, "#define MODEL_TOKEN \"%s\"\n", d->data.token);
+  lab_rig_write_c(file, d->rig, 1);
+  if (d->rig->n_terms == 0)
+    fputs("#define MODEL_TERMS {{0, 0, 0, 0, 0, {0}}}\n", file);
+  return LAB_OK;
+}
+
+/* The model file, for the other programs. */
+static int write_model(FILE *file, const fmu_description *d, lab_error *error)
+{
+  (void)error;
+  lab_rig_write(file, d->rig, "The model of this FMU, for libpneu's programs.");
+  return LAB_OK;
 }
 
 static int add_binary(maker *m, lab_error *error)
 {
-  const int fmi = m->description.fmi;
-  const char *platform = platforms[fmi - 2];
+  const char *platform = platforms[m->d.fmi - 2];
   char name[PATH_TEXT];
-  unsigned char *bytes;
-  size_t size;
   if (!platform)
     return LAB_OK;
-  snprintf(name, sizeof name, "binaries/%s/%s.so", platform, m->identifier);
-  if (fmu_data_binary(&m->data, fmi, &bytes, &size, error) == LAB_OK)
-    add_file(&m->package, name, bytes, size, error);
-  free(bytes);
-  return error->status;
-}
-
-static int add_header(maker *m, const char *name, lab_error *error)
-{
-  char *text;
-  size_t size;
-  if (fmu_data_header(m->rig, &m->data, &text, &size, error) == LAB_OK)
-    add_file(&m->package, name, text, size, error);
-  free(text);
-  return error->status;
+  snprintf(name, sizeof name, "binaries/%s/%s.so", platform, m->d.identifier);
+  return add_written(m, name, write_binary, error);
 }
 
 /* The sources, in the folders of the repository, and the model's header in the place of the empty one. */
 static int add_sources(maker *m, lab_error *error)
 {
   const fmu_file *file;
-  int i;
-  for (i = 0; (file = fmu_carried(i)); i++) {
+  for (file = fmu_files; file->name; file++) {
     char name[PATH_TEXT];
-    if (!fmu_is_source(file, m->description.fmi))
+    if (!fmu_is_source(file, m->d.fmi))
       continue;
     snprintf(name, sizeof name, "sources/%s", file->name);
-    if (strstr(name, "/model_data.h") ? add_header(m, name, error)
-                                      : add_file(&m->package, name, file->bytes, file->size, error))
+    if (strstr(name, "/model_data.h") ? add_written(m, name, write_header, error)
+                                      : add_carried(m, name, file->name, error))
       return error->status;
   }
   return LAB_OK;
 }
 
-/* The model file, for the other programs. */
-static int add_model(maker *m, lab_error *error)
-{
-  char *text = NULL;
-  size_t size;
-  FILE *file = open_memstream(&text, &size);
-  if (!file)
-    return lab_fail_memory(error, "the model");
-  lab_rig_write(file, m->rig, "The model of this FMU, for libpneu's programs.");
-  if (fclose(file) == 0)
-    add_file(&m->package, "resources/model.cfg", text, size, error);
-  else
-    lab_fail_memory(error, "the model");
-  free(text);
-  return error->status;
-}
-
 /* What only one version has. */
 static int add_own(maker *m, lab_error *error)
 {
-  if (m->description.fmi == 2)
+  if (m->d.fmi == 2)
     return add_carried(m, "model.png", "icon.png", error);
-  if (add_xml(m, "sources/buildDescription.xml", fmu_describe_build, error) ||
-      add_xml(m, "terminalsAndIcons/terminalsAndIcons.xml", fmu_describe_icon, error) ||
+  if (add_written(m, "sources/buildDescription.xml", fmu_describe_build, error) ||
+      add_written(m, "terminalsAndIcons/terminalsAndIcons.xml", fmu_describe_icon, error) ||
       add_carried(m, "terminalsAndIcons/icon.png", "icon.png", error))
     return error->status;
   return add_carried(m, "terminalsAndIcons/icon.svg", "icon.svg", error);
@@ -238,42 +259,34 @@ static int add_own(maker *m, lab_error *error)
 
 static int add_all(maker *m, lab_error *error)
 {
-  if (add_xml(m, "modelDescription.xml", fmu_describe, error) || add_binary(m, error) || add_sources(m, error) ||
-      add_model(m, error) || add_carried(m, "documentation/index.html", "index.html", error) ||
+  if (add_written(m, "modelDescription.xml", fmu_describe, error) || add_binary(m, error) || add_sources(m, error) ||
+      add_written(m, "resources/model.cfg", write_model, error) ||
+      add_carried(m, "documentation/index.html", "index.html", error) ||
       add_carried(m, "documentation/licenses/license.txt", "license.txt", error))
     return error->status;
   return add_own(m, error);
 }
 
-static int prepare(maker *m, int fmi, lab_error *error)
-{
-  pneu_model model;
-  if (lab_rig_model(m->rig, &model, error))
-    return error->status;
-  fmu_data_of(m->rig, fmi, &m->data);
-  fmu_list_of(&m->data, &model, &m->list);
-  identify(m->rig->name, m->identifier);
-  m->description.fmi = fmi;
-  m->description.name = m->rig->name;
-  m->description.identifier = m->identifier;
-  m->description.data = &m->data;
-  m->description.list = &m->list;
-  return LAB_OK;
-}
-
 int fmu_export(const lab_rig *rig, int fmi, const char *path, lab_error *error)
 {
   char own_path[LAB_NAME_TEXT + 8];
+  pneu_model model;
   maker m;
+  int status;
   memset(&m, 0, sizeof m);
-  m.rig = rig;
-  error->status = LAB_OK;
-  if (prepare(&m, fmi, error) || begin_package(&m.package, error))
+  if (lab_rig_model(rig, &model, error))
     return error->status;
-  if (add_all(&m, error)) {
-    drop_package(&m.package);
-    return error->status;
-  }
-  snprintf(own_path, sizeof own_path, "%s.fmu", m.identifier);
-  return write_package(&m.package, path ? path : own_path, error);
+  m.d.fmi = fmi;
+  m.d.rig = rig;
+  identify(rig->name, m.d.identifier);
+  data_of(rig, fmi, &m.d.data);
+  fmu_list_of(&m.d.data, &model, &m.d.list);
+  snprintf(own_path, sizeof own_path, "%s.fmu", m.d.identifier);
+  status = begin_archive(&m, error);
+  if (status == LAB_OK)
+    status = add_all(&m, error);
+  if (status == LAB_OK)
+    status = write_archive(&m, path ? path : own_path, error);
+  end_archive(&m);
+  return status;
 }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../lab/rig/rig.h"
+
 #define NONE ((double)NAN)
 
 typedef struct words {
@@ -143,15 +145,11 @@ static void add_parameters(fmu_list *list, const fmu_data *data)
   int i;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     const pneu_effect *effect = pneu_effect_at(pneu_effect_of(i));
-    pneu_param_info info;
+    const pneu_param_info info = lab_param_info(i);
+    const words w = {info.name, info.unit, info.meaning};
     fmu_variable *v;
-    words w;
     if (!fmu_has_parameter(data, i))
       continue;
-    pneu_param_describe(i, &info);
-    w.name = info.name;
-    w.unit = info.unit;
-    w.meaning = info.meaning;
     v = add(list, FMU_REF_PARAMETER + (unsigned)i, FMU_PARAMETER, &w);
     if (effect)
       snprintf(v->name, sizeof v->name, "%s.%s", effect->name, info.name);

@@ -1,5 +1,4 @@
 /* Which part of the air process makes the asymmetry: every combination of its causes, and the Shapley share of each. */
-#include "linearflow.h"
 #include "products.h"
 #include "hypotheses.h"
 #include "stroke.h"
@@ -31,7 +30,7 @@ static int measure(const study_cell *c, int present, lab_asymmetry *r, lab_error
     p.swept_ratio = 0;
   }
   if (!(present >> PLACE & 1))
-    hypotheses[H4_BENCH_OFFSET].without(&p, &laws);
+    hypothesis_without(H4_BENCH_OFFSET, &p, &laws);
   return stroke_measure(&p, &p, &laws, r, error);
 }
 

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "speeds.h"
 #include "stroke.h"
 
 pneu_params bench_params(const pneu_params *base, double low, double width)
@@ -87,24 +86,6 @@ int bench_scan_range(const bench_scan *scan, int quantity, double limit, double 
     first = i + 1;
   }
   return best > 0;
-}
-
-double bench_scan_max(const bench_scan *scan, int quantity)
-{
-  double value = scan->value[quantity][0];
-  int i;
-  for (i = 1; i < SCAN_POINTS; i++)
-    value = fmax(value, scan->value[quantity][i]);
-  return value;
-}
-
-double bench_scan_min(const bench_scan *scan, int quantity)
-{
-  double value = scan->value[quantity][0];
-  int i;
-  for (i = 1; i < SCAN_POINTS; i++)
-    value = fmin(value, scan->value[quantity][i]);
-  return value;
 }
 
 /* ln of the duration ratio on a bench set; NaN where it cannot be had. */

@@ -42,10 +42,6 @@ int bench_scan_run(const pneu_params *base, const pneu_laws *law, bench_scan *ou
  * Returns: 1, or 0 where there is none. */
 int bench_scan_range(const bench_scan *scan, int quantity, double limit, double *from, double *to);
 
-/* Largest or smallest value of a quantity over the scan. */
-double bench_scan_max(const bench_scan *scan, int quantity);
-double bench_scan_min(const bench_scan *scan, int quantity);
-
 /* Lower end [Pa] at which a bench set of some width [Pa] lets both edges take the same time, by simulation to 1e-3
  * of duration; NaN where there is none.
  * Out: asymmetry there */

@@ -1,6 +1,7 @@
 /* What is measured on simulated strokes to try the paper's conclusions. */
 #include <math.h>
 
+#include "../lab/base/array.h"
 #include "conclusions.h"
 #include "paper.h"
 
@@ -33,8 +34,7 @@ static pneu_params on_springs(const pneu_params *p, double low, double high)
 static pneu_params in_vacuum(const pneu_params *nominal)
 {
   pneu_params p = *nominal;
-  pneu_param_info ambient;
-  pneu_param_describe(PNEU_PARAM_ambient_pressure, &ambient);
+  const pneu_param_info ambient = lab_param_info(PNEU_PARAM_ambient_pressure);
   p.ambient_pressure = fmax(0.01 * bench_pressure(&p, 0, -1), ambient.lower);
   p.fill_area /= 10;
   p.vent_area /= 10;
@@ -233,9 +233,10 @@ static void save_by_bench(const conclusion_trial *t, int quantity, finding *f)
 {
   const bench_scan *scan = &t->scan;
   const double first = scan->from[0], last = scan->from[SCAN_POINTS - 1];
-  double from = (double)NAN, to = (double)NAN;
+  double from = (double)NAN, to = (double)NAN, least, most;
   lab_append(f->condition, FINDING_TEXT, "the bench set starts");
-  finding_add_conditioned(f, bench_scan_min(scan, quantity));
+  lab_range(scan->value[quantity], SCAN_POINTS, &least, &most);
+  finding_add_conditioned(f, least);
   bench_scan_range(scan, quantity, t->limit, &from, &to);
   if (from > first && to < last)
     lab_append(f->where, FINDING_TEXT, "at %.3g..%.3g kPa", from / kPa, to / kPa);
@@ -250,10 +251,11 @@ static void save_by_bench(const conclusion_trial *t, int quantity, finding *f)
 
 static void fall_range(const conclusion_trial *t, finding *f)
 {
+  double least, most;
   finding_add(f, range_of(&t->pair->down), "%s", "");
   save_by_bench(t, SCAN_FALL_RANGE, f);
-  lab_append(f->note, FINDING_TEXT, "%.3g..%.3g over bench sets %.3g kPa wide",
-             bench_scan_min(&t->scan, SCAN_FALL_RANGE), bench_scan_max(&t->scan, SCAN_FALL_RANGE), t->scan.width / kPa);
+  lab_range(t->scan.value[SCAN_FALL_RANGE], SCAN_POINTS, &least, &most);
+  lab_append(f->note, FINDING_TEXT, "%.3g..%.3g over bench sets %.3g kPa wide", least, most, t->scan.width / kPa);
 }
 
 static void fall_supply(const conclusion_trial *t, finding *f)
@@ -293,8 +295,10 @@ static void fall_change(const conclusion_trial *t, finding *f)
 static void slowest_over_fastest(const conclusion_trial *t, const speed_edge *slow, const speed_edge *fast,
                                  int quantity, finding *f)
 {
+  double least, most;
   finding_add(f, speed_min(slow) / speed_max(fast), "%s", "");
-  finding_add(f, bench_scan_max(&t->scan, quantity), "at worst on bench sets %.3g kPa wide", t->scan.width / kPa);
+  lab_range(t->scan.value[quantity], SCAN_POINTS, &least, &most);
+  finding_add(f, most, "at worst on bench sets %.3g kPa wide", t->scan.width / kPa);
 }
 
 static void first_over(const conclusion_trial *t, finding *f)

@@ -1,7 +1,6 @@
 #include "grid.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* The actuators of a grid.  Returns: how many */
 static int actuators_of(const study *s, const study_grid *grid, int actuator[STUDY_ACTUATOR_MAX])

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../lab/base/names.h"
+
 /* Pressures of Table 1 [Pa]. */
 typedef struct springs {
   double low, high;
@@ -243,10 +245,8 @@ static const char *judge(const table *claims, size_t row, double computed)
 
 static double value_of(const char *item, const claim_value *value, size_t n)
 {
-  while (n-- > 0)
-    if (!strcmp(value[n].item, item))
-      return value[n].value;
-  return (double)NAN; /* a matter of form */
+  const int i = lab_name_index(item, value, n, sizeof *value);
+  return i < 0 ? (double)NAN : value[i].value; /* a matter of form has none */
 }
 
 /* Row of a cause; the first is that of a claim that agrees. */

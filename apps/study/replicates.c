@@ -7,6 +7,7 @@
 
 #include "../lab/base/array.h"
 #include "../lab/base/config.h"
+#include "../lab/base/names.h"
 #include "../lab/log/log.h"
 #include "../lab/rig/rig.h"
 #include "sets.h"
@@ -113,14 +114,13 @@ static int cut(const config_setting_t *group, const lab_log *log, pile *p, lab_e
   const char *steps = group ? sets_text(group, "steps") : "", *strokes = group ? sets_text(group, "strokes") : "";
   const char *key = *steps ? steps : strokes;
   double low, high;
-  int c = 0;
+  int c;
   if (!*key) {
     add_log_runs(p, log);
     return LAB_OK;
   }
-  while (c < LAB_CHANNEL_COUNT && strcmp(lab_channels[c].key, key) != 0)
-    c++;
-  if (c == LAB_CHANNEL_COUNT || !log->value[c] || !lab_range(log->value[c], log->n, &low, &high))
+  c = lab_name_index(key, lab_channels, LAB_CHANNEL_COUNT, sizeof *lab_channels);
+  if (c < 0 || !log->value[c] || !lab_range(log->value[c], log->n, &low, &high))
     return lab_config_fail(group, error, "replicates: %s has no channel %s", log->path, key);
   (*steps ? add_steps : add_strokes)(p, log, c, low, high);
   return LAB_OK;
@@ -254,12 +254,11 @@ static int take_group(bench *b, const config_setting_t *group, const config_sett
 /* Every log of a list as a group, or every group of the list. */
 static int take_each(bench *b, const char *list, lab_error *error)
 {
-  const config_setting_t *items = config_setting_get_member((config_setting_t *)b->set, list);
+  const config_setting_t *items = lab_config_member(b->set, list);
   int i, status = LAB_OK;
   for (i = 0; items && i < config_setting_length(items) && status == LAB_OK; i++) {
     const config_setting_t *group = config_setting_get_elem(items, (unsigned)i);
-    const config_setting_t *logs =
-        config_setting_is_group(group) ? config_setting_get_member((config_setting_t *)group, "logs") : NULL;
+    const config_setting_t *logs = config_setting_is_group(group) ? lab_config_member(group, "logs") : NULL;
     if (config_setting_is_group(group) && !logs)
       return lab_config_fail(group, error, "replicates: expected the list logs");
     status = logs ? take_group(b, group, logs, 0, config_setting_length(logs), error)
@@ -272,7 +271,7 @@ int replicates_repeat(const config_setting_t *set, const char *rig, const char *
                       lab_error *error)
 {
   static bench b;
-  const int is_declared = config_setting_get_member((config_setting_t *)set, "replicates") != NULL;
+  const int is_declared = lab_config_member(set, "replicates") != NULL;
   const int judged = sets_channel(sets_text(set, "judged"));
   int status;
   *repeat = (double)NAN;

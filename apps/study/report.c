@@ -6,7 +6,7 @@
 #include "../lab/base/json.h"
 #include "../lab/base/template.h"
 #include "conclusions.h"
-#include "verdicts.h"
+#include "hypotheses.h"
 
 #include "study/paper/report.md.inc" /* report_md; made by make */
 

@@ -21,8 +21,7 @@ static int check_set(const config_setting_t *set, lab_error *error)
   for (i = 0; i < sizeof needed / sizeof *needed; i++)
     if (!*sets_text(set, needed[i]))
       return lab_config_fail(set, error, "expected the text %s", needed[i]);
-  if (!config_setting_get_member((config_setting_t *)set, "fit") ||
-      !config_setting_get_member((config_setting_t *)set, "holdout"))
+  if (!lab_config_member(set, "fit") || !lab_config_member(set, "holdout"))
     return lab_config_fail(set, error, "expected the lists fit and holdout");
   return LAB_OK;
 }
@@ -30,7 +29,7 @@ static int check_set(const config_setting_t *set, lab_error *error)
 /* Paths of a list of logs, one behind the other, `mark` in between.  Returns: 0 if one is not there. */
 static int list_logs(const config_setting_t *set, const char *list, const char *data_dir, char mark, char *text)
 {
-  const config_setting_t *logs = config_setting_get_member((config_setting_t *)set, list);
+  const config_setting_t *logs = lab_config_member(set, list);
   int i, there = 1;
   for (i = 0; i < config_setting_length(logs) && i < LOGS_MAX; i++) {
     char *path = text + strlen(text);

@@ -3,9 +3,6 @@
 #ifndef STUDY_SETS_H
 #define STUDY_SETS_H
 
-#include <stdio.h>
-
-#include <cjson/cJSON.h>
 #include <libconfig.h>
 
 #include "table.h"
@@ -44,25 +41,6 @@ const char *sets_text(const config_setting_t *set, const char *key);
 
 /* The channel of a quantity ("pressure"): enum lab_channel; -1 if there is none. */
 int sets_channel(const char *quantity);
-
-/* report.json of a set.  Returns: NULL if there is none; else to be freed with cJSON_Delete */
-cJSON *sets_json(const char *out_dir, const config_setting_t *set);
-
-/* A member of an object, by the keys on the way to it, which end with NULL; NULL if there is none, also for an object
- * that is NULL. */
-const cJSON *sets_at(const cJSON *at, ...);
-
-/* A number or text of an object; NaN or NULL if there is none. */
-double sets_number(const cJSON *at, const char *key);
-const char *sets_words(const cJSON *at, const char *key);
-
-/* The error of a channel. */
-typedef struct sets_error {
-  double value, in_noise; /* value in the unit asked for; NaN where the report has none */
-} sets_error;
-
-/* In: errors  an object of channels ("pressure"), each with rmse, unit and in_noise */
-sets_error sets_error_of(const cJSON *errors, const char *channel, const char *unit);
 
 /* Whether every part of model `a` ("x + y") is one of model `b`, in whatever order. */
 int sets_within(const char *a, const char *b);

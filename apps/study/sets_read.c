@@ -1,15 +1,13 @@
-#include "../lab/log/channel.h"
 #include "sets.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../lab/base/text.h"
-#include "../lab/base/units.h"
+#include "../lab/base/names.h"
 #include "../lab/base/whiteness.h"
+#include "../lab/log/channel.h"
 
 const char *sets_text(const config_setting_t *set, const char *key)
 {
@@ -18,60 +16,9 @@ const char *sets_text(const config_setting_t *set, const char *key)
   return text;
 }
 
-cJSON *sets_json(const char *out_dir, const config_setting_t *set)
-{
-  char path[1024];
-  lab_error ignored;
-  lab_text text;
-  cJSON *json;
-  snprintf(path, sizeof path, "%s/%s/report.json", out_dir, sets_text(set, "name"));
-  if (lab_text_read(path, &text, &ignored))
-    return NULL;
-  json = cJSON_ParseWithLength(text.data, text.size);
-  lab_text_free(&text);
-  return json;
-}
-
-const cJSON *sets_at(const cJSON *at, ...)
-{
-  const char *key;
-  va_list keys;
-  va_start(keys, at);
-  while ((key = va_arg(keys, const char *)) != NULL)
-    at = cJSON_GetObjectItemCaseSensitive(at, key);
-  va_end(keys);
-  return at;
-}
-
-double sets_number(const cJSON *at, const char *key)
-{
-  const cJSON *number = sets_at(at, key, NULL);
-  return cJSON_IsNumber(number) ? number->valuedouble : (double)NAN;
-}
-
-const char *sets_words(const cJSON *at, const char *key)
-{
-  return cJSON_GetStringValue(sets_at(at, key, NULL));
-}
-
-sets_error sets_error_of(const cJSON *errors, const char *channel, const char *unit)
-{
-  const cJSON *found = sets_at(errors, channel, NULL);
-  const char *own = sets_words(found, "unit");
-  sets_error e = {(double)NAN, sets_number(found, "in_noise")};
-  double scale, offset;
-  lab_error ignored;
-  if (own && lab_unit_factor(own, unit, &scale, &offset, &ignored) == LAB_OK)
-    e.value = scale * sets_number(found, "rmse");
-  return e;
-}
-
 int sets_channel(const char *quantity)
 {
-  int c = 0;
-  while (c < LAB_CHANNEL_COUNT && strcmp(lab_channels[c].quantity, quantity) != 0)
-    c++;
-  return c < LAB_CHANNEL_COUNT ? c : -1;
+  return lab_name_index(quantity, &lab_channels->quantity, LAB_CHANNEL_COUNT, sizeof *lab_channels);
 }
 
 /* ---- Names of models ---- */

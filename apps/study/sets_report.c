@@ -1,11 +1,11 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "../lab/base/config.h"
 #include "../lab/base/json.h"
+#include "../lab/base/names.h"
 #include "../lab/base/template.h"
 #include "../lab/base/text.h"
 #include "../lab/base/units.h"
@@ -17,13 +17,73 @@
 
 enum { PATH_TEXT = 1024, NAMES_TEXT = 512 };
 
+/* The error of a model: NaN where the report has none. */
+typedef struct model_error {
+  double value, in_noise; /* value in the unit asked for */
+} model_error;
+
+/* ---- What report.json says ---- */
+
+/* report.json of a set.  Returns: NULL if there is none; else to be freed with cJSON_Delete */
+static cJSON *json_of(const char *out_dir, const config_setting_t *set)
+{
+  char path[PATH_TEXT];
+  lab_error ignored;
+  lab_text text;
+  cJSON *json;
+  snprintf(path, sizeof path, "%s/%s/report.json", out_dir, sets_text(set, "name"));
+  if (lab_text_read(path, &text, &ignored))
+    return NULL;
+  json = cJSON_ParseWithLength(text.data, text.size);
+  lab_text_free(&text);
+  return json;
+}
+
+/* A member of an object, by the keys on the way to it, which end with NULL; NULL if there is none, also for an object
+ * that is NULL. */
+static const cJSON *at_keys(const cJSON *at, ...)
+{
+  const char *key;
+  va_list keys;
+  va_start(keys, at);
+  while ((key = va_arg(keys, const char *)) != NULL)
+    at = cJSON_GetObjectItemCaseSensitive(at, key);
+  va_end(keys);
+  return at;
+}
+
+/* A number or text of an object; NaN or NULL if there is none. */
+static double number_of(const cJSON *at, const char *key)
+{
+  const cJSON *number = at_keys(at, key, NULL);
+  return cJSON_IsNumber(number) ? number->valuedouble : (double)NAN;
+}
+
+static const char *words_of(const cJSON *at, const char *key)
+{
+  return cJSON_GetStringValue(at_keys(at, key, NULL));
+}
+
+/* In: errors  an object of channels ("pressure"), each with rmse, unit and in_noise */
+static model_error channel_error(const cJSON *errors, const char *channel, const char *unit)
+{
+  const cJSON *found = at_keys(errors, channel, NULL);
+  const char *own = words_of(found, "unit");
+  model_error e = {(double)NAN, number_of(found, "in_noise")};
+  double scale, offset;
+  lab_error ignored;
+  if (own && lab_unit_factor(own, unit, &scale, &offset, &ignored) == LAB_OK)
+    e.value = scale * number_of(found, "rmse");
+  return e;
+}
+
 /* A set with what its values are made from. */
 typedef struct story {
   const config_setting_t *set;
   const char *out_dir;
   const cJSON *json; /* its report; NULL if it did not run */
   const char *channel, *unit;
-  sets_error before, after, held_before, held_after;
+  model_error before, after, held_before, held_after;
   double noise, repeat; /* in its unit; NaN: not known */
 } story;
 
@@ -52,7 +112,7 @@ static void put_digits(cJSON *to, const char *names, ...)
 }
 
 /* An error of a model: value and noise, and "115 Pa (16.5)" for a cell; nothing where there is none. */
-static void put_error(cJSON *to, const char *name, sets_error e, const char *unit)
+static void put_error(cJSON *to, const char *name, model_error e, const char *unit)
 {
   cJSON *item = isnan(e.value) ? NULL : cJSON_AddObjectToObject(to, name);
   if (!item)
@@ -73,14 +133,14 @@ static void put_list(cJSON *to, const char *name, const char *items, cJSON *list
     cJSON_Delete(list);
 }
 
-static sets_error error_of(const story *s, const cJSON *errors)
+static model_error error_of(const story *s, const cJSON *errors)
 {
-  return sets_error_of(errors, s->channel, s->unit);
+  return channel_error(errors, s->channel, s->unit);
 }
 
-static sets_error held_error(const story *s, const cJSON *model)
+static model_error held_error(const story *s, const cJSON *model)
 {
-  return error_of(s, sets_at(model, "holdout", NULL));
+  return error_of(s, at_keys(model, "holdout", NULL));
 }
 
 static story story_of(const sets_result *result, const cJSON *json, const char *out_dir)
@@ -91,10 +151,10 @@ static story story_of(const sets_result *result, const cJSON *json, const char *
   lab_error ignored;
   story s = {.set = set, .out_dir = out_dir, .json = json, .channel = sets_text(set, "judged")};
   s.unit = sets_text(set, "unit");
-  s.before = error_of(&s, sets_at(json, "error", "before", NULL));
-  s.after = error_of(&s, sets_at(json, "error", "after", NULL));
-  s.held_before = error_of(&s, sets_at(json, "error", "holdout", "before", NULL));
-  s.held_after = error_of(&s, sets_at(json, "error", "holdout", "after", NULL));
+  s.before = error_of(&s, at_keys(json, "error", "before", NULL));
+  s.after = error_of(&s, at_keys(json, "error", "after", NULL));
+  s.held_before = error_of(&s, at_keys(json, "error", "holdout", "before", NULL));
+  s.held_after = error_of(&s, at_keys(json, "error", "holdout", "after", NULL));
   if (channel >= 0)
     lab_unit_factor(lab_channels[channel].unit, s.unit, &scale, &offset, &ignored);
   s.noise = s.before.value / s.before.in_noise;
@@ -109,10 +169,10 @@ static double bar_of(const story *s)
 }
 
 /* The error of the channel that was predicted and not fitted; it is that of a hold-out. */
-static sets_error check_error(const story *s, const char *when)
+static model_error check_error(const story *s, const char *when)
 {
-  sets_error e =
-      sets_error_of(sets_at(s->json, "error", when, NULL), sets_text(s->set, "check"), sets_text(s->set, "check_unit"));
+  model_error e =
+      channel_error(at_keys(s->json, "error", when, NULL), sets_text(s->set, "check"), sets_text(s->set, "check_unit"));
   e.in_noise = (double)NAN;
   return e;
 }
@@ -133,14 +193,9 @@ static void put_errors(const story *s, cJSON *to)
 
 /* ---- What was asked ---- */
 
-static const config_setting_t *list_of(const config_setting_t *set, const char *key)
-{
-  return config_setting_get_member((config_setting_t *)set, key);
-}
-
 static int is_fitted(const config_setting_t *set, const char *log)
 {
-  const config_setting_t *logs = list_of(set, "fit");
+  const config_setting_t *logs = lab_config_member(set, "fit");
   int i;
   for (i = 0; i < config_setting_length(logs); i++)
     if (!strcmp(config_setting_get_string_elem(logs, i), log))
@@ -150,7 +205,7 @@ static int is_fitted(const config_setting_t *set, const char *log)
 
 static void put_logs(const config_setting_t *set, const char *key, const char *also_fitted, cJSON *to)
 {
-  const config_setting_t *logs = list_of(set, key);
+  const config_setting_t *logs = lab_config_member(set, key);
   cJSON *list = cJSON_CreateArray();
   int i;
   for (i = 0; i < config_setting_length(logs); i++) {
@@ -185,23 +240,19 @@ enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
 /* What is left decides; where logs and rig file contradict each other, nothing does.  Returns: one of `verdicts` */
 static const char *verdict_word(const story *s)
 {
-  if (sets_words(s->json, "doubt") || !(s->after.value <= bar_of(s)))
+  if (words_of(s->json, "doubt") || !(s->after.value <= bar_of(s)))
     return "undecided";
   if (s->held_after.value > bar_of(s))
     return "fitted";
-  if (cJSON_GetArraySize(sets_at(s->json, "unlisted", NULL)) > 0)
+  if (cJSON_GetArraySize(at_keys(s->json, "unlisted", NULL)) > 0)
     return "unlisted";
-  return cJSON_GetArraySize(sets_at(s->json, "found", NULL)) > 0 ? "effect" : "none";
+  return cJSON_GetArraySize(at_keys(s->json, "found", NULL)) > 0 ? "effect" : "none";
 }
 
 /* Returns: the last if there is no error to judge by */
 static int verdict_of(const story *s)
 {
-  const char *verdict = isnan(s->after.value) ? "" : verdict_word(s);
-  int i = 0;
-  while (i < VERDICTS - 1 && strcmp(verdict, verdicts[i][0]) != 0)
-    i++;
-  return i;
+  return lab_name_index(isnan(s->after.value) ? "" : verdict_word(s), verdicts, VERDICTS, sizeof *verdicts);
 }
 
 static void join(char names[NAMES_TEXT], const char *name)
@@ -212,15 +263,15 @@ static void join(char names[NAMES_TEXT], const char *name)
 /* What was found: for the table with what is alike, for the sentence with what a term without a name acts on. */
 static void put_found(const cJSON *json, cJSON *to, char names[NAMES_TEXT])
 {
-  const cJSON *unlisted = sets_at(json, "unlisted", NULL), *found, *other;
+  const cJSON *unlisted = at_keys(json, "unlisted", NULL), *found, *other;
   cJSON *cell = cJSON_AddArrayToObject(to, "found"), *alike = cJSON_AddArrayToObject(to, "alike");
   char name[NAMES_TEXT];
   names[0] = '\0';
-  cJSON_ArrayForEach(found, sets_at(json, "found", NULL))
+  cJSON_ArrayForEach(found, at_keys(json, "found", NULL))
   {
-    const char *effect = sets_words(found, "effect");
+    const char *effect = words_of(found, "effect");
     name[0] = '\0';
-    cJSON_ArrayForEach(other, sets_at(found, "indistinguishable_from", NULL)) join(name, cJSON_GetStringValue(other));
+    cJSON_ArrayForEach(other, at_keys(found, "indistinguishable_from", NULL)) join(name, cJSON_GetStringValue(other));
     join(names, effect);
     lab_json_join(cell, ", ", "%s%s%s%s", effect, *name ? " (or " : "", name, *name ? ")" : "");
     if (*name) {
@@ -233,15 +284,14 @@ static void put_found(const cJSON *json, cJSON *to, char names[NAMES_TEXT])
     lab_json_join(cell, ", ", "a term without a name");
   cJSON_ArrayForEach(found, unlisted)
   {
-    snprintf(name, sizeof name, "a term without a name (%s, %s)", sets_words(found, "what"),
-             sets_words(found, "where"));
+    snprintf(name, sizeof name, "a term without a name (%s, %s)", words_of(found, "what"), words_of(found, "where"));
     join(names, name);
   }
 }
 
 static void put_verdict(const story *s, cJSON *to)
 {
-  const char *doubt = sets_words(s->json, "doubt");
+  const char *doubt = words_of(s->json, "doubt");
   const int verdict = verdict_of(s), is_open = !strcmp(verdicts[verdict][0], "undecided");
   char names[NAMES_TEXT];
   put_found(s->json, to, names);
@@ -278,7 +328,7 @@ static void put_in_pressure(const story *s, const lab_rig *rig, cJSON *to)
 
 static const char *name_of(const cJSON *model)
 {
-  return sets_words(model, "model");
+  return words_of(model, "model");
 }
 
 static const cJSON *last_of(const cJSON *list)
@@ -289,20 +339,20 @@ static const cJSON *last_of(const cJSON *list)
 /* Share of the declared model's root chi-square that a model leaves [%]. */
 static double root_chi2(const story *s, const cJSON *model)
 {
-  const cJSON *declared = cJSON_GetArrayItem(sets_at(s->json, "path", NULL), 0);
-  return 100 * sqrt(sets_number(model, "chi2") / sets_number(declared, "chi2"));
+  const cJSON *declared = cJSON_GetArrayItem(at_keys(s->json, "path", NULL), 0);
+  return 100 * sqrt(number_of(model, "chi2") / number_of(declared, "chi2"));
 }
 
 static void put_way(const story *s, cJSON *to)
 {
-  const cJSON *model, *path = sets_at(s->json, "path", NULL);
+  const cJSON *model, *path = at_keys(s->json, "path", NULL);
   cJSON *list;
   if (cJSON_GetArraySize(path) < 2)
     return;
   list = cJSON_AddArrayToObject(cJSON_AddObjectToObject(to, "way"), "models");
   cJSON_ArrayForEach(model, path)
   {
-    const sets_error fitted = error_of(s, sets_at(model, "error", NULL)), held = held_error(s, model);
+    const model_error fitted = error_of(s, at_keys(model, "error", NULL)), held = held_error(s, model);
     cJSON *item;
     if (model->next && sets_within(name_of(model), name_of(model->next)) &&
         sets_within(name_of(model->next), name_of(model)))
@@ -318,7 +368,7 @@ static void put_way(const story *s, cJSON *to)
 static const cJSON *best_on_the_way(const story *s)
 {
   const cJSON *model, *best = NULL;
-  cJSON_ArrayForEach(model, sets_at(s->json, "path", NULL))
+  cJSON_ArrayForEach(model, at_keys(s->json, "path", NULL))
   {
     if (!best || held_error(s, model).value < held_error(s, best).value)
       best = model;
@@ -341,14 +391,13 @@ static void put_best(const story *s, cJSON *to)
 /* Of the models tried the one of lowest criterion that does without a part of the final one. */
 static void put_rival(const story *s, cJSON *to)
 {
-  const cJSON *path = sets_at(s->json, "path", NULL), *steps = sets_at(s->json, "steps", NULL);
+  const cJSON *path = at_keys(s->json, "path", NULL), *steps = at_keys(s->json, "steps", NULL);
   const cJSON *last = last_of(path), *model, *next = NULL;
   cJSON *item;
   if (cJSON_GetArraySize(path) > 1)
     cJSON_ArrayForEach(model, steps)
     {
-      if (!sets_within(name_of(last), name_of(model)) &&
-          (!next || sets_number(model, "bic") < sets_number(next, "bic")))
+      if (!sets_within(name_of(last), name_of(model)) && (!next || number_of(model, "bic") < number_of(next, "bic")))
         next = model;
     }
   if (!next)
@@ -356,22 +405,22 @@ static void put_rival(const story *s, cJSON *to)
   item = cJSON_AddObjectToObject(to, "rival");
   lab_json_put(item, "tried", "%d", cJSON_GetArraySize(steps));
   lab_json_put(item, "model", "%s", name_of(next));
-  put_digits(item, "left own bic own_bic", root_chi2(s, next), root_chi2(s, last), sets_number(next, "bic"),
-             sets_number(last, "bic"));
+  put_digits(item, "left own bic own_bic", root_chi2(s, next), root_chi2(s, last), number_of(next, "bic"),
+             number_of(last, "bic"));
 }
 
 /* Whether a model of the same name, tried under another law of the effect, leaves less; or as much and came first. */
 static int is_beaten(const cJSON *json, const cJSON *model)
 {
-  const double chi2 = sets_number(model, "chi2");
+  const double chi2 = number_of(model, "chi2");
   const cJSON *other;
   int before = 1;
-  cJSON_ArrayForEach(other, sets_at(json, "steps", NULL))
+  cJSON_ArrayForEach(other, at_keys(json, "steps", NULL))
   {
     if (other == model)
       before = 0;
     else if (!strcmp(name_of(other), name_of(model)) &&
-             (sets_number(other, "chi2") < chi2 || (before && sets_number(other, "chi2") <= chi2)))
+             (number_of(other, "chi2") < chi2 || (before && number_of(other, "chi2") <= chi2)))
       return 1;
   }
   return 0;
@@ -380,7 +429,7 @@ static int is_beaten(const cJSON *json, const cJSON *model)
 /* What each effect does alone, if it does anything. */
 static void put_singles(const story *s, cJSON *to)
 {
-  const cJSON *model, *steps = sets_at(s->json, "steps", NULL);
+  const cJSON *model, *steps = at_keys(s->json, "steps", NULL);
   cJSON *list = cJSON_CreateArray();
   cJSON_ArrayForEach(model, steps)
   {
@@ -396,7 +445,7 @@ static void put_singles(const story *s, cJSON *to)
 /* Whether the 95 % interval of a parameter is known.  Out: low, high */
 static int interval_of(const cJSON *p, double *low, double *high)
 {
-  const cJSON *ci = sets_at(p, "ci95", NULL), *from = cJSON_GetArrayItem(ci, 0), *to = cJSON_GetArrayItem(ci, 1);
+  const cJSON *ci = at_keys(p, "ci95", NULL), *from = cJSON_GetArrayItem(ci, 0), *to = cJSON_GetArrayItem(ci, 1);
   if (!cJSON_IsNumber(from) || !cJSON_IsNumber(to))
     return 0;
   *low = from->valuedouble;
@@ -407,13 +456,13 @@ static int interval_of(const cJSON *p, double *low, double *high)
 /* "name = value (low to high) unit"; no interval where the value is at a bound. */
 static void put_parameters(const cJSON *json, cJSON *to)
 {
-  const char *remark = sets_words(json, "undetermined");
+  const char *remark = words_of(json, "undetermined");
   cJSON *list = cJSON_AddArrayToObject(to, "parameters");
   const cJSON *p;
-  cJSON_ArrayForEach(p, sets_at(json, "parameters", NULL))
+  cJSON_ArrayForEach(p, at_keys(json, "parameters", NULL))
   {
-    const char *unit = sets_words(p, "unit");
-    const double value = sets_number(p, "value");
+    const char *unit = words_of(p, "unit");
+    const double value = number_of(p, "value");
     char interval[64] = "";
     double low, high;
     if (isnan(value))
@@ -430,18 +479,16 @@ static void put_parameters(const cJSON *json, cJSON *to)
 static int put_given(const story *s, lab_rig *rig, cJSON *to, lab_error *error)
 {
   const char *name = sets_text(s->set, "given");
-  const cJSON *p = sets_at(s->json, "parameters", name, NULL);
+  const cJSON *p = at_keys(s->json, "parameters", name, NULL);
   const int i = pneu_param_find(name);
-  pneu_param_info info;
   double given, low, high;
   if (!*name)
     return LAB_OK;
   if (i < 0 || !interval_of(p, &low, &high))
     return lab_config_fail(s->set, error, "given: %s is not among the parameters that were fitted", name);
-  pneu_param_describe(i, &info);
-  given = (double)*pneu_param_at(&rig->params, i);
-  lab_json_put(to, "known", "%s = %.4g %s; found %+.2g %% from it, which is %s", name, given, info.unit,
-               100 * (sets_number(p, "value") / given - 1), given >= low && given <= high ? "within" : "outside");
+  given = lab_param_value(rig, i);
+  lab_json_put(to, "known", "%s = %.4g %s; found %+.2g %% from it, which is %s", name, given, lab_param_info(i).unit,
+               100 * (number_of(p, "value") / given - 1), given >= low && given <= high ? "within" : "outside");
   return LAB_OK;
 }
 
@@ -458,7 +505,7 @@ static void put_left(const sets_left *left, double scale, double noise, cJSON *i
 static int put_channel(const config_setting_t *set, const table *residual, const char *quantity, const char *unit,
                        double noise, cJSON *list, lab_error *error)
 {
-  const config_setting_t *logs = list_of(set, "fit");
+  const config_setting_t *logs = lab_config_member(set, "fit");
   const int channel = sets_channel(quantity);
   const int runs = sets_left_runs(residual), is_log = config_setting_length(logs) == runs;
   double scale, offset;
@@ -507,23 +554,23 @@ static int put_residual(const story *s, cJSON *to, lab_error *error)
  * Returns: how many there are */
 static int put_held(const story *s, cJSON *to, int *better)
 {
-  const cJSON *log, *logs = sets_at(s->json, "error", "holdout", "logs", NULL);
+  const cJSON *log, *logs = at_keys(s->json, "error", "holdout", "logs", NULL);
   const int n = cJSON_GetArraySize(logs);
   cJSON *all = n > 1 ? cJSON_AddObjectToObject(to, "by_log") : NULL, *list = cJSON_AddArrayToObject(all, "logs");
   char farther[NAMES_TEXT] = "";
   *better = 0;
   cJSON_ArrayForEach(log, logs)
   {
-    const sets_error before = error_of(s, sets_at(log, "before", NULL)),
-                     after = error_of(s, sets_at(log, "after", NULL));
+    const model_error before = error_of(s, at_keys(log, "before", NULL)),
+                      after = error_of(s, at_keys(log, "after", NULL));
     cJSON *item = lab_json_append(list);
-    lab_json_put(item, "log", "%s", sets_words(log, "log"));
+    lab_json_put(item, "log", "%s", words_of(log, "log"));
     put_digits(item, "before before_noise after after_noise", before.value, before.in_noise, after.value,
                after.in_noise);
     if (after.value < before.value)
       ++*better;
     else
-      join(farther, sets_words(log, "log"));
+      join(farther, words_of(log, "log"));
   }
   lab_json_put(all, "n", "%d", n);
   lab_json_put(all, "better", "%d", *better);
@@ -612,7 +659,7 @@ static int put_all(const sets_result *result, int n, const char *out_dir, cJSON 
   tally t = {.not_lower = cJSON_CreateArray(), .by_channel = cJSON_CreateArray(), .raised = cJSON_CreateArray()};
   int i, status = LAB_OK;
   for (i = 0; i < n && status == LAB_OK; i++) {
-    cJSON *json = result[i].state == SETS_DONE ? sets_json(out_dir, result[i].set) : NULL, *to = lab_json_append(list);
+    cJSON *json = result[i].state == SETS_DONE ? json_of(out_dir, result[i].set) : NULL, *to = lab_json_append(list);
     const story s = story_of(&result[i], json, out_dir);
     put_declared(result[i].set, to);
     lab_json_put(to, "state", "%s", result[i].state == SETS_ABSENT ? "data absent" : "closeloop failed");

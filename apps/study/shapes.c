@@ -8,7 +8,6 @@
 #include "../lab/log/log.h"
 #include "products.h"
 #include "hypotheses.h"
-#include "speeds.h"
 #include "stroke.h"
 
 /* ---- Eq. (1): a first-order lag up, an integrator down ---- */
@@ -109,9 +108,9 @@ static int spring_and_air_rows(const study_cell *c, table *t, lab_error *error)
     pneu_laws laws = c->laws;
     speed_pair pair;
     if (!rows[i].spring)
-      hypotheses[H1_RATE].without(&p, &laws);
+      hypothesis_without(H1_RATE, &p, &laws);
     if (!rows[i].air)
-      hypotheses[H6_AIR_PROCESS].without(&p, &laws);
+      hypothesis_without(H6_AIR_PROCESS, &p, &laws);
     if (speeds_measure(&p, &laws, &pair, error))
       return error->status;
     table_row(t, "sssggggggg", c->rig->name, c->gas, c->flow, (double)rows[i].spring, (double)rows[i].air,

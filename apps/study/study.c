@@ -110,18 +110,16 @@ static int read_share(const key *k, const config_setting_t *setting, study *s, l
 static int read_range(const key *k, const config_setting_t *group, study *s, lab_error *error)
 {
   static const char *const keys[] = {"figure", "from", "to", "points"};
+  const config_setting_t *member[4];
   study_range *range = field(k, s);
-  const config_setting_t *from = config_setting_get_member(group, "from");
-  const config_setting_t *to = config_setting_get_member(group, "to");
-  const config_setting_t *points = config_setting_get_member(group, "points");
-  if (lab_config_known(group, keys, 4, sizeof *keys, error))
+  if (lab_config_members(group, keys, 4, 0, member, error))
     return error->status;
-  if (!from || !to || !points)
+  if (!member[1] || !member[2] || !member[3])
     return lab_config_fail(group, error, "expected the keys from, to and points");
-  if (lab_config_quantity(from, k->unit, 0, HUGE_VAL, &range->from, error) ||
-      lab_config_quantity(to, k->unit, range->from, HUGE_VAL, &range->to, error))
+  if (lab_config_quantity(member[1], k->unit, 0, HUGE_VAL, &range->from, error) ||
+      lab_config_quantity(member[2], k->unit, range->from, HUGE_VAL, &range->to, error))
     return error->status;
-  return lab_config_count(points, 2, 10000, &range->points, error);
+  return lab_config_count(member[3], 2, 10000, &range->points, error);
 }
 
 static int read_bench(const config_setting_t *pair, study_bench *bench, lab_error *error)

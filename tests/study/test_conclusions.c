@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../../apps/study/conclusions.h"
-#include "../../apps/study/loadcycle.h"
 #include "../../apps/study/paper.h"
 #include "../words.h"
 

@@ -43,11 +43,7 @@ static void fill(struct table *table, const lab_program *program, lab_cli *cli)
 /* Row of the option --out, which -o stands for in every program that has it; -1: there is none. */
 static int row_of_out(const struct table *table)
 {
-  int i;
-  for (i = 0; i < table->n; i++)
-    if (strcmp(table->row[i].name, "out") == 0)
-      return i;
-  return -1;
+  return lab_name_index("out", table->row, (size_t)table->n, sizeof table->row[0]);
 }
 
 /* Every line of a text in its column. */
@@ -76,25 +72,18 @@ static void print_usage(const lab_program *program, const struct table *table)
          "or memory.\nCtrl-C ends it by the signal, 130 in a shell, with every file whole or absent.\n");
 }
 
-static int bad_number(const lab_option *row, const char *text, lab_error *error)
-{
-  return lab_fail(error, LAB_USAGE, "--%s: expected a %snumber, %g to %g, found \"%s\"", row->name,
-                  row->kind == LAB_OPTION_COUNT ? "whole " : "", row->lower, row->upper, text);
-}
-
 static int set_number(const lab_option *row, const char *text, lab_error *error)
 {
+  const int is_whole = row->kind == LAB_OPTION_COUNT;
   char *end;
-  double value = strtod(text, &end);
-  if (end == text || *end || !(value >= row->lower && value <= row->upper))
-    return bad_number(row, text, error);
-  if (row->kind == LAB_OPTION_REAL) {
+  const double value = strtod(text, &end);
+  if (end == text || *end || !(value >= row->lower && value <= row->upper) || (is_whole && value != floor(value)))
+    return lab_fail(error, LAB_USAGE, "--%s: expected a %snumber, %g to %g, found \"%s\"", row->name,
+                    is_whole ? "whole " : "", row->lower, row->upper, text);
+  if (is_whole)
+    *(int *)row->value = (int)value;
+  else
     *(double *)row->value = value;
-    return LAB_OK;
-  }
-  if (value != floor(value))
-    return bad_number(row, text, error);
-  *(int *)row->value = (int)value;
   return LAB_OK;
 }
 

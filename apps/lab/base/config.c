@@ -131,6 +131,28 @@ int lab_config_is_group(const config_setting_t *setting, lab_error *error)
   return config_setting_is_group(setting) ? LAB_OK : lab_config_expected(setting, "a group { ... }", error);
 }
 
+const config_setting_t *lab_config_member(const config_setting_t *group, const char *key)
+{
+  return group ? config_setting_get_member((config_setting_t *)group, key) : NULL;
+}
+
+int lab_config_members(const config_setting_t *group, const char *const *keys, int n, int needed,
+                       const config_setting_t **member, lab_error *error)
+{
+  char list[KEY_TEXT] = "";
+  int i;
+  if (lab_config_known(group, keys, (size_t)n, sizeof *keys, error))
+    return error->status;
+  for (i = 0; i < needed; i++)
+    lab_append(list, sizeof list, "%s%s", i == 0 ? "" : i + 1 < needed ? ", " : " and ", keys[i]);
+  for (i = 0; i < n; i++) {
+    member[i] = lab_config_member(group, keys[i]);
+    if (!member[i] && i < needed)
+      return lab_config_fail(group, error, "expected the keys %s; %s is missing", list, keys[i]);
+  }
+  return LAB_OK;
+}
+
 /* The number as it stands, or the text by `read`.  Returns: LAB_OK, or a failure without its place. */
 static int number_or_text(const config_setting_t *setting, const char *unit,
                           int (*read)(const char *, const char *, double *, lab_error *), double *value,

@@ -40,6 +40,14 @@ int lab_config_unknown(const config_setting_t *setting, const void *table, size_
 /* Check that a setting is a group.  Returns: LAB_OK, LAB_DATA. */
 int lab_config_is_group(const config_setting_t *setting, lab_error *error);
 
+/* A member of a group; NULL where there is none, or no group. */
+const config_setting_t *lab_config_member(const config_setting_t *group, const char *key);
+
+/* The members of a group in the order of `keys`, NULL for one that is not there; the first `needed` of them must be.
+ * Returns: LAB_OK; LAB_DATA where one is missing, or has another key. */
+int lab_config_members(const config_setting_t *group, const char *const *keys, int n, int needed,
+                       const config_setting_t **member, lab_error *error);
+
 /* Read a string with a unit, or a plain number in `unit`.
  * In:      lower, upper  bounds in `unit`, inclusive; may be infinite
  * Returns: LAB_OK, LAB_DATA. */

@@ -1,7 +1,6 @@
 #include "escape.h"
 
 #include <ctype.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char replacement[] = "\xEF\xBF\xBD"; /* U+FFFD */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "names.h"
 #include "text.h"
 
 /* SI as in pneu_param_describe and lab_channels, and what engineers say. */
@@ -30,11 +31,8 @@ static const struct {
 
 lab_format lab_format_as(const char *unit)
 {
-  size_t i;
-  for (i = 0; i < sizeof units / sizeof *units; i++)
-    if (!strcmp(units[i].si, unit))
-      return units[i].shown;
-  return (lab_format){1, unit};
+  const int i = lab_name_index(unit, units, sizeof units / sizeof *units, sizeof *units);
+  return i < 0 ? (lab_format){1, unit} : units[i].shown;
 }
 
 const char *lab_format_number(double value, int digits, char text[LAB_FORMAT_TEXT])

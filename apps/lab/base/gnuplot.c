@@ -12,6 +12,7 @@
 #include "escape.h"
 #include "interrupt.h"
 #include "outfile.h"
+#include "text.h"
 
 static const int no_program = 127; /* as the shell says it */
 
@@ -58,53 +59,37 @@ static int cannot(int status, const char *script, const char *out, lab_error *er
   return lab_fail(error, LAB_WORLD, "gnuplot failed on %s for %s", script, out);
 }
 
-/* The whole of an open file as text, NULL if it cannot be read. */
-static char *text_of(FILE *file)
-{
-  long size;
-  char *text;
-  if (fseek(file, 0, SEEK_END) || (size = ftell(file)) < 0)
-    return NULL;
-  rewind(file);
-  text = malloc((size_t)size + 1);
-  if (text && fread(text, 1, (size_t)size, file) != (size_t)size) {
-    free(text);
-    text = NULL;
-  }
-  if (text)
-    text[size] = '\0';
-  return text;
-}
-
 /* gnuplot does not say whether all that it drew has arrived: on a full disk it does not end so. */
-static int is_whole(const char *drawing)
+static int is_whole(const lab_text *drawing)
 {
   static const char end[] = "</svg>";
-  size_t length = strlen(drawing);
-  while (length > 0 && strchr(" \r\n", drawing[length - 1]))
+  size_t length = drawing->size;
+  while (length > 0 && strchr(" \r\n", drawing->data[length - 1]))
     length--;
-  return length >= sizeof end - 1 && !strncmp(drawing + length - (sizeof end - 1), end, sizeof end - 1);
+  return length >= sizeof end - 1 && !strncmp(drawing->data + length - (sizeof end - 1), end, sizeof end - 1);
 }
 
-/* What gnuplot draws to standard output, by way of a file without a name. */
-static char *drawing_of(const char *const arguments[], int in, int *status)
+/* What gnuplot draws to standard output, by way of a file without a name.
+ * Out:     drawing  to be freed
+ *          status   of gnuplot; -1: it did not run
+ * Returns: whether it is whole */
+static int draw(const char *const arguments[], int in, lab_text *drawing, int *status)
 {
   FILE *out = tmpfile();
-  char *text = NULL;
+  lab_error ignored;
+  int is_read = 0;
+  *drawing = (lab_text){NULL, 0};
   *status = -1;
   if (!out)
-    return NULL;
+    return 0;
   lab_interrupt_hold();
   *status = run(arguments, in, fileno(out));
   lab_interrupt_release();
+  rewind(out);
   if (*status == 0)
-    text = text_of(out);
+    is_read = lab_text_stream(out, "a figure", drawing, &ignored) == LAB_OK;
   fclose(out);
-  if (text && !is_whole(text)) {
-    free(text);
-    text = NULL;
-  }
-  return text;
+  return is_read && is_whole(drawing);
 }
 
 /* "IN='./folder'": a path that begins with < or | would be a command.  Returns: 0 if that has no room or is no line */
@@ -119,41 +104,41 @@ static int define_folder(const char *folder, char *text, size_t size)
   return fclose(file) == 0;
 }
 
-/* Put a drawing, which is freed, into the file `out`. */
-static int keep(char *drawing, const char *out, lab_error *error)
+static int keep(const lab_text *drawing, const char *out, lab_error *error)
 {
   lab_outfile file;
-  int status = lab_out_open(&file, out, error);
-  if (status == LAB_OK) {
-    fputs(drawing, file.file);
-    status = lab_out_close(&file, error);
-  }
-  free(drawing);
-  return status;
+  if (lab_out_open(&file, out, error))
+    return error->status;
+  fputs(drawing->data, file.file);
+  return lab_out_close(&file, error);
 }
 
 int lab_gnuplot_draw(const char *script, const char *in, const char *out, lab_error *error)
 {
-  char definitions[2400] = "", *drawing;
+  char definitions[2400] = "";
   const char *const arguments[] = {"gnuplot", "-e", definitions, script, NULL};
+  lab_text drawing;
   int status;
   if (access(script, R_OK))
     return lab_fail(error, LAB_DATA, "%s: the script of a figure is missing", script);
   if (!define_folder(in, definitions, sizeof definitions))
     return lab_fail(error, LAB_DATA, "%s: gnuplot cannot take this path", in);
-  drawing = drawing_of(arguments, -1, &status);
-  return drawing ? keep(drawing, out, error) : cannot(status, script, out, error);
+  status = draw(arguments, -1, &drawing, &status) ? keep(&drawing, out, error) : cannot(status, script, out, error);
+  lab_text_free(&drawing);
+  return status;
 }
 
 int lab_gnuplot_run(FILE *script, const char *out, int *drawn, lab_error *error)
 {
   static const char *const arguments[] = {"gnuplot", NULL};
-  char *drawing = NULL;
+  lab_text drawing = {NULL, 0};
   int status = -1;
-  if (fflush(script) == 0 && !ferror(script) && lseek(fileno(script), 0, SEEK_SET) == 0)
-    drawing = drawing_of(arguments, fileno(script), &status);
-  *drawn = drawing != NULL;
-  if (drawing)
-    return keep(drawing, out, error);
-  return status == no_program ? LAB_OK : cannot(status, "its script", out, error);
+  *drawn = fflush(script) == 0 && !ferror(script) && lseek(fileno(script), 0, SEEK_SET) == 0 &&
+           draw(arguments, fileno(script), &drawing, &status);
+  if (*drawn)
+    status = keep(&drawing, out, error);
+  else
+    status = status == no_program ? LAB_OK : cannot(status, "its script", out, error);
+  lab_text_free(&drawing);
+  return status;
 }

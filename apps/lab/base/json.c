@@ -38,14 +38,6 @@ void lab_json_put(cJSON *to, const char *name, const char *format, ...)
   va_end(list);
 }
 
-void lab_json_say(cJSON *to, const char *format, ...)
-{
-  va_list list;
-  va_start(list, format);
-  add(to, NULL, text_of("", format, list));
-  va_end(list);
-}
-
 void lab_json_join(cJSON *to, const char *between, const char *format, ...)
 {
   va_list list;
@@ -72,9 +64,7 @@ void lab_json_numbers(cJSON *to, const lab_json_named *number)
 void lab_json_range(cJSON *to, const char *name, double low, double high)
 {
   const double ends[] = {low, high};
-  cJSON *list = cJSON_CreateDoubleArray(ends, 2);
-  if (!cJSON_AddItemToObject(to, name, list))
-    cJSON_Delete(list);
+  add(to, name, cJSON_CreateDoubleArray(ends, 2));
 }
 
 /* ---- Writing ---- */

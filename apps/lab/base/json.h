@@ -12,11 +12,9 @@
 /* Add a text, under a name. */
 void lab_json_put(cJSON *to, const char *name, const char *format, ...) LAB_PRINTF(3, 4);
 
-/* Add a text to a list. */
-void lab_json_say(cJSON *list, const char *format, ...) LAB_PRINTF(2, 3);
-
-/* Add a text to a list whose items are shown one behind the other, `between` in front of all but the first. */
+/* Add a text to a list; where items are shown one behind the other, with `between` in front of all but the first. */
 void lab_json_join(cJSON *list, const char *between, const char *format, ...) LAB_PRINTF(3, 4);
+#define lab_json_say(list, ...) lab_json_join(list, "", __VA_ARGS__)
 
 /* Add an item that has values of its own to a list.  Returns: NULL without list or memory */
 cJSON *lab_json_append(cJSON *list);

@@ -2,13 +2,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <iconv.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "encoding.h"
+#include "escape.h"
 
 /* Files that hold a log and are no text, by the bytes they begin with, and what makes a CSV of them. */
 static const struct binary {
@@ -34,6 +35,61 @@ static const struct binary {
 #undef KIND
 };
 enum { BINARIES = sizeof binaries / sizeof binaries[0] };
+
+/* ---- Encodings ---- */
+
+/* The encoding of a text that is UTF-16, by its byte order mark or by every other byte of its first two characters;
+ * NULL of any other. */
+static const char *encoding_of(const char *text, size_t size)
+{
+  if (size >= 2 && memcmp(text, "\xFF\xFE", 2) == 0)
+    return "UTF-16LE";
+  if (size >= 2 && memcmp(text, "\xFE\xFF", 2) == 0)
+    return "UTF-16BE";
+  if (size >= 4 && !text[0] == !text[2] && !text[1] == !text[3] && !text[0] != !text[1])
+    return text[0] ? "UTF-16LE" : "UTF-16BE";
+  return NULL;
+}
+
+/* A text in UTF-8.
+ * In:      from  name of its encoding, as iconv has it
+ * Out:     out   `room` bytes, with a 0 byte behind the text; what is no character is left out
+ * Returns: bytes written without the 0; (size_t)-1 where this system does not know the encoding. */
+static size_t encode(const char *from, const char *text, size_t size, char *out, size_t room)
+{
+  iconv_t converter = iconv_open("UTF-8", from);
+  const size_t unit = strncmp(from, "UTF-16", 6) == 0 ? 2 : 1;
+  char *in = (char *)text, *to = out;
+  size_t left = room - 1;
+  if (converter == (iconv_t)-1)
+    return (size_t)-1;
+  while (size > 0 && iconv(converter, &in, &size, &to, &left) == (size_t)-1 && errno != E2BIG && size > unit) {
+    in += unit; /* no character */
+    size -= unit;
+  }
+  iconv_close(converter);
+  *to = '\0';
+  return room - 1 - left;
+}
+
+/* Cut a text to `room` bytes, no character of it in two. */
+static void cut(const char *text, char *out, size_t room)
+{
+  size_t n = strlen(text);
+  if (n >= room)
+    for (n = room - 1; n > 0 && ((unsigned char)text[n] & 0xC0) == 0x80; n--)
+      ;
+  memcpy(out, text, n);
+  out[n] = '\0';
+}
+
+void lab_encode_cell(const char *text, char *out, size_t room)
+{
+  if (lab_is_plain(text) || encode("WINDOWS-1252", text, strlen(text), out, room) == (size_t)-1)
+    cut(text, out, room);
+}
+
+/* ---- Files ---- */
 
 static int cannot_read(const char *path, lab_error *error)
 {
@@ -88,7 +144,7 @@ static int grow(lab_text *text, size_t *room)
   return 1;
 }
 
-static int read_stream(FILE *file, const char *path, lab_text *text, lab_error *error)
+int lab_text_stream(FILE *file, const char *path, lab_text *text, lab_error *error)
 {
   size_t room = 1 << 15, got;
   do {
@@ -98,7 +154,7 @@ static int read_stream(FILE *file, const char *path, lab_text *text, lab_error *
     got = fread(text->data + text->size, 1, room - text->size, file);
     text->size += got;
   } while (text->size == room &&
-           (lab_encoding_of(text->data, text->size) || !memchr(text->data + text->size - got, '\0', got)));
+           (encoding_of(text->data, text->size) || !memchr(text->data + text->size - got, '\0', got)));
   text->data[text->size] = '\0';
   return ferror(file) ? cannot_read(path, error) : LAB_OK;
 }
@@ -106,7 +162,7 @@ static int read_stream(FILE *file, const char *path, lab_text *text, lab_error *
 /* UTF-16 becomes UTF-8, which is at most half as long again. */
 static int recode(const char *path, lab_text *text, lab_error *error)
 {
-  const char *from = lab_encoding_of(text->data, text->size);
+  const char *from = encoding_of(text->data, text->size);
   const size_t room = text->size + text->size / 2 + 4;
   char *out = from ? malloc(room) : NULL;
   size_t size;
@@ -114,7 +170,7 @@ static int recode(const char *path, lab_text *text, lab_error *error)
     return LAB_OK;
   if (!out)
     return lab_fail_memory(error, path);
-  size = lab_encode(from, text->data, text->size, out, room);
+  size = encode(from, text->data, text->size, out, room);
   free(text->data);
   text->data = out;
   text->size = size;
@@ -191,7 +247,7 @@ static int read_file(const char *path, lab_text *text, lab_error *error)
   int status;
   if (!file)
     return error->status;
-  status = read_stream(file, path, text, error);
+  status = lab_text_stream(file, path, text, error);
   fclose(file);
   return status;
 }

@@ -32,10 +32,17 @@ typedef struct lab_text_given {
 void lab_text_give(const lab_text_given *given, int n);
 
 /* Read a whole file that lab_text_open opens, or a text that was given; UTF-16 becomes UTF-8, and a byte order mark is
- * left out. Out:     text  to be freed with lab_text_free Returns: LAB_OK; LAB_DATA if the file is missing, no file on
- * a disk, too large, empty or not text, with what turns it into text where its kind is known; LAB_WORLD if it cannot be
- * read. */
+ * left out.
+ * Out:     text  to be freed with lab_text_free
+ * Returns: LAB_OK; LAB_DATA if the file is missing, no file on a disk, too large, empty or not text, with what turns it
+ *          into text where its kind is known; LAB_WORLD if it cannot be read. */
 int lab_text_read(const char *path, lab_text *text, lab_error *error);
+
+/* The bytes of an open file, up to a part with a 0 byte unless they are UTF-16.
+ * In:      path  for messages
+ * In/out:  text  empty; to be freed, also after an error
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_text_stream(FILE *file, const char *path, lab_text *text, lab_error *error);
 
 void lab_text_free(lab_text *text);
 
@@ -60,6 +67,10 @@ void lab_append(char *text, size_t size, const char *format, ...) LAB_PRINTF(3, 
 
 /* Drop blanks in front and behind, in place.  Returns: where the rest begins */
 char *lab_trim(char *text);
+
+/* Make a cell of a table UTF-8: where it is not, it is taken to be Windows-1252, as Excel writes in Western Europe.
+ * Out:  out  `room` bytes, cut to them */
+void lab_encode_cell(const char *text, char *out, size_t room);
 
 /* Cut a list such as "a.csv;b.csv" at a mark; blanks around the parts and empty parts are dropped.
  * In/out:  text  cut in place

@@ -7,8 +7,6 @@
 #include <string.h>
 #include <udunits2.h>
 
-enum { UNIT_TEXT = 128 };
-
 /* Loaded once and kept to the end of the program. */
 static ut_system *unit_system(void)
 {
@@ -36,7 +34,7 @@ static int has_broken_power(const char *text)
 /* Out: unit, to be freed with ut_free. */
 static int parse(const char *text, ut_unit **unit, lab_error *error)
 {
-  char trimmed[UNIT_TEXT];
+  char trimmed[LAB_UNIT_TEXT];
   if (!unit_system())
     return lab_fail(error, LAB_WORLD, "the unit database of UDUNITS-2 cannot be read; is libudunits2-data installed?");
   snprintf(trimmed, sizeof trimmed, "%s", text);
@@ -46,15 +44,15 @@ static int parse(const char *text, ut_unit **unit, lab_error *error)
 }
 
 /* "kN/m" -> "kg.s-2", to show a dimension. */
-static void dimension(const ut_unit *unit, char text[UNIT_TEXT])
+static void dimension(const ut_unit *unit, char text[LAB_UNIT_TEXT])
 {
-  if (ut_format(unit, text, UNIT_TEXT, UT_ASCII | UT_DEFINITION) < 0)
-    snprintf(text, UNIT_TEXT, "?");
+  if (ut_format(unit, text, LAB_UNIT_TEXT, UT_ASCII | UT_DEFINITION) < 0)
+    snprintf(text, LAB_UNIT_TEXT, "?");
 }
 
 static int wrong_dimension(const char *from, const ut_unit *have, const char *to, const ut_unit *want, lab_error *error)
 {
-  char found[UNIT_TEXT], expected[UNIT_TEXT];
+  char found[LAB_UNIT_TEXT], expected[LAB_UNIT_TEXT];
   dimension(have, found);
   dimension(want, expected);
   return lab_fail(error, LAB_DATA, "expected a unit like %s (%s), found \"%s\" (%s)", to, expected, from, found);
@@ -103,6 +101,16 @@ int lab_unit_factor(const char *from, const char *to, double *scale, double *off
   ut_free(have);
   ut_free(want);
   return status;
+}
+
+int lab_unit_dimension(const char *unit, char text[LAB_UNIT_TEXT], lab_error *error)
+{
+  ut_unit *parsed = NULL;
+  if (parse(unit, &parsed, error))
+    return error->status;
+  dimension(parsed, text);
+  ut_free(parsed);
+  return LAB_OK;
 }
 
 /* The number in front of a quantity.  Returns: where the unit begins, or NULL without a decimal number. */

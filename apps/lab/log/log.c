@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "logheader.h"
-#include "logshape.h"
+#include "logread.h"
 #include "../base/number.h"
 
 /* A command may be a measured one that overshoots a little; beyond this it is in other units. */
@@ -283,15 +282,14 @@ static int finish(struct reader *r)
   return lab_log_shape(log, r->format, r->error);
 }
 
-static int read_file(struct reader *r, const char *path, double ambient)
+static int read_file(struct reader *r, const char *path)
 {
   r->log->path = strdup(path);
   if (!r->log->path)
     return lab_fail_memory(r->error, path);
-  if (lab_csv_open(&r->csv, path, r->error) || lab_header_read(&r->csv, r->format, ambient, &r->header, r->error) ||
-      allocate(r, lab_csv_lines(&r->csv)))
+  if (lab_csv_open(&r->csv, path, r->error) ||
+      lab_header_read(&r->csv, r->format, &r->header, r->log->read_as, r->error) || allocate(r, lab_csv_lines(&r->csv)))
     return r->error->status;
-  memcpy(r->log->read_as, r->header.said, sizeof r->log->read_as);
   if (read_rows(r))
     return r->error->status;
   return finish(r);
@@ -326,10 +324,11 @@ int lab_log_read(const char *path, const lab_log_format *format, double ambient,
   lab_log_format own = *format;
   struct reader r = {.format = &own, .log = log, .error = error};
   int status;
+  own.ambient = ambient;
   memset(log, 0, sizeof *log);
   status = take_name(path, &own, error);
   if (status == LAB_OK)
-    status = read_file(&r, path, ambient);
+    status = read_file(&r, path);
   lab_csv_close(&r.csv);
   if (status != LAB_OK)
     lab_log_free(log);

@@ -5,7 +5,9 @@
 
 #include <stddef.h>
 
-#include "logguess.h"
+#include "logformat.h"
+
+enum { LAB_READ_AS_TEXT = 800 };
 
 /* A swing that does not come from the rig. */
 typedef struct lab_hum {
@@ -24,7 +26,7 @@ typedef struct lab_log {
   size_t outside;                 /* rows left out by the window */
   double clock_step;              /* [s] to which the time was rounded before it was mended; 0: it was not */
   lab_hum hum[LAB_CHANNEL_COUNT]; /* that was taken off the values */
-  char read_as[2 * LAB_GUESS_TEXT]; /* what was guessed of how the file is written, in words; "": nothing */
+  char read_as[LAB_READ_AS_TEXT]; /* what was guessed of how the file is written, in words; "": nothing */
 } lab_log;
 
 /* Read a log.

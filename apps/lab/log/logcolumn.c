@@ -1,4 +1,4 @@
-#include "logcolumn.h"
+#include "logformat.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -35,15 +35,15 @@ static int split(const char *text, char name[LAB_COLUMN_TEXT], char unit[LAB_COL
 }
 
 /* Whether a position is given as a share of the stroke. */
-static int is_share(const char *unit, const lab_column_frame *frame)
+static int is_share(const char *unit, const lab_log_format *format)
 {
-  return frame->stroke > 0 && (!strcmp(unit, "%") || !strcmp(unit, "percent"));
+  return format->stroke > 0 && (!strcmp(unit, "%") || !strcmp(unit, "percent"));
 }
 
-const char *lab_column_unit(int channel, const lab_column_frame *frame)
+const char *lab_column_unit(int channel, const lab_log_format *format)
 {
-  const lab_signal *signal = &frame->signal[channel];
-  return signal->from != signal->to ? signal->unit : lab_channel_unit(channel, frame->command_is_pressure);
+  const lab_signal *signal = &format->signal[channel];
+  return signal->from != signal->to ? signal->unit : lab_channel_unit(channel, format->command_is_pressure);
 }
 
 /* SI value = low + (high - low) (signal - from)/(to - from) */
@@ -57,26 +57,26 @@ static int read_signal(const char *unit, const lab_signal *signal, lab_column *c
   return LAB_OK;
 }
 
-int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_column_frame *frame,
+int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_log_format *format,
                   lab_column *column, lab_error *error)
 {
-  const char *si = lab_channel_unit(channel, frame->command_is_pressure);
-  const lab_signal *signal = &frame->signal[channel];
+  const char *si = lab_channel_unit(channel, format->command_is_pressure);
+  const lab_signal *signal = &format->signal[channel];
   *column = (lab_column){.channel = channel, .scale = 1};
   if (signal->from != signal->to) {
     if (read_signal(unit, signal, column, error))
       return lab_fail_in(error, "column \"%s\"", text);
   } else if (channel == LAB_CHANNEL_TIME && strcmp(unit, "date") == 0)
     column->is_stamp = 1;
-  else if (channel == LAB_CHANNEL_X && is_share(unit, frame))
-    column->scale = 0.01 * frame->stroke;
-  else if (channel == LAB_CHANNEL_SP && frame->stroke > 0 &&
+  else if (channel == LAB_CHANNEL_X && is_share(unit, format))
+    column->scale = 0.01 * format->stroke;
+  else if (channel == LAB_CHANNEL_SP && format->stroke > 0 &&
            lab_unit_factor(unit, "m", &column->scale, &column->offset, error) == LAB_OK) {
-    column->scale /= frame->stroke;
-    column->offset /= frame->stroke;
+    column->scale /= format->stroke;
+    column->offset /= format->stroke;
   } else if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
     return lab_fail_in(error, "column \"%s\"", text);
-  column->offset -= absolute ? frame->ambient : 0;
+  column->offset -= absolute ? format->ambient : 0;
   return LAB_OK;
 }
 
@@ -86,7 +86,7 @@ int lab_column_is_named(const char *text)
   return split(text, name, unit) && *unit && lab_name_index(name, column_names, NAMES, sizeof column_names[0]) >= 0;
 }
 
-int lab_column_read(const char *text, const lab_column_frame *frame, lab_column *column, lab_error *error)
+int lab_column_read(const char *text, const lab_log_format *format, lab_column *column, lab_error *error)
 {
   char name[LAB_COLUMN_TEXT], unit[LAB_COLUMN_TEXT];
   const struct column_name *found;
@@ -103,8 +103,8 @@ int lab_column_read(const char *text, const lab_column_frame *frame, lab_column 
     return LAB_OK;
   if (!*unit)
     return lab_fail(error, LAB_DATA, "column \"%s\" has no unit: write \"%s [%s]\" or another unit", text, found->name,
-                    lab_channel_unit(found->channel, frame->command_is_pressure));
-  return lab_column_of(text, found->channel, found->absolute, unit, frame, column, error);
+                    lab_channel_unit(found->channel, format->command_is_pressure));
+  return lab_column_of(text, found->channel, found->absolute, unit, format, column, error);
 }
 
 int lab_column_mark(const char *text, const char *si, char *mark, double *scale, double *offset, lab_error *error)

@@ -24,27 +24,22 @@ typedef struct lab_signal {
   char unit[16];
 } lab_signal;
 
-/* What the units of a column may refer to. */
-typedef struct lab_column_frame {
-  double ambient;           /* [Pa] absolute */
-  double stroke;            /* [m]; 0: unknown */
-  int command_is_pressure;  /* u is a set pressure, not an opening */
-  const lab_signal *signal; /* of each channel */
-} lab_column_frame;
+struct lab_log_format; /* logformat.h: what the units of a column may refer to */
 
 /* The unit in which a channel's column is to be: that of its signal, or SI. */
-const char *lab_column_unit(int channel, const lab_column_frame *frame);
+const char *lab_column_unit(int channel, const struct lab_log_format *format);
 
 /* Read "name [unit]"; p_abs, ps_abs and p2_abs become gauge; x may be a share of the stroke ("%"); "-" is a column to
- * ignore. Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */
-int lab_column_read(const char *text, const lab_column_frame *frame, lab_column *column, lab_error *error);
+ * ignore.
+ * Returns: LAB_OK; LAB_DATA for an unknown name, no unit, or a unit of another dimension. */
+int lab_column_read(const char *text, const struct lab_log_format *format, lab_column *column, lab_error *error);
 
 /* The column of a channel whose unit is known.
  * In:      text      what messages call it
  *          absolute  not 0: a pressure above vacuum
  *          unit      "%" of x is a share of the stroke, "date" of t is dates and times
  * Returns: LAB_OK; LAB_DATA for an unknown unit or one of another dimension. */
-int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_column_frame *frame,
+int lab_column_of(const char *text, int channel, int absolute, const char *unit, const struct lab_log_format *format,
                   lab_column *column, lab_error *error);
 
 /* Whether a text is "name [unit]" with the name of a channel, whatever its unit. */

@@ -295,18 +295,14 @@ static int read_quantities(const config_setting_t *setting, lab_log_format *form
 static int read_holdout(const config_setting_t *group, lab_log_format *format, lab_error *error)
 {
   static const char *const keys[] = {"window", "first"};
-  const config_setting_t *window, *first;
+  const config_setting_t *member[2];
   lab_log_format out = *format;
-  if (lab_config_known(group, keys, 2, sizeof keys[0], error))
+  if (lab_config_members(group, keys, 2, 0, member, error) || (member[0] && read_window(member[0], &out, error)) ||
+      (member[1] && lab_config_count(member[1], 0, SKIP_MAX, &out.first, error)))
     return error->status;
-  window = config_setting_get_member((config_setting_t *)group, "window");
-  first = config_setting_get_member((config_setting_t *)group, "first");
-  if ((window && read_window(window, &out, error)) ||
-      (first && lab_config_count(first, 0, SKIP_MAX, &out.first, error)))
-    return error->status;
-  format->holdout_from = window ? out.from : (double)NAN;
-  format->holdout_to = window ? out.to : (double)NAN;
-  format->holdout_first = first ? out.first : -1;
+  format->holdout_from = member[0] ? out.from : (double)NAN;
+  format->holdout_to = member[0] ? out.to : (double)NAN;
+  format->holdout_first = member[1] ? out.first : -1;
   return LAB_OK;
 }
 
@@ -541,15 +537,14 @@ static int read_key(const config_setting_t *setting, const struct log_key *key, 
 /* Column texts must be readable now, not at the first log. */
 static int check_columns(const config_setting_t *group, const lab_log_format *format, lab_error *error)
 {
-  const lab_column_frame frame = {0, format->stroke, format->command_is_pressure, format->signal};
   lab_column column;
   int i;
   for (i = 0; i < format->n_columns; i++)
-    if (lab_column_read(format->column[i], &frame, &column, error))
-      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "columns"), error);
+    if (lab_column_read(format->column[i], format, &column, error))
+      return lab_config_fail_in(lab_config_member(group, "columns"), error);
   for (i = 0; i < format->n_quantities; i++)
-    if (lab_column_read(format->quantity[i].column, &frame, &column, error))
-      return lab_config_fail_in(config_setting_get_member((config_setting_t *)group, "quantities"), error);
+    if (lab_column_read(format->quantity[i].column, format, &column, error))
+      return lab_config_fail_in(lab_config_member(group, "quantities"), error);
   return LAB_OK;
 }
 
@@ -584,7 +579,7 @@ int lab_log_format_read(const config_setting_t *group, lab_log_format *format, l
 {
   int i, status = lab_config_known(group, log_keys, LOG_KEYS, sizeof log_keys[0], error);
   for (i = 0; status == LAB_OK && i < LOG_KEYS; i++) {
-    const config_setting_t *member = config_setting_get_member((config_setting_t *)group, log_keys[i].name);
+    const config_setting_t *member = lab_config_member(group, log_keys[i].name);
     if (member)
       status = read_key(member, &log_keys[i], format, error);
   }

@@ -1,38 +1,5 @@
-/* How a log is written down: the format of interface.md, or what the `log` group of a rig file says
- * about a raw logger file.
- *
- *   log = {
- *     delimiter  = ";";            // one character, "tab", "comma", "semicolon", "blanks"; guessed
- *     decimal    = ",";            // "." or ","; guessed by default
- *     thousands  = ".";            // mark to leave out; equal to decimal: all but the last; default none
- *     comment    = "#";            // lines that begin with it are not data
- *     skip_lines = 1;              // lines before the header (guessed by default), or before the data where there is
- * no
- *                                  // header
- *     map        = { p = "Pressure_1 (bar)"; }; // which column of the header is which channel; "name [unit]" gives or
- *                                  // replaces its unit; those that are not given are guessed
- *     date       = "dmy";          // order of a date's numbers: "dmy", "mdy", "ymd"; guessed by default
- *     columns    = ( "t [ms]", "-", "p [bar]" );  // the file has no header; "-" is a column to ignore
- *     time_step  = "10 ms";        // rows are this far apart; for a file without a column t
- *     window     = ( "0 s", "3 s" ); // only rows with t inside it, in every run
- *     new_run    = "t drops";      // where a run begins: "never" (default), or where t is less than before
- *     damaged    = "drop";         // rows that cannot be read: "error" (default), or left out and counted
- *     scale      = { x = -1.0; };  // value = scale * value + offset, after the conversion to SI
- *     scale      = { p = "4..20 mA"; x = "0..27648"; }; // a signal, or counts, that stand for a range
- *     range      = { p = ["0 bar", "6 bar"]; x = ["0 mm", "20 mm"]; }; // what its ends are
- *     offset     = { x = "70 mm"; };
- *     constants  = { u = 1; };     // channels that the file does not have
- *     every      = 10;             // one of every so many rows of a run; default 1
- *     first      = 3;              // and the first one of them, counted from 0; default 0
- *     name       = { x = "_l [m]"; };  // a channel that the file's name tells: here the number behind "_l"
- *     holdout    = { window = ( "50 s", "150 s" ); first = 1; }; // what differs where a log is held out
- *     weights    = ( 1, 0.5, -0.5 ); // a channel is the sum of its columns, each times its weight; one for each column
- *     way_back   = "p";            // a loop written twice upwards: rows after the first fall of p go in reverse order
- *     runs       = "mean";         // "each" (default), or one run: the mean over the runs' rows of the same time
- *     lead       = ( { t = "-1 ms"; u = 0; }, { t = "0 s"; u = 1; } ); // rows put before each run; the rest are gaps;
- *                                  // "first p" and "last p" stand for what the run's p begins and ends with
- *     quantities = { p_abs_bar = "p_abs [bar]"; T_wall = "-"; }; // long format: columns "quantity" and "value"
- *   };
+/* How a log is written down: with a header "name [unit]" as in pneu-rig(5), or as the group `log` of a rig file says
+ * about a raw logger file; its keys are there, too.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_LOGFORMAT_H
 #define LAB_LOGFORMAT_H
@@ -95,9 +62,10 @@ typedef struct lab_log_format {
   double constant[LAB_CHANNEL_COUNT]; /* SI; NaN: none */
   int command_is_pressure;            /* u is a set pressure [Pa], not an opening */
   double stroke;                      /* [m] of which x may be a share; 0: unknown */
+  double ambient;                     /* [Pa] absolute; set by lab_log_read */
 } lab_log_format;
 
-/* The format of interface.md.  Out: format */
+/* The format of a log with such a header.  Out: format */
 void lab_log_format_default(lab_log_format *format);
 
 /* Read the `log` group of a rig file over the defaults.

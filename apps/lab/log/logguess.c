@@ -1,9 +1,8 @@
-#include "logguess.h"
+#include "logread.h"
 
 #include <ctype.h>
 #include <string.h>
 
-#include "logname.h"
 #include "../base/number.h"
 
 enum {
@@ -211,7 +210,7 @@ static void guess_header(const sample *s, const rows *found, lab_guess *guess)
 
 /* ---- All ---- */
 
-/* Whether the first line that is no comment is a header as interface.md has it. */
+/* Whether the first line that is no comment is a header as pneu-rig(5) has it. */
 static int is_documented(const sample *s)
 {
   const lab_log_format *f = s->format;
@@ -261,14 +260,14 @@ int lab_guess_form(lab_csv *csv, lab_log_format *format, lab_guess *guess, lab_e
   return LAB_OK;
 }
 
-void lab_guess_say(const lab_guess *guess, const lab_log_format *format, char text[LAB_GUESS_TEXT])
+void lab_guess_say(const lab_guess *guess, const lab_log_format *format, char text[LAB_READ_AS_TEXT])
 {
   static const char *const names[] = {"commas", "semicolons", "tabs", "bars", "blanks"};
   const char *which = strchr(delimiters, format->delimiter);
-  snprintf(text, LAB_GUESS_TEXT, "read with %s between cells, decimal %s",
+  snprintf(text, LAB_READ_AS_TEXT, "read with %s between cells, decimal %s",
            which ? names[which - delimiters] : "log.delimiter", format->decimal == ',' ? "commas" : "points");
   if (guess->header)
-    lab_append(text, LAB_GUESS_TEXT, ", header in line %d", guess->header);
+    lab_append(text, LAB_READ_AS_TEXT, ", header in line %d", guess->header);
   if (guess->units)
-    lab_append(text, LAB_GUESS_TEXT, ", units in line %d", guess->units);
+    lab_append(text, LAB_READ_AS_TEXT, ", units in line %d", guess->units);
 }

@@ -1,12 +1,8 @@
-#include "logheader.h"
+#include "logread.h"
 
 #include <ctype.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-#include "logmap.h"
-#include "../base/encoding.h"
 
 #include "../base/number.h"
 
@@ -29,23 +25,11 @@ static void scale_column(const lab_log_format *format, lab_column *column)
   column->scale *= format->scale[c];
 }
 
-static int read_column(const char *text, const lab_log_format *format, double ambient, lab_column *column,
-                       lab_error *error)
+static int read_column(const char *text, const lab_log_format *format, lab_column *column, lab_error *error)
 {
-  const lab_column_frame frame = {ambient, format->stroke, format->command_is_pressure, format->signal};
-  if (lab_column_read(text, &frame, column, error))
+  if (lab_column_read(text, format, column, error))
     return error->status;
   scale_column(format, column);
-  return LAB_OK;
-}
-
-static int add_column(const char *text, const lab_log_format *format, double ambient, lab_header *header,
-                      lab_error *error)
-{
-  int i = header->n++;
-  strcpy(header->text[i], text);
-  if (read_column(text, format, ambient, &header->column[i], error))
-    return lab_fail_in(error, "column %d", header->n);
   return LAB_OK;
 }
 
@@ -57,13 +41,6 @@ static int has_control(const char *text)
 }
 
 /* ---- The header line, and what stands around it ---- */
-
-/* A first line that begins with a number is a row: the file has no header. */
-static int begins_with_number(const lab_cell *cell, const lab_log_format *format)
-{
-  double value;
-  return lab_number_read(cell->begin, cell->end, format->decimal, format->thousands, &value) == LAB_NUMBER_FINITE;
-}
 
 /* The file has no header: show log.columns with as many columns as it has. */
 static int ask_for_columns(const lab_csv *csv, int cells, lab_error *error)
@@ -108,24 +85,18 @@ static int read_headings(lab_csv *csv, const lab_log_format *format, lab_heading
   return LAB_OK;
 }
 
-static int read_units(lab_csv *csv, int n, lab_heading *heading, lab_error *error)
-{
-  int i;
-  if (lab_csv_cut(csv, error))
-    return error->status;
-  for (i = 0; i < n && i < csv->n && i < LAB_CSV_CELLS; i++)
-    lab_encode_cell(lab_trim(csv->cell[i].begin), heading[i].below, LAB_HEADING_TEXT);
-  return LAB_OK;
-}
-
-static int read_stamps(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, lab_error *error)
+/* A line below the headings: that of their units, or the first row, which shows which of them are dates or times. */
+static int read_below(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, int is_units,
+                      lab_error *error)
 {
   int i;
   if (lab_csv_cut(csv, error))
     return error->status;
   for (i = 0; i < n && i < csv->n && i < LAB_CSV_CELLS; i++) {
     const lab_cell *cell = &csv->cell[i];
-    if (!lab_stamp_read(cell->begin, cell->end, format->date, &heading[i].stamp))
+    if (is_units)
+      lab_encode_cell(lab_trim(cell->begin), heading[i].below, LAB_HEADING_TEXT);
+    else if (!lab_stamp_read(cell->begin, cell->end, format->date, &heading[i].stamp))
       heading[i].stamp = (lab_stamp){0};
   }
   return LAB_OK;
@@ -140,8 +111,8 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
   if (!guess->header)
     return ask_for_columns(csv, guess->cells, error);
   if (read_headings(csv, format, heading, n, error) || (guess->units && go_to(csv, guess->units, error)) ||
-      (guess->units && read_units(csv, *n, heading, error)) || go_to(csv, guess->data, error) ||
-      read_stamps(csv, format, *n, heading, error))
+      (guess->units && read_below(csv, format, *n, heading, 1, error)) || go_to(csv, guess->data, error) ||
+      read_below(csv, format, *n, heading, 0, error))
     return lab_csv_fail_in(csv, error);
   *n = guess->cells;
   lab_csv_restart(csv);
@@ -151,6 +122,7 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
 /* A header in the first line that is no comment. */
 static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *heading, int *n, lab_error *error)
 {
+  double number;
   int more;
   csv->comment = format->comment;
   if (lab_csv_line(csv, &more, error))
@@ -160,7 +132,8 @@ static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *h
                     csv->path);
   if (lab_csv_cut(csv, error))
     return lab_csv_fail_in(csv, error);
-  if (begins_with_number(csv->cell, format))
+  if (lab_number_read(csv->cell->begin, csv->cell->end, format->decimal, format->thousands, &number) ==
+      LAB_NUMBER_FINITE) /* a row: the file has no header */
     return ask_for_columns(csv, csv->n, error);
   return read_headings(csv, format, heading, n, error) ? lab_csv_fail_in(csv, error) : LAB_OK;
 }
@@ -180,26 +153,23 @@ static int fail_without_rows(const lab_csv *csv, lab_error *error)
                   csv->path, csv->line, before.text);
 }
 
-static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *guess, double ambient,
-                        lab_header *header, lab_error *error)
+static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *guess, lab_header *header,
+                        char said[LAB_READ_AS_TEXT], lab_error *error)
 {
   lab_heading heading[LAB_COLUMN_MAX];
-  char said[LAB_MAP_TEXT] = "";
   int i, n = 0;
   memset(heading, 0, sizeof heading);
   csv->mark = format->delimiter;
   if (guess->guessed ? read_guessed(csv, format, guess, heading, &n, error)
                      : read_first(csv, format, heading, &n, error))
     return error->status;
-  if (lab_map_columns(heading, n, guess->guessed, format, ambient, header, said, error))
+  if (guess->guessed)
+    lab_guess_say(guess, format, said);
+  if (lab_map_columns(heading, n, guess->guessed, format, header, said, error))
     return lab_map_is_named(heading, n) || guess->guessed ? fail_in_header(csv, guess, error)
                                                           : fail_without_rows(csv, error);
   for (i = 0; i < n; i++)
     scale_column(format, &header->column[i]);
-  if (guess->guessed)
-    lab_guess_say(guess, format, header->said);
-  if (*said)
-    lab_append(header->said, sizeof header->said, "%s%s", guess->guessed ? "; " : "", said);
   return LAB_OK;
 }
 
@@ -213,14 +183,17 @@ static int skip_lines(lab_csv *csv, int n, lab_error *error)
 }
 
 /* Columns as the rig file lists them, with the words of a long file. */
-static int take_listed(const lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+static int take_listed(const lab_log_format *format, lab_header *header, lab_error *error)
 {
   int i;
-  for (i = 0; i < format->n_columns; i++)
-    if (add_column(format->column[i], format, ambient, header, error))
-      return lab_fail_in(error, "log.columns");
+  for (i = 0; i < format->n_columns; i++) {
+    strcpy(header->text[i], format->column[i]);
+    if (read_column(format->column[i], format, &header->column[i], error))
+      return lab_fail_in(error, "log.columns: column %d", i + 1);
+  }
+  header->n = format->n_columns;
   for (i = 0; i < format->n_quantities; i++)
-    if (read_column(format->quantity[i].column, format, ambient, &header->quantity[i], error))
+    if (read_column(format->quantity[i].column, format, &header->quantity[i], error))
       return lab_fail_in(error, "log.quantities");
   return LAB_OK;
 }
@@ -274,18 +247,19 @@ static int check_long(const lab_header *header, const lab_log_format *format, la
                   "log.quantities, or none of the three");
 }
 
-int lab_header_read(lab_csv *csv, lab_log_format *format, double ambient, lab_header *header, lab_error *error)
+int lab_header_read(lab_csv *csv, lab_log_format *format, lab_header *header, char said[LAB_READ_AS_TEXT],
+                    lab_error *error)
 {
   lab_guess guess;
   int i;
   header->n = header->has_stamps = 0;
-  *header->said = '\0';
+  *said = '\0';
   memset(header->quantity, 0, sizeof header->quantity);
   if (lab_guess_form(csv, format, &guess, error) || skip_lines(csv, format->skip_lines, error) ||
-      take_listed(format, ambient, header, error))
+      take_listed(format, header, error))
     return error->status;
   csv->mark = format->delimiter;
-  if (header->n == 0 && read_columns(csv, format, &guess, ambient, header, error))
+  if (header->n == 0 && read_columns(csv, format, &guess, header, said, error))
     return error->status;
   csv->comment = format->comment;
   for (i = 0; i < header->n; i++)

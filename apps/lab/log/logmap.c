@@ -1,25 +1,25 @@
-#include "logmap.h"
+#include "logread.h"
 
 #include <stdarg.h>
 #include <string.h>
 
-#include "logname.h"
 #include "../base/names.h"
 
 /* What is done with a heading that means no channel: it is left out, it is a mistake unless empty, or it is one. */
 enum strictness { NOT_STRICT, LENIENT, STRICT };
+
+enum { MAP_TEXT = 320 };
 
 typedef struct naming {
   const lab_heading *heading;
   int n;
   int is_strict; /* enum strictness */
   const lab_log_format *format;
-  lab_column_frame frame;
   lab_header *header;
   int taken[LAB_CHANNEL_COUNT];                       /* 1 + column */
   char ask[LAB_CHANNEL_COUNT][LAB_HEADING_TEXT + 16]; /* entries of log.map that the user is to write */
-  char why[LAB_MAP_TEXT];                             /* why the first of them is needed; "": none is */
-  char said[LAB_MAP_TEXT];
+  char why[MAP_TEXT];                                 /* why the first of them is needed; "": none is */
+  char said[MAP_TEXT];
   lab_error *error;
 } naming;
 
@@ -64,9 +64,9 @@ static void ask(naming *m, int channel, int column, const char *unit, const char
 }
 
 /* A unit that people use for a channel. */
-static const char *usual_unit(int channel, const lab_column_frame *frame)
+static const char *usual_unit(int channel, const lab_log_format *format)
 {
-  const char *si = lab_channel_unit(channel, frame->command_is_pressure);
+  const char *si = lab_channel_unit(channel, format->command_is_pressure);
   return strcmp(si, "Pa") == 0       ? "bar"
          : strcmp(si, "m") == 0      ? "mm"
          : channel == LAB_CHANNEL_T  ? "degC"
@@ -96,8 +96,8 @@ static void say(naming *m, int channel, int i)
 static int find_unit(const naming *m, int i, int channel, const char *own, char unit[LAB_COLUMN_TEXT], int *absolute)
 {
   const lab_heading *h = &m->heading[i];
-  const int is_signal = m->frame.signal[channel].from != m->frame.signal[channel].to;
-  const char *si = lab_column_unit(channel, &m->frame);
+  const int is_signal = m->format->signal[channel].from != m->format->signal[channel].to;
+  const char *si = lab_column_unit(channel, m->format);
   const char *other = is_signal ? si : channel == LAB_CHANNEL_X ? "1" : channel == LAB_CHANNEL_SP ? "m" : si;
   const char *const texts[] = {h->below, h->text};
   char bracket[LAB_HEADING_TEXT + 2];
@@ -127,8 +127,8 @@ static int take(naming *m, int i, int channel, int absolute, const char *own)
     return LAB_OK;
   }
   if (find_unit(m, i, channel, own, unit, &absolute))
-    return lab_column_of(m->heading[i].text, channel, absolute, unit, &m->frame, &m->header->column[i], m->error);
-  ask(m, channel, i, usual_unit(channel, &m->frame), "column %d \"%s\" has no unit of %s; give that of a 1 in it",
+    return lab_column_of(m->heading[i].text, channel, absolute, unit, m->format, &m->header->column[i], m->error);
+  ask(m, channel, i, usual_unit(channel, m->format), "column %d \"%s\" has no unit of %s; give that of a 1 in it",
       i + 1, m->heading[i].text, lab_channels[channel].quantity);
   return LAB_OK;
 }
@@ -155,7 +155,7 @@ static int names(const char *entry, const char *heading, char own[LAB_COLUMN_TEX
 
 static int no_such_column(naming *m, int channel)
 {
-  char list[LAB_MAP_TEXT] = "";
+  char list[MAP_TEXT] = "";
   const char *text[LAB_COLUMN_MAX];
   int i;
   for (i = 0; i < m->n; i++) {
@@ -178,7 +178,7 @@ static int take_mapped(naming *m)
       ;
     if (i == m->n)
       return no_such_column(m, c);
-    lab_name_channel(m->heading[i].text, m->heading[i].below, 0, &m->frame, &absolute);
+    lab_name_channel(m->heading[i].text, m->heading[i].below, 0, m->format, &absolute);
     if (take(m, i, c, absolute, own))
       return m->error->status;
   }
@@ -198,7 +198,7 @@ static void take_named(naming *m)
   int i;
   for (i = 0; i < m->n; i++) {
     lab_column column;
-    if (!is_free(m, i) || lab_column_read(m->heading[i].text, &m->frame, &column, &ignored) ||
+    if (!is_free(m, i) || lab_column_read(m->heading[i].text, m->format, &column, &ignored) ||
         is_mapped(m, column.channel))
       continue;
     m->header->column[i] = column;
@@ -249,7 +249,7 @@ static int find_by_words(naming *m, int channel, int *absolute)
   int i, found = -1, other;
   for (i = 0; i < m->n; i++) {
     if (!is_free(m, i) || (m->is_strict && !has_form(m->heading[i].text)) ||
-        lab_name_channel(m->heading[i].text, m->heading[i].below, is_stamp(m, i), &m->frame, absolute) != channel)
+        lab_name_channel(m->heading[i].text, m->heading[i].below, is_stamp(m, i), m->format, absolute) != channel)
       continue;
     if (found < 0 || join_day(m, found, i)) {
       found = i;
@@ -264,7 +264,7 @@ static int find_by_words(naming *m, int channel, int *absolute)
     found = other < 0 ? found : other;
   }
   if (found >= 0)
-    lab_name_channel(m->heading[found].text, m->heading[found].below, is_stamp(m, found), &m->frame, absolute);
+    lab_name_channel(m->heading[found].text, m->heading[found].below, is_stamp(m, found), m->format, absolute);
   return found;
 }
 
@@ -292,7 +292,7 @@ static int check_all_mean(naming *m)
   for (i = 0; i < m->n; i++) {
     const char *text = m->heading[i].text;
     lab_column column;
-    if (is_free(m, i) && (*text || m->is_strict == STRICT) && lab_column_read(text, &m->frame, &column, m->error))
+    if (is_free(m, i) && (*text || m->is_strict == STRICT) && lab_column_read(text, m->format, &column, m->error))
       return lab_fail_in(m->error, "column %d", i + 1);
   }
   return LAB_OK;
@@ -354,7 +354,7 @@ static void ask_for_measured(naming *m)
   for (i = 0; i < m->n; i++)
     if (is_free(m, i) && *m->heading[i].text && k < sizeof usual / sizeof usual[0] &&
         m->taken[LAB_CHANNEL_TIME] != i + 1 && !(i == 0 && *m->ask[LAB_CHANNEL_TIME])) {
-      ask(m, usual[k], i, usual_unit(usual[k], &m->frame),
+      ask(m, usual[k], i, usual_unit(usual[k], m->format),
           "none of the columns is known to be a command, a pressure or a position; say which are, and what a 1 in them "
           "is");
       k++;
@@ -378,12 +378,11 @@ static int name_all(naming *m)
   return LAB_OK;
 }
 
-int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_format *format, double ambient,
-                    lab_header *header, char said[LAB_MAP_TEXT], lab_error *error)
+int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_format *format, lab_header *header,
+                    char said[LAB_READ_AS_TEXT], lab_error *error)
 {
   naming m = {.heading = heading, .n = n, .format = format, .header = header, .error = error};
   int i;
-  m.frame = (lab_column_frame){ambient, format->stroke, format->command_is_pressure, format->signal};
   header->n = n;
   for (i = 0; i < n; i++) {
     header->column[i] = (lab_column){LAB_COLUMN_IGNORED, 1, 0, 0};
@@ -394,6 +393,7 @@ int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_form
   if (name_all(&m))
     return error->status;
   set_date(&m, format);
-  strcpy(said, m.said);
+  if (*m.said)
+    lab_append(said, LAB_READ_AS_TEXT, "%s%s", *said ? "; " : "", m.said);
   return LAB_OK;
 }

@@ -1,4 +1,4 @@
-#include "logname.h"
+#include "logread.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -233,10 +233,10 @@ static int has_word(const char *words, const char *word)
 }
 
 /* Whether a channel can be what a column holds: dates are time, and a unit must fit. */
-static int fits(int channel, const char *text, const char *below, int is_stamp, const lab_column_frame *frame,
+static int fits(int channel, const char *text, const char *below, int is_stamp, const lab_log_format *format,
                 int *absolute)
 {
-  const char *si = lab_column_unit(channel, frame);
+  const char *si = lab_column_unit(channel, format);
   char unit[LAB_COLUMN_TEXT];
   const int bracket = strpbrk(text, "[(%") != NULL;
   if (is_stamp)
@@ -249,7 +249,7 @@ static int fits(int channel, const char *text, const char *below, int is_stamp, 
   return !bracket && !*below;
 }
 
-int lab_name_channel(const char *text, const char *below, int is_stamp, const lab_column_frame *frame, int *absolute)
+int lab_name_channel(const char *text, const char *below, int is_stamp, const lab_log_format *format, int *absolute)
 {
   char words[WORDS_TEXT];
   int i;
@@ -261,12 +261,12 @@ int lab_name_channel(const char *text, const char *below, int is_stamp, const la
       continue;
     if (channel < 0)
       return LAB_COLUMN_IGNORED;
-    if (fits(channel, text, below, is_stamp, frame, absolute)) {
+    if (fits(channel, text, below, is_stamp, format, absolute)) {
       *absolute |= strcmp(lab_channel_unit(channel, 0), "Pa") == 0 && strstr(words, " abs") != NULL;
       return channel;
     }
     *absolute = 0;
   }
-  return !is_stamp && *below && fits(LAB_CHANNEL_TIME, text, below, 0, frame, absolute) ? LAB_CHANNEL_TIME
-                                                                                        : LAB_COLUMN_IGNORED;
+  return !is_stamp && *below && fits(LAB_CHANNEL_TIME, text, below, 0, format, absolute) ? LAB_CHANNEL_TIME
+                                                                                         : LAB_COLUMN_IGNORED;
 }

@@ -1,4 +1,4 @@
-#include "logshape.h"
+#include "logread.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -63,6 +63,7 @@ static int keep_every(lab_log *log, size_t every, size_t offset, lab_error *erro
 typedef struct instant {
   double t; /* [s] */
   size_t row;
+  int line; /* of the file */
 } instant;
 
 /* Rows of one instant stay in the order of the log. */
@@ -86,7 +87,7 @@ static int take_only(const lab_log *log, const instant *at, size_t n, int channe
     const double now = log->value[channel][at[i].row];
     if (!isnan(now) && !isnan(*value) && *value != now)
       return lab_fail(error, LAB_DATA, "%s:%d: expected one value of %s at t = %g s, found another before", log->path,
-                      log->line[at[i].row], lab_channels[channel].key, at[i].t);
+                      at[i].line, lab_channels[channel].key, at[i].t);
     *value = isnan(now) ? *value : now;
   }
   return LAB_OK;
@@ -117,49 +118,34 @@ static size_t alike(const lab_log *log, const instant *order, size_t i)
   return n;
 }
 
-static int unite_channel(const lab_log *log, const instant *order, rule *take, int channel, double *made,
-                         lab_error *error)
+/* Each instant becomes one row, whose line is that of its first. */
+static int unite_all(lab_log *log, instant *order, double *made, rule *take, lab_error *error)
 {
   size_t i, n = 0;
-  for (i = 0; i < log->n; i += alike(log, order, i))
-    if (take(log, &order[i], alike(log, order, i), channel, &made[n++], error))
-      return error->status;
-  memcpy(log->value[channel], made, n * sizeof *made);
-  return LAB_OK;
-}
-
-/* The line of an instant is that of its first row. */
-static size_t unite_lines(lab_log *log, const instant *order, double *scratch)
-{
-  size_t i, n = 0, k;
-  for (i = 0; i < log->n; i += alike(log, order, i))
-    scratch[n++] = log->line[order[i].row];
-  for (k = 0; k < n; k++)
-    log->line[k] = (int)scratch[k];
-  return n;
-}
-
-static int unite_all(lab_log *log, instant *order, double *scratch, rule *take, lab_error *error)
-{
-  size_t i;
   int c;
   for (i = 0; i < log->n; i++)
-    order[i] = (instant){log->value[LAB_CHANNEL_TIME][i], i};
+    order[i] = (instant){log->value[LAB_CHANNEL_TIME][i], i, log->line[i]};
   qsort(order, log->n, sizeof *order, by_time);
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (log->value[c] && unite_channel(log, order, take, c, scratch, error))
-      return error->status;
-  log->n = unite_lines(log, order, scratch);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    for (i = n = 0; log->value[c] && i < log->n; i += alike(log, order, i))
+      if (take(log, &order[i], alike(log, order, i), c, &made[n++], error))
+        return error->status;
+    if (log->value[c])
+      memcpy(log->value[c], made, n * sizeof *made);
+  }
+  for (i = n = 0; i < log->n; i += alike(log, order, i))
+    log->line[n++] = order[i].line;
+  log->n = n;
   return LAB_OK;
 }
 
 static int unite(lab_log *log, rule *take, lab_error *error)
 {
   instant *order = malloc(log->n * sizeof *order);
-  double *scratch = malloc(log->n * sizeof *scratch);
-  int status = order && scratch ? unite_all(log, order, scratch, take, error) : lab_fail_memory(error, log->path);
+  double *made = malloc(log->n * sizeof *made);
+  int status = order && made ? unite_all(log, order, made, take, error) : lab_fail_memory(error, log->path);
   free(order);
-  free(scratch);
+  free(made);
   return status;
 }
 
@@ -199,105 +185,81 @@ static int is_command(int channel)
   return channel == LAB_CHANNEL_U || channel == LAB_CHANNEL_SP;
 }
 
-/* A channel that only the lead has: gaps in all rows. */
-static int add_channels(lab_log *log, const lab_log_format *format, lab_error *error)
+/* Whether a row of the lead has anything in a channel. */
+static int has_lead(const lab_log_format *format, int k, int channel)
 {
-  int c, k;
-  size_t i;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    for (k = 0; k < format->n_lead && !log->value[c]; k++) {
-      if (isnan(format->lead[k][c]) && !format->lead_first[k][c] && !format->lead_last[k][c])
-        continue;
-      if (!(log->value[c] = malloc(log->n * sizeof(double))))
-        return lab_fail_memory(error, log->path);
-      for (i = 0; i < log->n; i++)
-        log->value[c][i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
-    }
-  return LAB_OK;
+  return !isnan(format->lead[k][channel]) || format->lead_first[k][channel] || format->lead_last[k][channel];
 }
 
-/* The first or last value of a channel in a run that is no gap; NaN if there is none. */
-static double end_value(const lab_log *log, int channel, size_t run, int last)
+/* Room for the lead in every channel; one that only the lead has is a gap in all rows, or its last command. */
+static int make_room(lab_log *log, const lab_log_format *format, lab_error *error)
 {
-  const double *value = log->value[channel];
-  size_t i = last ? log->run[run + 1] - 1 : log->run[run], n;
-  for (n = log->run[run + 1] - log->run[run]; value && n > 0; n--, i += last ? (size_t)-1 : 1)
-    if (!isnan(value[i]))
-      return value[i];
+  const size_t rows = log->n + log->n_runs * (size_t)format->n_lead;
+  int *line = realloc(log->line, rows * sizeof *line);
+  int c, k;
+  size_t i;
+  log->line = line ? line : log->line;
+  for (c = 0; line && c < LAB_CHANNEL_COUNT; c++) {
+    const int is_new = !log->value[c];
+    double *value;
+    for (k = 0; k < format->n_lead && is_new && !has_lead(format, k, c); k++)
+      continue;
+    if (k == format->n_lead)
+      continue;
+    if (!(value = realloc(log->value[c], rows * sizeof *value)))
+      return lab_fail_memory(error, log->path);
+    log->value[c] = value;
+    for (i = 0; is_new && i < log->n; i++)
+      value[i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
+  }
+  return line ? LAB_OK : lab_fail_memory(error, log->path);
+}
+
+/* The first or last value of a channel in rows first..end - 1 that is no gap; NaN if there is none. */
+static double end_value(const double *value, size_t first, size_t end, int last)
+{
+  for (; value && first < end; first += !last, end -= (size_t)last)
+    if (!isnan(value[last ? end - 1 : first]))
+      return value[last ? end - 1 : first];
   return (double)NAN;
 }
 
-/* What the lead says of a channel in its row k. */
-static double lead_value(const lab_log *log, const lab_log_format *format, size_t k, int channel, size_t run)
+/* What the lead says of a channel in its row k, before a run in rows first..end - 1. */
+static double lead_value(const lab_log *log, const lab_log_format *format, int k, int channel, size_t first, size_t end)
 {
-  if (format->lead_first[k][channel])
-    return end_value(log, format->lead_first[k][channel] - 1, run, 0);
-  if (format->lead_last[k][channel])
-    return end_value(log, format->lead_last[k][channel] - 1, run, 1);
-  return format->lead[k][channel];
+  const int from_first = format->lead_first[k][channel], from_last = format->lead_last[k][channel];
+  double value = format->lead[k][channel];
+  if (from_first || from_last)
+    value = end_value(log->value[from_first ? from_first - 1 : from_last - 1], first, end, !from_first);
+  return is_command(channel) && isnan(value) ? log->value[channel][first] : value;
 }
 
-/* One channel with its lead before each run. */
-static int lead_channel(const lab_log *log, const lab_log_format *format, int channel, double **with_lead)
-{
-  const double *value = log->value[channel];
-  const size_t extra = (size_t)format->n_lead;
-  double *to = *with_lead = malloc((log->n + log->n_runs * extra) * sizeof *to);
-  size_t run, k, n = 0;
-  for (run = 0; to && run < log->n_runs; run++) {
-    const size_t first = log->run[run], rows = log->run[run + 1] - first;
-    for (k = 0; k < extra; k++) {
-      const double given = lead_value(log, format, k, channel, run);
-      to[n++] = is_command(channel) && isnan(given) ? value[first] : given;
-    }
-    memcpy(to + n, value + first, rows * sizeof *to);
-    n += rows;
-  }
-  return to != NULL;
-}
-
-static int lead_lines(lab_log *log, size_t extra)
-{
-  int *to = malloc((log->n + log->n_runs * extra) * sizeof *to);
-  size_t run, k, n = 0;
-  for (run = 0; to && run < log->n_runs; run++) {
-    const size_t first = log->run[run], rows = log->run[run + 1] - first;
-    log->run[run] = n;
-    for (k = 0; k < extra; k++)
-      to[n++] = log->line[first];
-    memcpy(to + n, log->line + first, rows * sizeof *to);
-    n += rows;
-  }
-  if (!to)
-    return 0;
-  free(log->line);
-  log->line = to;
-  log->n = log->run[log->n_runs] = n;
-  return 1;
-}
-
+/* Runs move back, the last one first, each by the leads of those before it and its own. */
 static int put_lead(lab_log *log, const lab_log_format *format, lab_error *error)
 {
   const double last = format->lead[format->n_lead - 1][LAB_CHANNEL_TIME];
-  double *made[LAB_CHANNEL_COUNT] = {NULL};
-  size_t run;
-  int c, status = LAB_OK;
+  size_t run, end = log->n, to = log->n + log->n_runs * (size_t)format->n_lead;
+  int c, k;
   for (run = 0; run < log->n_runs; run++)
     if (log->value[LAB_CHANNEL_TIME][log->run[run]] <= last)
       return lab_fail(error, LAB_DATA, "%s:%d: expected a run that begins after its lead, %g s, found %g s", log->path,
                       log->line[log->run[run]], last, log->value[LAB_CHANNEL_TIME][log->run[run]]);
-  if (add_channels(log, format, error))
+  if (make_room(log, format, error))
     return error->status;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (log->value[c] && !lead_channel(log, format, c, &made[c]))
-      status = lab_fail_memory(error, log->path);
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++) { /* only now, for a lead may look at any channel */
-    free(status == LAB_OK ? log->value[c] : made[c]);
-    log->value[c] = status == LAB_OK ? made[c] : log->value[c];
+  log->n = log->run[log->n_runs] = to;
+  while (run-- > 0) {
+    const size_t rows = end - log->run[run], first = to - rows;
+    while (end > log->run[run])
+      lab_log_copy_row(log, --end, --to);
+    for (k = format->n_lead - 1; k >= 0; k--) {
+      log->line[--to] = log->line[first];
+      for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+        if (log->value[c])
+          log->value[c][to] = lead_value(log, format, k, c, first, first + rows);
+    }
+    log->run[run] = to;
   }
-  if (status != LAB_OK)
-    return status;
-  return lead_lines(log, (size_t)format->n_lead) ? LAB_OK : lab_fail_memory(error, log->path);
+  return LAB_OK;
 }
 
 int lab_log_shape(lab_log *log, const lab_log_format *format, lab_error *error)

@@ -4,22 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
 #include "../base/escape.h"
+#include "../base/line.h"
 #include "../base/noise.h"
 #include "../base/text.h"
 #include "../log/log.h"
 #include "rig.h"
-#include "actuators.h"
 #include "rigkeys.h"
 #include "sheetwords.h"
 
 enum { SHEET_TEXT = LAB_SHEET_WORDS * (LAB_SHEET_VALUE + 64), LEAST_ROWS = 20, WINDOWS = 200 };
-
-/* What the log says of a parameter: NaN where it says nothing. */
-typedef struct derived {
-  double value[PNEU_PARAM_BASE_COUNT];
-  const char *from[PNEU_PARAM_BASE_COUNT];
-} derived;
 
 typedef struct draft {
   lab_sheet_word word[LAB_SHEET_WORDS];
@@ -27,8 +22,8 @@ typedef struct draft {
   const lab_actuator *actuator; /* NULL: none was named */
   lab_rig rig;                  /* of the sheet alone, defaults elsewhere, and then with what was derived */
   lab_log log;
-  int x_is_share; /* x is a share of the stroke: its range does not tell the stroke */
-  derived derived;
+  int x_is_share;                             /* x is a share of the stroke: its range does not tell the stroke */
+  const char *derived[PNEU_PARAM_BASE_COUNT]; /* from what of the log; NULL: it says nothing of the parameter */
   lab_error *error;
 } draft;
 
@@ -163,26 +158,19 @@ typedef struct range {
 
 static range range_of(const draft *d, int channel)
 {
-  const double *value = d->log.value[channel];
-  range r = {INFINITY, -INFINITY};
-  size_t i;
-  for (i = 0; value && i < d->log.n; i++) {
-    r.low = fmin(r.low, value[i]);
-    r.high = fmax(r.high, value[i]);
-  }
+  range r;
+  lab_range(d->log.value[channel], has(d, channel) ? d->log.n : 0, &r.low, &r.high);
   return r;
 }
 
 /* A parameter that the sheet does not say, within its bounds. */
 static void derive(draft *d, int param, double value, const char *from)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   if (is_param_said(d, param) || !isfinite(value))
     return;
-  pneu_param_describe(param, &info);
   value = fmin(fmax(value, (double)info.lower), (double)info.upper);
-  d->derived.value[param] = value;
-  d->derived.from[param] = from;
+  d->derived[param] = from;
   *pneu_param_at(&d->rig.params, param) = (pneu_real)value;
 }
 
@@ -219,11 +207,6 @@ static void derive_travel(draft *d)
          "a tenth of the swept volume; with tubes, of which nothing is known");
 }
 
-/* Sums over the rows in which the stem moves one way. */
-typedef struct branch {
-  double n, x, p, xx, xp;
-} branch;
-
 /* Which way the stem moves in row i: 1, -1, or 0 where it hardly does, or is next to a stop. */
 static int way_of(const draft *d, const range *r, size_t i, size_t w)
 {
@@ -233,19 +216,11 @@ static int way_of(const draft *d, const range *r, size_t i, size_t w)
   return dx > 0 ? 1 : -1;
 }
 
-static void add_row(branch *b, double x, double p)
-{
-  b->n++;
-  b->x += x;
-  b->p += p;
-  b->xx += x * x;
-  b->xp += x * p;
-}
-
 /* The straight lines of p over x up and down, of one slope. */
 typedef struct lines {
-  double slope, at_0,
-      apart; /* [Pa/m], [Pa] of their middle, half their distance [Pa]; NaN where the log does not tell */
+  double slope; /* [Pa/m]; NaN, as the others, where the log does not tell */
+  double at_0;  /* [Pa] of their middle */
+  double apart; /* [Pa] half their distance */
 } lines;
 
 static lines fit_lines(const draft *d)
@@ -253,20 +228,19 @@ static lines fit_lines(const draft *d)
   const double *p = d->log.value[LAB_CHANNEL_P], *x = d->log.value[LAB_CHANNEL_X];
   const range r = range_of(d, LAB_CHANNEL_X);
   const size_t w = d->log.n / (5 * WINDOWS) + 1;
-  branch up = {0}, down = {0};
+  lab_line up = {0}, down = {0};
   lines l;
   size_t i;
   for (i = w; i + w < d->log.n; i++) {
     const int way = way_of(d, &r, i, w);
     if (way && isfinite(p[i]))
-      add_row(way > 0 ? &up : &down, x[i], p[i]);
+      lab_line_add(way > 0 ? &up : &down, x[i], p[i], 1);
   }
   if (up.n < LEAST_ROWS || down.n < LEAST_ROWS)
     return (lines){NAN, NAN, NAN};
-  l.slope = (up.xp - up.x * up.p / up.n + down.xp - down.x * down.p / down.n) /
-            (up.xx - up.x * up.x / up.n + down.xx - down.x * down.x / down.n);
-  l.at_0 = ((up.p - l.slope * up.x) / up.n + (down.p - l.slope * down.x) / down.n) / 2;
-  l.apart = ((up.p - l.slope * up.x) / up.n - (down.p - l.slope * down.x) / down.n) / 2;
+  l.slope = (up.xy + down.xy) / (up.xx + down.xx);
+  l.at_0 = (up.level - l.slope * up.middle + down.level - l.slope * down.middle) / 2;
+  l.apart = (up.level - l.slope * up.middle - down.level + l.slope * down.middle) / 2;
   return l;
 }
 
@@ -322,10 +296,7 @@ static void derive_orifices(draft *d)
 
 static void put_value(FILE *file, const draft *d, int param)
 {
-  pneu_params p = d->rig.params;
-  pneu_param_info info;
-  pneu_param_describe(param, &info);
-  fprintf(file, "\"%.4g %s\"", (double)*pneu_param_at(&p, param), info.unit);
+  fprintf(file, "\"%.4g %s\"", lab_param_value(&d->rig, param), lab_param_info(param).unit);
 }
 
 /* What every draft has. */
@@ -340,9 +311,7 @@ enum { NEEDED = sizeof needed / sizeof needed[0] };
 static void put_key(FILE *file, const draft *d, const lab_key *key)
 {
   const lab_sheet_word *word = find_word(d, key->group, key->key);
-  const char *from =
-      key->kind == LAB_KEY_PARAM && key->param < PNEU_PARAM_BASE_COUNT ? d->derived.from[key->param] : NULL;
-  pneu_param_info info;
+  const char *from = key->kind == LAB_KEY_PARAM ? d->derived[key->param] : NULL;
   size_t i;
   if (word) {
     fprintf(file, "  %s = %s; // %s\n", key->key, word->value, source_of(d, word));
@@ -350,12 +319,12 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
   }
   if (key->kind != LAB_KEY_PARAM || is_said(d, key))
     return;
-  pneu_param_describe(key->param, &info);
   for (i = 0; i < NEEDED; i++)
     if (needed[i] == key->param) {
       fprintf(file, "  %s = ", key->key);
       put_value(file, d, key->param);
-      fprintf(file, from ? "; // derived: %s\n" : "; // NOT KNOWN, a default: %s\n", from ? from : info.meaning);
+      fprintf(file, from ? "; // derived: %s\n" : "; // NOT KNOWN, a default: %s\n",
+              from ? from : lab_param_info(key->param).meaning);
     }
 }
 
@@ -399,13 +368,11 @@ static void put_laws(FILE *file, const draft *d)
  * In:      fitted  whether each of `needed` is */
 static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
 {
-  pneu_param_info info;
   int i, any = 0;
   for (i = 0; i < NEEDED; i++) {
-    if (is_param_said(d, needed[i]) || (d->derived.from[needed[i]] && !fitted[i]))
+    if (is_param_said(d, needed[i]) || (d->derived[needed[i]] && !fitted[i]))
       continue;
-    pneu_param_describe(needed[i], &info);
-    fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", info.name);
+    fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", lab_param_info(needed[i]).name);
   }
   if (any)
     fputs(" }; // starts and defaults: to be away from them is no deviation\n", file);
@@ -415,7 +382,7 @@ static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
 static void put_fit(FILE *file, const draft *d)
 {
   const int p = has(d, LAB_CHANNEL_P), x = has(d, LAB_CHANNEL_X), u = lab_log_command(&d->log) >= 0;
-  const int spring = d->derived.from[PNEU_PARAM_spring_rate] != NULL;
+  const int spring = d->derived[PNEU_PARAM_spring_rate] != NULL;
   const struct {
     int param, can;
   } fit[] = {{PNEU_PARAM_fill_area, u && (p || x)},
@@ -432,11 +399,9 @@ static void put_fit(FILE *file, const draft *d)
       "// What the log can determine, and the sheet does not say; the rest is known to its usual tolerance.\nfit = ( ",
       file);
   for (i = 0; i < sizeof fit / sizeof fit[0]; i++) {
-    pneu_param_info info;
     if (!fit[i].can || is_param_said(d, fit[i].param))
       continue;
-    pneu_param_describe(fit[i].param, &info);
-    fprintf(file, "%s\"%s\"", between, info.name);
+    fprintf(file, "%s\"%s\"", between, lab_param_info(fit[i].param).name);
     between = ", ";
     for (k = 0; k < NEEDED; k++)
       fitted[k] |= needed[k] == fit[i].param;

@@ -7,26 +7,31 @@
 #include "../base/escape.h"
 #include "../base/names.h"
 #include "rigkeys.h"
-#include "rigonset.h"
 #include "rigterm.h"
 #include "sheet.h"
 #include "tolerance.h"
 #include "../base/text.h"
 
-/* ---- Names of what can be fitted ---- */
+/* ---- What can be fitted ---- */
+
+pneu_param_info lab_param_info(int param)
+{
+  pneu_param_info info = {.name = "orifice_area", .unit = "1", .lower = (pneu_real)1e-3, .upper = (pneu_real)1e3};
+  if (param != LAB_PARAM_ORIFICE_AREA)
+    pneu_param_describe(param, &info);
+  return info;
+}
+
+double lab_param_value(const lab_rig *rig, int param)
+{
+  return (double)*pneu_param_at((pneu_params *)&rig->params, param);
+}
 
 const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT])
 {
-  pneu_param_info info;
-  if (index == LAB_PARAM_ORIFICE_AREA) {
-    strcpy(name, "orifice_area");
-    return name;
-  }
-  pneu_param_describe(index, &info);
-  if (index < PNEU_PARAM_BASE_COUNT)
-    snprintf(name, LAB_PARAM_NAME_TEXT, "%s", info.name);
-  else
-    snprintf(name, LAB_PARAM_NAME_TEXT, "%s.%s", pneu_effect_at(pneu_effect_of(index))->name, info.name);
+  const int is_effects = index >= PNEU_PARAM_BASE_COUNT && index != LAB_PARAM_ORIFICE_AREA;
+  snprintf(name, LAB_PARAM_NAME_TEXT, "%s%s%s", is_effects ? pneu_effect_at(pneu_effect_of(index))->name : "",
+           is_effects ? "." : "", lab_param_info(index).name);
   return name;
 }
 
@@ -35,9 +40,8 @@ const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT])
 /* A parameter, within its bounds. */
 static int read_param(const config_setting_t *setting, int param, lab_rig *rig, lab_error *error)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   double value;
-  pneu_param_describe(param, &info);
   if (lab_config_quantity(setting, info.unit, (double)info.lower, (double)info.upper, &value, error))
     return error->status;
   *pneu_param_at(&rig->params, param) = (pneu_real)value;
@@ -116,14 +120,11 @@ static int read_laws(const config_setting_t *group, lab_rig *rig, lab_error *err
   if (!effect)
     return LAB_OK;
   if (pneu_effect_find(effect) < 0)
-    return lab_config_fail(config_setting_get_member((config_setting_t *)group, "friction"), error,
-                           "this build of the library has no effect %s", effect);
+    return lab_config_fail(lab_config_member(group, "friction"), error, "this build of the library has no effect %s",
+                           effect);
   first = pneu_effect_params(pneu_effect_find(effect), &count);
-  for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    *pneu_param_at(&rig->params, i) = info.value;
-  }
+  for (i = first; i < first + count; i++)
+    *pneu_param_at(&rig->params, i) = lab_param_info(i).value;
   return LAB_OK;
 }
 
@@ -132,11 +133,8 @@ static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, 
 {
   const char *names[PNEU_PARAM_COUNT];
   int i, k, count, first = pneu_effect_params(effect, &count), status;
-  for (k = 0; k < count; k++) {
-    pneu_param_info info;
-    pneu_param_describe(first + k, &info);
-    names[k] = info.name;
-  }
+  for (k = 0; k < count; k++)
+    names[k] = lab_param_info(first + k).name;
   status = lab_config_known(group, names, (size_t)count, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
@@ -149,11 +147,9 @@ static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, 
 static int read_positioner(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
   const int gain = pneu_param_find("positioner.gain");
-  pneu_param_info info;
   if (gain < 0)
     return lab_config_fail(group, error, "this build of the library has no positioner");
-  pneu_param_describe(gain, &info);
-  *pneu_param_at(&rig->params, gain) = info.value;
+  *pneu_param_at(&rig->params, gain) = lab_param_info(gain).value;
   return read_effect(group, pneu_effect_of(gain), rig, error);
 }
 
@@ -193,32 +189,31 @@ static int add_fit(const config_setting_t *setting, int index, lab_rig *rig, lab
   return LAB_OK;
 }
 
-static int read_fit_list(const config_setting_t *list, int per_log, lab_rig *rig, lab_error *error)
+/* The name of something that can be fitted. */
+static int read_fit_name(const config_setting_t *setting, int *index, lab_error *error)
 {
   char text[LAB_PARAM_COUNT][LAB_PARAM_NAME_TEXT];
   const char *names[LAB_PARAM_COUNT];
-  int i, index, status = lab_config_list(list, 0, LAB_PARAM_COUNT, error);
+  int i;
   for (i = 0; i < LAB_PARAM_COUNT; i++)
     names[i] = lab_fit_name(i, text[i]);
+  return lab_config_choice(setting, names, LAB_PARAM_COUNT, sizeof names[0], index, error);
+}
+
+/* The lists fit and fit_per_log. */
+static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  const int per_log = strcmp(config_setting_name(list), "fit_per_log") == 0;
+  int i, index, status = lab_config_list(list, 0, LAB_PARAM_COUNT, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(list); i++) {
     const config_setting_t *setting = config_setting_get_elem(list, (unsigned)i);
-    status = lab_config_choice(setting, names, LAB_PARAM_COUNT, sizeof names[0], &index, error);
+    status = read_fit_name(setting, &index, error);
     if (status == LAB_OK)
       status = add_fit(setting, index, rig, error);
     if (status == LAB_OK)
       rig->fit_per_log[rig->n_fit - 1] = (unsigned char)per_log;
   }
   return status;
-}
-
-static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error)
-{
-  return read_fit_list(list, 0, rig, error);
-}
-
-static int read_fit_per_log(const config_setting_t *list, lab_rig *rig, lab_error *error)
-{
-  return read_fit_list(list, 1, rig, error);
 }
 
 /* Channel of a key in the noise group, "pressure" or "p"; time and command have no noise. */
@@ -287,6 +282,41 @@ static int read_unlisted(const config_setting_t *list, lab_rig *rig, lab_error *
   return lab_terms_read(list, LAB_TERM_MAX, rig->term, &rig->n_terms, error);
 }
 
+/* ---- What begins within a log ---- */
+
+enum { PARAMETER, FROM, VALUE, KEYS };
+static const char *const keys[KEYS] = {"parameter", "from", "value"};
+
+static int read_onset(const config_setting_t *group, lab_rig *rig, lab_error *error)
+{
+  lab_rig_onset *onset = &rig->onset[rig->n_onsets];
+  pneu_param_info info;
+  const config_setting_t *member[KEYS];
+  if (lab_config_members(group, keys, KEYS, KEYS, member, error) ||
+      read_fit_name(member[PARAMETER], &onset->param, error) ||
+      lab_config_quantity(member[FROM], "s", -INFINITY, INFINITY, &onset->from, error))
+    return error->status;
+  info = lab_param_info(onset->param);
+  if (lab_config_quantity(member[VALUE], info.unit, (double)info.lower, (double)info.upper, &onset->value, error))
+    return error->status;
+  if (rig->n_onsets > 0 && onset->from < onset[-1].from)
+    return lab_config_fail(member[FROM], error,
+                           "expected no earlier time than that of the entry before, %g s, found %g s", onset[-1].from,
+                           onset->from);
+  rig->n_onsets++;
+  return LAB_OK;
+}
+
+static int read_onsets(const config_setting_t *list, lab_rig *rig, lab_error *error)
+{
+  int i, status = lab_config_list(list, 0, LAB_ONSETS_MAX, error);
+  for (i = 0; status == LAB_OK && i < config_setting_length(list); i++)
+    status = read_onset(config_setting_get_elem(list, (unsigned)i), rig, error);
+  return status;
+}
+
+/* ---- All sections ---- */
+
 /* By lab_sheet_read, when all else is known. */
 static int read_later(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
@@ -306,13 +336,13 @@ static const struct section {
     {"gas", read_keys},
     {"laws", read_laws},
     {"fit", read_fit},
-    {"fit_per_log", read_fit_per_log},
+    {"fit_per_log", read_fit},
     {"noise", read_noise},
     {"inputs", read_inputs},
     {"positioner", read_positioner},
     {"effects", read_effects},
     {"unlisted", read_unlisted},
-    {"onset", lab_onsets_read},
+    {"onset", read_onsets},
     {"tolerance", lab_tolerance_read},
     {"tube", read_later},
     {"log", read_log},
@@ -374,9 +404,8 @@ static int check_effects_act(const lab_rig *rig, const pneu_model *model, lab_er
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     const int first = pneu_effect_params(e, &count);
     for (i = 0; i < count && !is_active(model, e); i++) {
-      pneu_param_info info;
-      pneu_param_describe(first + i, &info);
-      if (!info.shape && *pneu_param_at((pneu_params *)&rig->params, first + i) != info.neutral)
+      const pneu_param_info info = lab_param_info(first + i);
+      if (!info.shape && lab_param_value(rig, first + i) != (double)info.neutral)
         return lab_fail(error, LAB_DATA,
                         "%s: %s%s.%s does nothing with the other laws and effects declared (gas law \"%s\"): %s",
                         rig->file, e == pneu_effect_find("positioner") ? "" : "effects.", pneu_effect_at(e)->name,
@@ -415,7 +444,7 @@ static int read_sections(const config_t *config, lab_rig *rig, lab_error *error)
   const config_setting_t *root = config_root_setting(config);
   int i, status = lab_config_known(root, sections, SECTIONS, sizeof sections[0], error);
   for (i = 0; status == LAB_OK && i < SECTIONS; i++) {
-    const config_setting_t *member = config_setting_get_member((config_setting_t *)root, sections[i].name);
+    const config_setting_t *member = lab_config_member(root, sections[i].name);
     if (member)
       status = sections[i].read(member, rig, error);
   }
@@ -477,7 +506,7 @@ void lab_rig_at(const lab_rig *rig, double t, lab_rig *now)
 int lab_rig_has_positioner(const lab_rig *rig)
 {
   const int gain = pneu_param_find("positioner.gain");
-  return gain >= 0 && *pneu_param_at((pneu_params *)&rig->params, gain) > 0;
+  return gain >= 0 && lab_param_value(rig, gain) > 0;
 }
 
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)

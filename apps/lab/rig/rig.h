@@ -1,20 +1,7 @@
-/* A rig: what its file declares, ready for the library. The same file is a model that closeloop has
- * completed (model.cfg). Keys and groups are those of interface.md; missing ones take the defaults of
- * pneu.h, every effect neutral. Three groups go further:
- *
- *   gas     = { gas_constant = "287.1 J/kg/K"; heat_ratio = 1.4; polytropic_index = 1.4; };
- *   effects = { chamber_leak = { leak_area = "0.02 mm^2"; }; };   // by effect and parameter
- *   unlisted = ( { equation = "friction"; argument = "x"; from = "0 mm"; to = "20 mm";
- *                  values = [ 0, 15, 40, 15, 0 ]; unit = "N"; } );  // free terms, see pneu_term
- *
- * A parameter of an effect that is not given keeps its neutral value; friction = "stribeck" or "lugre"
- * first sets that effect to its usual size. A free term has 2 to PNEU_TERM_KNOTS values at equal distances;
- * its equation is supply, force, friction, flow, heat, shown_pressure or shown_position, its argument x, v, p, u
- * or t, and numbers are in SI where no unit is given. Over t the values are the amplitudes of cosine and sine of the
- * period to - from, of its half and so on. Between [ and ] libconfig wants all numbers with a point or none; ( and )
- * take both. The groups log, tolerance and onset are described in logformat.h, tolerance.h and rigonset.h, the
- * words of a data sheet in sheet.h.
- * SPDX-License-Identifier: MIT */
+/* A rig: what its file declares, ready for the library. The same file is a model that closeloop has completed
+ * (model.cfg). pneu-rig(5) describes its groups and keys; missing ones take the defaults of pneu.h, every effect
+ * neutral. A parameter of an effect that is not given keeps its neutral value; friction = "stribeck" or "lugre" first
+ * sets that effect to its usual size. The words of a data sheet are those of sheet.h. SPDX-License-Identifier: MIT */
 #ifndef LAB_RIG_H
 #define LAB_RIG_H
 
@@ -105,6 +92,12 @@ void lab_rig_at(const lab_rig *rig, double t, lab_rig *now);
 
 /* Whether the rig file declares a positioner. */
 int lab_rig_has_positioner(const lab_rig *rig);
+
+/* What the library says of a parameter, or as much of LAB_PARAM_ORIFICE_AREA, a factor on both areas. */
+pneu_param_info lab_param_info(int param);
+
+/* The value of a parameter of the library. */
+double lab_param_value(const lab_rig *rig, int param);
 
 /* Name of something fitted: "dry_friction", "orifice_area", "chamber_leak.leak_area".
  * In:      index  0 <= index < LAB_PARAM_COUNT

@@ -19,20 +19,7 @@ const lab_term_word lab_term_arguments[PNEU_TERM_ARGUMENT_COUNT] = {PNEU_TERM_AR
 enum { EQUATION, ARGUMENT, FROM, TO, VALUES, UNIT, KEYS };
 static const char *const keys[KEYS] = {"equation", "argument", "from", "to", "values", "unit"};
 
-/* Members of one term, in the order of `keys`; all but the unit must be there. */
-static int find_members(const config_setting_t *group, config_setting_t *member[KEYS], lab_error *error)
-{
-  int k, status = lab_config_known(group, keys, KEYS, sizeof keys[0], error);
-  for (k = 0; status == LAB_OK && k < KEYS; k++) {
-    member[k] = config_setting_get_member((config_setting_t *)group, keys[k]);
-    if (!member[k] && k != UNIT)
-      status = lab_config_fail(group, error, "expected the keys equation, argument, from, to and values; %s is missing",
-                               keys[k]);
-  }
-  return status;
-}
-
-static int read_ends(config_setting_t *const member[KEYS], pneu_term *term, lab_error *error)
+static int read_ends(const config_setting_t *const member[KEYS], pneu_term *term, lab_error *error)
 {
   const char *unit = lab_term_arguments[term->argument].unit;
   double from, to;
@@ -48,7 +35,7 @@ static int read_ends(config_setting_t *const member[KEYS], pneu_term *term, lab_
 }
 
 /* Numbers in the unit given beside them, by default in SI; or texts with units of their own. */
-static int read_values(config_setting_t *const member[KEYS], pneu_term *term, lab_error *error)
+static int read_values(const config_setting_t *const member[KEYS], pneu_term *term, lab_error *error)
 {
   const char *si = lab_term_equations[term->equation].unit, *unit = si;
   double scale, offset;
@@ -76,9 +63,9 @@ static int read_values(config_setting_t *const member[KEYS], pneu_term *term, la
 
 static int read_term(const config_setting_t *group, pneu_term *term, lab_error *error)
 {
-  config_setting_t *member[KEYS];
+  const config_setting_t *member[KEYS];
   memset(term, 0, sizeof *term);
-  if (find_members(group, member, error) ||
+  if (lab_config_members(group, keys, KEYS, UNIT, member, error) ||
       lab_config_choice(member[EQUATION], lab_term_equations, PNEU_TERM_EQUATION_COUNT, sizeof lab_term_equations[0],
                         &term->equation, error) ||
       lab_config_choice(member[ARGUMENT], lab_term_arguments, PNEU_TERM_ARGUMENT_COUNT, sizeof lab_term_arguments[0],

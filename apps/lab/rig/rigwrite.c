@@ -6,17 +6,14 @@
 #include "../base/escape.h"
 #include "../base/number.h"
 #include "rigkeys.h"
-#include "rigonset.h"
 #include "rigterm.h"
 #include "tolerance.h"
 
 static void write_param(FILE *file, const lab_rig *rig, const char *key, int param, int indent)
 {
-  pneu_params p = rig->params;
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   char number[LAB_NUMBER_TEXT];
-  pneu_param_describe(param, &info);
-  lab_number_write((double)*pneu_param_at(&p, param), number);
+  lab_number_write(lab_param_value(rig, param), number);
   if (strcmp(info.unit, "1") == 0)
     fprintf(file, "%*s%s = %s;\n", indent, "", key, number);
   else
@@ -87,14 +84,10 @@ static void write_inputs(FILE *file, const lab_rig *rig)
 static int is_written(const lab_rig *rig, int effect)
 {
   const char *law = lab_friction_effects[rig->friction];
-  pneu_params p = rig->params;
   int i, count, first = pneu_effect_params(effect, &count);
-  for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    if (*pneu_param_at(&p, i) != info.neutral)
+  for (i = first; i < first + count; i++)
+    if (lab_param_value(rig, i) != (double)lab_param_info(i).neutral)
       return 1;
-  }
   return law && strcmp(law, pneu_effect_at(effect)->name) == 0;
 }
 
@@ -102,11 +95,8 @@ static void write_effect(FILE *file, const lab_rig *rig, int effect, int indent)
 {
   int i, count, first = pneu_effect_params(effect, &count);
   fprintf(file, "%*s%s = {\n", indent, "", pneu_effect_at(effect)->name);
-  for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
-    write_param(file, rig, info.name, i, indent + 2);
-  }
+  for (i = first; i < first + count; i++)
+    write_param(file, rig, lab_param_info(i).name, i, indent + 2);
   fprintf(file, "%*s};\n", indent, "");
 }
 
@@ -127,6 +117,20 @@ static void write_effects(FILE *file, const lab_rig *rig)
     }
   if (any)
     fputs("};\n", file);
+}
+
+static void write_onsets(FILE *file, const lab_rig *rig)
+{
+  char name[LAB_PARAM_NAME_TEXT], from[LAB_NUMBER_TEXT], value[LAB_NUMBER_TEXT];
+  int i;
+  for (i = 0; i < rig->n_onsets; i++) {
+    const lab_rig_onset *onset = &rig->onset[i];
+    fprintf(file, "%s  { parameter = \"%s\"; from = \"%s s\"; value = \"%s %s\"; }", i ? ",\n" : "onset = (\n",
+            lab_fit_name(onset->param, name), lab_number_write(onset->from, from),
+            lab_number_write(onset->value, value), lab_param_info(onset->param).unit);
+  }
+  if (rig->n_onsets)
+    fputs("\n);\n", file);
 }
 
 static void write_remark(FILE *file, const char *remark)
@@ -150,19 +154,17 @@ void lab_rig_write(FILE *file, const lab_rig *rig, const char *remark)
   write_positioner(file, rig);
   write_effects(file, rig);
   lab_terms_write(file, rig->term, rig->n_terms);
-  lab_onsets_write(file, rig);
+  write_onsets(file, rig);
   lab_log_format_write(file, &rig->log);
 }
 
 /* A parameter in C, with what comes before and after it. */
 static void write_c(FILE *file, const lab_rig *rig, int param, const char *before)
 {
-  pneu_params p = rig->params;
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   char number[LAB_NUMBER_TEXT];
-  pneu_param_describe(param, &info);
-  fprintf(file, "%s(pneu_real)%s, /* %s [%s] */ \\\n", before,
-          lab_number_write((double)*pneu_param_at(&p, param), number), info.name, info.unit);
+  fprintf(file, "%s(pneu_real)%s, /* %s [%s] */ \\\n", before, lab_number_write(lab_param_value(rig, param), number),
+          info.name, info.unit);
 }
 
 /* Parameters of the effects that are not neutral, or of all, each by its name. */

@@ -21,17 +21,11 @@ int lab_sheet_has(const char *group, const char *key)
   return i >= 0 && strcmp(words[i].group, group) == 0;
 }
 
-static config_setting_t *member(const config_setting_t *group, const char *key)
-{
-  return group ? config_setting_get_member((config_setting_t *)group, key) : NULL;
-}
-
 /* Set a parameter, within its bounds; `other` is the key that says the same and must not be there. */
 static int put(const config_setting_t *from, int param, double value, const config_setting_t *other, lab_rig *rig,
                lab_error *error)
 {
-  pneu_param_info info;
-  pneu_param_describe(param, &info);
+  const pneu_param_info info = lab_param_info(param);
   if (other)
     return lab_config_fail(from, error, "%s is there too: give one of them", config_setting_name(other));
   if (!(value >= (double)info.lower && value <= (double)info.upper))
@@ -45,7 +39,7 @@ static int put(const config_setting_t *from, int param, double value, const conf
 
 static int read_bench_set(const config_setting_t *actuator, lab_rig *rig, lab_error *error)
 {
-  const config_setting_t *set = member(actuator, "bench_set");
+  const config_setting_t *set = lab_config_member(actuator, "bench_set");
   const double area = (double)rig->params.area, stroke = (double)rig->params.stroke;
   double low, high, rate;
   if (!set)
@@ -59,9 +53,10 @@ static int read_bench_set(const config_setting_t *actuator, lab_rig *rig, lab_er
   if (!(stroke > 0))
     return lab_config_fail(set, error, "needs actuator.stroke above 0");
   rate = area * (high - low) / stroke;
-  if (put(set, PNEU_PARAM_spring_rate, rate, member(actuator, "spring_rate"), rig, error))
+  if (put(set, PNEU_PARAM_spring_rate, rate, lab_config_member(actuator, "spring_rate"), rig, error))
     return error->status;
-  return put(set, PNEU_PARAM_spring_preload, area * low / rate, member(actuator, "spring_preload"), rig, error);
+  return put(set, PNEU_PARAM_spring_preload, area * low / rate, lab_config_member(actuator, "spring_preload"), rig,
+             error);
 }
 
 /* ---- Orifices ---- */
@@ -112,7 +107,7 @@ static int read_words(const config_setting_t *group, double w[WORDS], lab_error 
   if (lab_config_known(group, words, WORDS, sizeof words[0], error))
     return error->status;
   for (i = 0; i < WORDS; i++) {
-    const config_setting_t *setting = member(group, words[i].key);
+    const config_setting_t *setting = lab_config_member(group, words[i].key);
     if (!setting)
       continue;
     if (lab_config_quantity(setting, words[i].unit, 0, words[i].upper, &w[i], error))
@@ -156,11 +151,12 @@ static int area_of(const lab_rig *rig, const passed *p, double *area, lab_error 
 static int read_b(const config_setting_t *transducer, lab_rig *rig, lab_error *error)
 {
   static const char *const orifices[] = {"fill", "vent"};
-  const config_setting_t *before = member(transducer, "critical_ratio");
+  const config_setting_t *before = lab_config_member(transducer, "critical_ratio");
   int i;
   for (i = 0; i < 2; i++) {
-    const config_setting_t *orifice = member(transducer, orifices[i]);
-    const config_setting_t *setting = orifice && config_setting_is_group(orifice) ? member(orifice, "b") : NULL;
+    const config_setting_t *orifice = lab_config_member(transducer, orifices[i]);
+    const config_setting_t *setting =
+        orifice && config_setting_is_group(orifice) ? lab_config_member(orifice, "b") : NULL;
     double b;
     if (!setting)
       continue;
@@ -179,7 +175,7 @@ static int read_b(const config_setting_t *transducer, lab_rig *rig, lab_error *e
 static int read_orifice(const config_setting_t *transducer, const char *key, const char *same, int param, lab_rig *rig,
                         lab_error *error)
 {
-  const config_setting_t *group = member(transducer, key);
+  const config_setting_t *group = lab_config_member(transducer, key);
   double w[WORDS] = {[B] = (double)rig->params.critical_ratio, [XT] = usual_xT, [P1] = 6 * bar, [P2] = 5 * bar};
   double area;
   passed p;
@@ -190,7 +186,7 @@ static int read_orifice(const config_setting_t *transducer, const char *key, con
   p = flow_of(rig, w);
   if (area_of(rig, &p, &area, error))
     return error->status;
-  return put(group, param, area, member(transducer, same), rig, error);
+  return put(group, param, area, lab_config_member(transducer, same), rig, error);
 }
 
 /* ---- Tube ---- */
@@ -218,7 +214,9 @@ static double full_flow(const lab_rig *rig, const pneu_model *model)
 static int read_tube(const config_setting_t *root, lab_rig *rig, lab_error *error)
 {
   static const char *const keys[] = {"length", "bore"};
-  const config_setting_t *tube = member(root, "tube"), *other = member(member(root, "effects"), "connecting_tube");
+  const config_setting_t *tube = lab_config_member(root, "tube"),
+                         *other = lab_config_member(lab_config_member(root, "effects"), "connecting_tube");
+  const config_setting_t *size[2];
   const int resistance = pneu_param_find("connecting_tube.tube_resistance");
   const int volume = pneu_param_find("connecting_tube.tube_volume");
   double length = 0, bore = 0, p_mean, rho;
@@ -227,12 +225,12 @@ static int read_tube(const config_setting_t *root, lab_rig *rig, lab_error *erro
     return LAB_OK;
   if (resistance < 0 || volume < 0)
     return lab_config_fail(tube, error, "this build of the library has no connecting_tube");
-  if (lab_config_known(tube, keys, 2, sizeof keys[0], error))
+  if (lab_config_members(tube, keys, 2, 0, size, error))
     return error->status;
-  if (!member(tube, "length") || !member(tube, "bore"))
+  if (!size[0] || !size[1])
     return lab_config_fail(tube, error, "expected length and bore");
-  if (lab_config_quantity(member(tube, "length"), "m", 1e-3, 1e3, &length, error) ||
-      lab_config_quantity(member(tube, "bore"), "m", 1e-4, 1, &bore, error) || lab_rig_model(rig, &model, error))
+  if (lab_config_quantity(size[0], "m", 1e-3, 1e3, &length, error) ||
+      lab_config_quantity(size[1], "m", 1e-4, 1, &bore, error) || lab_rig_model(rig, &model, error))
     return error->status;
   p_mean = (double)rig->params.ambient_pressure + (double)rig->params.supply_pressure / 2;
   rho = p_mean / (air * (double)rig->params.ambient_temperature);
@@ -243,8 +241,8 @@ static int read_tube(const config_setting_t *root, lab_rig *rig, lab_error *erro
 
 int lab_sheet_read(const config_setting_t *root, lab_rig *rig, lab_error *error)
 {
-  const config_setting_t *transducer = member(root, "transducer");
-  if (read_bench_set(member(root, "actuator"), rig, error) || read_b(transducer, rig, error) ||
+  const config_setting_t *transducer = lab_config_member(root, "transducer");
+  if (read_bench_set(lab_config_member(root, "actuator"), rig, error) || read_b(transducer, rig, error) ||
       read_orifice(transducer, "fill", "fill_area", PNEU_PARAM_fill_area, rig, error) ||
       read_orifice(transducer, "vent", "vent_area", PNEU_PARAM_vent_area, rig, error))
     return error->status;

@@ -1,11 +1,14 @@
-/* key=value as a user takes it from a data sheet, and the text of a rig file that says the same.
+/* The words of a data sheet as a user has them: key=value, and the text of a rig file that says the same; actuators by
+ * name, with what their makers' public sheets say; questions, one after the other.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_SHEETWORDS_H
 #define LAB_SHEETWORDS_H
 
+#include <stdio.h>
+
 #include "../base/message.h"
 
-enum { LAB_SHEET_WORDS = 64, LAB_SHEET_VALUE = 128 };
+enum { LAB_SHEET_WORDS = 64, LAB_SHEET_VALUE = 128, LAB_ACTUATOR_WORDS = 4, LAB_QUESTIONS = 8 };
 
 /* A value and where it belongs: "actuator", "area"; "transducer.fill", "Kv"; "tube", "bore". */
 typedef struct lab_sheet_word {
@@ -14,8 +17,29 @@ typedef struct lab_sheet_word {
 } lab_sheet_word;
 
 /* Read "area=400 cm2", "supply.pressure=4 bar" (or "supply=4 bar"), "bench_set=0.2..1.0 bar", "fill.Kv=0.1", "Kv=0.1"
- * (both orifices), "tube.length=2 m", "flow=choked". Out:     word  up to two n     how many Returns: LAB_OK; LAB_USAGE
- * with the nearest known key. */
+ * (both orifices), "tube.length=2 m", "flow=choked".
+ * Out:     word  up to two
+ *          n     how many
+ * Returns: LAB_OK; LAB_USAGE with the nearest known key. */
 int lab_sheet_word_read(const char *text, lab_sheet_word word[2], int *n, lab_error *error);
+
+typedef struct lab_actuator {
+  const char *name;                     /* maker, type, size */
+  const char *word[LAB_ACTUATOR_WORDS]; /* of the sheet, as lab_sheet_word_read takes them; NULL: fewer */
+  const char *source;
+} lab_actuator;
+
+/* Returns: the actuator of that name; NULL with `error` (LAB_USAGE, the nearest name) if there is none */
+const lab_actuator *lab_actuator_find(const char *name, lab_error *error);
+
+typedef struct lab_sheet_answers {
+  char text[LAB_QUESTIONS][LAB_SHEET_VALUE]; /* "key=value" */
+  int n;
+} lab_sheet_answers;
+
+/* Ask; an empty line leaves a question open, a wrong answer is asked for again, the end of `in` ends it.
+ * In:      in, out  where answers come from, and where questions go
+ * Out:     answers  as lab_draft_write takes them */
+void lab_sheet_ask(FILE *in, FILE *out, lab_sheet_answers *answers);
 
 #endif

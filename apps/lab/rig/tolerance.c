@@ -6,7 +6,6 @@
 #include "../base/config.h"
 #include "../base/names.h"
 #include "../base/number.h"
-#include "rigkeys.h"
 
 /* What a share is one of. */
 enum span { OF_VALUE, OF_SUPPLY, OF_STROKE };
@@ -71,20 +70,17 @@ static double whole_of(const struct kind *k, const lab_rig *rig)
     return (double)rig->params.stroke;
   if (k->effect || k->param == LAB_PARAM_ORIFICE_AREA)
     return 1;
-  return fabs((double)*pneu_param_at((pneu_params *)&rig->params, k->param));
+  return fabs(lab_param_value(rig, k->param));
 }
 
 /* The unit of a kind's tolerance, SI. */
 static const char *unit_of(const struct kind *k)
 {
-  pneu_param_info info = {.unit = "1"};
   if (k->span == OF_SUPPLY)
     return "Pa";
   if (k->span == OF_STROKE)
     return "m";
-  if (param_of(k) < PNEU_PARAM_COUNT)
-    pneu_param_describe(param_of(k), &info);
-  return info.unit;
+  return lab_param_info(param_of(k)).unit;
 }
 
 static double usual(const struct kind *k, const lab_rig *rig)

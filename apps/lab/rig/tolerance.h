@@ -1,13 +1,8 @@
 /* How well declared values and instruments are known: the group `tolerance` of a rig file.
  *
- *   tolerance = { spring_rate = "5 %"; dead_volume = "20 cm^3"; pressure_gain = "1 %"; clock = "5 ms"; others = 0; };
- *
- * A tolerance is a standard deviation: a share of the declared value, or a quantity. The names are those of parameters
- * and of the instruments' errors: pressure_bias, pressure_gain, pressure_lag, position_bias, position_gain,
- * position_lag, pressure_drift and position_drift, by which a sensor is off over a run, and clock, which is the time
- * by which the channels are apart. A share of a bias is one of the span, for
- * which supply and stroke stand. 0 means exact; `others` stands for all that is not named. Without the group every
- * value has the default of its kind (tolerance.c).
+ * A tolerance is a standard deviation: a share of the declared value, or a quantity; 0 is exact. The names, of
+ * parameters and of the instruments' errors, are those of pneu-rig(5). A share of a bias is one of the span, for which
+ * supply and stroke stand. Without the group every value has the default of its kind (tolerance.c).
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_TOLERANCE_H
 #define LAB_TOLERANCE_H

@@ -1,8 +1,8 @@
-/* apps/lab/log/log, and through it logformat, logheader, logcolumn, logshape, csv and text */
+/* apps/lab/log/log, and through it logformat, logguess, logheader, logmap, logname, logcolumn, logshape, csv and text */
 #include "../../scratch.h"
 
 #include "../../../apps/lab/log/log.h"
-#include "../../../apps/lab/log/logheader.h"
+#include "../../../apps/lab/log/logread.h"
 
 static lab_error error;
 static lab_log_format format;

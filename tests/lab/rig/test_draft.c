@@ -3,7 +3,6 @@
 
 #include "../../../apps/lab/log/log.h"
 #include "../../../apps/lab/rig/draft.h"
-#include "../../../apps/lab/rig/sheetask.h"
 #include "../../../apps/lab/rig/rig.h"
 #include "../../../apps/lab/rig/sheetwords.h"
 

@@ -1,7 +1,7 @@
 /* The linear flow laws of the study against their formula. */
 #include "../fixture.h"
 
-#include "../../apps/study/linearflow.h"
+#include "../../apps/study/stroke.h"
 
 enum { P_UP = 450000 };
 

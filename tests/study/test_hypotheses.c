@@ -1,11 +1,9 @@
-/* apps/study/verdicts, hypotheses: when a verdict flips; what each cause does without the other */
+/* apps/study/hypotheses: when a verdict flips; what each cause does without the other */
 #include "../check.h"
 
 #include <math.h>
 
-#include "../../apps/study/speeds.h"
-#include "../../apps/study/stroke.h"
-#include "../../apps/study/verdicts.h"
+#include "../../apps/study/hypotheses.h"
 
 static lab_error error;
 
@@ -97,7 +95,7 @@ static void test_hypotheses__air_process_with_the_bench_set_in_place__closed_for
     const double rise = (top - low - force) / (top - high - force), fall = (high - force) / (low - force);
     lab_asymmetry r;
     check_note("%s", s.actuator[a].name);
-    hypotheses[H6_AIR_PROCESS].without(&p, &laws);
+    hypothesis_without(H6_AIR_PROCESS, &p, &laws);
     assert_int_equal(stroke_measure(&p, &p, &laws, &r, &error), LAB_OK);
     assert_close(r.asymmetry_signed, exponential_area(rise) - exponential_area(fall), 1e-3, 0);
   }
@@ -119,8 +117,8 @@ static void check_symmetric_air(const lab_rig *rig)
   pneu_laws laws = rig->laws;
   speed_pair pair;
   double slowing;
-  hypotheses[H6_AIR_PROCESS].without(&p, &laws);
-  hypotheses[H4_BENCH_OFFSET].without(&p, &laws);
+  hypothesis_without(H6_AIR_PROCESS, &p, &laws);
+  hypothesis_without(H4_BENCH_OFFSET, &p, &laws);
   assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
   slowing = ((double)p.supply_pressure - rising_pressure(&p, speed_position(0))) /
             ((double)p.supply_pressure - rising_pressure(&p, speed_position(SPEED_POINTS - 1)));
@@ -135,7 +133,7 @@ static void check_constant_load(const lab_rig *rig)
   pneu_params p = rig->params;
   pneu_laws laws = rig->laws;
   speed_pair pair;
-  hypotheses[H1_RATE].without(&p, &laws);
+  hypothesis_without(H1_RATE, &p, &laws);
   assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
   assert_close(speed_max(&pair.up) / speed_min(&pair.up), 1, 0.03, 0);
   assert_close(speed_max(&pair.down) / speed_min(&pair.down), 1, 0.03, 0);
