@@ -217,7 +217,7 @@ static int step_down(descent *d, int fresh, double *quality, int *end, lab_error
 {
   const int most = fresh ? TRIES : KEPT_TRIES;
   const lab_fit_problem *p = d->problem;
-  const double least = fmax(d->enough, enough_of(d));
+  const double least = fmax(d->enough, enough_of(d)), lambda = d->lambda;
   double step[N];
   int j, tries;
   *end = FAILS;
@@ -249,6 +249,8 @@ static int step_down(descent *d, int fresh, double *quality, int *end, lab_error
     }
     d->lambda = fmax(8 * d->lambda, 1e-3);
   }
+  if (!fresh)
+    d->lambda = lambda; /* damping mends no slopes */
   return LAB_OK;
 }
 

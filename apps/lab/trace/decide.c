@@ -77,7 +77,7 @@ static int tolerances_explain_much(const lab_facts *f)
 
 static int tolerances_are_better(const lab_facts *f)
 {
-  return f->within.fitted && f->within.bic < f->best.bic;
+  return f->within.fitted && f->within.bic < f->best.bic && !lab_is_noise(&f->free_term);
 }
 
 static int tolerances_beat_the_leaders(const lab_facts *f)
@@ -233,7 +233,8 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_ROUND, "Values as declared: what begins was taken, and more than noise is left.", onset_needs_tolerances,
      "End: the search goes on from there, with values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_ROUND,
-     "Values as declared: the declared model within its tolerances has a lower BIC than the best model.",
+     "Values as declared: the declared model within its tolerances has a lower BIC than the best model, and no free "
+     "term leaves only noise.",
      tolerances_are_better, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_ROUND, "The round has added an effect to another.", was_joined,
      "Take out each earlier effect without which BIC is no higher.", LAB_DO_REMOVE_NEEDLESS},

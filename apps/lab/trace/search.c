@@ -533,16 +533,21 @@ static int refit_terms(search *s, const lab_candidate *base, lab_candidate *best
   return lab_refit_free_terms(base, s->term, s->n_terms, best, error);
 }
 
-/* Whether a score promises too little to take MIN_GAIN off the error of any channel, were it to take twice as much off
- * chi-square as it says. */
-static int promises_little(const search *s, const lab_candidate *base, double statistic)
+/* Whether a refit might be worth it, were it to take twice as much off chi-square as the score says. */
+static int may_pay(const search *s, const lab_candidate *base, const lab_term_score *t)
 {
   const double left = 1 - s->options->min_gain, values = base->quality.values / base->u.run[0].n_channels;
-  return 2 * statistic < (1 - left * left) * values;
+  return 2 * t->statistic > (1 - left * left) * values;
 }
 
-/* The best free term beside a candidate, if its score passes; where only noise is left and it promises little, it is
- * noted as small at once.  Out: best, fitted or not */
+/* Whether its score says that a free term lowers BIC. */
+static int lowers_bic(const lab_candidate *base, const lab_term_score *t)
+{
+  return t->statistic > lab_constant(LAB_TERM_BIC) + t->degrees * log(base->quality.values);
+}
+
+/* The best free term beside a candidate, if its score passes; where only noise is left and it can take MIN_GAIN off no
+ * error, it is noted as small at once.  Out: best, fitted or not */
 static int find_term(search *s, const lab_candidate *base, lab_candidate *best, lab_error *error)
 {
   const lab_term_score *t = s->term;
@@ -554,9 +559,9 @@ static int find_term(search *s, const lab_candidate *base, lab_candidate *best, 
     status = lab_score_free_terms(&p, s->term, &s->n_terms, error);
   if (status == LAB_OK && s->n_terms > 0 && t->degrees > 0 &&
       lab_free_term_p_value(&t->term, t->statistic, t->degrees) < s->result->level) {
-    if (!lab_is_noise(&base->quality) || !promises_little(s, base, t->statistic))
+    if (!lab_is_noise(&base->quality) || may_pay(s, base, t))
       status = refit_terms(s, base, best, error);
-    else
+    else if (lowers_bic(base, t))
       note_small(s->result, &t->term);
   }
   lab_projection_close(&p);

@@ -356,6 +356,56 @@ static void test_lab_fit__kept_slopes__end_where_new_ones_would(void **state)
     }
 }
 
+/* What an earlier fit has left of the slopes is enough to come to the end; one that is brief does not check it, the
+ * other asks for all of them once. */
+static void test_lab_fit__known_slopes__are_not_asked_for_before_the_end(void **state)
+{
+  trial c = make_line();
+  const double b = regression(&c), best[] = {mean(c.y) - b * mean(c.t), b};
+  double slopes[2 * ROWS], theta[] = {0, 0}, chi2;
+  const char known[] = {1, 1}, half[] = {0, 1};
+  lab_fit_problem p = problem_of(&c);
+  (void)state;
+  p.slopes = slopes;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  p.is_known = known;
+  p.is_brief = 1;
+  theta[0] = theta[1] = c.asked[0] = c.asked[1] = 0;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], best[0], 1e-4, 0);
+  assert_close(theta[1], best[1], 1e-4, 0);
+  assert_int_equal(c.asked[0] + c.asked[1], 0);
+  p.is_known = half;
+  theta[0] = theta[1] = 0;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_int_equal(c.asked[0], 1);
+  assert_int_equal(c.asked[1], 0);
+  p.is_brief = 0;
+  theta[0] = theta[1] = c.asked[0] = 0;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_int_equal(c.asked[0], 2); /* at the start, and with the other before the end */
+  assert_int_equal(c.asked[1], 1);
+}
+
+/* Slopes of another problem are found to be wrong. */
+static void test_lab_fit__known_slopes_that_are_wrong__are_renewed(void **state)
+{
+  trial c = make_line();
+  const double b = regression(&c), best[] = {mean(c.y) - b * mean(c.t), b};
+  double slopes[2 * ROWS], theta[] = {0, 0}, chi2;
+  const char known[] = {1, 1};
+  lab_fit_problem p = problem_of(&c);
+  int i;
+  (void)state;
+  for (i = 0; i < 2 * ROWS; i++)
+    slopes[i] = i % 7 - 3;
+  p.slopes = slopes;
+  p.is_known = known;
+  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  assert_close(theta[0], best[0], 1e-4, 0);
+  assert_close(theta[1], best[1], 1e-4, 0);
+}
+
 static void test_lab_fit__rough_model__has_new_slopes_at_every_step(void **state)
 {
   trial c = {3, {0}, {0}, decay, 1000, LAB_NUMERIC, -1, {0}, 0}, again;
@@ -541,6 +591,8 @@ int main(void)
       cmocka_unit_test(test_lab_fit__any_other_failure__ends_it),
       cmocka_unit_test(test_lab_fit__slope_fails__leaves_that_unknown_where_it_is),
       cmocka_unit_test(test_lab_fit__kept_slopes__end_where_new_ones_would),
+      cmocka_unit_test(test_lab_fit__known_slopes__are_not_asked_for_before_the_end),
+      cmocka_unit_test(test_lab_fit__known_slopes_that_are_wrong__are_renewed),
       cmocka_unit_test(test_lab_fit__rough_model__has_new_slopes_at_every_step),
       cmocka_unit_test(test_lab_fit__two_wells__search_finds_the_deeper),
       cmocka_unit_test(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds),

@@ -887,6 +887,39 @@ static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_differen
   }
 }
 
+/* A model with one unknown more begins with the slopes of the one that it extends, and the new one is not among them. */
+static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_others(void **state)
+{
+  lab_unknowns more;
+  double theta[LAB_FIT_MAX];
+  int j, k;
+  size_t i;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  lab_unknowns_keep_slopes(&u);
+  assert_int_equal(lab_unknowns_find_slopes(&u, &error), LAB_OK);
+  more = u;
+  assert_int_equal(lab_unknowns_add(&more, pneu_param_find("damping"), 900, &error), LAB_OK);
+  lab_unknowns_keep_slopes(&more);
+  lab_unknowns_begin_with(&more, &u);
+  assert_int_equal(more.m, u.m + 1);
+  values(theta);
+  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  for (j = 0; j < USUAL; j++) {
+    check_note("%s", u.unknown[j].name);
+    assert_true(more.has_slope[j]);
+    assert_int_equal(lab_unknowns_slope(&u, theta, r, j, column, &error), LAB_OK);
+    for (i = 0; i < u.m; i++)
+      assert_close(more.slopes[(size_t)j * more.m + i], column[i], 1e-9, 1e-9);
+    for (k = (int)u.m; k < (int)more.m; k++)
+      assert_true(more.slopes[(size_t)j * more.m + (size_t)k] == 0);
+  }
+  assert_false(more.has_slope[USUAL]);
+  lab_unknowns_forget_slopes(&more);
+  lab_unknowns_forget_slopes(&u);
+}
+
 /* No room upwards: the difference is taken downwards, and is the same. */
 static void test_lab_unknowns_slope__at_its_upper_bound__stays_inside(void **state)
 {
@@ -1116,6 +1149,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise),
       cmocka_unit_test(test_lab_unknowns_slope__switch__has_its_prior),
       cmocka_unit_test(test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference),
+      cmocka_unit_test(test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_others),
       cmocka_unit_test(test_lab_unknowns_slope__at_its_upper_bound__stays_inside),
       cmocka_unit_test(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals),
       cmocka_unit_test(test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_tolerance_of_the_area),

@@ -112,6 +112,9 @@ static void test_rules__values_as_declared__end_where_tolerances_alone_are_bette
   assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
   f.within = quality(600, 1199); /* most of the excess */
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  f.free_term = quality(200, 700);
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+  f.free_term = (lab_quality){0};
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
 }
 
@@ -152,6 +155,35 @@ static void test_rules__what_begins_beside_values_as_declared__ends_where_more_t
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
   f.best = quality(300, 350);
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
+}
+
+static void test_rules__values_as_declared__end_where_tolerances_beat_every_leader(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.extended = quality(600, 700);
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f)); /* there are no tolerances */
+  f.within = quality(600, 701);
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f));
+  f.within = quality(600, 699);
+  assert_true(holds(LAB_PHASE_LED, LAB_DO_END, &f));
+  f.extended = (lab_quality){0};
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f)); /* no leader was fitted */
+}
+
+static void test_rules__values_within_tolerances__effects_come_before_onsets_and_terms(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.can_begin = 1;
+  f.begins = 121;
+  f.throughout = 100;
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+  f.held = 1;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
+  assert_true(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
 }
 
 static void test_rules__extension__is_added_by_bic(void **state)
@@ -287,6 +319,8 @@ int main(void)
       cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_alone_are_better),
       cmocka_unit_test(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces),
       cmocka_unit_test(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left),
+      cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_beat_every_leader),
+      cmocka_unit_test(test_rules__values_within_tolerances__effects_come_before_onsets_and_terms),
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),

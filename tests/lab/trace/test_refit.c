@@ -41,6 +41,7 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   static lab_nuisance nuisance;
   const char *path = scratch_path("log.csv");
   const double price = log(2 * ROWS);
+  size_t i;
   lab_error error = {0, ""};
   (void)state;
   write_log(path);
@@ -61,6 +62,21 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   assert_int_equal(lab_candidate_fit(&folded, LAB_ROUNDS_ALL, &error), LAB_OK);
   assert_close(whole.quality.bic - whole.quality.chi2, price, 1e-6, 0);
   assert_close(folded.quality.bic - folded.quality.chi2, price, 1e-6, 0);
+  /* the instants come back with the slopes that they had, which the next fit begins with */
+  assert_int_equal(lab_nuisance_return(&folded.u, &error), LAB_OK);
+  lab_unknowns_keep_slopes(&folded.u);
+  lab_nuisance_begin_with(&nuisance, &folded.u);
+  assert_false(folded.u.has_slope[0]);
+  whole.u.slopes = NULL;
+  lab_unknowns_keep_slopes(&whole.u);
+  assert_int_equal(lab_unknowns_find_slopes(&whole.u, &error), LAB_OK);
+  assert_int_equal(whole.u.m, folded.u.m);
+  for (i = whole.u.m; i < whole.u.m * (size_t)whole.u.n; i++)
+    assert_close(folded.u.slopes[i], whole.u.slopes[i], 0.02, 0.5);
+  for (i = 1; i < (size_t)whole.u.n; i++)
+    assert_true(folded.u.has_slope[i]);
+  lab_unknowns_forget_slopes(&whole.u);
+  lab_unknowns_forget_slopes(&folded.u);
   lab_nuisance_close(&nuisance);
   lab_run_close(&run);
   lab_log_free(&recorded);
