@@ -46,7 +46,7 @@ typedef struct lab_unknowns {
   double misfit;    /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
   double until;     /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
   size_t n_rows;    /* rows times channels, gaps among them */
-  size_t window;    /* rows of a window where the residuals are those of coarse.h; 0: row by row */
+  size_t window;    /* rows of a window where the residuals are those of windowed.h; 0: row by row */
   size_t n_values;  /* residuals of the data that are not of gaps */
   size_t n_data, m; /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
                        unknown */

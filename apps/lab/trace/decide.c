@@ -108,7 +108,7 @@ static int an_onset_convinces(const lab_facts *f)
 
 static int no_effect_explains_it(const lab_facts *f)
 {
-  return !f->has_begun && f->n_found == 0 && !f->held && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
+  return !f->has_begun && f->n_found == 0 && !lab_is_noise(&f->best) && !tolerances_explain_much(f) &&
          lab_constant(LAB_TERM_ALONE) * f->effect < f->excess;
 }
 
@@ -180,7 +180,8 @@ static int a_term_beside_convinces(const lab_facts *f)
 
 static int has_found_a_term(const lab_facts *f)
 {
-  return f->found_term && (lab_is_noise(&f->best) || !lab_is_strained(&f->best));
+  const double most = lab_constant(LAB_TERM_REST) * f->best.values;
+  return f->found_term && (lab_is_noise(&f->best) || (!lab_is_strained(&f->best) && f->best.chi2 < most));
 }
 
 static int has_found(const lab_facts *f)
@@ -203,7 +204,7 @@ const lab_rule lab_rules[] = {
      "The best of these has a lower BIC and leaves only noise, or less than ONSET_CONVINCING of the excess.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,
-     "Values as declared: the declared model leaves more than noise, of which tolerances alone do not explain MUCH, "
+     "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "
      "and TERM_ALONE times the best score is below its excess.",
      no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
@@ -267,7 +268,9 @@ const lab_rule lab_rules[] = {
      LAB_DO_ADD_TERM},
 
     {LAB_PHASE_VERDICT,
-     "A free term was added, and only noise is left or no declared value is STRAINED tolerances off.", has_found_a_term,
+     "A free term was added, and only noise is left, or chi-square is less than TERM_REST times its expectation and no "
+     "declared value is STRAINED tolerances off.",
+     has_found_a_term,
      "`unlisted`", LAB_VERDICT_UNLISTED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},

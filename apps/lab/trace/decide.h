@@ -95,7 +95,7 @@ enum lab_rule_action {
 /* What the rules ask about. */
 typedef struct lab_facts {
   int round;             /* 0: the first */
-  int coarse;            /* the log is seen coarsely (coarse.h) */
+  int coarse;            /* the log is seen coarsely (windowed.h) */
   int added;             /* this round has added an effect */
   lab_quality within;    /* the declared model within its tolerances, where the search is from values as declared */
   lab_quality declared;  /* the declared model */

@@ -101,6 +101,30 @@ void lab_candidate_name(const lab_candidate *c, char *text, size_t size)
       used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " + " : "", c->u.unknown[i].name);
 }
 
+int lab_found_is_of_sensor(const lab_found *found)
+{
+  return found->effect >= 0 && strcmp(pneu_effect_at(found->effect)->equation, "sensor") == 0;
+}
+
+int lab_candidate_begins(const lab_candidate *c)
+{
+  const int n = c->u.rig.n_onsets;
+  return n > 0 && c->begin[n - 1].known;
+}
+
+int lab_candidate_place_again(lab_candidate *c, lab_error *error)
+{
+  const int k = c->u.rig.n_onsets - 1;
+  int j, status;
+  if (!lab_candidate_begins(c))
+    return LAB_OK;
+  j = lab_unknowns_find_onset(&c->u, c->u.rig.onset[k].param);
+  status = lab_onset_settle(&c->u, j, &c->quality.chi2, &c->begin[k], error);
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* ---- Refits of effects ---- */
 
 /* Where a refit begins. The present fit may have bent its parameters to stand in for the effect; then the values

@@ -45,6 +45,15 @@ int lab_any(const lab_candidate *c, int n, int (*is)(const lab_quality *q));
 /* Order for qsort: fitted ones first, then by BIC. */
 int lab_candidate_by_bic(const void *x, const void *y);
 
+/* Whether something found is an error of a sensor. */
+int lab_found_is_of_sensor(const lab_found *found);
+
+/* Whether something was found that begins. */
+int lab_candidate_begins(const lab_candidate *c);
+
+/* Place again what begins: about other values it may begin elsewhere.  Returns: LAB_OK, LAB_WORLD */
+int lab_candidate_place_again(lab_candidate *c, lab_error *error);
+
 enum { LAB_REFIT_MAX = 40 };
 
 /* Refit the leaders by score, in parallel, from several starts.

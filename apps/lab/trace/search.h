@@ -1,5 +1,5 @@
-/* Close the loop: fit, score the effects by what is left, refit the best, add one, again, until nothing passes. Which
- * candidate is kept, and when the search ends, is decided by the rules of decide.h.
+/* Close the loop: fit, score the effects by what is left, refit the best, add one, again, until nothing passes
+ * (rounds.h). Which candidate is kept, and when the search ends, is decided by the rules of decide.h.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_SEARCH_H
 #define LAB_SEARCH_H
@@ -56,7 +56,7 @@ typedef struct lab_search_result {
   lab_tried_model step[LAB_SEARCH_STEPS];
   int n_path; /* models from the declared one to the final one */
   lab_path_model path[LAB_SEARCH_PATH];
-  size_t window; /* rows of a window if the log is rough and was seen coarsely (coarse.h); else 0 */
+  size_t window; /* rows of a window if the log is rough and was seen coarsely (windowed.h); else 0 */
   double level;  /* p-value that a single score has to pass */
 } lab_search_result;
 

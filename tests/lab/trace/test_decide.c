@@ -171,7 +171,7 @@ static void test_rules__values_as_declared__end_where_tolerances_beat_every_lead
   assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f)); /* no leader was fitted */
 }
 
-static void test_rules__values_within_tolerances__effects_come_before_onsets_and_terms(void **state)
+static void test_rules__values_within_tolerances__effects_come_before_onsets(void **state)
 {
   lab_facts f = declared_alone();
   (void)state;
@@ -179,10 +179,8 @@ static void test_rules__values_within_tolerances__effects_come_before_onsets_and
   f.begins = 121;
   f.throughout = 100;
   assert_true(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
-  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
   f.held = 1;
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
-  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
   assert_true(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
 }
 
@@ -298,6 +296,10 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.found_term = 1;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
+  f.best.chi2 = 9 * f.best.values; /* three times the noise: the term is not the answer */
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
+  f.best.chi2 *= 0.99;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
   f.best.strain = 4; /* tolerances off, and more than noise is left */
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.best.chi2 = 200;
@@ -320,7 +322,7 @@ int main(void)
       cmocka_unit_test(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces),
       cmocka_unit_test(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left),
       cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_beat_every_leader),
-      cmocka_unit_test(test_rules__values_within_tolerances__effects_come_before_onsets_and_terms),
+      cmocka_unit_test(test_rules__values_within_tolerances__effects_come_before_onsets),
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),

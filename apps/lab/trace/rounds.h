@@ -1,0 +1,28 @@
+/* The rounds of one search: a declared model is extended by what its residual speaks for, until nothing passes. What is
+ * done when, and what is kept, is decided by the rules of decide.h.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_ROUNDS_H
+#define LAB_ROUNDS_H
+
+#include "search.h"
+
+/* What a search makes of the logs. */
+typedef struct lab_finding {
+  lab_candidate declared; /* with what is held */
+  lab_candidate best;
+  double gain;             /* of chi-square, by tolerances after the search */
+  lab_onset_scores begins; /* what may begin */
+  lab_search_result result;
+} lab_finding;
+
+/* The search from a declared model, in the view that its unknowns have.
+ * In:      begun    from the declared model with what begins, fitted, as its best; NULL: from the declared model
+ *          within   the same with its values within tolerances, which the search is to beat; may be NULL
+ * In/out:  f        declared: fitted or not; it is fitted once more, which finds the end of a valley
+ *                   best: with what was added
+ *                   result: all but the errors, the fit and what was found
+ * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */
+int lab_rounds_run(lab_finding *f, const lab_finding *begun, const lab_quality *within,
+                   const lab_search_options *options, lab_error *error);
+
+#endif
