@@ -26,6 +26,12 @@ double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j
   return theta[j] + step > x->upper ? -step : step;
 }
 
+/* Where a run begins in no state of the rig because of the values that a fit tries, the data are not at fault. */
+static int avoided(lab_error *error)
+{
+  return error->status = error->status == LAB_DATA ? LAB_NUMERIC : error->status;
+}
+
 int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const double *r, int j, double step,
                             double *column, lab_error *error)
 {
@@ -35,7 +41,7 @@ int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const do
   at[j] = theta[j] + step;
   memcpy(column, r, u->m * sizeof *column);
   if (lab_unknowns_residuals_of(u, at, j, column, error))
-    return error->status;
+    return avoided(error);
   for (i = 0; i < u->m; i++)
     column[i] = (column[i] - r[i]) / (at[j] - theta[j]);
   return LAB_OK;
@@ -96,6 +102,18 @@ static int central_slope(void *context, const double *theta, const double *r, in
   return status == LAB_NUMERIC ? lab_unknowns_slope(context, theta, r, j, column, error) : status;
 }
 
+/* Residuals for a fit, which begins at the present values. */
+static int residuals_to_fit(void *context, const double *theta, double *r, lab_error *error)
+{
+  const lab_unknowns *u = context;
+  int j, is_start = 1;
+  for (j = 0; j < u->n; j++)
+    is_start &= theta[j] == u->unknown[j].value;
+  if (lab_unknowns_residuals(context, theta, r, error))
+    return is_start ? error->status : avoided(error);
+  return LAB_OK;
+}
+
 /* The problem that the unknowns pose, and its memory. */
 typedef struct posed {
   double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX];
@@ -124,7 +142,7 @@ static void pose(lab_unknowns *u, posed *p)
                                  .lower = p->lower,
                                  .upper = p->upper,
                                  .context = u,
-                                 .residuals = lab_unknowns_residuals,
+                                 .residuals = residuals_to_fit,
                                  .slope = lab_unknowns_slope,
                                  .together = lab_instants_slopes,
                                  .slopes = u->slopes,

@@ -312,14 +312,15 @@ static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *tim
 /* Search; where noise with memory was told beside something that is missing, once more with that told again. */
 static int search_with_colours(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
-  int any = 0;
+  int any = 0, status;
   if (lab_search_run(&c->completed, how, &c->result, error))
     return error->status;
   if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.cut_short ||
       c->result.n_found + c->completed.rig.n_onsets == 0)
     return LAB_OK;
-  if (lab_weigh_colours(&c->completed, c->logs.run, &any, error) || !any)
-    return error->status;
+  status = lab_weigh_colours(&c->completed, c->logs.run, &any, error);
+  if (status != LAB_OK || !any)
+    return status;
   if (lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error))
     return error->status;
   c->completed = c->declared;

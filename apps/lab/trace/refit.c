@@ -27,6 +27,8 @@ int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error)
   lab_quality *q = &c->quality;
   lab_residual_stats left[LAB_CHANNEL_COUNT];
   int status = lab_unknowns_fit(&c->u, steps, &q->chi2, error);
+  if (status == LAB_DATA) /* with its values a run begins in no state of the rig: no fault of the data */
+    status = error->status = LAB_NUMERIC;
   q->values = (double)c->u.n_values;
   q->bic = bic(&c->u, q->chi2);
   q->white = 0;

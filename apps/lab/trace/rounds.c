@@ -170,13 +170,15 @@ static int fit_whole(const search *s, const lab_candidate *c, lab_candidate *who
 {
   int status;
   *whole = *c;
-  if (lab_nuisance_return(&whole->u, error))
-    return error->status;
-  restart_instants(&whole->u);
-  lab_unknowns_keep_slopes(&whole->u);
-  lab_nuisance_begin_with(&s->nuisance, &whole->u);
-  status = lab_candidate_fit(whole, LAB_ROUNDS_ALL, error);
-  lab_unknowns_forget_slopes(&whole->u);
+  whole->quality.fitted = 0;
+  status = lab_nuisance_return(&whole->u, error);
+  if (status == LAB_OK) {
+    restart_instants(&whole->u);
+    lab_unknowns_keep_slopes(&whole->u);
+    lab_nuisance_begin_with(&s->nuisance, &whole->u);
+    status = lab_candidate_fit(whole, LAB_ROUNDS_ALL, error);
+    lab_unknowns_forget_slopes(&whole->u);
+  }
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
@@ -305,22 +307,34 @@ static int errors_of(const lab_candidate *c, lab_errors *errors, lab_error *erro
   return status;
 }
 
-/* Whether the best extension lowers the error of some channel by as much as is asked for, or it explains the logs and
- * declared values need no longer be beyond their tolerances for it, and not because a sensor is; where the log is seen
- * coarsely, the error of all channels together counts. */
+/* The share by which the best extension lowers the error of some channel; where the log is seen coarsely, or a model
+ * cannot be followed with what varies unseen at its best values, of all channels together. */
+static int gain_of(const lab_candidate *a, const lab_candidate *b, double *gain, lab_error *error)
+{
+  lab_errors before, after;
+  int c, status = errors_of(a, &before, error);
+  if (status == LAB_OK)
+    status = errors_of(b, &after, error);
+  if (status == LAB_WORLD)
+    return status;
+  *gain = status != LAB_OK || a->u.window ? 1 - sqrt(b->quality.chi2 / a->quality.chi2) : 0;
+  for (c = 0; status == LAB_OK && !a->u.window && c < LAB_CHANNEL_COUNT; c++)
+    if (before.rmse[c] > 0)
+      *gain = fmax(*gain, 1 - after.rmse[c] / before.rmse[c]);
+  return LAB_OK;
+}
+
+/* Whether it lowers it by as much as is asked for, or it explains the logs and declared values need no longer be beyond
+ * their tolerances for it, and not because a sensor is. */
 static int measure_gain(const search *s, int *enough, lab_error *error)
 {
   const lab_candidate *a = &s->beam[0], *b = &s->pool[0];
-  lab_errors before, after;
-  double gain = a->u.window ? 1 - sqrt(b->quality.chi2 / a->quality.chi2) : 0;
-  int c;
-  if (errors_of(a, &before, error) || errors_of(b, &after, error))
+  double gain;
+  if (gain_of(a, b, &gain, error))
     return error->status;
-  for (c = 0; !a->u.window && c < LAB_CHANNEL_COUNT; c++)
-    if (before.rmse[c] > 0)
-      gain = fmax(gain, 1 - after.rmse[c] / before.rmse[c]);
-  *enough = !(gain < s->options->min_gain) || (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) &&
-                                               lab_is_noise(&b->quality) && !lab_found_is_of_sensor(&b->found[b->n_found - 1]));
+  *enough = !(gain < s->options->min_gain);
+  if (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) && lab_is_noise(&b->quality))
+    *enough |= !lab_found_is_of_sensor(&b->found[b->n_found - 1]);
   return LAB_OK;
 }
 
