@@ -30,6 +30,10 @@ $rows >"$part.table"
 fresh "$part.table" "$readme" >"$part"
 case $mode in
 --refresh) cmp -s "$part" "$readme" || cp "$part" "$readme" ;;
---check) cmp "$part" "$readme" ;;
+--check)
+  cmp -s "$part" "$readme" && exit
+  echo "$readme: its table of $kind is old; run: sh tests/readme_table.sh --refresh $kind $readme" >&2
+  exit 1
+  ;;
 *) exit 2 ;;
 esac

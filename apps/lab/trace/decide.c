@@ -215,7 +215,7 @@ const lab_rule lab_rules[] = {
      "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader.",
      tolerances_beat_the_leaders, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_LED,
-     "No refit of a leader leaves only noise, no onset was refitted, and something that may begin scores above "
+     "No refit of a leader leaves only noise, no onset was tried yet, and something that may begin scores above "
      "ONSET_SHARE times all that acts throughout.",
      no_leader_is_enough, "Refit those that do, and find when they begin.", LAB_DO_FIT_ONSET},
     {LAB_PHASE_LED,
@@ -225,8 +225,7 @@ const lab_rule lab_rules[] = {
 
     {LAB_PHASE_REFITTED, "The best extension has a lower BIC than the best model.", is_better_by_bic,
      "Note the effects alike. If the error of some channel falls by MIN_GAIN, go on from the best BEAM extensions; "
-     "else "
-     "list the effects as small. Without an addition the round is the last.",
+     "else list them as small. Without an addition the round is the last.",
      LAB_DO_ADD_EFFECT},
 
     {LAB_PHASE_ROUND, "The log is seen coarsely, and the best model leaves only noise.", is_noise_coarsely,
@@ -239,7 +238,7 @@ const lab_rule lab_rules[] = {
      tolerances_are_better, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_ROUND, "The round has added an effect to another.", was_joined,
      "Take out each earlier effect without which BIC is no higher.", LAB_DO_REMOVE_NEEDLESS},
-    {LAB_PHASE_ROUND, "The same, and there are two effects, or only noise is left.", may_be_exchanged,
+    {LAB_PHASE_ROUND, "The same, and there are just two effects or only noise is left.", may_be_exchanged,
      "Exchange each earlier effect for one that has a lower BIC beside the others.", LAB_DO_EXCHANGE},
     {LAB_PHASE_ROUND,
      "More than noise is left, no free term was refitted yet, and it was not the first round or the best model is poor "
@@ -268,8 +267,8 @@ const lab_rule lab_rules[] = {
      LAB_DO_ADD_TERM},
 
     {LAB_PHASE_VERDICT,
-     "A free term was added, and only noise is left, or chi-square is less than TERM_REST times its expectation and no "
-     "declared value is STRAINED tolerances off.",
+     "A free term was added. Only noise is left; or chi-square is less than TERM_REST times its expectation and no "
+     "declared value is more than STRAINED tolerances off.",
      has_found_a_term,
      "`unlisted`", LAB_VERDICT_UNLISTED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
