@@ -199,13 +199,13 @@ static void accept(descent *d, double chi2)
 /* How a step ended: the fit goes on; the slopes promise no gain worth having; no step that they propose is one. */
 enum { GOES_ON, PROMISES_NO_MORE, FAILS };
 
-/* The share of chi-square that is not worth a step: a model that leaves much is not the answer. */
+/* The share of chi-square that is not worth a step. Where others begin, the end of the valley counts; a brief fit of a
+ * model that leaves much only has to tell it from its rivals. */
 static double enough_of(const descent *d)
 {
   const lab_fit_problem *p = d->problem;
-  if (p->enough_share > 0)
-    return p->enough_share * d->chi2;
-  return fmax(usual_share * d->chi2, excess_share * (d->chi2 - (double)p->m));
+  const double share = (p->enough_share > 0 ? p->enough_share : usual_share) * d->chi2;
+  return p->is_brief ? fmax(share, excess_share * (d->chi2 - (double)p->m)) : share;
 }
 
 /* One step downhill, damped until it is one. Of kept slopes there are few tries: where these fail, it is they that are

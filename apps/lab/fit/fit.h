@@ -32,12 +32,13 @@ typedef struct lab_fit_problem {
    * are forgotten. */
   double *slopes;
   const char *is_known; /* n: whether a column of them is known already, nearly; NULL: none is */
-  int is_brief;         /* it may end on slopes that were kept: where it ends is not the answer */
+  int is_brief;         /* it may end on slopes that were kept, and at 1e-4 of what chi-square exceeds m by: where it
+                           ends is not the answer */
   int is_rough;        /* its slopes change from place to place: they are taken anew at every step */
   int steps;           /* downhill, at most; 0: 40 */
   int search;          /* evaluations of the search, for which the bounds are finite; 0: there is none */
   double enough;       /* of chi-square: it ends where the linear model promises less; 0: 0.02 */
-  double enough_share; /* the same as a share of chi-square, if that is more; 0: 1e-6, and 1e-4 of its excess over m */
+  double enough_share; /* the same as a share of chi-square, if that is more; 0: 1e-6 */
   double until;        /* [s] of CPU time, after which it ends where it is; 0: there is no end */
 } lab_fit_problem;
 

@@ -218,8 +218,9 @@ enum { LAB_ROUNDS_ALL = 0 };
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error);
 
 /* Keep slopes from fit to fit from now on, none of which is known yet; not where a log is so long that they would take
- * more than 32 MB, nor where a view is coarse. A copy of `u` shares them, until one of the two forgets them. */
-void lab_unknowns_keep_slopes(lab_unknowns *u);
+ * more than 32 MB, nor where a view is coarse. A copy of `u` shares them, until one of the two forgets them.
+ * Returns: LAB_OK, LAB_WORLD */
+int lab_unknowns_keep_slopes(lab_unknowns *u, lab_error *error);
 void lab_unknowns_forget_slopes(lab_unknowns *u);
 
 /* Slopes of all unknowns at their present values, where they are kept: the next fit begins with them.

@@ -150,14 +150,18 @@ static void pose(lab_unknowns *u, posed *p)
                                  .is_rough = u->window > 0};
 }
 
-void lab_unknowns_keep_slopes(lab_unknowns *u)
+int lab_unknowns_keep_slopes(lab_unknowns *u, lab_error *error)
 {
   static const size_t most = 4000000; /* values */
   size_t size;
   lab_unknowns_count(u);
   size = (size_t)u->n * u->m;
   memset(u->has_slope, 0, sizeof u->has_slope);
-  u->slopes = size < most && !u->window ? malloc((size + 1) * sizeof *u->slopes) : NULL;
+  u->slopes = NULL;
+  if (size >= most || u->window)
+    return LAB_OK;
+  u->slopes = malloc((size + 1) * sizeof *u->slopes);
+  return u->slopes ? LAB_OK : lab_fail_memory(error, "slopes");
 }
 
 void lab_unknowns_forget_slopes(lab_unknowns *u)

@@ -176,15 +176,18 @@ static void share(shared *s, lab_error *all)
   if (s->has_slopes || lab_cpu_is_spent(s->base.u.until))
     return;
   s->has_slopes = 1;
-  lab_unknowns_keep_slopes(&s->base.u);
-  if (lab_unknowns_find_slopes(&s->base.u, &error))
+  if (lab_unknowns_keep_slopes(&s->base.u, &error) || lab_unknowns_find_slopes(&s->base.u, &error))
     lab_fail_together(all, &error);
 }
 
 /* Whether an extension of a base has a fit: it begins with the slopes of its base. */
 static int begin_fit(const lab_candidate *base, int steps, lab_candidate *c, lab_error *all)
 {
-  lab_unknowns_keep_slopes(&c->u);
+  lab_error error;
+  if (lab_unknowns_keep_slopes(&c->u, &error)) {
+    lab_fail_together(all, &error);
+    return 0;
+  }
   lab_unknowns_begin_with(&c->u, &base->u);
   return fit(c, steps, all) == LAB_OK;
 }

@@ -174,7 +174,9 @@ static int fit_whole(const search *s, const lab_candidate *c, lab_candidate *who
   status = lab_nuisance_return(&whole->u, error);
   if (status == LAB_OK) {
     restart_instants(&whole->u);
-    lab_unknowns_keep_slopes(&whole->u);
+    status = lab_unknowns_keep_slopes(&whole->u, error);
+  }
+  if (status == LAB_OK) {
     lab_nuisance_begin_with(&s->nuisance, &whole->u);
     status = lab_candidate_fit(whole, LAB_ROUNDS_ALL, error);
     lab_unknowns_forget_slopes(&whole->u);
@@ -215,6 +217,8 @@ static int rank_unfolded(search *s, lab_candidate *c, int n, lab_error *error)
       break;
     if (unfold_one(s, &c[at], error))
       return error->status;
+    if (is_lazy && !s->whole.quality.fitted)
+      break;
     if (is_lazy)
       qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
   }
@@ -229,6 +233,7 @@ static int refit_scored(search *s, const lab_candidate *base, const lab_scores *
                         lab_error *error)
 {
   lab_candidate *c = s->pool + s->n_pool;
+  int led;
   on_progress(s, "refitting the best candidates");
   if (lab_refit_effects(base, scores, level, c, n, error))
     return error->status;
@@ -243,7 +248,12 @@ static int refit_scored(search *s, const lab_candidate *base, const lab_scores *
   if (follow_rules(s, LAB_PHASE_LED, error))
     return error->status;
   s->n_leaders = 0;
-  return s->has_begun || s->over ? LAB_OK : lab_refit_hidden(base, scores, level, c, n, error);
+  if (s->has_begun || s->over)
+    return LAB_OK;
+  led = *n;
+  if (lab_refit_hidden(base, scores, level, c, n, error))
+    return error->status;
+  return has_held(s) ? rank_unfolded(s, c + led, *n - led, error) : LAB_OK;
 }
 
 /* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
@@ -312,13 +322,13 @@ static int errors_of(const lab_candidate *c, lab_errors *errors, lab_error *erro
 static int gain_of(const lab_candidate *a, const lab_candidate *b, double *gain, lab_error *error)
 {
   lab_errors before, after;
-  int c, status = errors_of(a, &before, error);
+  int c, status = a->u.window ? LAB_NUMERIC : errors_of(a, &before, error);
   if (status == LAB_OK)
     status = errors_of(b, &after, error);
   if (status == LAB_WORLD)
     return status;
-  *gain = status != LAB_OK || a->u.window ? 1 - sqrt(b->quality.chi2 / a->quality.chi2) : 0;
-  for (c = 0; status == LAB_OK && !a->u.window && c < LAB_CHANNEL_COUNT; c++)
+  *gain = status == LAB_OK ? 0 : 1 - sqrt(b->quality.chi2 / a->quality.chi2);
+  for (c = 0; status == LAB_OK && c < LAB_CHANNEL_COUNT; c++)
     if (before.rmse[c] > 0)
       *gain = fmax(*gain, 1 - after.rmse[c] / before.rmse[c]);
   return LAB_OK;
@@ -481,7 +491,7 @@ static int exchange(search *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0], *without = &s->without;
   int i, other, again = LAB_EFFECTS_MAX, status = LAB_OK;
-  for (i = 0; status == LAB_OK && i < best->n_found - 1; i++) {
+  for (i = 0; status == LAB_OK && !s->over && i < best->n_found - 1; i++) {
     if (best->found[i].term >= 0)
       continue;
     status = leave_out(best, i, without, error);
@@ -848,7 +858,7 @@ static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_sco
 /* Whether tolerances alone were found to be better than anything that could be added. */
 static int is_given_up(const search *s)
 {
-  return s->over && s->within && s->beam[0].n_found == 0 && !s->has_begun &&
+  return s->over && s->within && s->within->fitted && s->beam[0].n_found == 0 && !s->has_begun &&
          s->within->bic < s->beam[0].quality.bic;
 }
 

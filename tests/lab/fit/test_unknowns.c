@@ -897,11 +897,11 @@ static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_th
   (void)state;
   open_usual();
   measure(&rig);
-  lab_unknowns_keep_slopes(&u);
+  assert_int_equal(lab_unknowns_keep_slopes(&u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_find_slopes(&u, &error), LAB_OK);
   more = u;
   assert_int_equal(lab_unknowns_add(&more, pneu_param_find("damping"), 900, &error), LAB_OK);
-  lab_unknowns_keep_slopes(&more);
+  assert_int_equal(lab_unknowns_keep_slopes(&more, &error), LAB_OK);
   lab_unknowns_begin_with(&more, &u);
   assert_int_equal(more.m, u.m + 1);
   values(theta);

@@ -64,11 +64,11 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   assert_close(folded.quality.bic - folded.quality.chi2, price, 1e-6, 0);
   /* the instants come back with the slopes that they had, which the next fit begins with */
   assert_int_equal(lab_nuisance_return(&folded.u, &error), LAB_OK);
-  lab_unknowns_keep_slopes(&folded.u);
+  assert_int_equal(lab_unknowns_keep_slopes(&folded.u, &error), LAB_OK);
   lab_nuisance_begin_with(&nuisance, &folded.u);
   assert_false(folded.u.has_slope[0]);
   whole.u.slopes = NULL;
-  lab_unknowns_keep_slopes(&whole.u);
+  assert_int_equal(lab_unknowns_keep_slopes(&whole.u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_find_slopes(&whole.u, &error), LAB_OK);
   assert_int_equal(whole.u.m, folded.u.m);
   for (i = whole.u.m; i < whole.u.m * (size_t)whole.u.n; i++)
