@@ -290,10 +290,11 @@ static int run_again(const lab_search_options *options, outcome *o, lab_error *e
   return lab_search_run(&o->completed, options, &o->result, error);
 }
 
-/* Whether an answer without the isolated values is to be taken: less is found or in doubt, or nothing either way. */
+/* Whether an answer without the isolated values is to be taken: it decides, and less is found or in doubt, or nothing
+ * either way. Where more than these values is beyond the model, they may be real. */
 static int is_better(const lab_search_result *without, const lab_search_result *with)
 {
-  return doubt(without) < doubt(with) || doubt(without) == 0;
+  return without->verdict != LAB_VERDICT_UNDECIDED && (doubt(without) < doubt(with) || doubt(without) == 0);
 }
 
 int lab_search_without_outliers(const lab_search_options *options, lab_logs *bench, lab_unknowns *declared,
