@@ -44,9 +44,9 @@ static void entitle(const drawing *d, const char *title, const char *subtitle)
 }
 
 /* Append to the words for those who cannot see the figure. */
-static void tell(const drawing *d, const char *format, ...) LAB_PRINTF(2, 3);
+static void describe_figure(const drawing *d, const char *format, ...) LAB_PRINTF(2, 3);
 
-static void tell(const drawing *d, const char *format, ...)
+static void describe_figure(const drawing *d, const char *format, ...)
 {
   const size_t used = strlen(d->figure->alt);
   va_list list;
@@ -200,7 +200,7 @@ static void put_lines(const drawing *d, const lab_signature_model *of, lab_panel
 static void tell_lines(const drawing *d, const lab_signature_model *of)
 {
   const lab_signature *s = &of->signature;
-  tell(d, " %s: bench set %s to %s, spring rate %s, friction band %s.", lab_curve_keys[of->key].brief,
+  describe_figure(d, " %s: bench set %s to %s, spring rate %s, friction band %s.", lab_curve_keys[of->key].brief,
        LAB_QUANTITY(s->bench_lower, "Pa", 4), LAB_QUANTITY(s->bench_upper, "Pa", 4),
        LAB_QUANTITY(s->spring_rate, "N/m", 4), LAB_QUANTITY(s->band, "Pa", 4));
 }
@@ -218,7 +218,7 @@ static int fill_signature(const drawing *d)
   entitle(d, "Valve signature: pressure over travel, both ways",
           measured ? "Means of moving rows; lines: the spring's pressure, and what dry friction adds either way"
                    : "The model's pressure, for it was not measured; lines: the spring, and dry friction either way");
-  tell(d, "Pressure over travel.%s", measured ? "" : " The pressure was not measured and is the model's.");
+  describe_figure(d, "Pressure over travel.%s", measured ? "" : " The pressure was not measured and is the model's.");
   panel = add_panel(d, "Pressure p", lab_format_as("Pa").unit, SIGNATURE_HEIGHT);
   lay_over(panel, "travel x", shown.unit, column_of(d, model[0].signature.x, LAB_SIGNATURE_POINTS, shown.scale));
   put_response(d, panel);
@@ -311,12 +311,12 @@ static void tell_channel(const drawing *d, const lab_residual_channel *mine, con
   const lab_search_result *result = d->report->result;
   double low, high;
   if (lab_range(mine->measured, d->table->n, &low, &high))
-    tell(d, " %s runs from %s to %s; rms error of the declared model %s", name,
+    describe_figure(d, " %s runs from %s to %s; rms error of the declared model %s", name,
          LAB_NUMBER(lab_format_as(info->unit).scale * low, 3), LAB_QUANTITY(high, info->unit, 3),
          LAB_QUANTITY(result->before.rmse[mine->channel], info->unit, 3));
   if (d->stages > 1)
-    tell(d, ", of the completed one %s", LAB_QUANTITY(result->after.rmse[mine->channel], info->unit, 3));
-  tell(d, ".");
+    describe_figure(d, ", of the completed one %s", LAB_QUANTITY(result->after.rmse[mine->channel], info->unit, 3));
+  describe_figure(d, ".");
 }
 
 static void put_channel(const drawing *d, const lab_residual_channel *mine)
@@ -351,7 +351,7 @@ static int fill_response(const drawing *d)
                         : "Measured, and what the model predicts for the same command",
           v->n_runs > 1 ? "The runs follow one after the other; no peak is lost"
                         : "Each line spans all values that fall on its pixels, so that no peak is lost");
-  tell(d, "Command, measured and predicted channels over %.4g s.", v->t[v->n - 1] - v->t[0]);
+  describe_figure(d, "Command, measured and predicted channels over %.4g s.", v->t[v->n - 1] - v->t[0]);
   put_command(d, commanded ? "Command u" : "Opening u, predicted", v->argument[LAB_ARGUMENT_U],
               lab_format_as(lab_argument_unit(d->report, LAB_ARGUMENT_U)));
   put_command(d, "Set position sp", v->set_position, (lab_format){100, "%"});
@@ -370,7 +370,7 @@ static void put_residual(const drawing *d, const lab_residual_channel *mine, int
   lab_panel_curve(panel, LAB_KEY_BAND, LAB_FORM_BAND, band);
   put_curve(d, panel, LAB_KEY_BEFORE + stage, LAB_FORM_LINE, mine->residual[stage], 1);
   if (lab_range(mine->residual[stage], d->table->n, &low, &high))
-    tell(d, " %s: largest %.3g.", name, fmax(high, -low));
+    describe_figure(d, " %s: largest %.3g.", name, fmax(high, -low));
 }
 
 static int fill_residual(const drawing *d)
@@ -380,7 +380,7 @@ static int fill_residual(const drawing *d)
   int c, stage;
   entitle(d, d->stages > 1 ? "What the models do not explain" : "What the model does not explain",
           "Measured less predicted, in units of the noise; 99 % of white noise lies in the band");
-  tell(d, "Residual over time in units of the noise.");
+  describe_figure(d, "Residual over time in units of the noise.");
   d->figure->across = d->stages;
   for (c = 0; c < v->n_channels; c++)
     for (stage = 0; stage < d->stages; stage++)
@@ -449,7 +449,7 @@ static void put_row(const drawing *d, const axis *over, const lab_residual_chann
     largest = fmax(largest, put_bins(d, &over[i], mine, stage));
   for (i = 0; i < d->figure->across; i++)
     row[i].reach = 1.1 * largest;
-  tell(d, " %s: means up to %.3g.", row->name, largest);
+  describe_figure(d, " %s: means up to %.3g.", row->name, largest);
 }
 
 static int fill_arguments(const drawing *d)
@@ -461,7 +461,7 @@ static int fill_arguments(const drawing *d)
     return 0;
   entitle(d, "Where the residual sits",
           "Its mean in bins, in units of the noise; the band is where 99 % of such means of white noise lie");
-  tell(d, "Mean of the residual in bins, in units of the noise.");
+  describe_figure(d, "Mean of the residual in bins, in units of the noise.");
   for (c = 0; c < v->n_channels; c++)
     for (stage = 0; stage < d->stages; stage++)
       put_row(d, over, &v->channel[c], stage);
@@ -497,10 +497,10 @@ static void put_correlation(const drawing *d, const lab_residual_channel *mine)
   if (d->stages > 1)
     lab_panel_curve(panel, LAB_KEY_AFTER, LAB_FORM_BARS, lags_of(d, after->correlation, after, 1));
   lab_panel_curve(panel, LAB_KEY_BEFORE, LAB_FORM_POINTS, lags_of(d, before->correlation, after, 1));
-  tell(d, " %s: lag 1 %.3f", name, before->correlation[1]);
+  describe_figure(d, " %s: lag 1 %.3f", name, before->correlation[1]);
   if (d->stages > 1)
-    tell(d, ", completed model %.3f", after->correlation[1]);
-  tell(d, "; p-value of whiteness %s.", p);
+    describe_figure(d, ", completed model %.3f", after->correlation[1]);
+  describe_figure(d, "; p-value of whiteness %s.", p);
 }
 
 static int fill_autocorrelation(const drawing *d)
@@ -509,7 +509,7 @@ static int fill_autocorrelation(const drawing *d)
   int c;
   entitle(d, "Does the residual remember?",
           "Autocorrelation of the residual; white noise stays within the band, and its p-value above 0.01");
-  tell(d, "Autocorrelation of the residual over lags in rows.");
+  describe_figure(d, "Autocorrelation of the residual over lags in rows.");
   for (c = 0; c < v->n_channels; c++)
     if (whiteness(d, LAB_STAGE_BEFORE, &v->channel[c])->lags > 0 &&
         whiteness(d, LAB_STAGE_AFTER, &v->channel[c])->lags > 0)
@@ -558,7 +558,7 @@ static int fill_unlisted(const drawing *d)
   x_shown = lab_format_as(lab_term_arguments[term->argument].unit);
   n = curve_of(term, at, value);
   entitle(d, "What is not in the catalogue", "The free term that was added, fitted with everything else");
-  tell(d, "It acts like %s: %s.", lab_free_term_what(term), lab_free_term_where(term, where));
+  describe_figure(d, "It acts like %s: %s.", lab_free_term_what(term), lab_free_term_where(term, where));
   panel = add_panel(d, lab_term_equations[term->equation].key, shown.unit, TERM_HEIGHT);
   lay_over(panel, lab_term_arguments[term->argument].key, x_shown.unit, column_of(d, at, n, x_shown.scale));
   lab_panel_curve(panel, LAB_KEY_TERM, term->argument == PNEU_TERM_OVER_CYCLE ? LAB_FORM_LINE : LAB_FORM_POINTS,
