@@ -7,6 +7,12 @@
 
 static lab_error error;
 
+static void read_study(study *s)
+{
+  if (study_read("study/hypotheses.cfg", s, &error))
+    fail_msg("%s", error.text);
+}
+
 static const double below = 0.1;
 
 static int judge(double left, double left_signed, double alone, double alone_signed)
@@ -61,8 +67,7 @@ static void test_verdict_measure__every_law_and_actuator__as_the_report_says(voi
   static study s;
   int a, g, f;
   (void)state;
-  if (study_read("study/hypotheses.cfg", &s, &error))
-    fail_msg("%s", error.text);
+  read_study(&s);
   for (a = 0; a < s.n_actuators; a++)
     for (g = 0; g < s.n_gas; g++)
       for (f = 0; f < s.n_flow; f++)
@@ -83,8 +88,7 @@ static void test_hypotheses__air_process_with_the_bench_set_in_place__closed_for
   static study s;
   int a;
   (void)state;
-  if (study_read("study/hypotheses.cfg", &s, &error))
-    fail_msg("%s", error.text);
+  read_study(&s);
   for (a = 0; a < s.n_actuators; a++) {
     pneu_params p = s.actuator[a].params;
     pneu_laws laws = s.actuator[a].laws;
@@ -145,8 +149,7 @@ static void test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_i
   static study s;
   int a;
   (void)state;
-  if (study_read("study/hypotheses.cfg", &s, &error))
-    fail_msg("%s", error.text);
+  read_study(&s);
   for (a = 0; a < s.n_actuators; a++) {
     check_note("%s", s.actuator[a].name);
     check_symmetric_air(&s.actuator[a]);

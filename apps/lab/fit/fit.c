@@ -273,7 +273,8 @@ static int descend(descent *d, lab_error *error)
     if (end != GOES_ON && (fresh || (p->is_brief && end == PROMISES_NO_MORE)))
       break;
     steps += end == GOES_ON; /* that kept slopes lead nowhere is no step */
-    fresh = end != GOES_ON || quality < poor || p->is_rough; /* before it ends, once more with slopes that are all new */
+    /* before it ends, once more with slopes that are all new */
+    fresh = end != GOES_ON || quality < poor || p->is_rough;
   }
   return LAB_OK;
 }

@@ -28,18 +28,18 @@ typedef struct lab_fit_problem {
   /* Columns that come together more cheaply than one by one: J as of lab_fit_slopes; done: n, not 0 for these.
    * Returns: as above. */
   int (*together)(void *context, const double *theta, double *J, char *done, lab_error *error);
-  /* Where the slopes are kept, m * n, column by column, so that the next fit can begin with those of this one; NULL: they
-   * are forgotten. */
+  /* Where the slopes are kept, m * n, column by column, so that the next fit can begin with those of this one; NULL:
+   * they are forgotten. */
   double *slopes;
   const char *is_known; /* n: whether a column of them is known already, nearly; NULL: none is */
   int is_brief;         /* it may end on slopes that were kept, and at 1e-4 of what chi-square exceeds m by: where it
                            ends is not the answer */
-  int is_rough;        /* its slopes change from place to place: they are taken anew at every step */
-  int steps;           /* downhill, at most; 0: 40 */
-  int search;          /* evaluations of the search, for which the bounds are finite; 0: there is none */
-  double enough;       /* of chi-square: it ends where the linear model promises less; 0: 0.02 */
-  double enough_share; /* the same as a share of chi-square, if that is more; 0: 1e-6 */
-  double until;        /* [s] of CPU time, after which it ends where it is; 0: there is no end */
+  int is_rough;         /* its slopes change from place to place: they are taken anew at every step */
+  int steps;            /* downhill, at most; 0: 40 */
+  int search;           /* evaluations of the search, for which the bounds are finite; 0: there is none */
+  double enough;        /* of chi-square: it ends where the linear model promises less; 0: 0.02 */
+  double enough_share;  /* the same as a share of chi-square, if that is more; 0: 1e-6 */
+  double until;         /* [s] of CPU time, after which it ends where it is; 0: there is no end */
 } lab_fit_problem;
 
 /* Fit from theta. However little time is left, the model is evaluated once.

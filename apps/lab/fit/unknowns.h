@@ -50,8 +50,8 @@ typedef struct lab_unknowns {
   size_t n_values;  /* residuals of the data that are not of gaps */
   size_t n_data, m; /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
                        unknown */
-  double *slopes; /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
-  char has_slope[LAB_FIT_MAX]; /* whether that of an unknown is there already, nearly */
+  double *slopes;   /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
+  char has_slope[LAB_FIT_MAX];         /* whether that of an unknown is there already, nearly */
   const struct lab_nuisance *nuisance; /* declared values that may vary unseen; NULL: none (nuisance.h) */
 } lab_unknowns;
 

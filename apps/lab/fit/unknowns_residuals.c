@@ -253,7 +253,8 @@ static int residuals_at(const lab_unknowns *u, const lab_rig *model, const doubl
     lab_nuisance_apply(u->nuisance, all);
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    all[lab_unknowns_before_priors(u) + (size_t)j] = x->spread > 0 ? (x->prior - theta[j]) / lab_unknown_reach(u, x) : 0;
+    all[lab_unknowns_before_priors(u) + (size_t)j] =
+        x->spread > 0 ? (x->prior - theta[j]) / lab_unknown_reach(u, x) : 0;
   }
   return LAB_OK;
 }

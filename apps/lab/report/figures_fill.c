@@ -201,8 +201,8 @@ static void tell_lines(const drawing *d, const lab_signature_model *of)
 {
   const lab_signature *s = &of->signature;
   describe_figure(d, " %s: bench set %s to %s, spring rate %s, friction band %s.", lab_curve_keys[of->key].brief,
-       LAB_QUANTITY(s->bench_lower, "Pa", 4), LAB_QUANTITY(s->bench_upper, "Pa", 4),
-       LAB_QUANTITY(s->spring_rate, "N/m", 4), LAB_QUANTITY(s->band, "Pa", 4));
+                  LAB_QUANTITY(s->bench_lower, "Pa", 4), LAB_QUANTITY(s->bench_upper, "Pa", 4),
+                  LAB_QUANTITY(s->spring_rate, "N/m", 4), LAB_QUANTITY(s->band, "Pa", 4));
 }
 
 static int fill_signature(const drawing *d)
@@ -312,8 +312,8 @@ static void tell_channel(const drawing *d, const lab_residual_channel *mine, con
   double low, high;
   if (lab_range(mine->measured, d->table->n, &low, &high))
     describe_figure(d, " %s runs from %s to %s; rms error of the declared model %s", name,
-         LAB_NUMBER(lab_format_as(info->unit).scale * low, 3), LAB_QUANTITY(high, info->unit, 3),
-         LAB_QUANTITY(result->before.rmse[mine->channel], info->unit, 3));
+                    LAB_NUMBER(lab_format_as(info->unit).scale * low, 3), LAB_QUANTITY(high, info->unit, 3),
+                    LAB_QUANTITY(result->before.rmse[mine->channel], info->unit, 3));
   if (d->stages > 1)
     describe_figure(d, ", of the completed one %s", LAB_QUANTITY(result->after.rmse[mine->channel], info->unit, 3));
   describe_figure(d, ".");

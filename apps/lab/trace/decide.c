@@ -269,8 +269,7 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_VERDICT,
      "A free term was added. Only noise is left; or chi-square is less than TERM_REST times its expectation and no "
      "declared value is more than STRAINED tolerances off.",
-     has_found_a_term,
-     "`unlisted`", LAB_VERDICT_UNLISTED},
+     has_found_a_term, "`unlisted`", LAB_VERDICT_UNLISTED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
     {LAB_PHASE_VERDICT, "Nothing was added.", has_found_nothing, "`none`", LAB_VERDICT_NONE},

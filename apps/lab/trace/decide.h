@@ -101,7 +101,7 @@ typedef struct lab_facts {
   lab_quality declared;  /* the declared model */
   lab_quality best;      /* the best model so far */
   int n_found, n_terms;  /* what was added to it; free terms in it, declared ones among them */
-  int held;                       /* declared values vary within their tolerances */
+  int held;              /* declared values vary within their tolerances */
   int has_begun;         /* something that begins within the run was taken up in this round */
   int found_term;        /* a free term was added to it */
   int can_begin;         /* the logs are one run, of which nothing is known to begin within it */

@@ -37,8 +37,8 @@ static int search_exactly(const lab_unknowns *u, const lab_quality *within, cons
 /* Whether a search that explains the logs by effects, or by what begins, needs no deviations beside. */
 static int is_enough(const lab_finding *f)
 {
-  const int explained =
-      f->result.verdict == LAB_VERDICT_EFFECT || (f->result.verdict == LAB_VERDICT_NONE && lab_candidate_begins(&f->best));
+  const int explained = f->result.verdict == LAB_VERDICT_EFFECT ||
+                        (f->result.verdict == LAB_VERDICT_NONE && lab_candidate_begins(&f->best));
   return explained && f->gain < lab_constant(LAB_DEVIATIONS_GAIN);
 }
 
@@ -109,7 +109,8 @@ static void forget_what_was_in_vain(lab_finding *f)
  * none are looked for; else the better model of the two searches is the answer.
  * In:      u      the declared model, fitted
  * In/out:  whole  with the errors of that; then what is taken for the answer */
-static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, lab_finding *whole, lab_error *error)
+static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, lab_finding *whole,
+                             lab_error *error)
 {
   const double start = lab_cpu_time();
   lab_finding *exact = malloc(sizeof *exact);

@@ -887,7 +887,8 @@ static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_differen
   }
 }
 
-/* A model with one unknown more begins with the slopes of the one that it extends, and the new one is not among them. */
+/* A model with one unknown more begins with the slopes of the one that it extends, and the new one is not among them.
+ */
 static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_others(void **state)
 {
   lab_unknowns more;
