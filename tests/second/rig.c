@@ -182,18 +182,18 @@ static double seen(const second_rig *g, double x)
   return ((1.0 + g->span) * x + g->zero) / g->stroke;
 }
 
-/* What a positioner sends.  Out: frozen, whether its integral stands still */
-static double law(const second_positioner *k, double set, double e, double integral, double rate, int *frozen)
+/* What a positioner sends.  Out: flows, the share of its error that the integral takes up */
+static double law(const second_positioner *k, double set, double e, double integral, double rate, double *flows)
 {
-  double u = k->gain * (e + integral + k->derivative_time * rate);
+  double u = k->gain * (e + integral + k->derivative_time * rate), beyond = fabs(e) - k->dead_band, open = 1.0;
   int off = set < k->cutoff_low || set > k->cutoff_high;
-  *frozen = 1;
+  *flows = 0.0;
   if (off)
     return set < k->cutoff_low ? -1.0 : 1.0;
-  if (k->dead_band > 0.0 && fabs(e) <= k->dead_band)
-    return 0.0;
-  *frozen = fabs(u) >= 1.0;
-  return fmin(fmax(u, -1.0), 1.0);
+  if (k->dead_band > 0.0)
+    open = beyond <= 0.0 ? 0.0 : beyond < k->edge ? beyond / k->edge : 1.0;
+  *flows = fabs(u) >= 1.0 ? 0.0 : open;
+  return open * fmin(fmax(u, -1.0), 1.0);
 }
 
 static int is_continuous(const world *w)
@@ -209,9 +209,9 @@ static double asked(const world *w, const double *y, double *d)
   if (!is_continuous(w))
     return w->u;
   double e = w->u - seen(g, y[X]), u;
-  int frozen;
-  u = law(k, w->u, e, y[INTEGRAL], -(1.0 + g->span) * y[V] / g->stroke, &frozen);
-  d[INTEGRAL] = frozen || k->integral_time <= 0.0 ? 0.0 : e / k->integral_time;
+  double flows;
+  u = law(k, w->u, e, y[INTEGRAL], -(1.0 + g->span) * y[V] / g->stroke, &flows);
+  d[INTEGRAL] = k->integral_time <= 0.0 ? 0.0 : flows * e / k->integral_time;
   return u;
 }
 
@@ -613,10 +613,8 @@ static void control(world *w, const second_positioner *k)
   controller *c = &w->positioner;
   double set = sent(w, w->t), e = set - seen(w->rig, w->y[X]), rate = (e - c->error) / k->cycle;
   double share = k->integral_time > 0.0 ? k->cycle / k->integral_time : 0.0;
-  int frozen;
-  double u = law(k, set, e, c->integral + share * e, c->cycles ? rate : 0.0, &frozen);
-  if (!frozen)
-    c->integral += share * e;
+  double flows, u = law(k, set, e, c->integral + share * e, c->cycles ? rate : 0.0, &flows);
+  c->integral += flows * share * e;
   c->error = e;
   c->u[c->cycles++ % SENT] = u;
 }

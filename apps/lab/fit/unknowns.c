@@ -377,14 +377,24 @@ int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_un
   return LAB_OK;
 }
 
-/* The tolerance of a declared value that is to be held; 0 where it, or its scale, is fitted. */
+/* Damping and viscous friction add up to one coefficient.  Returns: the other of these two; -1 for all else */
+static int twin_of(int param)
+{
+  return param == PNEU_PARAM_damping            ? (int)PNEU_PARAM_viscous_friction
+         : param == PNEU_PARAM_viscous_friction ? (int)PNEU_PARAM_damping
+                                                : -1;
+}
+
+/* The tolerance of a declared value that is to be held; 0 where it, its scale or its twin is fitted, or the twin is
+ * known less well. */
 static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
 {
-  const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area;
-  if (param == LAB_PARAM_ORIFICE_AREA || lab_unknowns_find(u, param) >= 0 ||
-      (area && lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA) >= 0))
+  const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area, twin = twin_of(param);
+  const double tolerance = param == LAB_PARAM_ORIFICE_AREA ? 0 : lab_tolerance(declared, param);
+  if (lab_unknowns_find(u, param) >= 0 || (area && lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA) >= 0) ||
+      (twin >= 0 && (lab_unknowns_find(u, twin) >= 0 || lab_tolerance(declared, twin) > tolerance)))
     return 0;
-  return lab_tolerance(declared, param);
+  return tolerance;
 }
 
 /* Of a declared value, the least share that a fit takes it for: a stem of no mass and no friction would ring. */

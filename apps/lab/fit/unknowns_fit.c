@@ -215,16 +215,82 @@ void lab_unknowns_begin_with(lab_unknowns *u, const lab_unknowns *base)
   }
 }
 
+/* ---- An actuator of another size ---- */
+
+/* An actuator with twice the area, volume, spring, friction, mass and orifices shows the same pressure and position:
+ * only what is declared tells how large it is. */
+static int grows_with_size(const lab_unknown *x)
+{
+  static const int params[] = {PNEU_PARAM_area,        PNEU_PARAM_dead_volume,    PNEU_PARAM_spring_rate,
+                               PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction,   PNEU_PARAM_viscous_friction,
+                               PNEU_PARAM_damping,     PNEU_PARAM_external_force, PNEU_PARAM_fill_area,
+                               PNEU_PARAM_vent_area,   LAB_PARAM_ORIFICE_AREA};
+  size_t i;
+  int any = 0;
+  for (i = 0; i < sizeof params / sizeof params[0]; i++)
+    any |= x->kind == LAB_UNKNOWN_PARAM && x->index == params[i];
+  return any;
+}
+
+/* The size that what is declared asks for, in closed form.
+ * In/out:  theta
+ * Returns: by how much the priors' part of chi-square falls */
+static double resize(const lab_unknowns *u, const posed *p, double *theta)
+{
+  double square = 0, product = 0, factor, gain = 0;
+  int j;
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    const double reach = lab_unknown_reach(u, x);
+    if (!grows_with_size(x) || !(x->spread > 0))
+      continue;
+    square += theta[j] * theta[j] / (reach * reach);
+    product += theta[j] * x->prior / (reach * reach);
+  }
+  factor = square > 0 ? product / square : 1;
+  for (j = 0; j < u->n; j++)
+    if (grows_with_size(&u->unknown[j])) {
+      const lab_unknown *x = &u->unknown[j];
+      const double to = fmin(fmax(factor * theta[j], p->lower[j]), p->upper[j]), reach = lab_unknown_reach(u, x);
+      gain += x->spread > 0 ? ((theta[j] - x->prior) * (theta[j] - x->prior) - (to - x->prior) * (to - x->prior)) /
+                                  (reach * reach)
+                            : 0;
+      theta[j] = to;
+    }
+  return gain;
+}
+
+/* A descent can stop short in the long valley along which only the size changes: from its end, at the size that is
+ * declared, and on from there if that is better. */
+static int fit_size(const lab_unknowns *u, posed *p, double *chi2, lab_error *error)
+{
+  static const double worth = 1;
+  double theta[LAB_FIT_MAX], there, *r;
+  int status;
+  memcpy(theta, p->theta, sizeof theta);
+  if (!(resize(u, p, theta) > worth))
+    return LAB_OK;
+  r = malloc((u->m + 1) * sizeof *r);
+  status = r ? lab_fit_evaluate(&p->problem, theta, r, &there, error) : lab_fail_memory(error, "residuals");
+  free(r);
+  if (status == LAB_NUMERIC || (status == LAB_OK && !(there < *chi2)))
+    return LAB_OK;
+  memcpy(p->theta, theta, sizeof theta);
+  p->problem.is_known = NULL;
+  return status == LAB_OK ? lab_fit(&p->problem, p->theta, chi2, error) : status;
+}
+
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
   double own;
   posed p;
   int j;
+  chi2 = chi2 ? chi2 : &own;
   pose(u, &p);
   p.problem.steps = steps;
   p.problem.is_brief = steps != LAB_ROUNDS_ALL;
   p.problem.until = u->until;
-  if (lab_fit(&p.problem, p.theta, chi2 ? chi2 : &own, error))
+  if (lab_fit(&p.problem, p.theta, chi2, error) || fit_size(u, &p, chi2, error))
     return error->status;
   for (j = 0; j < u->n; j++)
     u->unknown[j].value = p.theta[j];

@@ -248,13 +248,22 @@ static void keep_onsets(const lab_report *report, lab_deviations *all)
   all->n = n;
 }
 
+/* Whether values stand in for what is not known: much more than noise is left. Where little is, they are what they
+ * would be beside it, within intervals that are as much wider as what is left is larger than noise. */
+static int stand_in(const lab_search_result *result)
+{
+  return result->verdict == LAB_VERDICT_UNDECIDED && !(result->fit.reduced_chi2 < lab_constant(LAB_NOISE_DOUBTFUL));
+}
+
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
   lab_deviations *all = &a->report.deviations;
   if (lab_deviations_find(&a->rig, &a->now.completed, &a->now.result.fit, all, error))
     return error->status;
-  if (a->now.result.verdict == LAB_VERDICT_UNDECIDED) { /* the values stand in for what is not known */
+  if (a->now.result.verdict == LAB_VERDICT_UNDECIDED && all->condition == LAB_CONDITION_AS_DECLARED)
+    all->condition = LAB_CONDITION_CANNOT_TELL;
+  if (stand_in(&a->now.result)) {
     all->condition = LAB_CONDITION_CANNOT_TELL;
     keep_onsets(&a->report, all);
   }

@@ -159,6 +159,14 @@ static double on_stop(const pneu_model *model, const pneu_input *input, double p
   return fmin(fmax(x, 0), travel);
 }
 
+/* Whether a chamber is at ambient: it reads so within twice what the zero of an ordinary sensor is known to, its stem
+ * is down and nothing fills it. */
+static int is_vented(const pneu_model *model, const pneu_input *input, const struct seen *read)
+{
+  const double zero = 0.005 * (double)input->supply_pressure, near = 0.02 * (double)model->p.stroke;
+  return !model->law.pressure_input && fabs(read->p) < zero && !(read->x > near) && !(input->u > 0);
+}
+
 /* At rest at time t [s]. */
 static int rest(const pneu_model *model, const pneu_input *input, const struct seen *seen, double t, pneu_state *state)
 {
@@ -180,10 +188,12 @@ int lab_run_initial_state(const pneu_model *model, const pneu_input *input, cons
   const struct seen read = {look(&model->law, log, LAB_CHANNEL_P, run, model->law.pressure_input),
                             look(&model->law, log, LAB_CHANNEL_X, run, model->law.position_input),
                             look(&model->law, log, LAB_CHANNEL_T, run, 0)};
+  const int vented = is_vented(model, input, &read);
   struct seen seen = read;
   pneu_output out;
   int i;
   for (i = 0; i < rounds; i++) {
+    seen.p = vented ? 0 : seen.p;
     if (rest(model, input, &seen, log->value[LAB_CHANNEL_TIME][log->run[run]], state) != PNEU_OK ||
         pneu_observe(model, state, input, &out) != PNEU_OK)
       return lab_fail(error, LAB_DATA, "%s:%d: the run begins with p = %g Pa gauge, x = %g m: no state of this rig",

@@ -33,10 +33,14 @@ static double beyond(const lab_quality *q, enum lab_constant deviations)
   return q->values + lab_constant(deviations) * sqrt(2 * q->values);
 }
 
+static int is_as_small_as_noise(const lab_quality *q)
+{
+  return q->fitted && (q->chi2 < beyond(q, LAB_NOISE_DEVIATIONS) || q->chi2 < lab_constant(LAB_NOISE_SLIP) * q->values);
+}
+
 int lab_is_noise(const lab_quality *q)
 {
-  return q->fitted &&
-         (q->white || q->chi2 < beyond(q, LAB_NOISE_DEVIATIONS) || q->chi2 < lab_constant(LAB_NOISE_SLIP) * q->values);
+  return q->fitted && (q->white || is_as_small_as_noise(q));
 }
 
 int lab_is_clean(const lab_quality *q)
@@ -155,7 +159,7 @@ static int wants_a_term(const lab_facts *f)
 static int a_term_is_enough(const lab_facts *f)
 {
   return leaves_more_than_noise(f) &&
-         (lab_is_noise(&f->free_term) ||
+         (is_as_small_as_noise(&f->free_term) ||
           (f->n_found > 1 && convinces(&f->free_term, &f->best, lab_constant(LAB_TERM_COMPELLING))));
 }
 
@@ -245,8 +249,9 @@ const lab_rule lab_rules[] = {
      "(MUCH).",
      wants_a_term, "Refit the declared model with the best free term, if its score passes.", LAB_DO_FIT_TERM},
     {LAB_PHASE_ROUND,
-     "More than noise is left. The declared model with a free term leaves only noise; or it has a lower BIC than two "
-     "effects and leaves less than TERM_COMPELLING of their excess.",
+     "More than noise is left. The declared model with a free term leaves a chi-square as small as noise does; or it "
+     "has a "
+     "lower BIC than two effects and leaves less than TERM_COMPELLING of their excess.",
      a_term_is_enough, "No more rounds.", LAB_DO_END_ROUNDS},
 
     {LAB_PHASE_END,
