@@ -204,6 +204,56 @@ static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_
   assert_false(lab_unknown_is_held(&u.unknown[lab_unknowns_find(&u, PNEU_PARAM_dry_friction)])); /* it is fitted */
 }
 
+/* Damping and viscous friction are one coefficient: the one known less well is held, and none beside the other. */
+static void test_lab_unknowns_hold__damping_and_viscous_friction__are_one(void **state)
+{
+  (void)state;
+  declare();
+  rig.params.damping = 900;
+  rig.params.viscous_friction = 1000;
+  open_empty();
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  assert_true(lab_unknowns_find(&u, PNEU_PARAM_viscous_friction) >= 0);
+  assert_int_equal(lab_unknowns_find(&u, PNEU_PARAM_damping), -1);
+  declare();
+  fit_list("damping", 0);
+  open_empty();
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_find(&u, PNEU_PARAM_viscous_friction), -1);
+}
+
+/* An actuator larger by half in all that is fitted or held shows the same: the fit ends at the size that is declared.
+ */
+static void test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared(void **state)
+{
+  static const int grown[] = {PNEU_PARAM_area,        PNEU_PARAM_dead_volume,  PNEU_PARAM_spring_rate,
+                              PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction, PNEU_PARAM_damping,
+                              PNEU_PARAM_fill_area,   PNEU_PARAM_vent_area};
+  double chi2;
+  int i, j;
+  (void)state;
+  declare();
+  rig.params.viscous_friction = 0;
+  fit_list("dry_friction", 0);
+  fit_list("spring_rate", 0);
+  fit_list("damping", 0);
+  open_empty();
+  measure(&rig);
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  for (i = 0; i < COUNT(grown); i++) {
+    j = lab_unknowns_find(&u, grown[i]);
+    assert_true(j >= 0);
+    u.unknown[j].value *= 1.5;
+  }
+  assert_int_equal(lab_unknowns_fit(&u, 1, &chi2, &error), LAB_OK);
+  for (i = 0; i < COUNT(grown); i++) {
+    j = lab_unknowns_find(&u, grown[i]);
+    check_note("%s", u.unknown[j].name);
+    if (grown[i] != PNEU_PARAM_damping) /* which the log hardly shows */
+      assert_close(u.unknown[j].value, (double)*pneu_param_at(&rig.params, grown[i]), 0, 0.01);
+  }
+}
+
 /* Beside an error of many times the noise, priors of what is held count as if that were the noise; others do not. */
 static void test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left(void **state)
 {
@@ -1116,6 +1166,8 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
       cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
+      cmocka_unit_test(test_lab_unknowns_hold__damping_and_viscous_friction__are_one),
+      cmocka_unit_test(test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared),
       cmocka_unit_test(test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left),
       cmocka_unit_test(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone),
       cmocka_unit_test(test_lab_unknowns_open__command_that_changes_often__has_one_timing),

@@ -369,6 +369,19 @@ static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_ti
   assert_close(start.extra[model.clock], 42.5, 0, 0);
 }
 
+/* A zero of the sensor, not a pressure: 1.6 kPa at a supply of 400 kPa; 2.4 kPa is one, and so is what fills or holds.
+ */
+static void test_lab_run_initial_state__down_and_near_ambient__is_vented(void **state)
+{
+  static const char *const down = "t [s],u [1],p [kPa],x [mm]\n0,0,1.6,0.02\n1,0,1.6,0.02\n";
+  (void)state;
+  assert_true(start_of(down, 0).p == 0);
+  assert_true(start_of(down, -1).p == 0);
+  assert_close(start_of(down, 1).p, 1600, 1e-6, 0);
+  assert_close(start_of("t [s],u [1],p [kPa],x [mm]\n0,0,2.4,0.02\n1,0,2.4,0.02\n", 0).p, 2400, 1e-6, 0);
+  assert_close(start_of("t [s],u [1],p [kPa],x [mm]\n0,0,1.6,4\n1,0,1.6,4\n", 0).p, 1600, 1e-6, 0);
+}
+
 static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(void **state)
 {
   pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
@@ -578,6 +591,7 @@ int main(void)
       CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position),
       CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills),
       CASE(test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log),
+      CASE(test_lab_run_initial_state__down_and_near_ambient__is_vented),
       CASE(test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it),
       CASE(test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen),
       CASE(test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there),

@@ -243,6 +243,9 @@ static void test_rules__free_term__ends_the_rounds_where_it_leaves_a_tenth(void 
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
   f.free_term.chi2 = 300; /* noise */
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
+  f.free_term.chi2 = 2 * f.free_term.values; /* white, and larger */
+  f.free_term.white = 1;
+  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
 }
 
 static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(void **state)
