@@ -23,10 +23,10 @@ static void channel_error(const lab_unknowns *u, const double *r, int channel, l
     for (c = 0; c < x->n_channels; c++) {
       size_t i;
       for (i = 0; x->channel[c] == channel && i < x->n; i++) {
-        const double z = r[(size_t)c * x->n + i];
-        if (isnan(lab_run_measured(x, c, i)))
+        const double z = r[(size_t)c * x->n + i], weight = x->weight[(size_t)c * x->n + i];
+        if (isnan(lab_run_measured(x, c, i)) || weight == 0)
           continue;
-        noise2 += pow(z * x->weight[(size_t)c * x->n + i], 2);
+        noise2 += pow(z * weight, 2);
         unit2 += z * z * x->sigma[c] * x->sigma[c];
         n++;
       }

@@ -13,7 +13,7 @@ typedef struct lab_errors {
   size_t n;
 } lab_errors;
 
-/* Error of the present model of `u` on its experiments, row by row. */
+/* Error of the present model of `u` on its experiments, row by row; rows of no weight are left out. */
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error);
 
 /* The same of the residuals as they are fitted: whitened, and without what held values may explain (nuisance.h). */

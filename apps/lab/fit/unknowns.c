@@ -331,6 +331,17 @@ static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first
   return LAB_OK;
 }
 
+int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error)
+{
+  int j;
+  lab_unknowns_none(rig, run, n_runs, u);
+  for (j = 0; j < rig->n_fit; j++)
+    if (rig->fit_per_log[j] && add_per_log(u, rig, rig->fit[j], 0, error))
+      return error->status;
+  lab_unknowns_view(u, 0);
+  return LAB_OK;
+}
+
 int lab_unknowns_join(lab_unknowns *u, const lab_run *run, int n_runs, lab_error *error)
 {
   const int first = u->n_runs;

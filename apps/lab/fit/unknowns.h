@@ -59,6 +59,9 @@ typedef struct lab_unknowns {
  * experiment starts, which its first rows tell. Its errors are those of what `simulate` predicts. */
 void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u);
 
+/* The same but for what each log has for itself (fit_per_log).  Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);
+
 /* Collect the unknowns of a rig's fit list and the switches of the experiments.
  * Returns: LAB_OK; LAB_DATA if there are more than LAB_FIT_MAX (switches are then left out first). */
 int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);

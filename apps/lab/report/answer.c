@@ -14,6 +14,7 @@
 #include "../fit/drift.h"
 #include "../fit/weights.h"
 #include "../metrics/recording.h"
+#include "../trace/apart.h"
 #include "figures.h"
 
 static void on_progress(const lab_request *q, const char *what)
@@ -89,9 +90,71 @@ static int fit_own(const lab_rig *model, const lab_run *run, int n, const lab_un
   return u->n > 0 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
 }
 
+/* Rows by which a run tells how it starts: the first tenth of those there are, and eight at least. */
+static size_t rows_at_start(const lab_run *x)
+{
+  const size_t tenth = x->n / 10, least = 8;
+  return tenth > least ? tenth : x->n < least ? x->n : least;
+}
+
+/* Weigh by `weight` the rows at the start of runs, or those after it, and the others not at all. */
+static void weigh_part(const lab_run *run, int n, const double *weight, int at_start)
+{
+  int e, c;
+  for (e = 0; e < n; e++)
+    for (c = 0; c < run[e].n_channels; c++) {
+      double *w = run[e].weight + (size_t)c * run[e].n;
+      const size_t split = rows_at_start(&run[e]);
+      size_t i;
+      for (i = 0; i < run[e].n; i++)
+        w[i] = (i < split) == at_start ? *weight++ : (weight++, 0);
+    }
+}
+
+static size_t count_values(const lab_run *run, int n)
+{
+  size_t values = 0;
+  int e;
+  for (e = 0; e < n; e++)
+    values += run[e].n * (size_t)run[e].n_channels;
+  return values;
+}
+
+static void copy_weights(const lab_run *run, int n, double *weight, int back)
+{
+  int e;
+  for (e = 0; e < n; e++) {
+    const size_t size = run[e].n * (size_t)run[e].n_channels;
+    memcpy(back ? run[e].weight : weight, back ? weight : run[e].weight, size * sizeof *weight);
+    weight += size;
+  }
+}
+
+/* Error of a model on runs that it has not seen: what each log has for itself is fitted to how it starts, and the error
+ * is that of the rest. */
+static int judge_unseen(const lab_rig *model, const lab_run *run, int n, lab_unknowns *u, lab_errors *errors,
+                        lab_error *error)
+{
+  double *weight;
+  int status = lab_unknowns_own(model, run, n, u, error);
+  if (status != LAB_OK || u->n == 0)
+    return status == LAB_OK ? lab_loop_errors(u, errors, error) : status;
+  weight = calloc(count_values(run, n) + 1, sizeof *weight);
+  if (!weight)
+    return lab_fail_memory(error, "the errors of a model");
+  copy_weights(run, n, weight, 0);
+  weigh_part(run, n, weight, 1);
+  status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error);
+  weigh_part(run, n, weight, 0);
+  if (status == LAB_OK)
+    status = lab_loop_errors(u, errors, error);
+  copy_weights(run, n, weight, 1);
+  free(weight);
+  return status;
+}
+
 /* Error of a model on runs.
- * In:      fitted  the final model of these runs, and what is theirs is fitted again; NULL: they are others, and
- * nothing is */
+ * In:      fitted  the final model of these runs, and what is theirs is fitted again; NULL: they are others */
 static int judge(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_errors *errors,
                  lab_error *error)
 {
@@ -100,9 +163,9 @@ static int judge(const lab_rig *model, const lab_run *run, int n, const lab_unkn
   if (!u)
     return lab_fail_memory(error, "the errors of a model");
   if (!fitted)
-    lab_unknowns_none(model, run, n, u);
-  status = (fitted && fit_own(model, run, n, fitted, u, error)) || lab_loop_errors(u, errors, error) ? error->status
-                                                                                                     : LAB_OK;
+    status = judge_unseen(model, run, n, u, errors, error);
+  else
+    status = fit_own(model, run, n, fitted, u, error) || lab_loop_errors(u, errors, error) ? error->status : LAB_OK;
   free(u);
   return status;
 }
@@ -336,6 +399,28 @@ static int search_with_colours(const lab_search_options *how, lab_completion *c,
   return lab_search_run(&c->completed, how, &c->result, error);
 }
 
+/* Search with what the logs share; where something seems to differ from log to log that is half of the time, and the
+ * rest is for a search with values of each log.
+ * In:      end  [s] of CPU, when the time is spent; 0: never */
+static int search_apart(const lab_search_options *how, double end, lab_completion *c, lab_error *error)
+{
+  const double now = lab_cpu_time();
+  lab_apart *apart = malloc(sizeof *apart);
+  int status = apart ? lab_apart_find(&c->declared, apart, error) : lab_fail_memory(error, "values of each log");
+  if (status == LAB_OK && apart->n > 0 && end > 0)
+    c->declared.until = now + (end - now) / 2;
+  c->completed = c->declared;
+  if (status == LAB_OK)
+    status = search_with_colours(how, c, error);
+  if (status == LAB_OK)
+    status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
+  c->declared.until = c->completed.until = end;
+  if (status == LAB_OK)
+    status = lab_apart_search(apart, how, &c->logs, &c->declared, &c->completed, &c->result, error);
+  free(apart);
+  return status;
+}
+
 /* Add what the fitted model lacks.
  * In:      fit_s      of fit_to
  *          may_begin  whether it may begin within the log: a baseline is what it is throughout */
@@ -354,9 +439,7 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, i
   c->completed = c->declared;
   if (c->logs.limitations.doubt)
     return decline(&c->completed, &c->result, error);
-  if (search_with_colours(&how, c, error))
-    return error->status;
-  if (lab_search_without_outliers(&how, &c->logs, &c->declared, &c->completed, &c->result, error))
+  if (search_apart(&how, c->declared.until, c, error))
     return error->status;
   return lab_drift_say(&c->completed, &c->logs.limitations, error);
 }
