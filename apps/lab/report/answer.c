@@ -416,7 +416,7 @@ static int search_apart(const lab_search_options *how, double end, lab_completio
     status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
   c->declared.until = c->completed.until = end;
   if (status == LAB_OK)
-    status = lab_apart_search(apart, how, &c->logs, &c->declared, &c->completed, &c->result, error);
+    status = lab_apart_search(apart, how, &c->logs, &c->completed, &c->result, error);
   free(apart);
   return status;
 }

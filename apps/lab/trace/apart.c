@@ -1,6 +1,8 @@
 #include "apart.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/format.h"
 
@@ -102,7 +104,35 @@ static int is_explained(const lab_search_result *result)
   return result->verdict == LAB_VERDICT_NONE || result->verdict == LAB_VERDICT_EFFECT;
 }
 
-int lab_apart_search(const lab_apart *apart, const lab_search_options *options, lab_logs *bench, lab_unknowns *declared,
+static int has_free_term(const lab_search_result *result)
+{
+  int i, any = 0;
+  for (i = 0; i < result->n_found; i++)
+    any |= result->found[i].term >= 0;
+  return any;
+}
+
+/* Whether values of each log say more: they explain the logs, leave much less, or as much as a free term, which can
+ * bend to nearly anything. */
+static int is_better(const lab_search_result *own, const lab_search_result *shared)
+{
+  const enum lab_constant share = has_free_term(shared) && !has_free_term(own) ? LAB_NOISE_SLIP : LAB_DIFFER_CONVINCING;
+  return is_explained(own) || own->after.chi2 < lab_constant(share) * shared->after.chi2;
+}
+
+/* The declared model stays what the logs share; that values are of each log is the first that was added to it. */
+static void follow_on(const lab_search_result *shared, lab_search_result *own)
+{
+  own->before = shared->before;
+  memcpy(own->left[LAB_STAGE_BEFORE], shared->left[LAB_STAGE_BEFORE], sizeof own->left[LAB_STAGE_BEFORE]);
+  own->n_path -= own->n_path == LAB_SEARCH_PATH;
+  memmove(own->path + 1, own->path, (size_t)own->n_path++ * sizeof *own->path);
+  own->path[0] = shared->path[0];
+  snprintf(own->path[1].name, sizeof own->path[1].name, "values of each log");
+  snprintf(own->step[0].name, sizeof own->step[0].name, "values of each log");
+}
+
+int lab_apart_search(const lab_apart *apart, const lab_search_options *options, lab_logs *bench,
                      lab_unknowns *completed, lab_search_result *result, lab_error *error)
 {
   lab_search_result *own;
@@ -115,12 +145,11 @@ int lab_apart_search(const lab_apart *apart, const lab_search_options *options, 
   status = own && u ? LAB_OK : lab_fail_memory(error, "a search with values of each log");
   if (status == LAB_OK) {
     *u = apart->declared;
-    u->until = declared->until;
+    u->until = completed->until;
     status = lab_search_run(u, options, own, error);
   }
-  if (status == LAB_OK &&
-      (is_explained(own) || own->after.chi2 < lab_constant(LAB_DIFFER_CONVINCING) * result->after.chi2)) {
-    *declared = apart->declared;
+  if (status == LAB_OK && is_better(own, result)) {
+    follow_on(result, own);
     *completed = *u;
     *result = *own;
     say(apart, completed, &bench->limitations);
