@@ -16,6 +16,7 @@
 #include "../metrics/recording.h"
 #include "../trace/apart.h"
 #include "figures.h"
+#include "judge.h"
 
 static void on_progress(const lab_request *q, const char *what)
 {
@@ -59,124 +60,13 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
 
 /* ---- How far a model is from logs: those that it was fitted to, and those that it has not seen ---- */
 
-/* Begin where a fit of the same runs has ended. */
-static void start_from(const lab_unknowns *fitted, lab_unknowns *u)
-{
-  int j, k;
-  for (j = 0; j < u->n; j++)
-    for (k = 0; k < fitted->n; k++) {
-      const lab_unknown *x = &fitted->unknown[k];
-      if (x->kind == u->unknown[j].kind && x->run == u->unknown[j].run && x->index == u->unknown[j].index)
-        u->unknown[j].value = x->value;
-    }
-}
-
-/* Fit to runs what each log has for itself, and the instants at which the command changed, within the row that shows
- * each; nothing that the logs share.
- * In:      fitted  the final model of the same runs */
-static int fit_own(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_unknowns *u,
-                   lab_error *error)
-{
-  lab_rig own = *model;
-  int j;
-  for (own.n_fit = j = 0; j < model->n_fit; j++)
-    if (model->fit_per_log[j]) {
-      own.fit_per_log[own.n_fit] = 1;
-      own.fit[own.n_fit++] = model->fit[j];
-    }
-  if (lab_unknowns_open(&own, run, n, u, error))
-    return error->status;
-  start_from(fitted, u);
-  return u->n > 0 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
-}
-
-/* Rows by which a run tells how it starts: the first tenth of those there are, and eight at least. */
-static size_t rows_at_start(const lab_run *x)
-{
-  const size_t tenth = x->n / 10, least = 8;
-  return tenth > least ? tenth : x->n < least ? x->n : least;
-}
-
-/* Weigh by `weight` the rows at the start of runs, or those after it, and the others not at all. */
-static void weigh_part(const lab_run *run, int n, const double *weight, int at_start)
-{
-  int e, c;
-  for (e = 0; e < n; e++)
-    for (c = 0; c < run[e].n_channels; c++) {
-      double *w = run[e].weight + (size_t)c * run[e].n;
-      const size_t split = rows_at_start(&run[e]);
-      size_t i;
-      for (i = 0; i < run[e].n; i++)
-        w[i] = (i < split) == at_start ? *weight++ : (weight++, 0);
-    }
-}
-
-static size_t count_values(const lab_run *run, int n)
-{
-  size_t values = 0;
-  int e;
-  for (e = 0; e < n; e++)
-    values += run[e].n * (size_t)run[e].n_channels;
-  return values;
-}
-
-static void copy_weights(const lab_run *run, int n, double *weight, int back)
-{
-  int e;
-  for (e = 0; e < n; e++) {
-    const size_t size = run[e].n * (size_t)run[e].n_channels;
-    memcpy(back ? run[e].weight : weight, back ? weight : run[e].weight, size * sizeof *weight);
-    weight += size;
-  }
-}
-
-/* Error of a model on runs that it has not seen: what each log has for itself is fitted to how it starts, and the error
- * is that of the rest. */
-static int judge_unseen(const lab_rig *model, const lab_run *run, int n, lab_unknowns *u, lab_errors *errors,
-                        lab_error *error)
-{
-  double *weight;
-  int status = lab_unknowns_own(model, run, n, u, error);
-  if (status != LAB_OK || u->n == 0)
-    return status == LAB_OK ? lab_loop_errors(u, errors, error) : status;
-  weight = calloc(count_values(run, n) + 1, sizeof *weight);
-  if (!weight)
-    return lab_fail_memory(error, "the errors of a model");
-  copy_weights(run, n, weight, 0);
-  weigh_part(run, n, weight, 1);
-  status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error);
-  weigh_part(run, n, weight, 0);
-  if (status == LAB_OK)
-    status = lab_loop_errors(u, errors, error);
-  copy_weights(run, n, weight, 1);
-  free(weight);
-  return status;
-}
-
-/* Error of a model on runs.
- * In:      fitted  the final model of these runs, and what is theirs is fitted again; NULL: they are others */
-static int judge(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_errors *errors,
-                 lab_error *error)
-{
-  lab_unknowns *u = malloc(sizeof *u);
-  int status;
-  if (!u)
-    return lab_fail_memory(error, "the errors of a model");
-  if (!fitted)
-    status = judge_unseen(model, run, n, u, errors, error);
-  else
-    status = fit_own(model, run, n, fitted, u, error) || lab_loop_errors(u, errors, error) ? error->status : LAB_OK;
-  free(u);
-  return status;
-}
-
 /* Errors on what was held out: of the models on the way there, and on each log by itself. */
 static int judge_each(lab_answer *a, lab_error *error)
 {
   lab_logs *held = &a->held;
   int i, first = 0;
   for (i = 0; i < a->now.result.n_path; i++)
-    if (judge(&a->now.result.path[i].rig, held->run, held->n, NULL, &a->report.holdout_path[i], error))
+    if (lab_judge(&a->now.result.path[i].rig, held->run, held->n, NULL, &a->report.holdout_path[i], error))
       return error->status;
   for (i = 0; i < held->n_logs; i++) {
     lab_holdout_log *log = &a->report.held[i];
@@ -184,8 +74,8 @@ static int judge_each(lab_answer *a, lab_error *error)
     while (first + n < held->n && held->run[first + n].log == &held->log[i])
       n++;
     log->name = lab_file_name(held->log[i].path);
-    if (judge(&a->now.declared.rig, &held->run[first], n, NULL, &log->before, error) ||
-        judge(&a->now.completed.rig, &held->run[first], n, NULL, &log->after, error))
+    if (lab_judge(&a->now.declared.rig, &held->run[first], n, NULL, &log->before, error) ||
+        lab_judge(&a->now.completed.rig, &held->run[first], n, NULL, &log->after, error))
       return error->status;
     first += n;
   }
@@ -199,7 +89,7 @@ static int retrace(lab_answer *a, lab_error *error)
   int i, c, status = LAB_OK;
   for (i = 0; i < a->now.result.n_path && status == LAB_OK; i++) {
     lab_errors *errors = &a->report.fitted_path[i];
-    status = judge(&a->now.result.path[i].rig, a->now.logs.run, a->now.logs.n, &a->now.completed, errors, error);
+    status = lab_judge(&a->now.result.path[i].rig, a->now.logs.run, a->now.logs.n, &a->now.completed, errors, error);
     for (c = 0; c < LAB_CHANNEL_COUNT && status == LAB_NUMERIC; c++)
       errors->rmse[c] = errors->in_noise[c] = (double)NAN;
     status = status == LAB_NUMERIC ? LAB_OK : status;
@@ -218,8 +108,8 @@ static int hold_out(lab_answer *a, lab_error *error)
     lab_limitation(&a->now.logs.limitations,
                    "what begins at %.6g s of the log begins at the same time of a held-out log",
                    a->now.completed.rig.onset[a->rig.n_onsets].from);
-  report->has_holdout = !judge(&a->now.declared.rig, held->run, held->n, NULL, &report->holdout_before, error) &&
-                        !judge(&a->now.completed.rig, held->run, held->n, NULL, &report->holdout_after, error) &&
+  report->has_holdout = !lab_judge(&a->now.declared.rig, held->run, held->n, NULL, &report->holdout_before, error) &&
+                        !lab_judge(&a->now.completed.rig, held->run, held->n, NULL, &report->holdout_after, error) &&
                         !judge_each(a, error);
   if (report->has_holdout)
     return LAB_OK;

@@ -1,0 +1,113 @@
+#include "judge.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Begin where a fit of the same runs has ended. */
+static void start_from(const lab_unknowns *fitted, lab_unknowns *u)
+{
+  int j, k;
+  for (j = 0; j < u->n; j++)
+    for (k = 0; k < fitted->n; k++) {
+      const lab_unknown *x = &fitted->unknown[k];
+      if (x->kind == u->unknown[j].kind && x->run == u->unknown[j].run && x->index == u->unknown[j].index)
+        u->unknown[j].value = x->value;
+    }
+}
+
+/* Fit to runs what each log has for itself, and the instants at which the command changed, within the row that shows
+ * each; nothing that the logs share.
+ * In:      fitted  the final model of the same runs */
+static int fit_own(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_unknowns *u,
+                   lab_error *error)
+{
+  lab_rig own = *model;
+  int j;
+  for (own.n_fit = j = 0; j < model->n_fit; j++)
+    if (model->fit_per_log[j]) {
+      own.fit_per_log[own.n_fit] = 1;
+      own.fit[own.n_fit++] = model->fit[j];
+    }
+  if (lab_unknowns_open(&own, run, n, u, error))
+    return error->status;
+  start_from(fitted, u);
+  return u->n > 0 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
+}
+
+/* Rows by which a run tells how it starts: the first tenth of those there are, and eight at least. */
+static size_t rows_at_start(const lab_run *x)
+{
+  const size_t tenth = x->n / 10, least = 8;
+  return tenth > least ? tenth : x->n < least ? x->n : least;
+}
+
+/* Weigh by `weight` the rows at the start of runs, or those after it, and the others not at all. */
+static void weigh_part(const lab_run *run, int n, const double *weight, int at_start)
+{
+  int e, c;
+  for (e = 0; e < n; e++)
+    for (c = 0; c < run[e].n_channels; c++) {
+      double *w = run[e].weight + (size_t)c * run[e].n;
+      const size_t split = rows_at_start(&run[e]);
+      size_t i;
+      for (i = 0; i < run[e].n; i++)
+        w[i] = (i < split) == at_start ? *weight++ : (weight++, 0);
+    }
+}
+
+static size_t count_values(const lab_run *run, int n)
+{
+  size_t values = 0;
+  int e;
+  for (e = 0; e < n; e++)
+    values += run[e].n * (size_t)run[e].n_channels;
+  return values;
+}
+
+static void copy_weights(const lab_run *run, int n, double *weight, int back)
+{
+  int e;
+  for (e = 0; e < n; e++) {
+    const size_t size = run[e].n * (size_t)run[e].n_channels;
+    memcpy(back ? run[e].weight : weight, back ? weight : run[e].weight, size * sizeof *weight);
+    weight += size;
+  }
+}
+
+/* Error of a model on runs that it has not seen: what each log has for itself is fitted to how it starts, and the error
+ * is that of the rest. */
+static int judge_unseen(const lab_rig *model, const lab_run *run, int n, lab_unknowns *u, lab_errors *errors,
+                        lab_error *error)
+{
+  double *weight;
+  int status = lab_unknowns_own(model, run, n, u, error);
+  if (status != LAB_OK || u->n == 0)
+    return status == LAB_OK ? lab_loop_errors(u, errors, error) : status;
+  weight = calloc(count_values(run, n) + 1, sizeof *weight);
+  if (!weight)
+    return lab_fail_memory(error, "the errors of a model");
+  copy_weights(run, n, weight, 0);
+  weigh_part(run, n, weight, 1);
+  status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error);
+  weigh_part(run, n, weight, 0);
+  if (status == LAB_OK)
+    status = lab_loop_errors(u, errors, error);
+  copy_weights(run, n, weight, 1);
+  free(weight);
+  return status;
+}
+
+int lab_judge(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_errors *errors,
+              lab_error *error)
+{
+  lab_unknowns *u = malloc(sizeof *u);
+  int status;
+  if (!u)
+    return lab_fail_memory(error, "the errors of a model");
+  if (!fitted)
+    status = judge_unseen(model, run, n, u, errors, error);
+  else
+    status = fit_own(model, run, n, fitted, u, error) || lab_loop_errors(u, errors, error) ? error->status : LAB_OK;
+  free(u);
+  return status;
+}

@@ -1,0 +1,80 @@
+/* A log that a model has not seen, of a rig whose preload was set anew. */
+#include "../../fixture.h"
+#include "../../scratch.h"
+#include "../../second/rig.h"
+
+#include "../../../apps/lab/report/judge.h"
+
+enum { ROWS = 401, COMMANDS = 3, FEW = 40 };
+static const double spacing = 0.05; /* [s] */
+
+static lab_rig rig;
+static lab_log seen;
+static lab_run run;
+static lab_error error;
+
+/* The log, its command after 0.4 s of rest, and its first stroke within the first tenth, of a rig with 1.2 times the
+ * declared preload. */
+static void open_log(void)
+{
+  static const double t_cmd[COMMANDS] = {0.402, 8.003, 14.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
+  static double t[ROWS], u_log[ROWS], p[ROWS], x[ROWS];
+  second_log log = {.t = t, .u = u_log, .p = p, .x = x};
+  second_rig g = second_rig_default_r1_400();
+  const char *path = scratch_path("held.csv");
+  FILE *file = fopen(path, "w");
+  int i;
+  assert_non_null(file);
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = 5;
+  g.spring_preload *= 1.2;
+  assert_int_equal(second_run(&g, t_cmd, u_cmd, COMMANDS, (ROWS - 1) * spacing, spacing, &log, NULL), 0);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u_log[i], p[i], x[i]);
+  fclose(file);
+  lab_rig_default(&rig);
+  rig.laws.flow = PNEU_FLOW_CHOKED;
+  rig.params.dead_volume = (pneu_real)4e-5;
+  rig.noise[LAB_CHANNEL_P] = 320;
+  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &seen, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
+}
+
+static void close_log(void)
+{
+  lab_run_close(&run);
+  lab_log_free(&seen);
+}
+
+/* The instants of commands are not fitted there, so that more than noise is left either way. */
+static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **state)
+{
+  lab_errors shared, own;
+  size_t i;
+  (void)state;
+  open_log();
+  assert_int_equal(lab_judge(&rig, &run, 1, NULL, &shared, &error), LAB_OK);
+  rig.fit_per_log[0] = 1;
+  assert_int_equal(lab_judge(&rig, &run, 1, NULL, &own, &error), LAB_OK);
+  assert_true(own.in_noise[LAB_CHANNEL_X] < 0.25 * shared.in_noise[LAB_CHANNEL_X]);
+  assert_int_equal(shared.n, 2 * ROWS);
+  assert_int_equal(own.n, 2 * (ROWS - FEW)); /* its first tenth is not judged */
+  for (i = 0; i < 2 * ROWS; i++)
+    assert_close(run.weight[i], 1, 0, 0);
+  close_log();
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_judge__unseen_log__tells_its_own_value_by_its_start),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
