@@ -246,7 +246,8 @@ static const char *verdict_word(const story *s)
     return "fitted";
   if (cJSON_GetArraySize(at_keys(s->json, "unlisted", NULL)) > 0)
     return "unlisted";
-  return cJSON_GetArraySize(at_keys(s->json, "found", NULL)) > 0 ? "effect" : "none";
+  return cJSON_GetArraySize(at_keys(s->json, "found", NULL)) > 0 || at_keys(s->json, "per_log", NULL) ? "effect"
+                                                                                                      : "none";
 }
 
 /* Returns: the last if there is no error to judge by */
@@ -267,6 +268,12 @@ static void put_found(const cJSON *json, cJSON *to, char names[NAMES_TEXT])
   cJSON *cell = cJSON_AddArrayToObject(to, "found"), *alike = cJSON_AddArrayToObject(to, "alike");
   char name[NAMES_TEXT];
   names[0] = '\0';
+  cJSON_ArrayForEach(found, at_keys(json, "per_log", NULL))
+  {
+    snprintf(name, sizeof name, "a value of %s for each log", cJSON_GetStringValue(found));
+    join(names, name);
+    lab_json_join(cell, ", ", "%s", name);
+  }
   cJSON_ArrayForEach(found, at_keys(json, "found", NULL))
   {
     const char *effect = words_of(found, "effect");

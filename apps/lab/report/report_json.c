@@ -286,6 +286,16 @@ static void add_metrics(cJSON *to, const lab_report *report)
   cJSON_AddItemToObject(o, "predicted", lab_metrics_object(report->predicted));
 }
 
+/* What differs from log to log, if anything does. */
+static void add_own(cJSON *root, const lab_search_result *result)
+{
+  cJSON *names = result->n_own > 0 ? cJSON_AddArrayToObject(root, "per_log") : NULL;
+  char name[LAB_PARAM_NAME_TEXT];
+  int i;
+  for (i = 0; i < result->n_own; i++)
+    lab_json_say(names, "%s", lab_fit_name(result->own[i], name));
+}
+
 static cJSON *json_of(const lab_report *report)
 {
   const lab_search_result *result = report->result;
@@ -308,6 +318,7 @@ static cJSON *json_of(const lab_report *report)
   for (i = 0; i < result->n_found; i++)
     if (result->found[i].term >= 0)
       add_unlisted(o, report, &result->found[i]);
+  add_own(root, result);
   add_condition(root, report);
   add_parameters(root, report);
   o = cJSON_AddObjectToObject(root, "error");

@@ -70,7 +70,7 @@ int lab_apart_find(const lab_unknowns *declared, lab_apart *apart, lab_error *er
   apart->n = 0;
   apart->declared = *declared;
   status = any ? lab_unknowns_fit(&apart->declared, LAB_ROUNDS_ALL, &chi2, error) : LAB_OK;
-  while (status == LAB_OK && any && apart->n < LAB_APART_MAX && chi2 > (double)apart->declared.n_data)
+  while (status == LAB_OK && any && apart->n < LAB_OWN_MAX && chi2 > (double)apart->declared.n_data)
     status = set_apart(apart, &chi2, &any, error);
   return status == LAB_WORLD ? status : LAB_OK;
 }
@@ -121,9 +121,11 @@ static int is_better(const lab_search_result *own, const lab_search_result *shar
 }
 
 /* The declared model stays what the logs share; that values are of each log is the first that was added to it. */
-static void follow_on(const lab_search_result *shared, lab_search_result *own)
+static void follow_on(const lab_apart *apart, const lab_search_result *shared, lab_search_result *own)
 {
   own->before = shared->before;
+  own->n_own = apart->n;
+  memcpy(own->own, apart->param, sizeof own->own);
   memcpy(own->left[LAB_STAGE_BEFORE], shared->left[LAB_STAGE_BEFORE], sizeof own->left[LAB_STAGE_BEFORE]);
   own->n_path -= own->n_path == LAB_SEARCH_PATH;
   memmove(own->path + 1, own->path, (size_t)own->n_path++ * sizeof *own->path);
@@ -149,7 +151,7 @@ int lab_apart_search(const lab_apart *apart, const lab_search_options *options, 
     status = lab_search_run(u, options, own, error);
   }
   if (status == LAB_OK && is_better(own, result)) {
-    follow_on(result, own);
+    follow_on(apart, result, own);
     *completed = *u;
     *result = *own;
     say(apart, completed, &bench->limitations);

@@ -5,12 +5,10 @@
 
 #include "search.h"
 
-enum { LAB_APART_MAX = 2 };
-
 /* The declared model where each log has its own value of some parameters. */
 typedef struct lab_apart {
   lab_unknowns declared; /* fitted */
-  int n, param[LAB_APART_MAX];
+  int n, param[LAB_OWN_MAX];
 } lab_apart;
 
 /* Give each log its own value of what the rig file asks to be fitted and a rig may begin anew with, one parameter after

@@ -8,7 +8,7 @@
 #include "../fit/errors.h"
 #include "refit.h"
 
-enum { LAB_SEARCH_STEPS = 160, LAB_SEARCH_PATH = 8 };
+enum { LAB_SEARCH_STEPS = 160, LAB_SEARCH_PATH = 8, LAB_OWN_MAX = 2 };
 
 typedef struct lab_search_options {
   double alpha;    /* chance of naming anything when nothing is missing */
@@ -48,6 +48,7 @@ typedef struct lab_search_result {
   lab_fit_result fit;                         /* of the final model */
   lab_scores scores;                          /* of effects, on the declared model: what was tried */
   double score_s;                             /* [s] that these took */
+  int n_own, own[LAB_OWN_MAX];                /* parameters of which each log was given a value (apart.h) */
   int n_listed;                               /* effects that are significant but gain less than min_gain */
   int listed[LAB_SCORES_MAX];
   int has_small;   /* not 0: a free term is significant but gains less than min_gain */
