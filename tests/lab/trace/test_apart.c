@@ -42,8 +42,8 @@ static void write_log(const second_rig *g, const char *path)
   fclose(file);
 }
 
-/* The logs of two rigs, and what differs between them. */
-static void find(const second_rig *first, const second_rig *second, int n)
+/* The logs of two rigs, fitted, and what differs between them. */
+static void open_logs(const second_rig *first, const second_rig *second, int n)
 {
   static const char *const fitted[] = {"dry_friction", "spring_preload"};
   const second_rig *of[LOGS] = {first, second};
@@ -64,10 +64,21 @@ static void find(const second_rig *first, const second_rig *second, int n)
   assert_int_equal(lab_unknowns_open(&rig, run, n, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   assert_int_equal(lab_apart_find(&u, &apart, &error), LAB_OK);
+}
+
+static void close_logs(int n)
+{
+  int i;
   for (i = 0; i < n; i++) {
     lab_run_close(&run[i]);
     lab_log_free(&logs[i]);
   }
+}
+
+static void find(const second_rig *first, const second_rig *second, int n)
+{
+  open_logs(first, second, n);
+  close_logs(n);
 }
 
 static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
@@ -109,12 +120,45 @@ static void test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own(void
   assert_int_equal(apart.n, 0);
 }
 
+/* What one preload for both leaves is more than noise; a preload for each explains it, and that is the answer. */
+static void test_lab_apart_search__preload_set_anew__is_the_answer(void **state)
+{
+  static lab_unknowns completed;
+  static lab_search_result result;
+  static lab_logs bench;
+  second_rig first = true_rig(3), second = true_rig(4);
+  lab_search_options options;
+  double before;
+  (void)state;
+  second.spring_preload = 1.2 * first.spring_preload;
+  open_logs(&first, &second, LOGS);
+  lab_search_options_default(&options);
+  completed = u;
+  assert_int_equal(lab_search_measure(&u, LAB_STAGE_BEFORE, &result, &error), LAB_OK);
+  assert_int_equal(lab_search_measure(&u, LAB_STAGE_AFTER, &result, &error), LAB_OK);
+  result.verdict = LAB_VERDICT_UNDECIDED;
+  result.n_path = 1;
+  before = result.before.chi2;
+  assert_int_equal(lab_apart_search(&apart, &options, &bench, &completed, &result, &error), LAB_OK);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(result.n_own, 1);
+  assert_int_equal(result.own[0], PNEU_PARAM_spring_preload);
+  assert_int_equal(result.n_path, 2);
+  assert_string_equal(result.path[1].name, "values of each log");
+  assert_close(result.before.chi2, before, 0, 0);
+  assert_between(result.after.chi2 / (double)result.after.n, 0.9, 1.1);
+  assert_int_equal(bench.limitations.n, 1);
+  assert_contains(bench.limitations.text[0], "The logs differ in spring_preload");
+  close_logs(LOGS);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_apart_find__preload_set_anew__is_of_each_log),
       cmocka_unit_test(test_lab_apart_find__friction_that_has_grown__is_of_the_rig),
       cmocka_unit_test(test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own),
+      cmocka_unit_test(test_lab_apart_search__preload_set_anew__is_the_answer),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
