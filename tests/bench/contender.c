@@ -72,7 +72,6 @@ static void start(runner *r, const bench_case *task, double *p, double *x)
   r->p = p;
   r->x = x;
   r->sampler.t = r->times;
-  r->sampler.model = task->model;
   r->sampler.input = &r->input;
   r->sampler.take = take;
   r->sampler.context = r;
