@@ -9,8 +9,8 @@
  * wind up. Without pneu_input.set_position the command is u itself, and I stands still.
  * What would jump follows a straight line: u at the edge of the dead band, over EDGE of the stroke, and the rate of I
  * where u is clipped, over CLIPPED of its opening. A stem that a leak pushes out of the band is then held by a steady
- * opening in this width, which is less than a positioner's sensor resolves; a jump would open and shut without end.
- * There are no events: at a kink, error control shortens the step.
+ * opening in this width, where a jump would open and shut without end: fits to a log on which it slides so took seven
+ * times as long at a tenth of the width. There are no events: at a kink, error control shortens the step.
  * Size: gain 10 to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
 #include "../internal.h"
 

@@ -331,13 +331,21 @@ static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first
   return LAB_OK;
 }
 
-int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error)
+/* All that each experiment has for itself, from one on. */
+static int add_own(lab_unknowns *u, int first, lab_error *error)
 {
   int j;
-  lab_unknowns_none(rig, run, n_runs, u);
-  for (j = 0; j < rig->n_fit; j++)
-    if (rig->fit_per_log[j] && add_per_log(u, rig, rig->fit[j], 0, error))
+  for (j = 0; j < u->rig.n_fit; j++)
+    if (u->rig.fit_per_log[j] && add_per_log(u, &u->rig, u->rig.fit[j], first, error))
       return error->status;
+  return LAB_OK;
+}
+
+int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error)
+{
+  lab_unknowns_none(rig, run, n_runs, u);
+  if (add_own(u, 0, error))
+    return error->status;
   lab_unknowns_view(u, 0);
   return LAB_OK;
 }
@@ -345,14 +353,13 @@ int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unk
 int lab_unknowns_join(lab_unknowns *u, const lab_run *run, int n_runs, lab_error *error)
 {
   const int first = u->n_runs;
-  int j, e;
+  int e;
   u->run = run;
   u->n_runs = n_runs;
   for (e = first; e < n_runs; e++)
     u->n_rows += run[e].n * (size_t)run[e].n_channels;
-  for (j = 0; j < u->rig.n_fit; j++)
-    if (u->rig.fit_per_log[j] && add_per_log(u, &u->rig, u->rig.fit[j], first, error))
-      return error->status;
+  if (add_own(u, first, error))
+    return error->status;
   for (e = first; e < n_runs; e++)
     add_switches(u, e);
   lab_unknowns_view(u, u->window);

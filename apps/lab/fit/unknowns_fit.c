@@ -232,52 +232,56 @@ static int grows_with_size(const lab_unknown *x)
   return any;
 }
 
-/* The size that what is declared asks for, in closed form.
- * In/out:  theta
- * Returns: by how much the priors' part of chi-square falls */
-static double resize(const lab_unknowns *u, const posed *p, double *theta)
+/* What the priors of such values add to chi-square. */
+static double cost_of_size(const lab_unknowns *u, const double *theta)
 {
-  double square = 0, product = 0, factor, gain = 0;
+  double sum = 0;
   int j;
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    const double reach = lab_unknown_reach(u, x);
-    if (!grows_with_size(x) || !(x->spread > 0))
-      continue;
-    square += theta[j] * theta[j] / (reach * reach);
-    product += theta[j] * x->prior / (reach * reach);
+    const double off = (theta[j] - x->prior) / lab_unknown_reach(u, x);
+    sum += grows_with_size(x) && x->spread > 0 ? off * off : 0;
   }
-  factor = square > 0 ? product / square : 1;
-  for (j = 0; j < u->n; j++)
-    if (grows_with_size(&u->unknown[j])) {
-      const lab_unknown *x = &u->unknown[j];
-      const double to = fmin(fmax(factor * theta[j], p->lower[j]), p->upper[j]), reach = lab_unknown_reach(u, x);
-      gain += x->spread > 0 ? ((theta[j] - x->prior) * (theta[j] - x->prior) - (to - x->prior) * (to - x->prior)) /
-                                  (reach * reach)
-                            : 0;
-      theta[j] = to;
-    }
-  return gain;
+  return sum;
+}
+
+/* The size at which they add least: with weights w, sum w theta prior / sum w theta^2.  In/out: theta */
+static void resize(const lab_unknowns *u, const posed *p, double *theta)
+{
+  double square = 0, product = 0;
+  int j;
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    const double share = grows_with_size(x) && x->spread > 0 ? theta[j] / pow(lab_unknown_reach(u, x), 2) : 0;
+    square += share * theta[j];
+    product += share * x->prior;
+  }
+  for (j = 0; j < u->n && square > 0; j++)
+    if (grows_with_size(&u->unknown[j]))
+      theta[j] = fmin(fmax(theta[j] * product / square, p->lower[j]), p->upper[j]);
 }
 
 /* A descent can stop short in the long valley along which only the size changes: from its end, at the size that is
- * declared, and on from there if that is better. */
+ * declared, and on from there if that is better. What an effect has that grows with the size, such as the area of a
+ * leak, is left as it is: the residual then says no.
+ * In/out:  p, chi2  where the descent has ended */
 static int fit_size(const lab_unknowns *u, posed *p, double *chi2, lab_error *error)
 {
-  static const double worth = 1;
+  static const double worth = 1; /* of chi-square */
   double theta[LAB_FIT_MAX], there, *r;
   int status;
   memcpy(theta, p->theta, sizeof theta);
-  if (!(resize(u, p, theta) > worth))
+  resize(u, p, theta);
+  if (!(cost_of_size(u, p->theta) - cost_of_size(u, theta) > worth))
     return LAB_OK;
   r = malloc((u->m + 1) * sizeof *r);
   status = r ? lab_fit_evaluate(&p->problem, theta, r, &there, error) : lab_fail_memory(error, "residuals");
   free(r);
-  if (status == LAB_NUMERIC || (status == LAB_OK && !(there < *chi2)))
-    return LAB_OK;
+  if (status != LAB_OK || !(there < *chi2))
+    return status == LAB_NUMERIC ? LAB_OK : status;
   memcpy(p->theta, theta, sizeof theta);
   p->problem.is_known = NULL;
-  return status == LAB_OK ? lab_fit(&p->problem, p->theta, chi2, error) : status;
+  return lab_fit(&p->problem, p->theta, chi2, error);
 }
 
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)

@@ -201,13 +201,6 @@ static void keep_onsets(const lab_report *report, lab_deviations *all)
   all->n = n;
 }
 
-/* Whether values stand in for what is not known: much more than noise is left. Where little is, they are what they
- * would be beside it, within intervals that are as much wider as what is left is larger than noise. */
-static int stand_in(const lab_search_result *result)
-{
-  return result->verdict == LAB_VERDICT_UNDECIDED && !(result->fit.reduced_chi2 < lab_constant(LAB_NOISE_DOUBTFUL));
-}
-
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
@@ -216,7 +209,7 @@ static int conclude(lab_answer *a, lab_error *error)
     return error->status;
   if (a->now.result.verdict == LAB_VERDICT_UNDECIDED && all->condition == LAB_CONDITION_AS_DECLARED)
     all->condition = LAB_CONDITION_CANNOT_TELL;
-  if (stand_in(&a->now.result)) {
+  if (lab_values_stand_in(a->now.result.verdict, a->now.result.fit.reduced_chi2)) {
     all->condition = LAB_CONDITION_CANNOT_TELL;
     keep_onsets(&a->report, all);
   }
@@ -290,11 +283,10 @@ static int search_with_colours(const lab_search_options *how, lab_completion *c,
 }
 
 /* Search with what the logs share; where something seems to differ from log to log that is half of the time, and the
- * rest is for a search with values of each log.
- * In:      end  [s] of CPU, when the time is spent; 0: never */
-static int search_apart(const lab_search_options *how, double end, lab_completion *c, lab_error *error)
+ * rest is for a search with values of each log. */
+static int search_apart(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
-  const double now = lab_cpu_time();
+  const double now = lab_cpu_time(), end = c->declared.until;
   lab_apart *apart = malloc(sizeof *apart);
   int status = apart ? lab_apart_find(&c->declared, apart, error) : lab_fail_memory(error, "values of each log");
   if (status == LAB_OK && apart->n > 0 && end > 0)
@@ -324,12 +316,12 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, i
   how.alpha = q->alpha;
   how.min_gain = q->min_gain;
   how.may_begin = may_begin;
-  if (!c->logs.limitations.doubt)
-    c->declared.until = until(time, fit_s);
-  c->completed = c->declared;
-  if (c->logs.limitations.doubt)
+  if (c->logs.limitations.doubt) {
+    c->completed = c->declared;
     return decline(&c->completed, &c->result, error);
-  if (search_apart(&how, c->declared.until, c, error))
+  }
+  c->declared.until = until(time, fit_s);
+  if (search_apart(&how, c, error))
     return error->status;
   return lab_drift_say(&c->completed, &c->logs.limitations, error);
 }

@@ -41,36 +41,28 @@ static size_t rows_at_start(const lab_run *x)
   return tenth > least ? tenth : x->n < least ? x->n : least;
 }
 
-/* Weigh by `weight` the rows at the start of runs, or those after it, and the others not at all. */
-static void weigh_part(const lab_run *run, int n, const double *weight, int at_start)
+enum part { START, REST, WHOLE };
+
+/* Give the rows of a part of each run the weights that are kept, and the others none. */
+static void weigh(const lab_run *run, int n, const double *kept, enum part part)
 {
+  size_t i;
   int e, c;
   for (e = 0; e < n; e++)
-    for (c = 0; c < run[e].n_channels; c++) {
-      double *w = run[e].weight + (size_t)c * run[e].n;
-      const size_t split = rows_at_start(&run[e]);
-      size_t i;
-      for (i = 0; i < run[e].n; i++)
-        w[i] = (i < split) == at_start ? *weight++ : (weight++, 0);
-    }
+    for (c = 0; c < run[e].n_channels; c++, kept += run[e].n)
+      for (i = 0; i < run[e].n; i++) {
+        const enum part of = i < rows_at_start(&run[e]) ? START : REST;
+        run[e].weight[(size_t)c * run[e].n + i] = part == WHOLE || part == of ? kept[i] : 0;
+      }
 }
 
-static size_t count_values(const lab_run *run, int n)
-{
-  size_t values = 0;
-  int e;
-  for (e = 0; e < n; e++)
-    values += run[e].n * (size_t)run[e].n_channels;
-  return values;
-}
-
-static void copy_weights(const lab_run *run, int n, double *weight, int back)
+static void keep_weights(const lab_run *run, int n, double *kept)
 {
   int e;
   for (e = 0; e < n; e++) {
-    const size_t size = run[e].n * (size_t)run[e].n_channels;
-    memcpy(back ? run[e].weight : weight, back ? weight : run[e].weight, size * sizeof *weight);
-    weight += size;
+    const size_t values = run[e].n * (size_t)run[e].n_channels;
+    memcpy(kept, run[e].weight, values * sizeof *kept);
+    kept += values;
   }
 }
 
@@ -79,21 +71,21 @@ static void copy_weights(const lab_run *run, int n, double *weight, int back)
 static int judge_unseen(const lab_rig *model, const lab_run *run, int n, lab_unknowns *u, lab_errors *errors,
                         lab_error *error)
 {
-  double *weight;
+  double *kept;
   int status = lab_unknowns_own(model, run, n, u, error);
   if (status != LAB_OK || u->n == 0)
     return status == LAB_OK ? lab_loop_errors(u, errors, error) : status;
-  weight = calloc(count_values(run, n) + 1, sizeof *weight);
-  if (!weight)
+  kept = calloc(u->n_rows + 1, sizeof *kept);
+  if (!kept)
     return lab_fail_memory(error, "the errors of a model");
-  copy_weights(run, n, weight, 0);
-  weigh_part(run, n, weight, 1);
+  keep_weights(run, n, kept);
+  weigh(run, n, kept, START);
   status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error);
-  weigh_part(run, n, weight, 0);
+  weigh(run, n, kept, REST);
   if (status == LAB_OK)
     status = lab_loop_errors(u, errors, error);
-  copy_weights(run, n, weight, 1);
-  free(weight);
+  weigh(run, n, kept, WHOLE);
+  free(kept);
   return status;
 }
 

@@ -128,11 +128,17 @@ double lab_balance_position(const pneu_model *model, double pressure, const pneu
   return x;
 }
 
+/* How near a stop a stem is seen that stands on it [m]. */
+static double near_stop(const pneu_model *model)
+{
+  return 0.02 * (double)model->p.stroke;
+}
+
 /* Pressure that holds the stem where it is seen: none on the lower stop, the supply on the upper one while the
  * transducer fills. */
 static double balanced_pressure(const pneu_model *model, const pneu_input *input, double x)
 {
-  const double near = 0.02 * (double)model->p.stroke;
+  const double near = near_stop(model);
   if (!(x > near))
     return 0;
   if (x > (double)model->travel - near && input->u > 0)
@@ -148,10 +154,10 @@ static double unseen_pressure(const pneu_model *model, const pneu_input *input, 
   return input->u > 0 ? (double)input->supply_pressure : 0;
 }
 
-/* A stem seen within 2 % of stroke of a stop, and pushed that way, stands on it. */
+/* A stem seen near a stop, and pushed that way, stands on it. */
 static double on_stop(const pneu_model *model, const pneu_input *input, double p, double x)
 {
-  const double travel = (double)model->travel, near = 0.02 * (double)model->p.stroke;
+  const double travel = (double)model->travel, near = near_stop(model);
   if (x < near && p < balance(model, 0, input))
     return 0;
   if (x > travel - near && p > balance(model, travel, input))
@@ -163,8 +169,8 @@ static double on_stop(const pneu_model *model, const pneu_input *input, double p
  * is down and nothing fills it. */
 static int is_vented(const pneu_model *model, const pneu_input *input, const struct seen *read)
 {
-  const double zero = 0.005 * (double)input->supply_pressure, near = 0.02 * (double)model->p.stroke;
-  return !model->law.pressure_input && fabs(read->p) < zero && !(read->x > near) && !(input->u > 0);
+  const double zero = 0.005 * (double)input->supply_pressure;
+  return !model->law.pressure_input && fabs(read->p) < zero && !(read->x > near_stop(model)) && !(input->u > 0);
 }
 
 /* At rest at time t [s]. */

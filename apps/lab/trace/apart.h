@@ -20,9 +20,12 @@ int lab_apart_find(const lab_unknowns *declared, lab_apart *apart, lab_error *er
 
 /* Where effects explain no more than a part of logs of which something differs, search once more with values of each
  * log. If that explains them, leaves a share of DIFFER_CONVINCING, or as much as a free term does, it is the answer,
- * and the bench's remarks say what differs; else nothing changes: what differs may only stand in for an effect. In/out:
- * bench      its logs completed  model of the search with what the logs share, and result     of it Returns: as
- * lab_search_run; a failure to follow with values of each log is no error. */
+ * and the bench's remarks say what differs; else nothing changes: what differs may only stand in for an effect.
+ *
+ * In/out:  bench      its logs
+ *          completed  model of the search with what the logs share, and
+ *          result     of it
+ * Returns: as lab_search_run; a failure to follow with values of each log is no error. */
 int lab_apart_search(const lab_apart *apart, const lab_search_options *options, lab_logs *bench,
                      lab_unknowns *completed, lab_search_result *result, lab_error *error);
 

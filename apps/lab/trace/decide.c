@@ -250,8 +250,7 @@ const lab_rule lab_rules[] = {
      wants_a_term, "Refit the declared model with the best free term, if its score passes.", LAB_DO_FIT_TERM},
     {LAB_PHASE_ROUND,
      "More than noise is left. The declared model with a free term leaves a chi-square as small as noise does; or it "
-     "has a "
-     "lower BIC than two effects and leaves less than TERM_COMPELLING of their excess.",
+     "has a lower BIC than two effects and leaves less than TERM_COMPELLING of their excess.",
      a_term_is_enough, "No more rounds.", LAB_DO_END_ROUNDS},
 
     {LAB_PHASE_END,
@@ -288,6 +287,11 @@ int lab_decide_verdict(const lab_facts *f)
   while (lab_rules[i].phase != LAB_PHASE_VERDICT || !lab_rules[i].holds(f))
     i++;
   return lab_rules[i].action;
+}
+
+int lab_values_stand_in(int verdict, double reduced_chi2)
+{
+  return verdict == LAB_VERDICT_UNDECIDED && !(reduced_chi2 < lab_constant(LAB_NOISE_DOUBTFUL));
 }
 
 const char *lab_verdict_text(int verdict)

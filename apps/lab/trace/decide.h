@@ -128,4 +128,10 @@ extern const int lab_rule_count;
 /* The verdict on the best model.  Returns: enum lab_verdict */
 int lab_decide_verdict(const lab_facts *f);
 
+/* Whether deviations stand in for what is not known: an undecided model leaves NOISE_DOUBTFUL or more. Where it leaves
+ * less, they are nearly what they would be beside what is missing.
+ * In:      verdict       enum lab_verdict
+ *          reduced_chi2  of the fit; NaN: not known */
+int lab_values_stand_in(int verdict, double reduced_chi2);
+
 #endif

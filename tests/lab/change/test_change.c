@@ -4,7 +4,7 @@
 #include "../../check.h"
 #include "../../scratch.h"
 #include "../../blind/logs.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/change/change.h"
 #include "../../../apps/lab/change/repeat.h"
@@ -15,43 +15,17 @@ static const double spacing = 0.01; /* [s] */
 static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
 static const double u_cmd[2][COMMANDS] = {{1, 0, -1, 0.5, -0.5}, {0.8, 0, -1, 1, -0.7}};
 
-/* The R1-400 with 40 cm3 of dead volume. */
-static second_rig true_rig(uint64_t seed)
-{
-  second_rig g = second_rig_default_r1_400();
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  g.step = 5e-5;
-  g.seed = seed;
-  return g;
-}
-
 static void write_log(const second_rig *g, const double *u_of, const char *path)
 {
-  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
-  const second_log log = {.t = t, .u = u, .p = p, .x = x};
-  FILE *file = fopen(path, "w");
-  int i;
-  assert_int_equal(second_samples(10, spacing), ROWS);
-  assert_int_equal(second_run(g, t_cmd, u_of, COMMANDS, 10, spacing, &log, NULL), 0);
-  assert_non_null(file);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
-  fclose(file);
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_of, .n = COMMANDS};
+  virtual_write(g, &course, 10, spacing, path);
 }
 
 static void declare(lab_rig *rig)
 {
   static const char *const fitted[] = {"orifice_area", "dry_friction", "spring_rate", "spring_preload"};
   int i;
-  lab_rig_default(rig);
-  rig->laws.flow = PNEU_FLOW_CHOKED;
-  rig->params.dead_volume = (pneu_real)4e-5;
-  rig->noise[LAB_CHANNEL_P] = 320;
-  rig->noise[LAB_CHANNEL_X] = 2e-5;
+  virtual_declare(rig);
   for (i = 0; i < 4; i++)
     rig->fit[rig->n_fit++] = lab_param_index(fitted[i]);
 }
@@ -111,7 +85,7 @@ static void assert_change(const lab_changes *changes, const char *what, double n
 
 static void test_lab_changes_find__another_day__is_unchanged(void **state)
 {
-  second_rig then = true_rig(7), now = true_rig(8);
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
   (void)state;
   now.supply *= 1.02;
@@ -179,7 +153,7 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
 
 static void test_lab_changes_find__leak__is_the_change(void **state)
 {
-  second_rig then = true_rig(7), now = true_rig(8);
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
   (void)state;
   now.leak_area = 1.5e-8;
@@ -190,7 +164,7 @@ static void test_lab_changes_find__leak__is_the_change(void **state)
 
 static void test_lab_changes_find__more_friction__is_the_change(void **state)
 {
-  second_rig then = true_rig(7), now = true_rig(8);
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
   (void)state;
   now.supply *= 0.99;
@@ -202,7 +176,7 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
 
 static void test_lab_changes_find__softer_spring__is_the_change(void **state)
 {
-  second_rig then = true_rig(7), now = true_rig(8);
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
   (void)state;
   now.spring_rate *= 0.9;
@@ -232,7 +206,7 @@ static void write_course(const second_rig *g, const second_course *course, doubl
 /* Compare with a log in which the rig is another one from a time on. */
 static lab_changes compare_on_the_way(const second_rig *early, const second_rig *late, double from)
 {
-  const second_rig then = true_rig(7);
+  const second_rig then = virtual_rig(7);
   const second_course course = {t_cmd, u_cmd[1], COMMANDS, NULL, late, from};
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   static lab_rig rig;
@@ -253,7 +227,7 @@ static void assert_since(const lab_onset *onset, double t, double within)
 /* A sensor's error needs no time to set in. */
 static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(void **state)
 {
-  const second_rig now = true_rig(8);
+  const second_rig now = virtual_rig(8);
   second_rig failed = now;
   lab_changes changes;
   (void)state;
@@ -266,7 +240,7 @@ static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(v
 
 static void test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset(void **state)
 {
-  const second_rig now = true_rig(8);
+  const second_rig now = virtual_rig(8);
   second_rig leaks = now;
   lab_changes changes;
   (void)state;
@@ -281,14 +255,14 @@ enum { PLANT_ROWS = 121, PLANT_COMMANDS = 30 };
 
 static second_rig plant_rig(uint64_t seed)
 {
-  second_rig g = true_rig(seed);
+  second_rig g = virtual_rig(seed);
   g.position_noise = 1e-4;
   return g;
 }
 
 static void compare_plant(const second_rig *early, const second_rig *late, double from, lab_changes *changes)
 {
-  static const second_positioner positioner = {10, 0, 0, 0, 0, 2, 0};
+  static const second_positioner positioner = {.gain = 10, .cutoff_high = 2};
   static double t_set[PLANT_COMMANDS], set[PLANT_COMMANDS];
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   const second_rig then = plant_rig(7);
@@ -352,7 +326,7 @@ static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
 /* Something that no parameter has: it can be told neither that all is well nor what is not. */
 static void test_lab_changes_find__no_parameter_has_it__cannot_tell(void **state)
 {
-  second_rig then = true_rig(7), now = true_rig(8);
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
   (void)state;
   now.force = 900;

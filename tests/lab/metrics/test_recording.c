@@ -1,6 +1,6 @@
 /* Records of simulations and of benches, and what the figures of merit say of them. */
 #include "../../scratch.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include <cjson/cJSON.h>
 
@@ -28,29 +28,10 @@ static lab_metrics measured, predicted;
 static const char *write_log(void)
 {
   static const double t_cmd[] = {2.004, 15.003, 28.006, 41.002}, u_cmd[] = {1, -1, 1, -1};
-  static double t[ROWS], command[ROWS], p[ROWS], x[ROWS];
-  second_rig g = second_rig_default_r1_400();
-  second_log samples = {0};
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = 4};
+  const second_rig g = virtual_rig(3);
   const char *path = scratch_path("strokes.csv");
-  FILE *file;
-  int i;
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  g.step = 5e-5;
-  g.seed = 3;
-  samples.t = t;
-  samples.u = command;
-  samples.p = p;
-  samples.x = x;
-  assert_int_equal(second_run(&g, t_cmd, u_cmd, 4, 54, spacing, &samples, NULL), 0);
-  file = fopen(path, "w");
-  assert_non_null(file);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], command[i], p[i], x[i]);
-  fclose(file);
+  virtual_write(&g, &course, 54, spacing, path);
   return path;
 }
 

@@ -1,7 +1,7 @@
 /* A log that a model has not seen, of a rig whose preload was set anew. */
 #include "../../fixture.h"
 #include "../../scratch.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/report/judge.h"
 
@@ -18,30 +18,12 @@ static lab_error error;
 static void open_log(void)
 {
   static const double t_cmd[COMMANDS] = {0.402, 8.003, 14.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
-  static double t[ROWS], u_log[ROWS], p[ROWS], x[ROWS];
-  second_log log = {.t = t, .u = u_log, .p = p, .x = x};
-  second_rig g = second_rig_default_r1_400();
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+  second_rig g = virtual_rig(5);
   const char *path = scratch_path("held.csv");
-  FILE *file = fopen(path, "w");
-  int i;
-  assert_non_null(file);
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  g.step = 5e-5;
-  g.seed = 5;
   g.spring_preload *= 1.2;
-  assert_int_equal(second_run(&g, t_cmd, u_cmd, COMMANDS, (ROWS - 1) * spacing, spacing, &log, NULL), 0);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u_log[i], p[i], x[i]);
-  fclose(file);
-  lab_rig_default(&rig);
-  rig.laws.flow = PNEU_FLOW_CHOKED;
-  rig.params.dead_volume = (pneu_real)4e-5;
-  rig.noise[LAB_CHANNEL_P] = 320;
-  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
+  virtual_declare(&rig);
   rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
   assert_int_equal(lab_log_read(path, &rig.log, 101325, &seen, &error), LAB_OK);
   assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);

@@ -1,13 +1,14 @@
 /* Two logs of the independent rig, between which something was set anew, or has worn. */
 #include "../../fixture.h"
 #include "../../scratch.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/trace/apart.h"
 
 enum { ROWS = 401, LOGS = 2, COMMANDS = 3 };
 static const double spacing = 0.02; /* [s] */
 static const double t_cmd[COMMANDS] = {0.402, 3.003, 5.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
+static const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
 
 static lab_rig rig;
 static lab_log logs[LOGS];
@@ -16,48 +17,18 @@ static lab_unknowns u;
 static lab_apart apart;
 static lab_error error;
 
-static second_rig true_rig(uint64_t seed)
-{
-  second_rig g = second_rig_default_r1_400();
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  g.step = 5e-5;
-  g.seed = seed;
-  return g;
-}
-
-static void write_log(const second_rig *g, const char *path)
-{
-  static double t[ROWS], u_log[ROWS], p[ROWS], x[ROWS];
-  second_log log = {.t = t, .u = u_log, .p = p, .x = x};
-  FILE *file = fopen(path, "w");
-  int i;
-  assert_non_null(file);
-  assert_int_equal(second_run(g, t_cmd, u_cmd, COMMANDS, (ROWS - 1) * spacing, spacing, &log, NULL), 0);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u_log[i], p[i], x[i]);
-  fclose(file);
-}
-
 /* The logs of two rigs, fitted, and what differs between them. */
 static void open_logs(const second_rig *first, const second_rig *second, int n)
 {
   static const char *const fitted[] = {"dry_friction", "spring_preload"};
   const second_rig *of[LOGS] = {first, second};
   int i;
-  lab_rig_default(&rig);
-  rig.laws.flow = PNEU_FLOW_CHOKED;
-  rig.params.dead_volume = (pneu_real)4e-5;
-  rig.noise[LAB_CHANNEL_P] = 320;
-  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  virtual_declare(&rig);
   for (i = 0; i < COUNT(fitted); i++)
     rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
   for (i = 0; i < n; i++) {
     const char *path = scratch_path(i ? "second.csv" : "first.csv");
-    write_log(of[i], path);
+    virtual_write(of[i], &course, (ROWS - 1) * spacing, spacing, path);
     assert_int_equal(lab_log_read(path, &rig.log, 101325, &logs[i], &error), LAB_OK);
     assert_int_equal(lab_run_open(&rig, &logs[i], 0, &run[i], &error), LAB_OK);
   }
@@ -83,7 +54,7 @@ static void find(const second_rig *first, const second_rig *second, int n)
 
 static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
 {
-  second_rig first = true_rig(3), second = true_rig(4);
+  second_rig first = virtual_rig(3), second = virtual_rig(4);
   double value[LOGS];
   int j, n = 0;
   (void)state;
@@ -103,7 +74,7 @@ static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
 /* Friction belongs to the rig: that it grows is a finding, and no value of a log. */
 static void test_lab_apart_find__friction_that_has_grown__is_of_the_rig(void **state)
 {
-  second_rig first = true_rig(3), second = true_rig(4);
+  second_rig first = virtual_rig(3), second = virtual_rig(4);
   (void)state;
   second.dry_friction = 2 * first.dry_friction;
   find(&first, &second, LOGS);
@@ -112,7 +83,7 @@ static void test_lab_apart_find__friction_that_has_grown__is_of_the_rig(void **s
 
 static void test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own(void **state)
 {
-  second_rig first = true_rig(3), second = true_rig(4);
+  second_rig first = virtual_rig(3), second = virtual_rig(4);
   (void)state;
   find(&first, &second, LOGS);
   assert_int_equal(apart.n, 0);
@@ -126,7 +97,7 @@ static void test_lab_apart_search__preload_set_anew__is_the_answer(void **state)
   static lab_unknowns completed;
   static lab_search_result result;
   static lab_logs bench;
-  second_rig first = true_rig(3), second = true_rig(4);
+  second_rig first = virtual_rig(3), second = virtual_rig(4);
   lab_search_options options;
   double before;
   (void)state;

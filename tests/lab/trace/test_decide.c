@@ -1,4 +1,6 @@
 /* What the search decides by: when a model leaves only noise, and which rule holds at which facts. */
+#include <math.h>
+
 #include "../../fixture.h"
 
 #include "../../../apps/lab/trace/decide.h"
@@ -314,6 +316,15 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_string_equal(lab_verdict_text(LAB_VERDICT_NONE), "none");
 }
 
+static void test_lab_values_stand_in__undecided_by_more_than_noise__they_do(void **state)
+{
+  (void)state;
+  assert_true(lab_values_stand_in(LAB_VERDICT_UNDECIDED, 2.26));
+  assert_true(lab_values_stand_in(LAB_VERDICT_UNDECIDED, NAN));
+  assert_false(lab_values_stand_in(LAB_VERDICT_UNDECIDED, 2.24));
+  assert_false(lab_values_stand_in(LAB_VERDICT_EFFECT, 100));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -329,6 +340,7 @@ int main(void)
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),
+      cmocka_unit_test(test_lab_values_stand_in__undecided_by_more_than_noise__they_do),
       cmocka_unit_test(test_rules__free_term__ends_the_rounds_where_it_leaves_a_tenth),
       cmocka_unit_test(test_rules__free_term__replaces_one_effect_by_half_and_two_by_less),
       cmocka_unit_test(test_rules__free_term_beside__needs_room_and_something_left),

@@ -3,7 +3,7 @@
 
 #include "../../check.h"
 #include "../../scratch.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/fit/deviations.h"
 #include "../../../apps/lab/trace/search.h"
@@ -22,43 +22,22 @@ static lab_deviations all;
 
 static second_rig true_rig(void)
 {
-  second_rig g = second_rig_default_r1_400();
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  g.step = 5e-5;
-  g.seed = 11;
-  return g;
+  return virtual_rig(11);
 }
 
 /* A log of a rig that is another from some time on. */
 static void write_log(const second_rig *first, const second_rig *later, double change)
 {
-  static double t[ROWS], u_sent[ROWS], p[ROWS], x[ROWS];
   const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS, .later = later, .change = change};
-  const second_log log = {.t = t, .u = u_sent, .p = p, .x = x};
-  FILE *file = fopen(scratch_path("log.csv"), "w");
-  int i;
-  assert_int_equal(second_samples(end, spacing), ROWS);
-  assert_int_equal(second_follow(first, &course, end, spacing, &log, NULL), 0);
-  assert_non_null(file);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u_sent[i], p[i], x[i]);
-  fclose(file);
+  virtual_write(first, &course, end, spacing, scratch_path("log.csv"));
 }
 
 static void declare(void)
 {
   static const char *const fitted[] = {"spring_rate", "spring_preload"};
   int i;
-  lab_rig_default(&rig);
-  rig.laws.flow = PNEU_FLOW_CHOKED;
-  rig.params.dead_volume = (pneu_real)4e-5;
+  virtual_declare(&rig);
   rig.params.spring_rate = (pneu_real)3.9e5;
-  rig.noise[LAB_CHANNEL_P] = 320;
-  rig.noise[LAB_CHANNEL_X] = 2e-5;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   for (i = 0; i < 2; i++)
     rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);

@@ -3,7 +3,7 @@
 
 #include "../../check.h"
 #include "../../scratch.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/fit/nuisance.h"
 #include "../../../apps/lab/trace/refit.h"
@@ -13,21 +13,9 @@ enum { ROWS = 501, COMMANDS = 3 };
 static void write_log(const char *path)
 {
   static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.501}, u_cmd[COMMANDS] = {1, -1, 0.5};
-  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
-  second_rig g = second_rig_default_r1_400();
-  second_log log = {.t = t, .u = u, .p = p, .x = x};
-  FILE *file = fopen(path, "w");
-  int i;
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  assert_int_equal(second_run(&g, t_cmd, u_cmd, COMMANDS, 5, 0.01, &log, NULL), 0);
-  assert_non_null(file);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
-  fclose(file);
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+  const second_rig g = virtual_rig(second_rig_default_r1_400().seed);
+  virtual_write(&g, &course, 5, 0.01, path);
 }
 
 /* Instants of commands are known to their rows: they cost nothing, whether they are fitted or vary unseen. With
@@ -45,11 +33,7 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   lab_error error = {0, ""};
   (void)state;
   write_log(path);
-  lab_rig_default(&rig);
-  rig.laws.flow = PNEU_FLOW_CHOKED;
-  rig.params.dead_volume = (pneu_real)4e-5;
-  rig.noise[LAB_CHANNEL_P] = 320;
-  rig.noise[LAB_CHANNEL_X] = 2e-5;
+  virtual_declare(&rig);
   rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
   assert_int_equal(lab_log_read(path, &rig.log, 101325, &recorded, &error), LAB_OK);
   assert_int_equal(lab_run_open(&rig, &recorded, 0, &run, &error), LAB_OK);

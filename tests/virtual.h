@@ -1,0 +1,55 @@
+/* The R1-400 with 40 cm3 of dead volume: as the independent rig, as logs of it, and as a rig file declares it.
+ * SPDX-License-Identifier: MIT */
+#ifndef TESTS_VIRTUAL_H
+#define TESTS_VIRTUAL_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../apps/lab/rig/rig.h"
+#include "check.h"
+#include "second/rig.h"
+
+/* Choked flow, noise of 320 Pa and 20 um. */
+static inline second_rig virtual_rig(uint64_t seed)
+{
+  second_rig g = second_rig_default_r1_400();
+  g.flow = SECOND_CHOKED;
+  g.dead_volume = 4e-5;
+  g.pressure_noise = 320;
+  g.position_noise = 2e-5;
+  g.step = 5e-5;
+  g.seed = seed;
+  return g;
+}
+
+/* Write the log of a course: u, p and x in SI, every `spacing` [s] up to `end` [s]. */
+static inline void virtual_write(const second_rig *g, const second_course *course, double end, double spacing,
+                                 const char *path)
+{
+  const size_t rows = second_samples(end, spacing);
+  double *t = calloc(4 * rows, sizeof *t);
+  const second_log log = {.t = t, .u = t + rows, .p = t + 2 * rows, .x = t + 3 * rows};
+  FILE *file = fopen(path, "w");
+  size_t i;
+  assert_non_null(t);
+  assert_non_null(file);
+  assert_int_equal(second_follow(g, course, end, spacing, &log, NULL), 0);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < rows; i++)
+    fprintf(file, "%.3f,%g,%.1f,%.7f\n", log.t[i], log.u[i], log.p[i], log.x[i]);
+  fclose(file);
+  free(t);
+}
+
+/* The same rig as it is declared, with its noise; nothing is fitted. */
+static inline void virtual_declare(lab_rig *rig)
+{
+  lab_rig_default(rig);
+  rig->laws.flow = PNEU_FLOW_CHOKED;
+  rig->params.dead_volume = (pneu_real)4e-5;
+  rig->noise[LAB_CHANNEL_P] = 320;
+  rig->noise[LAB_CHANNEL_X] = 2e-5;
+}
+
+#endif
