@@ -38,6 +38,19 @@ double lab_resolution(const double *value, size_t n)
   return all >= FEWEST && whole >= nearly_all * all ? step : 0;
 }
 
+/* Median of sizes, which come in whole steps: those of one step lie evenly between half a step less and half a step
+ * more.  In: step  0: in none */
+static double median_in_steps(double *size, size_t n, double step)
+{
+  const double middle = lab_median(size, n), low = fmax(middle - 0.5 * step, 0), high = middle + 0.5 * step;
+  size_t i, below = 0, within = 0;
+  for (i = 0; i < n && step > 0; i++) {
+    below += size[i] < low;
+    within += size[i] >= low && size[i] < high;
+  }
+  return within > 0 ? low + (high - low) * (0.5 * (double)n - (double)below) / (double)within : middle;
+}
+
 int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *error)
 {
   double *size = malloc((n ? n : 1) * sizeof *size);
@@ -51,7 +64,8 @@ int lab_noise_estimate(const double *value, size_t n, double *noise, lab_error *
       size[m++] = fabs(d);
   }
   if (m >= FEWEST)
-    *noise = fmax(lab_median(size, m) / (second_difference * median_of_size), lab_smallest_step(value, n) / 4);
+    *noise = fmax(median_in_steps(size, m, lab_resolution(value, n)) / (second_difference * median_of_size),
+                  lab_smallest_step(value, n) / 4);
   free(size);
   return LAB_OK;
 }

@@ -8,8 +8,9 @@
 #include "message.h"
 
 /* Standard deviation of the noise on a channel that otherwise changes smoothly from row to row: from the median size of
- * second differences, which a jump or a stroke in a part of the log does not disturb; no less than a quarter of the
- * smallest step between values (quantisation).
+ * second differences, which a jump or a stroke in a part of the log does not disturb, interpolated where the values
+ * come in steps; no less than a quarter of the smallest of these (quantisation).
+ *
  * In:      value  n values; NaN is a gap
  * Out:     noise  in the unit of the channel; NaN with fewer than eight differences
  * Returns: LAB_OK, LAB_WORLD. */

@@ -16,19 +16,32 @@ static double tolerance_of(const lab_run *x, int c)
                                     : 0;
 }
 
+/* What one tolerance of drift adds to one channel at a row, over the noise; 0 where nothing was measured. */
+static double line_at(const lab_run *x, int c, size_t i)
+{
+  const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first, whole = t[x->n - 1] - t[0];
+  const double share = whole > 0 && !isnan(lab_run_measured(x, c, i)) ? (t[i] - t[0]) / whole - 0.5 : 0;
+  return share * tolerance_of(x, c) / x->sigma[c];
+}
+
+/* The same as it counts: weighed and whitened. */
+static void weigh_channel(const lab_run *x, int c, double *v)
+{
+  size_t i;
+  for (i = 0; i < x->n; i++)
+    v[i] *= x->weight[(size_t)c * x->n + i];
+  if (x->colour[c].memory != 0)
+    lab_colour_whiten(&x->colour[c], v, x->n);
+}
+
 /* One channel: from w to v, of which I - v v' is (I + w w')^(-1/2). */
 static void open_channel(const lab_run *x, int c, double *v)
 {
-  const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first, *weight = x->weight + (size_t)c * x->n;
-  const double begin = t[0], end = t[x->n - 1], size = tolerance_of(x, c) / x->sigma[c];
   double length2, scale;
   size_t i;
-  for (i = 0; i < x->n; i++) {
-    const double w = end > begin ? size * ((t[i] - begin) / (end - begin) - 0.5) : 0;
-    v[i] = isnan(lab_run_measured(x, c, i)) ? 0 : w * weight[i];
-  }
-  if (x->colour[c].memory != 0)
-    lab_colour_whiten(&x->colour[c], v, x->n);
+  for (i = 0; i < x->n; i++)
+    v[i] = line_at(x, c, i);
+  weigh_channel(x, c, v);
   length2 = lab_dot(v, v, x->n);
   scale = length2 > 0 ? sqrt((1 - 1 / sqrt(1 + length2)) / length2) : 0;
   for (i = 0; i < x->n; i++)
@@ -56,6 +69,34 @@ void lab_drift_take_out(const lab_run *x, double *r)
     for (i = 0, k = (size_t)c * x->n; along != 0 && i < x->n; i++, k++)
       r[k] -= along * v[i];
   }
+}
+
+/* Take its most likely line out of one channel.  In/out: r  errors over noise  In: room  for 2 n values */
+static void subtract_line(const lab_run *x, int c, double *r, double *room)
+{
+  double *line = room, *left = room + x->n, drift;
+  size_t i;
+  for (i = 0; i < x->n; i++) {
+    line[i] = line_at(x, c, i);
+    left[i] = r[i];
+  }
+  weigh_channel(x, c, line);
+  weigh_channel(x, c, left);
+  drift = lab_dot(line, left, x->n) / (1 + lab_dot(line, line, x->n));
+  for (i = 0; i < x->n; i++)
+    r[i] -= drift * line_at(x, c, i);
+}
+
+int lab_drift_errors(const lab_unknowns *u, double *r, lab_error *error)
+{
+  double *room = malloc((2 * u->n_rows + 1) * sizeof *room);
+  int e, c, status = room ? lab_unknowns_errors(u, r, error) : lab_fail_memory(error, "a drift");
+  for (e = 0; e < u->n_runs && status == LAB_OK; e++)
+    for (c = 0; c < u->run[e].n_channels; c++, r += u->run[e].n)
+      if (u->run[e].drift)
+        subtract_line(&u->run[e], c, r, room);
+  free(room);
+  return status;
 }
 
 /* Drift of a channel in tolerances, from a residual without it.  Out: deviation  its standard deviation */

@@ -19,6 +19,11 @@ int lab_drift_open(lab_run *x, lab_error *error);
  * In/out:  r  n_channels * n values, weighed and whitened */
 void lab_drift_take_out(const lab_run *x, double *r);
 
+/* Errors as they are shown: over noise, row by row, without the most likely line of each run.
+ * Out:     r  n_rows values
+ * Returns: as lab_unknowns_errors. */
+int lab_drift_errors(const lab_unknowns *u, double *r, lab_error *error);
+
 /* The largest drift of all channels and runs, in tolerances.
  * In:      r  residuals of the data, from which lines were taken out */
 double lab_drift_strain(const lab_unknowns *u, const double *r);

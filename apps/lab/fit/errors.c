@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "drift.h"
+
 static void clear_errors(lab_errors *errors)
 {
   int c;
@@ -59,7 +61,7 @@ static int sum_up(const lab_unknowns *u, int (*of)(const lab_unknowns *, double 
 
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
 {
-  return sum_up(u, lab_unknowns_errors, errors, error);
+  return sum_up(u, lab_drift_errors, errors, error);
 }
 
 static int as_fitted(const lab_unknowns *u, double *r, lab_error *error)

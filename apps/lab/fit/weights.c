@@ -318,6 +318,15 @@ static void widen(lab_unknowns *u, double jitter)
   }
 }
 
+/* Whether the rows have their weights for the clock already. */
+static int is_told(const lab_run *run, int n)
+{
+  int e, any = 0;
+  for (e = 0; e < n; e++)
+    any |= run[e].jitter > 0;
+  return any;
+}
+
 /* ---- Both ---- */
 
 static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *error)
@@ -337,7 +346,7 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   }
   if (error->status != LAB_OK)
     return 0;
-  jitter = jitter_of(a, share_of_row * shortest_row(u));
+  jitter = is_told(run, u->n_runs) ? 0 : jitter_of(a, share_of_row * shortest_row(u));
   for (at = r, e = 0; jitter > 0 && e < u->n_runs; e++) {
     weigh(&run[e], at, jitter);
     at += run[e].n * (size_t)run[e].n_channels;
@@ -347,24 +356,6 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   for (e = 0; e < u->n_runs && error->status == LAB_OK; e++)
     lab_drift_open(&run[e], error);
   return any || jitter > 0;
-}
-
-int lab_weigh_colours(const lab_unknowns *u, lab_run *run, int *any, lab_error *error)
-{
-  double *memory = malloc(2 * (u->n_rows + 1) * sizeof *memory), *at = memory;
-  int e, status = memory ? lab_unknowns_errors(u, memory, error) : lab_fail_memory(error, "weights");
-  for (*any = 0, e = 0; e < u->n_runs && status == LAB_OK; e++) {
-    int c, coloured = 0;
-    for (c = 0; c < run[e].n_channels; c++)
-      coloured |= run[e].colour[c].memory != 0;
-    if (coloured) {
-      *any |= set_colours(&run[e], at, memory + u->n_rows + 1, error);
-      status = error->status == LAB_OK ? lab_drift_open(&run[e], error) : error->status;
-    }
-    at += run[e].n * (size_t)run[e].n_channels;
-  }
-  free(memory);
-  return status;
 }
 
 int lab_weigh_runs(lab_unknowns *u, lab_run *run, int *any, lab_error *error)

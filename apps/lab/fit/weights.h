@@ -11,19 +11,15 @@
 #include "../base/limitations.h"
 #include "unknowns.h"
 
-/* Look at the residual of a fit.
+/* Look at the residual of a fit; once more at that of a better one, of which what was missing is no part. What the
+ * clock does is told once.
+ *
  * In:      u    fitted, seen row by row
- * In/out:  run  those of u: sigma, level, jitter and weight change
+ * In/out:  run  those of u: sigma, level, jitter, colour, drift and weight change
  *          u    commands may have changed so much before or after the rows that bracket them
  * Out:     any  whether fitting again is worth it
  * Returns: LAB_OK; LAB_NUMERIC, LAB_WORLD. */
 int lab_weigh_runs(lab_unknowns *u, lab_run *run, int *any, lab_error *error);
-
-/* Where noise has memory, tell it again from the residual of a better model: what was missing was a part of it.
- * In/out:  run  those of u: colour, sigma, level and drift change
- * Out:     any  whether some noise has memory
- * Returns: LAB_OK; LAB_NUMERIC, LAB_WORLD. */
-int lab_weigh_colours(const lab_unknowns *u, lab_run *run, int *any, lab_error *error);
 
 /* Say in a sentence each what was recognised: another noise than declared, values recorded in steps that the noise does
  * not hide, noise with memory, rows whose time is uncertain. */

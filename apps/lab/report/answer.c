@@ -264,16 +264,24 @@ static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *tim
   return status;
 }
 
-/* Search; where noise with memory was told beside something that is missing, once more with that told again. */
-static int search_with_colours(const lab_search_options *how, lab_completion *c, lab_error *error)
+/* Whether a model leaves so little more than noise that the noise may be told wrong, or has found a part of what was
+ * taken for it. */
+static int may_mistake_noise(const lab_completion *c)
+{
+  return c->result.verdict == LAB_VERDICT_UNDECIDED && !c->result.cut_short &&
+         (c->result.n_found + c->completed.rig.n_onsets > 0 ||
+          !lab_values_stand_in(c->result.verdict, c->result.fit.reduced_chi2));
+}
+
+/* Search; where a mistake in the noise may be all that is left, once more with that told again. */
+static int search_with_noise(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
   int any = 0, status;
   if (lab_search_run(&c->completed, how, &c->result, error))
     return error->status;
-  if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.cut_short ||
-      c->result.n_found + c->completed.rig.n_onsets == 0)
+  if (!may_mistake_noise(c))
     return LAB_OK;
-  status = lab_weigh_colours(&c->completed, c->logs.run, &any, error);
+  status = lab_weigh_runs(&c->completed, c->logs.run, &any, error);
   if (status != LAB_OK || !any)
     return status;
   if (lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error))
@@ -293,7 +301,7 @@ static int search_apart(const lab_search_options *how, lab_completion *c, lab_er
     c->declared.until = now + (end - now) / 2;
   c->completed = c->declared;
   if (status == LAB_OK)
-    status = search_with_colours(how, c, error);
+    status = search_with_noise(how, c, error);
   if (status == LAB_OK)
     status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
   c->declared.until = c->completed.until = end;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../fit/drift.h"
 #include "../metrics/recording.h"
 
 static const double space_between_runs = 0.02; /* of the first run's length */
@@ -148,7 +149,7 @@ static void take_up(const lab_unknowns *u, const double *r, int stage, lab_resid
 static int collect_residuals(const lab_unknowns *u, int stage, lab_residual_table *v, lab_error *error)
 {
   double *r = malloc((u->n_rows + 1) * sizeof *r);
-  int status = r ? lab_unknowns_errors(u, r, error) : lab_fail_memory(error, "residuals");
+  int status = r ? lab_drift_errors(u, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
     take_up(u, r, stage, v);
   free(r);

@@ -228,8 +228,8 @@ const lab_rule lab_rules[] = {
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
 
     {LAB_PHASE_REFITTED, "The best extension has a lower BIC than the best model.", is_better_by_bic,
-     "Note the effects alike. If the error of some channel falls by MIN_GAIN, go on from the best BEAM extensions; "
-     "else list them as small. Without an addition the round is the last.",
+     "Note the effects alike. If the error of some channel falls by MIN_GAIN, or BIC by PLAIN_BIC and white noise is "
+     "left, go on from the best BEAM extensions; else list them as small. Without an addition the round is the last.",
      LAB_DO_ADD_EFFECT},
 
     {LAB_PHASE_ROUND, "The log is seen coarsely, and the best model leaves only noise.", is_noise_coarsely,

@@ -302,40 +302,39 @@ static int extend(search *s, const lab_candidate *base, lab_error *error)
   return status;
 }
 
-/* Errors of a candidate with what varies unseen at its best values. */
-static int errors_of(const lab_candidate *c, lab_errors *errors, lab_error *error)
-{
-  lab_unknowns *u = malloc(sizeof *u);
-  int status = u ? LAB_OK : lab_fail_memory(error, "the errors of a model");
-  if (u)
-    *u = c->u;
-  if (status == LAB_OK && u->nuisance)
-    status = lab_nuisance_return(u, error);
-  if (status == LAB_OK)
-    status = lab_fitted_errors(u, errors, error);
-  free(u);
-  return status;
-}
-
-/* The share by which the best extension lowers the error of some channel; where the log is seen coarsely, or a model
- * cannot be followed with what varies unseen at its best values, of all channels together. */
+/* The share by which the best extension lowers the error of some channel, what varies unseen taken out of it; where the
+ * log is seen coarsely, of all channels together. */
 static int gain_of(const lab_candidate *a, const lab_candidate *b, double *gain, lab_error *error)
 {
   lab_errors before, after;
-  int c, status = a->u.window ? LAB_NUMERIC : errors_of(a, &before, error);
-  if (status == LAB_OK)
-    status = errors_of(b, &after, error);
-  if (status == LAB_WORLD)
-    return status;
-  *gain = status == LAB_OK ? 0 : 1 - sqrt(b->quality.chi2 / a->quality.chi2);
-  for (c = 0; status == LAB_OK && c < LAB_CHANNEL_COUNT; c++)
+  int c;
+  *gain = 1 - sqrt(b->quality.chi2 / a->quality.chi2);
+  if (a->u.window > 0)
+    return LAB_OK;
+  if (lab_fitted_errors(&a->u, &before, error) || lab_fitted_errors(&b->u, &after, error))
+    return error->status;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (before.rmse[c] > 0)
       *gain = fmax(*gain, 1 - after.rmse[c] / before.rmse[c]);
   return LAB_OK;
 }
 
-/* Whether it lowers it by as much as is asked for, or it explains the logs and declared values need no longer be beyond
- * their tolerances for it, and not because a sensor is. */
+/* Whether a candidate leaves white noise: then nothing that the log recorded badly can have asked for its last effect.
+ */
+static int measure_whiteness(const lab_candidate *c, int *white, lab_error *error)
+{
+  lab_residual_stats left[LAB_CHANNEL_COUNT];
+  *white = 0;
+  if (c->u.window > 0 || c->found[c->n_found - 1].term >= 0)
+    return LAB_OK;
+  if (lab_unknowns_residual_stats(&c->u, left, error))
+    return error->status;
+  *white = lab_residual_stats_white(left);
+  return LAB_OK;
+}
+
+/* Whether it lowers it by as much as is asked for, or plainly does and leaves white noise, or it explains the logs and
+ * declared values need no longer be beyond their tolerances for it, and not because a sensor is. */
 static int measure_gain(const search *s, int *enough, lab_error *error)
 {
   const lab_candidate *a = &s->beam[0], *b = &s->pool[0];
@@ -345,7 +344,9 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   *enough = !(gain < s->options->min_gain);
   if (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) && lab_is_noise(&b->quality))
     *enough |= !lab_found_is_of_sensor(&b->found[b->n_found - 1]);
-  return LAB_OK;
+  if (*enough || !(a->quality.bic - b->quality.bic > lab_constant(LAB_PLAIN_BIC)))
+    return LAB_OK;
+  return measure_whiteness(b, enough, error);
 }
 
 /* Significant, but not worth adding: the best one, and what cannot be told from it. */

@@ -109,6 +109,21 @@ static void test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_litt
   assert_close(noise_of(y, N), 1, 0, 0.07);
 }
 
+/* Steps of about the size of the noise, where a median of whole steps would be off by a third. */
+static void test_lab_noise_estimate__steps_as_large_as_noise__add_their_own(void **state)
+{
+  static const double step[] = {0.7, 1, 1.5, 2};
+  int i, k;
+  (void)state;
+  for (k = 0; k < COUNT(step); k++) {
+    fill_white(1, 9);
+    for (i = 0; i < N; i++)
+      y[i] = step[k] * floor((y[i] + 0.01 * i) / step[k] + 0.5);
+    check_note("step %g", step[k]);
+    assert_close(noise_of(y, N), sqrt(1 + step[k] * step[k] / 12), 0, 0.05);
+  }
+}
+
 static void test_lab_noise_estimate__gaps__do_not_count(void **state)
 {
   int i;
@@ -206,6 +221,7 @@ int main(void)
       cmocka_unit_test(test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step),
       cmocka_unit_test(test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_step),
       cmocka_unit_test(test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_little),
+      cmocka_unit_test(test_lab_noise_estimate__steps_as_large_as_noise__add_their_own),
       cmocka_unit_test(test_lab_noise_estimate__gaps__do_not_count),
       cmocka_unit_test(test_lab_noise_estimate__fewer_than_eight_differences__says_nothing),
       cmocka_unit_test(test_lab_noise_estimate__one_value_for_ever__is_none),

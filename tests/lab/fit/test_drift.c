@@ -1,7 +1,10 @@
 /* Sensors that drift: a line within its tolerance is taken out of a residual as its prior says. */
 #include "../../fixture.h"
+#include "../../scratch.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/fit/drift.h"
+#include "../../../apps/lab/fit/errors.h"
 
 enum { ROWS = 41, GAP = 7 };
 static const double sigma = 300, tolerance = 350; /* [Pa] of the R1-400's default: 0.25 % of 140 kPa */
@@ -107,6 +110,39 @@ static void test_lab_drift_strain__drift_of_seven_tolerances__is_found(void **st
   free(u);
 }
 
+/* A rig at rest whose sensor of pressure drifts by two tolerances, 1 kPa each, beside a noise of 320 Pa: the errors
+ * that are shown are noise, without a prior's 1/(1 + w'w) of the line; those of a run without lines have it all. */
+static void test_lab_loop_errors__sensor_that_drifts__leave_its_line_out(void **state)
+{
+  enum { LONG = 2001 };
+  static const double t_cmd[] = {99}, u_cmd[] = {1}, spacing = 0.01, reach = 2000;
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = 1};
+  const second_rig g = virtual_rig(7);
+  const char *path = scratch_path("drift.csv");
+  lab_unknowns *u = calloc(1, sizeof *u);
+  lab_errors with, without;
+  lab_log seen;
+  size_t i;
+  (void)state;
+  assert_non_null(u);
+  virtual_write(&g, &course, (LONG - 1) * spacing, spacing, path);
+  virtual_declare(&rig);
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &seen, &error), LAB_OK);
+  for (i = 0; i < LONG; i++)
+    seen.value[LAB_CHANNEL_P][i] += reach * ((double)i / (LONG - 1) - 0.5);
+  assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
+  lab_unknowns_none(&rig, &run, 1, u);
+  assert_int_equal(lab_loop_errors(u, &with, &error), LAB_OK);
+  assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
+  assert_int_equal(lab_loop_errors(u, &without, &error), LAB_OK);
+  assert_close(with.in_noise[LAB_CHANNEL_P], sqrt(1 + reach * reach / 12 / (320 * 320)), 0, 0.03);
+  assert_close(without.in_noise[LAB_CHANNEL_P], 1, 0, 0.03);
+  assert_close(without.in_noise[LAB_CHANNEL_X], with.in_noise[LAB_CHANNEL_X], 0, 0.001);
+  lab_run_close(&run);
+  lab_log_free(&seen);
+  free(u);
+}
+
 static void test_lab_drift_open__no_tolerance__takes_nothing(void **state)
 {
   double r[ROWS], before[ROWS];
@@ -127,7 +163,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives),
       cmocka_unit_test(test_lab_drift_strain__drift_of_seven_tolerances__is_found),
+      cmocka_unit_test(test_lab_loop_errors__sensor_that_drifts__leave_its_line_out),
       cmocka_unit_test(test_lab_drift_open__no_tolerance__takes_nothing),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
