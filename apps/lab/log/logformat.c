@@ -306,6 +306,16 @@ static int read_holdout(const config_setting_t *group, lab_log_format *format, l
   return LAB_OK;
 }
 
+void lab_log_format_turn(lab_log_format *format, int channel, double whole)
+{
+  int i;
+  format->scale[channel] *= -1;
+  format->offset[channel] = whole - format->offset[channel];
+  format->constant[channel] = whole - format->constant[channel];
+  for (i = 0; i < format->n_lead; i++)
+    format->lead[i][channel] = whole - format->lead[i][channel];
+}
+
 void lab_log_format_hold_out(lab_log_format *format)
 {
   if (!isnan(format->holdout_from)) {

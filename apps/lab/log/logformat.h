@@ -77,6 +77,10 @@ int lab_log_format_read(const config_setting_t *group, lab_log_format *format, l
 /* The format for a log that is held out.  In/out: format */
 void lab_log_format_hold_out(lab_log_format *format);
 
+/* Read a channel as what is left of it to a whole [SI]: columns, names, constants and rows put before.
+ * In/out:  format */
+void lab_log_format_turn(lab_log_format *format, int channel, double whole);
+
 /* Write the group so that lab_log_format_read gives the same. */
 void lab_log_format_write(FILE *file, const lab_log_format *format);
 

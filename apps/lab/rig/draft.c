@@ -18,9 +18,9 @@ enum { SHEET_TEXT = LAB_SHEET_WORDS * (LAB_SHEET_VALUE + 64), LEAST_ROWS = 20, W
 
 typedef struct draft {
   lab_sheet_word word[LAB_SHEET_WORDS];
-  int n, n_said;                /* of words; those behind the said ones are of the actuator that was named */
-  const lab_actuator *actuator; /* NULL: none was named */
-  lab_rig rig;                  /* of the sheet alone, defaults elsewhere, and then with what was derived */
+  int n, n_said;                                 /* of words; those behind the said ones are of what was named */
+  const lab_product *product[LAB_PRODUCT_KINDS]; /* NULL: none was named */
+  lab_rig rig; /* of the sheet alone, defaults elsewhere, and then with what was derived */
   lab_log log;
   int x_is_share;                             /* x is a share of the stroke: its range does not tell the stroke */
   const char *derived[PNEU_PARAM_BASE_COUNT]; /* from what of the log; NULL: it says nothing of the parameter */
@@ -51,35 +51,68 @@ static int add_word(draft *d, const lab_sheet_word *word)
   return LAB_OK;
 }
 
-/* What an actuator of that name has, where the sheet does not say it. */
-static int add_actuator(draft *d)
+/* Whether the sheet says in other words what a word of the catalogue would: the spring, or what an orifice passes. */
+static int is_said_otherwise(const draft *d, const lab_sheet_word *word)
 {
-  const int has_spring = find_word(d, "actuator", "spring_rate") || find_word(d, "actuator", "spring_preload");
+  static const struct {
+    const char *group, *key, *other_group, *other;
+  } words[] = {
+      {"actuator", "bench_set", "actuator", "spring_rate"}, {"actuator", "bench_set", "actuator", "spring_preload"},
+      {"actuator", "area", "actuator", "diameter"},         {"transducer.fill", NULL, "transducer", "fill_area"},
+      {"transducer.fill", NULL, "transducer.fill", NULL},   {"transducer.vent", NULL, "transducer", "vent_area"},
+      {"transducer.vent", NULL, "transducer.vent", NULL}};
+  size_t i;
+  for (i = 0; i < sizeof words / sizeof words[0]; i++) {
+    const lab_sheet_word *other = find_word(d, words[i].other_group, words[i].other);
+    if (strcmp(word->group, words[i].group) == 0 && (!words[i].key || strcmp(word->key, words[i].key) == 0) && other &&
+        other - d->word < d->n_said)
+      return 1;
+  }
+  return 0;
+}
+
+/* A word of the catalogue, where the sheet does not say it. */
+static int add_known(draft *d, const char *text)
+{
+  lab_sheet_word word[2];
+  int k, found;
+  if (lab_sheet_word_read(text, word, &found, d->error))
+    return d->error->status;
+  for (k = 0; k < found; k++)
+    if (!find_word(d, word[k].group, word[k].key) && !is_said_otherwise(d, &word[k]) && add_word(d, &word[k]))
+      return d->error->status;
+  return LAB_OK;
+}
+
+/* What products of such names have; a rig is called by its actuator. */
+static int add_products(draft *d)
+{
   char name[LAB_SHEET_VALUE];
-  int i, found;
-  snprintf(name, sizeof name, "name=%s", d->actuator->name);
-  for (i = -1; i < LAB_ACTUATOR_WORDS && (i < 0 || d->actuator->word[i]); i++) {
-    lab_sheet_word word[2];
-    if (lab_sheet_word_read(i < 0 ? name : d->actuator->word[i], word, &found, d->error))
-      return d->error->status;
-    if (find_word(d, word->group, word->key) || (has_spring && strcmp(word->key, "bench_set") == 0))
-      continue;
-    if (add_word(d, word))
-      return d->error->status;
+  int kind, i;
+  for (kind = 0; kind < LAB_PRODUCT_KINDS; kind++) {
+    const lab_product *product = d->product[kind];
+    if (product && kind == LAB_ACTUATOR) {
+      snprintf(name, sizeof name, "name=%s", product->name);
+      if (add_known(d, name))
+        return d->error->status;
+    }
+    for (i = 0; product && i < LAB_PRODUCT_WORDS && product->word[i]; i++)
+      if (add_known(d, product->word[i]))
+        return d->error->status;
   }
   return LAB_OK;
 }
 
 static int read_words(draft *d, const char *const *sheet, int n)
 {
-  static const char named[] = "actuator=";
-  int i, k, found;
+  int i, k, found, kind;
   for (i = 0; i < n; i++) {
+    const lab_product *product;
     lab_sheet_word word[2];
-    if (strncmp(sheet[i], named, sizeof named - 1) == 0) {
-      d->actuator = lab_actuator_find(sheet[i] + sizeof named - 1, d->error);
-      if (!d->actuator)
-        return d->error->status;
+    if (lab_product_read(sheet[i], &kind, &product, d->error))
+      return d->error->status;
+    if (kind < LAB_PRODUCT_KINDS) {
+      d->product[kind] = product;
       continue;
     }
     if (lab_sheet_word_read(sheet[i], word, &found, d->error))
@@ -89,7 +122,7 @@ static int read_words(draft *d, const char *const *sheet, int n)
         return d->error->status;
   }
   d->n_said = d->n;
-  return d->actuator ? add_actuator(d) : LAB_OK;
+  return add_products(d);
 }
 
 /* Where a word comes from. */
@@ -137,6 +170,7 @@ static int is_said(const draft *d, const lab_key *key)
 {
   const int spring = key->param == PNEU_PARAM_spring_rate || key->param == PNEU_PARAM_spring_preload;
   return find_word(d, key->group, key->key) || (spring && find_word(d, "actuator", "bench_set")) ||
+         (key->param == PNEU_PARAM_area && find_word(d, "actuator", "diameter")) ||
          (key->param == PNEU_PARAM_fill_area && find_word(d, "transducer.fill", NULL)) ||
          (key->param == PNEU_PARAM_vent_area && find_word(d, "transducer.vent", NULL));
 }
@@ -334,20 +368,34 @@ static void put_inner(FILE *file, const draft *d, const char *key, const char *g
   char members[SHEET_TEXT] = "";
   put_members(d, group, members, sizeof members);
   if (*members)
-    fprintf(file, "%s = { %s}; // sheet\n", key, members);
+    fprintf(file, "%s = { %s}; // %s\n", key, members, source_of(d, find_word(d, group, NULL)));
+}
+
+/* What a sheet says of an actuator in other words than keys. */
+static void put_words(FILE *file, const draft *d)
+{
+  static const struct {
+    const char *key, *what;
+  } words[] = {{"bench_set", ", in place of spring_rate and spring_preload"},
+               {"diameter", ", in place of area"},
+               {"fail", ": the log's travel is how far the valve is open"}};
+  size_t i;
+  for (i = 0; i < sizeof words / sizeof words[0]; i++) {
+    const lab_sheet_word *word = find_word(d, "actuator", words[i].key);
+    if (word)
+      fprintf(file, "  %s = %s; // %s%s\n", word->key, word->value, source_of(d, word), words[i].what);
+  }
 }
 
 static void put_group(FILE *file, const draft *d, const char *group)
 {
-  const lab_sheet_word *set = find_word(d, "actuator", "bench_set");
   int i;
   fprintf(file, "%s = {\n", group);
   for (i = 0; i < lab_key_count; i++)
     if (strcmp(lab_keys[i].group, group) == 0)
       put_key(file, d, &lab_keys[i]);
-  if (set && strcmp(group, "actuator") == 0)
-    fprintf(file, "  bench_set = %s; // %s, in place of spring_rate and spring_preload\n", set->value,
-            source_of(d, set));
+  if (strcmp(group, "actuator") == 0)
+    put_words(file, d);
   if (strcmp(group, "transducer") == 0) {
     put_inner(file, d, "  fill", "transducer.fill");
     put_inner(file, d, "  vent", "transducer.vent");
@@ -473,8 +521,10 @@ static void put_head(FILE *file, const draft *d)
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (has(d, c))
       put_channel(file, d, c);
-  if (d->actuator)
-    fprintf(file, "// Catalogue: %s. Its plate may say another range or travel.\n", d->actuator->source);
+  for (c = 0; c < LAB_PRODUCT_KINDS; c++)
+    if (d->product[c])
+      fprintf(file, "// Catalogue: %s. %s\n", d->product[c]->source,
+              c == LAB_ACTUATOR ? "Its plate may say another range or travel." : "Tubes and fittings pass less.");
   fputs("// Behind each value stands where it comes from. Replace what is NOT KNOWN by what the data sheet says.\n",
         file);
 }

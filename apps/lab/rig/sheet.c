@@ -16,7 +16,11 @@ int lab_sheet_has(const char *group, const char *key)
 {
   static const struct {
     const char *key, *group;
-  } words[] = {{"bench_set", "actuator"}, {"fill", "transducer"}, {"vent", "transducer"}};
+  } words[] = {{"bench_set", "actuator"},
+               {"diameter", "actuator"},
+               {"fail", "actuator"},
+               {"fill", "transducer"},
+               {"vent", "transducer"}};
   const int i = lab_name_index(key, words, sizeof words / sizeof words[0], sizeof words[0]);
   return i >= 0 && strcmp(words[i].group, group) == 0;
 }
@@ -35,7 +39,38 @@ static int put(const config_setting_t *from, int param, double value, const conf
   return LAB_OK;
 }
 
-/* ---- Spring ---- */
+/* ---- Diaphragm, spring, side ---- */
+
+static int read_diameter(const config_setting_t *actuator, lab_rig *rig, lab_error *error)
+{
+  const config_setting_t *diameter = lab_config_member(actuator, "diameter");
+  double d;
+  if (!diameter)
+    return LAB_OK;
+  if (lab_config_quantity(diameter, "m", 1e-3, 10, &d, error))
+    return error->status;
+  return put(diameter, PNEU_PARAM_area, pi / 4 * d * d, lab_config_member(actuator, "area"), rig, error);
+}
+
+/* Air that closes a valve: how far it is open falls as the stem follows the air. */
+static int read_fail(const config_setting_t *actuator, lab_rig *rig, lab_error *error)
+{
+  static const char *const words[] = {"close", "open"};
+  const config_setting_t *fail = lab_config_member(actuator, "fail");
+  const double stroke = (double)rig->params.stroke;
+  int word;
+  if (!fail)
+    return LAB_OK;
+  if (lab_config_choice(fail, words, 2, sizeof words[0], &word, error))
+    return error->status;
+  if (!word)
+    return LAB_OK;
+  if (!(stroke > 0))
+    return lab_config_fail(fail, error, "needs actuator.stroke above 0");
+  lab_log_format_turn(&rig->log, LAB_CHANNEL_X, stroke);
+  lab_log_format_turn(&rig->log, LAB_CHANNEL_SP, 1);
+  return LAB_OK;
+}
 
 static int read_bench_set(const config_setting_t *actuator, lab_rig *rig, lab_error *error)
 {
@@ -242,7 +277,9 @@ static int read_tube(const config_setting_t *root, lab_rig *rig, lab_error *erro
 int lab_sheet_read(const config_setting_t *root, lab_rig *rig, lab_error *error)
 {
   const config_setting_t *transducer = lab_config_member(root, "transducer");
-  if (read_bench_set(lab_config_member(root, "actuator"), rig, error) || read_b(transducer, rig, error) ||
+  const config_setting_t *actuator = lab_config_member(root, "actuator");
+  if (read_diameter(actuator, rig, error) || read_bench_set(actuator, rig, error) || read_fail(actuator, rig, error) ||
+      read_b(transducer, rig, error) ||
       read_orifice(transducer, "fill", "fill_area", PNEU_PARAM_fill_area, rig, error) ||
       read_orifice(transducer, "vent", "vent_area", PNEU_PARAM_vent_area, rig, error))
     return error->status;

@@ -12,6 +12,8 @@ static const struct sheet_key {
   const char *name, *group, *key;
 } sheet_keys[] = {
     {"bench_set", "actuator", "bench_set"},
+    {"diameter", "actuator", "diameter"},
+    {"fail", "actuator", "fail"},
     {"supply", "supply", "pressure"},
     {"ambient", "ambient", "pressure"},
     {"tube.length", "tube", "length"},
@@ -117,7 +119,7 @@ int lab_sheet_word_read(const char *text, lab_sheet_word word[2], int *n, lab_er
               : lab_fail(error, LAB_USAGE, "--sheet: expected two pressures, such as \"bench_set=0.2..1.0 bar\"");
 }
 
-/* ---- Actuators by name ---- */
+/* ---- Actuators and positioners by name ---- */
 
 static const char fisher[] = "Fisher Bulletin 61.1:657, table 1 (largest travel), and 61.1:657 Size i (usual range)";
 static const char fisher_large[] =
@@ -131,7 +133,7 @@ static const char hora[] = "HORA PA-N 160 and PA-N 280, manual, table 1: stroke 
 static const char siemens[] = "Siemens Powers No. 4, technical instructions 155-032P25, specifications";
 
 /* Of the ranges that a maker offers the first is taken; the plate of the actuator has the right one. */
-static const lab_actuator actuators[] = {
+static const lab_product actuators[] = {
     {"fisher-657-30", {"area=297 cm2", "stroke=19 mm", "bench_set=0.2..1.0 bar"}, fisher},
     {"fisher-657-34", {"area=445 cm2", "stroke=29 mm", "bench_set=0.2..1.0 bar"}, fisher},
     {"fisher-657-40", {"area=445 cm2", "stroke=38 mm", "bench_set=0.2..1.0 bar"}, fisher},
@@ -159,15 +161,50 @@ static const lab_actuator actuators[] = {
     {"siemens-powers-4", {"area=71 cm2", "stroke=102 mm", "bench_set=21..50 kPa"}, siemens},
 };
 
-const lab_actuator *lab_actuator_find(const char *name, lab_error *error)
+/* What fills and vents a chamber, at full deviation. */
+static const lab_product positioners[] = {
+    {"abb-tzidc",
+     {"Qn=10 m3/h", "p1=6 bar", "p2=0 bar"},
+     "ABB TZIDC, operating instruction 42/18-84-EN, 9.3.3 (at 6 bar; venting is not said, and taken alike)"},
+    {"badger-meter-srd",
+     {"Qn=7500 l/h", "p1=6 bar", "p2=0 bar"},
+     "Badger Meter SRD/SRI, functional specifications, air output without booster (at 6 bar; both ways)"},
+    {"badger-meter-srd-spool",
+     {"Qn=18000 l/h", "p1=6 bar", "p2=0 bar"},
+     "Badger Meter SRD/SRI, functional specifications, air output with spool valve (at 6 bar; both ways)"},
+    {"samson-3730",
+     {"fill.Qn=8.5 m3/h", "vent.Qn=14 m3/h", "p1=6 bar", "p2=0 bar"},
+     "Samson 3730, EB 8384-3, technical data (at a difference of 6 bar)"},
+    {"siemens-sipart-ps2",
+     {"fill.Kv=0.1", "vent.Kv=0.2"},
+     "Siemens SIPART PS2, operating instructions A5E00074631-AE, pneumatic data (not the versions Ex d)"},
+};
+
+#define PRODUCTS(table)                                                                                                \
+  {                                                                                                                    \
+    table, sizeof table / sizeof table[0]                                                                              \
+  }
+int lab_product_read(const char *text, int *kind, const lab_product **product, lab_error *error)
 {
-  const size_t n = sizeof actuators / sizeof actuators[0];
-  const int i = lab_name_index(name, actuators, n, sizeof actuators[0]);
-  if (i >= 0)
-    return &actuators[i];
-  lab_fail(error, LAB_USAGE, "--sheet: unknown actuator \"%s\"; the nearest known one is \"%s\"", name,
-           lab_name_nearest(name, actuators, n, sizeof actuators[0]));
-  return NULL;
+  static const char *const words[LAB_PRODUCT_KINDS] = {"actuator", "positioner"};
+  static const struct {
+    const lab_product *of;
+    size_t n;
+  } tables[LAB_PRODUCT_KINDS] = {PRODUCTS(actuators), PRODUCTS(positioners)};
+  const size_t length = strcspn(text, "=");
+  int i;
+  for (*kind = 0; *kind < LAB_PRODUCT_KINDS; (*kind)++)
+    if (text[length] && strlen(words[*kind]) == length && strncmp(text, words[*kind], length) == 0)
+      break;
+  if (*kind == LAB_PRODUCT_KINDS)
+    return LAB_OK;
+  text += length + 1;
+  i = lab_name_index(text, tables[*kind].of, tables[*kind].n, sizeof **product);
+  if (i < 0)
+    return lab_fail(error, LAB_USAGE, "--sheet: unknown %s \"%s\"; the nearest known one is \"%s\"", words[*kind], text,
+                    lab_name_nearest(text, tables[*kind].of, tables[*kind].n, sizeof **product));
+  *product = &tables[*kind].of[i];
+  return LAB_OK;
 }
 
 /* ---- Questions ---- */
@@ -179,20 +216,23 @@ static const struct question {
     {"bench_set", "Bench set: pressures at which the stem begins and ends its stroke (0.2..1.0 bar)"},
     {"stroke", "Stroke (20 mm)"},
     {"area", "Effective area of the diaphragm (400 cm2)"},
+    {"fail", "Where the spring takes the valve when the air fails (close, open)"},
     {"dead_volume", "Volume of the empty chamber, with tubes (0.3 dm3)"},
     {"moving_mass", "Mass of stem, plate and plug (5 kg)"},
     {"supply", "Supply pressure, gauge (4 bar)"},
-    {"Kv", "Kv of what fills and vents the chamber [m3/h] (0.1)"},
+    {"positioner", "Positioner by maker and type, if the catalogue has it (samson-3730)"},
+    {"Kv", "Else Kv of what fills and vents the chamber [m3/h] (0.1)"},
 };
 
 /* Whether an answer is one that a draft takes. */
-static int is_good(const char *key, const char *value, const char *text, lab_error *error)
+static int is_good(const char *text, lab_error *error)
 {
+  const lab_product *product;
   lab_sheet_word word[2];
-  int n;
-  if (strcmp(key, "actuator") == 0)
-    return lab_actuator_find(value, error) != NULL;
-  return lab_sheet_word_read(text, word, &n, error) == LAB_OK;
+  int n, kind;
+  if (lab_product_read(text, &kind, &product, error))
+    return 0;
+  return kind < LAB_PRODUCT_KINDS || lab_sheet_word_read(text, word, &n, error) == LAB_OK;
 }
 
 /* Returns: 0 at the end of the answers */
@@ -209,7 +249,7 @@ static int ask(const struct question *q, FILE *in, FILE *out, lab_sheet_answers 
     if (!*value)
       return 1;
     snprintf(text, LAB_SHEET_VALUE, "%s=%s", q->key, value);
-    if (is_good(q->key, value, text, &error))
+    if (is_good(text, &error))
       break;
     fprintf(out, "%s\n", error.text);
   }

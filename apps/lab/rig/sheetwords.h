@@ -1,5 +1,5 @@
-/* The words of a data sheet as a user has them: key=value, and the text of a rig file that says the same; actuators by
- * name, with what their makers' public sheets say; questions, one after the other.
+/* The words of a data sheet as a user has them: key=value, and the text of a rig file that says the same; actuators and
+ * positioners by name, with what their makers' public sheets say; questions, one after the other.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_SHEETWORDS_H
 #define LAB_SHEETWORDS_H
@@ -8,7 +8,7 @@
 
 #include "../base/message.h"
 
-enum { LAB_SHEET_WORDS = 64, LAB_SHEET_VALUE = 128, LAB_ACTUATOR_WORDS = 4, LAB_QUESTIONS = 8 };
+enum { LAB_SHEET_WORDS = 64, LAB_SHEET_VALUE = 128, LAB_PRODUCT_WORDS = 4, LAB_QUESTIONS = 10 };
 
 /* A value and where it belongs: "actuator", "area"; "transducer.fill", "Kv"; "tube", "bore". */
 typedef struct lab_sheet_word {
@@ -23,14 +23,20 @@ typedef struct lab_sheet_word {
  * Returns: LAB_OK; LAB_USAGE with the nearest known key. */
 int lab_sheet_word_read(const char *text, lab_sheet_word word[2], int *n, lab_error *error);
 
-typedef struct lab_actuator {
-  const char *name;                     /* maker, type, size */
-  const char *word[LAB_ACTUATOR_WORDS]; /* of the sheet, as lab_sheet_word_read takes them; NULL: fewer */
+/* An actuator or a positioner, as its maker sells it. */
+typedef struct lab_product {
+  const char *name;                    /* maker, type, size */
+  const char *word[LAB_PRODUCT_WORDS]; /* of the sheet, as lab_sheet_word_read takes them; NULL: fewer */
   const char *source;
-} lab_actuator;
+} lab_product;
 
-/* Returns: the actuator of that name; NULL with `error` (LAB_USAGE, the nearest name) if there is none */
-const lab_actuator *lab_actuator_find(const char *name, lab_error *error);
+enum lab_product_kind { LAB_ACTUATOR, LAB_POSITIONER, LAB_PRODUCT_KINDS };
+
+/* The product that "actuator=fisher-657-40" or "positioner=siemens-sipart-ps2" names.
+ * Out:     kind     enum lab_product_kind; LAB_PRODUCT_KINDS: the text names none, but is a word
+ *          product  NULL: as before
+ * Returns: LAB_OK; LAB_USAGE with the nearest name of that kind. */
+int lab_product_read(const char *text, int *kind, const lab_product **product, lab_error *error);
 
 typedef struct lab_sheet_answers {
   char text[LAB_QUESTIONS][LAB_SHEET_VALUE]; /* "key=value" */

@@ -173,9 +173,38 @@ static void test_lab_draft_write__actuator_by_name__the_sheet_comes_first(void *
   assert_contains(error.text, "hora-pa-n-280-");
 }
 
+/* Areas by the same sheet in a rig file; what the sheet says of an orifice goes before what its positioner passes. */
+static void test_lab_draft_write__positioner_by_name__has_its_makers_values(void **state)
+{
+  static const struct {
+    const char *word[2];
+    double fill, vent; /* over those of Kv = 0.1 */
+  } positioners[] = {{{"positioner=siemens-sipart-ps2"}, 1, 2}, {{"positioner=siemens-sipart-ps2", "Kv=0.3"}, 3, 3}};
+  static const char *const kv[] = {"Kv=0.1"}, *const unknown[] = {"positioner=samson-3731"};
+  static const char *const flow[] = {"positioner=samson-3730"};
+  char *text;
+  const double unit = (double)draft_of(log_path, kv, 1, &text).params.fill_area;
+  lab_rig rig;
+  int i;
+  (void)state;
+  free(text);
+  for (i = 0; i < 2; i++) {
+    rig = draft_of(log_path, positioners[i].word, positioners[i].word[1] ? 2 : 1, &text);
+    assert_close((double)rig.params.fill_area, positioners[i].fill * unit, 0, 1e-6);
+    assert_close((double)rig.params.vent_area, positioners[i].vent * unit, 0, 1e-6);
+    assert_contains(text, "// Catalogue: Siemens SIPART PS2");
+    free(text);
+  }
+  rig = draft_of(log_path, flow, 1, &text);
+  assert_close((double)(rig.params.vent_area / rig.params.fill_area), 14 / 8.5, 0, 1e-6);
+  free(text);
+  assert_int_equal(lab_draft_write(stdout, log_path, unknown, 1, &error), LAB_USAGE);
+  assert_contains(error.text, "samson-3730");
+}
+
 static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
 {
-  char given[] = "fisher-40\nfisher-657-40\n0.4 bar\n0.4..2 bar\n\n\n\n 5 kg \n";
+  char given[] = "fisher-40\nfisher-657-40\n0.4 bar\n0.4..2 bar\n\n\n open\n\n 5 kg \n";
   char said[2048] = "";
   FILE *in = fmemopen(given, sizeof given - 1, "r"), *out = fmemopen(said, sizeof said, "w");
   lab_sheet_answers answers;
@@ -188,16 +217,18 @@ static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
   lab_sheet_ask(in, out, &answers);
   fclose(in);
   fclose(out);
-  assert_int_equal(answers.n, 3);
+  assert_int_equal(answers.n, 4);
   assert_string_equal(answers.text[0], "actuator=fisher-657-40");
   assert_string_equal(answers.text[1], "bench_set=0.4..2 bar");
-  assert_string_equal(answers.text[2], "moving_mass=5 kg");
+  assert_string_equal(answers.text[2], "fail=open");
+  assert_string_equal(answers.text[3], "moving_mass=5 kg");
   assert_contains(said, "the nearest known one is \"fisher-657-40\"");
   assert_contains(said, "expected two pressures");
   for (i = 0; i < answers.n; i++)
     words[i] = answers.text[i];
   draft_of(log_path, words, answers.n, &text);
   assert_contains(text, "moving_mass = \"5 kg\"; // sheet");
+  assert_contains(text, "fail = \"open\"; // sheet");
   free(text);
 }
 
@@ -210,6 +241,7 @@ int main(void)
       cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
       cmocka_unit_test(test_lab_draft_write__actuator_by_name__has_its_makers_values),
       cmocka_unit_test(test_lab_draft_write__actuator_by_name__the_sheet_comes_first),
+      cmocka_unit_test(test_lab_draft_write__positioner_by_name__has_its_makers_values),
       cmocka_unit_test(test_lab_sheet_ask__answers__are_words_of_the_sheet),
   };
   return cmocka_run_group_tests(tests, open_all, scratch_close);

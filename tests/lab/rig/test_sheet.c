@@ -2,6 +2,7 @@
  */
 #include "../../scratch.h"
 
+#include "../../../apps/lab/log/log.h"
 #include "../../../apps/lab/rig/rig.h"
 
 static lab_error error;
@@ -42,6 +43,58 @@ static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
   (void)state;
   assert_close((double)rig.params.spring_rate, 160000, 0, TOL(1e-12, 1e-6));
   assert_close((double)rig.params.spring_preload, 0.005, 0, TOL(1e-12, 1e-6));
+}
+
+/* pi/4 (226 mm)^2, which the bench set takes. */
+static void test_lab_sheet_read__diameter__is_an_area(void **state)
+{
+  lab_rig rig = read_rig(
+      "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; diameter = \"226 mm\"; stroke = \"20 mm\"; };", "choked");
+  (void)state;
+  assert_close((double)rig.params.area, 0.0401149959, 0, 1e-6);
+  assert_close((double)rig.params.spring_rate, 0.0401149959 * 0.8e5 / 0.02, 0, 1e-6);
+}
+
+/* Travel and set position of a log as a rig reads them, and as the rig file that it writes does. */
+static void read_opening(const char *fail, double x[2], double sp[2])
+{
+  static lab_rig rig;
+  char text[256];
+  const char *log_path = scratch_text("open.csv", "t [s],sp [%],x [%]\n0,0,1\n1,75,50\n2,100,100\n");
+  lab_log log;
+  FILE *file;
+  int again;
+  snprintf(text, sizeof text, "actuator = { area = \"400 cm^2\"; stroke = \"20 mm\"; %s };", fail);
+  rig = read_rig(text, "choked");
+  for (again = 0; again < 2; again++) {
+    assert_int_equal(lab_log_read(log_path, &rig.log, 101325, &log, &error), LAB_OK);
+    x[again] = log.value[LAB_CHANNEL_X][0];
+    sp[again] = log.value[LAB_CHANNEL_SP][1];
+    assert_close(log.value[LAB_CHANNEL_X][1], 0.01, 0, 1e-12);
+    lab_log_free(&log);
+    file = fopen(scratch_path("again.cfg"), "w");
+    assert_non_null(file);
+    lab_rig_write(file, &rig, NULL);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(lab_rig_read(scratch_path("again.cfg"), &rig, &error), LAB_OK);
+  }
+}
+
+static void test_lab_sheet_read__fail__says_which_way_travel_counts(void **state)
+{
+  double x[2], sp[2];
+  int again;
+  (void)state;
+  read_opening("fail = \"close\";", x, sp);
+  for (again = 0; again < 2; again++) {
+    assert_close(x[again], 0.0002, 0, 1e-9);
+    assert_close(sp[again], 0.75, 0, 1e-12);
+  }
+  read_opening("fail = \"open\";", x, sp);
+  for (again = 0; again < 2; again++) {
+    assert_close(x[again], 0.0198, 0, 1e-9);
+    assert_close(sp[again], 0.25, 0, 1e-12);
+  }
 }
 
 static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state)
@@ -118,6 +171,9 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
                  "spring_preload is there too");
   assert_refused("actuator = { stroke = \"1 um\"; bench_set = [\"0 bar\", \"9 bar\"]; };", "actuator.bench_set",
                  "gives a spring_rate of");
+  assert_refused("actuator = { area = 0.04; diameter = \"226 mm\"; };", "actuator.diameter", "area is there too");
+  assert_refused("actuator = { fail = \"shut\"; };", "actuator.fail", "nearest known");
+  assert_refused("actuator = { stroke = 0; fail = \"open\"; };", "actuator.fail", "needs actuator.stroke");
   assert_refused("transducer = { fill = { Kv = 1; Cv = 1; }; };", "transducer.fill", "one of Kv, Cv, C and Qn");
   assert_refused("transducer = { fill = { b = 0.5; }; };", "transducer.fill", "one of Kv, Cv, C and Qn");
   assert_refused("transducer = { fill = { Kw = 1; }; };", "transducer.fill.Kw", "nearest");
@@ -159,6 +215,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_sheet_read__bench_set__is_rate_and_preload),
+      cmocka_unit_test(test_lab_sheet_read__diameter__is_an_area),
+      cmocka_unit_test(test_lab_sheet_read__fail__says_which_way_travel_counts),
       cmocka_unit_test(test_lab_sheet_read__orifices__pass_what_the_sheet_says),
       cmocka_unit_test(test_lab_sheet_read__C__comes_back_from_the_library),
       cmocka_unit_test(test_lab_sheet_read__tube__is_a_volume_and_a_resistance),
