@@ -41,6 +41,22 @@ $CC -std=c99 -O2 -ffp-contract=off -Ilib $user $(find lib -name '*.c') -lm -o "$
 "$out/hold" | cmp - "$out/hold.txt" >"$out/log" || wrong "hold.c prints something else than here"
 echo "ok      windows: a user in C90 prints the same as here"
 
+# ---- An FMU ----
+$MAKE --no-print-directory export-fmu >"$out/log" 2>&1 || wrong "export-fmu does not build"
+./export-fmu study/actuators/r1-400.cfg --fmi 2 --out "$out/r1-400.fmu"
+if command -v python3 >/dev/null 2>&1; then
+  rm -rf "$out/fmu"
+  python3 -m zipfile -e "$out/r1-400.fmu" "$out/fmu"
+  token=$(sed -n 's/.* guid="\([^"]*\)".*/\1/p' "$out/fmu/modelDescription.xml")
+  $CC -std=c99 -D_POSIX_C_SOURCE=200809L tests/fmu/steps.c -ldl -o "$out/steps"
+  x86_64-w64-mingw32-gcc -std=c99 -Wall -Wextra -Werror -Wno-cast-function-type -D__USE_MINGW_ANSI_STDIO=1 tests/fmu/steps.c -static \
+    -o "$out/steps.exe"
+  "$out/steps" "$out/fmu/binaries/linux64/r1_400.so" "$token" >"$out/here.csv"
+  wine "$out/steps.exe" "$out/fmu/binaries/win64/r1_400.dll" "$token" 2>"$out/log" | tr -d '\r' >"$out/there.csv"
+  cmp "$out/here.csv" "$out/there.csv" >>"$out/log" || wrong "an FMU steps to other values than here"
+  echo "ok      windows: the library for Windows in an FMU steps to the same values as that for Linux, to 12 digits"
+fi
+
 # ---- The programs, from the zip as it is unpacked ----
 if ! command -v python3 >/dev/null 2>&1; then
   echo "absent: python3, so that the programs were not compared"

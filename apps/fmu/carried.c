@@ -7,9 +7,9 @@
 const fmu_file *fmu_carried(const char *name)
 {
   const fmu_file *file = fmu_files;
-  while (strcmp(file->name, name) != 0)
+  while (file->name && strcmp(file->name, name) != 0)
     file++;
-  return file;
+  return file->name ? file : NULL;
 }
 
 int fmu_is_source(const fmu_file *file, int fmi)

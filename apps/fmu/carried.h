@@ -13,7 +13,7 @@ typedef struct fmu_file {
 
 extern const fmu_file fmu_files[]; /* the last one has no name */
 
-/* By name, which must be there. */
+/* By name.  Returns: NULL, export-fmu was built without it */
 const fmu_file *fmu_carried(const char *name);
 
 /* Whether it is a source of an FMU of that version of FMI. */

@@ -14,14 +14,16 @@
 
 enum { PATH_TEXT = 256 };
 
-/* Folders for binaries in FMI 2 and FMI 3, where this compiler's machine has one. */
+/* Folders for binaries in FMI 2 and FMI 3: of this compiler's machine, if it has one, and of Windows. */
+static const struct {
+  const char *folder[2], *ending;
+} platforms[] = {
 #if defined __x86_64__ && defined __linux__
-static const char *const platforms[] = {"linux64", "x86_64-linux"};
+    {{"linux64", "x86_64-linux"}, "so"},
 #elif defined __aarch64__ && defined __linux__
-static const char *const platforms[] = {NULL, "aarch64-linux"};
-#else
-static const char *const platforms[] = {NULL, NULL}; /* sources only */
+    {{NULL, "aarch64-linux"}, "so"},
 #endif
+    {{"win64", "x86_64-windows"}, "dll"}};
 
 /* ---- The model as the FMU has it ---- */
 
@@ -182,23 +184,6 @@ static int add_written(maker *m, const char *name, writer *write, lab_error *err
   return status;
 }
 
-/* The shared library, with the data in their place. */
-static int write_binary(FILE *file, const fmu_description *d, lab_error *error)
-{
-  const fmu_file *library = fmu_carried(d->fmi == 2 ? "fmu2.so" : "fmu3.so");
-  size_t at = 0; /* where the data begin */
-  while (at + sizeof d->data <= library->size && memcmp(library->bytes + at, FMU_MARK, sizeof FMU_MARK) != 0)
-    at++;
-  if (at + sizeof d->data > library->size)
-    return lab_fail(error, LAB_WORLD, "%s as built has no place for a model: build export-fmu again without -flto",
-                    library->name);
-  fwrite(library->bytes, 1, at, file);
-  fwrite(&d->data, 1, sizeof d->data, file);
-  at += sizeof d->data;
-  fwrite(library->bytes + at, 1, library->size - at, file);
-  return LAB_OK;
-}
-
 /* model_data.h, for who compiles the sources. */
 static int write_header(FILE *file, const fmu_description *d, lab_error *error)
 {
@@ -219,14 +204,40 @@ static int write_model(FILE *file, const fmu_description *d, lab_error *error)
   return LAB_OK;
 }
 
-static int add_binary(maker *m, lab_error *error)
+/* A shared library, with the data in their place. */
+static int add_binary(maker *m, const char *name, const fmu_file *library, lab_error *error)
 {
-  const char *platform = platforms[m->d.fmi - 2];
-  char name[PATH_TEXT];
-  if (!platform)
-    return LAB_OK;
-  snprintf(name, sizeof name, "binaries/%s/%s.so", platform, m->d.identifier);
-  return add_written(m, name, write_binary, error);
+  const fmu_data *data = &m->d.data;
+  unsigned char *bytes;
+  size_t at = 0; /* where the data begin */
+  while (at + sizeof *data <= library->size && memcmp(library->bytes + at, FMU_MARK, sizeof FMU_MARK) != 0)
+    at++;
+  if (at + sizeof *data > library->size)
+    return lab_fail(error, LAB_WORLD, "%s as built has no place for a model: build export-fmu again without -flto",
+                    library->name);
+  bytes = malloc(library->size);
+  if (!bytes)
+    return lab_fail_memory(error, name);
+  memcpy(bytes, library->bytes, library->size);
+  memcpy(bytes + at, data, sizeof *data);
+  return add_file(m, name, bytes, library->size, 1, error);
+}
+
+static int add_binaries(maker *m, lab_error *error)
+{
+  char library[16], name[PATH_TEXT];
+  size_t i;
+  int status = LAB_OK;
+  for (i = 0; i < sizeof platforms / sizeof platforms[0] && status == LAB_OK; i++) {
+    const char *folder = platforms[i].folder[m->d.fmi - 2], *ending = platforms[i].ending;
+    const fmu_file *carried;
+    snprintf(library, sizeof library, "fmu%d.%s", m->d.fmi, ending);
+    snprintf(name, sizeof name, "binaries/%s/%s.%s", folder ? folder : "", m->d.identifier, ending);
+    carried = fmu_carried(library);
+    if (folder && carried)
+      status = add_binary(m, name, carried, error);
+  }
+  return status;
 }
 
 /* The sources, in the folders of the repository, and the model's header in the place of the empty one. */
@@ -259,7 +270,7 @@ static int add_own(maker *m, lab_error *error)
 
 static int add_all(maker *m, lab_error *error)
 {
-  if (add_written(m, "modelDescription.xml", fmu_describe, error) || add_binary(m, error) || add_sources(m, error) ||
+  if (add_written(m, "modelDescription.xml", fmu_describe, error) || add_binaries(m, error) || add_sources(m, error) ||
       add_written(m, "resources/model.cfg", write_model, error) ||
       add_carried(m, "documentation/index.html", "index.html", error) ||
       add_carried(m, "documentation/licenses/license.txt", "license.txt", error))

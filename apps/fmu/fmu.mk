@@ -11,15 +11,25 @@ FMU_LIBS    := -lzip $(or $(shell pkg-config --libs libxml-2.0 2>/dev/null),-lxm
 # Not optimised across files: the model's data are constants to the compiler only in their own.
 FMU_FLAGS := -std=c99 $(OPT) $(WARN) $(if $(WERROR),-Werror) -ffp-contract=off -fPIC -fvisibility=hidden -fno-lto
 
-$(BUILD)/fmu2.so: OTHER := %/fmi3.c %/fmi3_absent.c
-$(BUILD)/fmu3.so: OTHER := %/fmi2.c
+# For Windows too, where MinGW is.
+FMU_MINGW   := $(shell command -v x86_64-w64-mingw32-gcc 2>/dev/null)
+FMU_SHARED  := fmu2.so fmu3.so $(if $(FMU_MINGW),fmu2.dll fmu3.dll)
+
+$(BUILD)/fmu2.%: OTHER := %/fmi3.c %/fmi3_absent.c
+$(BUILD)/fmu3.%: OTHER := %/fmi2.c
 $(BUILD)/fmu2.so $(BUILD)/fmu3.so: $(FMU_FILES)
 	@mkdir -p $(@D)
 	$(say) $(CC) $(FMU_FLAGS) $(CFLAGS) -shared -s $(LIB_C) $(filter-out $(OTHER),$(FMU_RUNTIME)) $(LDFLAGS) -lm -o $@
 
-FMU_CARRIED := $(foreach file,$(FMU_FILES),$(file)=$(file)) fmu2.so=$(BUILD)/fmu2.so fmu3.so=$(BUILD)/fmu3.so \
+# No date goes into it: the same sources give the same bytes.
+$(BUILD)/fmu2.dll $(BUILD)/fmu3.dll: $(FMU_FILES)
+	@mkdir -p $(@D)
+	$(say) $(FMU_MINGW) $(filter-out -fPIC -fvisibility%,$(FMU_FLAGS)) -Wno-format -shared -static -s -Wl,--no-insert-timestamp \
+	  $(LIB_C) $(filter-out $(OTHER),$(FMU_RUNTIME)) -o $@
+
+FMU_CARRIED := $(foreach file,$(FMU_FILES),$(file)=$(file)) $(foreach file,$(FMU_SHARED),$(file)=$(BUILD)/$(file)) \
                icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png index.html=apps/fmu/carried/index.html license.txt=LICENSE
-$(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(BUILD)/fmu2.so $(BUILD)/fmu3.so $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh
+$(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(FMU_SHARED:%=$(BUILD)/%) $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh
 	@mkdir -p $(@D)
 	$(say) sh apps/fmu/carry.sh $(FMU_CARRIED) > $@
 
