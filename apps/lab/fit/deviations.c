@@ -89,21 +89,30 @@ int lab_deviation_of(const lab_rig *rig, const lab_unknowns *u, const lab_fit_re
   return 1;
 }
 
-typedef struct sized {
+/* What is told first: what begins within the log, then values of the rig, then its instruments; the largest of each. */
+enum { BEGINS, VALUE, INSTRUMENT };
+
+typedef struct ranked {
+  int rank;
   double size;
   lab_deviation deviation;
-} sized;
+} ranked;
 
-static int largest_first(const void *a, const void *b)
+static int rank_of(const lab_unknown *x, const lab_deviation *d)
 {
-  const double x = ((const sized *)a)->size, y = ((const sized *)b)->size;
-  return (x < y) - (x > y);
+  return x->kind == LAB_UNKNOWN_ONSET ? BEGINS : is_value(d->param) ? VALUE : INSTRUMENT;
+}
+
+static int first_told(const void *a, const void *b)
+{
+  const ranked *x = a, *y = b;
+  return x->rank != y->rank ? x->rank - y->rank : (x->size < y->size) - (x->size > y->size);
 }
 
 int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, lab_deviations *all,
                         lab_error *error)
 {
-  sized *found = calloc((size_t)u->n + 1, sizeof *found);
+  ranked *found = calloc((size_t)u->n + 1, sizeof *found);
   const int compared = count_compared(rig, u);
   int j, n = 0;
   if (!found)
@@ -115,13 +124,14 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
       continue;
     all->condition = all->condition == LAB_CONDITION_DEVIATES ? all->condition : (int)LAB_CONDITION_AS_DECLARED;
     found[n].size = compare(rig, u, fit, j, d);
+    found[n].rank = rank_of(&u->unknown[j], d);
     if (!is_told(&u->unknown[j], fit, j, d->declared, compared))
       continue;
     if (d->beyond)
       all->condition = LAB_CONDITION_DEVIATES;
     n++;
   }
-  qsort(found, (size_t)n, sizeof *found, largest_first);
+  qsort(found, (size_t)n, sizeof *found, first_told);
   for (j = 0; j < n && j < LAB_DEVIATIONS_MAX; j++)
     all->of[all->n++] = found[j].deviation;
   free(found);

@@ -30,7 +30,7 @@ typedef struct lab_deviation {
 /* A fitted value beside what was declared.  Out: d  Returns: 0 if unknown j is no declared value */
 int lab_deviation_of(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d);
 
-/* The largest first. */
+/* What begins within the logs first, then values of the rig, then instruments; the largest of each first. */
 typedef struct lab_deviations {
   int condition; /* enum lab_condition */
   int n;
