@@ -272,19 +272,28 @@ static int read_lead(const config_setting_t *setting, lab_log_format *format, la
   return LAB_OK;
 }
 
+/* One word and its column, a member of a group or a pair of a list: a word may have any bytes there. */
+static int read_quantity(const config_setting_t *member, int is_pair, lab_long_quantity *quantity, lab_error *error)
+{
+  const config_setting_t *column = is_pair ? config_setting_get_elem(member, 1) : member;
+  if (!is_pair && strlen(config_setting_name(member)) >= sizeof quantity->word)
+    return lab_config_fail(member, error, "expected a word of less than %zu bytes", sizeof quantity->word);
+  if (!is_pair)
+    strcpy(quantity->word, config_setting_name(member));
+  else if (lab_config_list(member, 2, 2, error) ||
+           lab_config_text(config_setting_get_elem(member, 0), quantity->word, sizeof quantity->word, error))
+    return error->status;
+  return lab_config_text(column, quantity->column, sizeof quantity->column, error);
+}
+
 static int read_quantities(const config_setting_t *setting, lab_log_format *format, lab_error *error)
 {
-  int i, status = lab_config_is_group(setting, error);
+  const int is_list = config_setting_is_list(setting);
+  int i, status = is_list ? LAB_OK : lab_config_is_group(setting, error);
   if (status == LAB_OK && config_setting_length(setting) > LAB_QUANTITY_MAX)
     return lab_config_fail(setting, error, "expected at most %d quantities", LAB_QUANTITY_MAX);
-  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++) {
-    const config_setting_t *member = config_setting_get_elem(setting, (unsigned)i);
-    lab_long_quantity *quantity = &format->quantity[i];
-    if (strlen(config_setting_name(member)) >= sizeof quantity->word)
-      return lab_config_fail(member, error, "expected a word of less than %zu bytes", sizeof quantity->word);
-    strcpy(quantity->word, config_setting_name(member));
-    status = lab_config_text(member, quantity->column, sizeof quantity->column, error);
-  }
+  for (i = 0; status == LAB_OK && i < config_setting_length(setting); i++)
+    status = read_quantity(config_setting_get_elem(setting, (unsigned)i), is_list, &format->quantity[i], error);
   if (status == LAB_OK)
     format->n_quantities = config_setting_length(setting);
   return status;
@@ -410,11 +419,14 @@ static void write_quantities(FILE *file, const lab_log_format *format)
 {
   int i;
   for (i = 0; i < format->n_quantities; i++) {
-    fprintf(file, "%s %s = ", i ? ";" : "  quantities = {", format->quantity[i].word);
+    fputs(i ? ", (" : "  quantities = ( (", file);
+    lab_put_config(file, format->quantity[i].word);
+    fputs(", ", file);
     lab_put_config(file, format->quantity[i].column);
+    fputs(")", file);
   }
   if (format->n_quantities)
-    fputs("; };\n", file);
+    fputs(" );\n", file);
 }
 
 static void write_weights(FILE *file, const lab_log_format *format)

@@ -163,6 +163,13 @@ static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *g
   if (guess->guessed ? read_guessed(csv, format, guess, heading, &n, error)
                      : read_first(csv, format, heading, &n, error))
     return error->status;
+  if (guess->guessed && guess->header) {
+    if (lab_long_check(csv, format, guess, heading, error))
+      return fail_in_header(csv, guess, error);
+    lab_csv_restart(csv);
+    if (go_to(csv, guess->data - 1, error))
+      return error->status;
+  }
   if (guess->guessed)
     lab_guess_say(guess, format, said);
   if (lab_map_columns(heading, n, guess->guessed, format, header, said, error))

@@ -25,8 +25,7 @@ typedef struct naming {
 
 /* ---- What the user is to write ---- */
 
-/* In a string of libconfig. */
-static void append_quoted(char *text, size_t room, const char *value)
+void lab_append_quoted(char *text, size_t room, const char *value)
 {
   lab_append(text, room, "\"");
   for (; *value; value++)
@@ -43,7 +42,7 @@ static int fail_asking(naming *m)
     if (!*entry)
       continue;
     lab_append(map, sizeof map, "%s = ", lab_channels[c].key);
-    append_quoted(map, sizeof map, entry);
+    lab_append_quoted(map, sizeof map, entry);
     lab_append(map, sizeof map, "; ");
   }
   return lab_fail(m->error, LAB_DATA, "%s; write into the rig file: log = { map = { %s}; };", m->why, map);
@@ -63,8 +62,7 @@ static void ask(naming *m, int channel, int column, const char *unit, const char
   va_end(args);
 }
 
-/* A unit that people use for a channel. */
-static const char *usual_unit(int channel, const lab_log_format *format)
+const char *lab_usual_unit(int channel, const lab_log_format *format)
 {
   const char *si = lab_channel_unit(channel, format->command_is_pressure);
   return strcmp(si, "Pa") == 0       ? "bar"
@@ -128,7 +126,7 @@ static int take(naming *m, int i, int channel, int absolute, const char *own)
   }
   if (find_unit(m, i, channel, own, unit, &absolute))
     return lab_column_of(m->heading[i].text, channel, absolute, unit, m->format, &m->header->column[i], m->error);
-  ask(m, channel, i, usual_unit(channel, m->format), "column %d \"%s\" has no unit of %s; give that of a 1 in it",
+  ask(m, channel, i, lab_usual_unit(channel, m->format), "column %d \"%s\" has no unit of %s; give that of a 1 in it",
       i + 1, m->heading[i].text, lab_channels[channel].quantity);
   return LAB_OK;
 }
@@ -354,7 +352,7 @@ static void ask_for_measured(naming *m)
   for (i = 0; i < m->n; i++)
     if (is_free(m, i) && *m->heading[i].text && k < sizeof usual / sizeof usual[0] &&
         m->taken[LAB_CHANNEL_TIME] != i + 1 && !(i == 0 && *m->ask[LAB_CHANNEL_TIME])) {
-      ask(m, usual[k], i, usual_unit(usual[k], m->format),
+      ask(m, usual[k], i, lab_usual_unit(usual[k], m->format),
           "none of the columns is known to be a command, a pressure or a position; say which are, and what a 1 in them "
           "is");
       k++;

@@ -96,8 +96,23 @@ typedef struct lab_heading {
 int lab_map_columns(const lab_heading *heading, int n, int guessed, lab_log_format *format, lab_header *header,
                     char said[LAB_READ_AS_TEXT], lab_error *error);
 
+/* A unit that people use for a channel. */
+const char *lab_usual_unit(int channel, const lab_log_format *format);
+
+/* Append a string as libconfig has it, in quotes. */
+void lab_append_quoted(char *text, size_t room, const char *value);
+
 /* Whether one of n headings is named as pneu-rig(5) says. */
 int lab_map_is_named(const lab_heading *heading, int n);
+
+/* ---- A file in long form, of which a row holds one value and the word for what it is (loglong.c) ---- */
+
+/* Look at its rows. Such a file is not guessed at: the answer is what to write.
+ * In:      csv      before the first row; anywhere afterwards
+ *          heading  guess->cells of them
+ * Returns: LAB_OK, it is none; LAB_DATA with the keys to write; LAB_WORLD. */
+int lab_long_check(lab_csv *csv, const lab_log_format *format, const lab_guess *guess, const lab_heading *heading,
+                   lab_error *error);
 
 /* ---- The last steps: rows in the order and the number that the format asks for (logshape.c) ---- */
 

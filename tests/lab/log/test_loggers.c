@@ -38,6 +38,9 @@ static const struct logger {
     {"catman.asc", LAB_CHANNEL_SP, 0, "header in line 3, units in line 4"},
     {"testo.csv", LAB_CHANNEL_SP, 0, "t is \"Datum\" (dmy), t is \"Uhrzeit\" (time of day)"},
     {"arduino.txt", LAB_CHANNEL_U, 1, "u = \"u [1]\";"},
+    {"wincc.csv", LAB_CHANNEL_SP, 1, "quantities = ( (\"SP\", \"sp [%]\"), (\"P_bar\", \"p [bar]\"),"},
+    {"ge-historian.csv", LAB_CHANNEL_SP, 1, "(\"FV1001.Travel_mm\", \"x [mm]\") ); };"},
+    {"lecroy.csv", LAB_CHANNEL_U, 1, "t = \"Time [s]\"; u = \"Ampl [1]\"; p = \"Ampl1 [bar]\"; x = \"Ampl2 [mm]\";"},
     {"two-pressures.csv", LAB_CHANNEL_SP, 1, "may both be p (pressure): say which is"},
     {"footer.csv", LAB_CHANNEL_SP, 1, "log = { damaged = \"drop\"; };"},
     {"thousands-de.csv", LAB_CHANNEL_SP, 1, "log = { thousands = \".\"; };"},
@@ -249,6 +252,8 @@ static void test_lab_rig_write__map_and_date__are_read_again(void **state)
   (void)state;
   assert_same_again("log = { map = { p = \"a \\\"b\\\" (bar)\"; x = \"c\"; }; date = \"dmy\"; delimiter = \"blanks\"; "
                     "scale = { x = -2; }; };");
+  assert_same_again("log = { columns = ( \"quantity\", \"t [date]\", \"value\" ); quantities = ( (\"A.1 \\\"b\\\"\", "
+                    "\"p [bar]\"), (\"x\", \"-\") ); };");
 }
 
 /* A file in long form goes by columns and quantities; dates are the unit of its time. */
