@@ -1,5 +1,6 @@
 #include "apart.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,12 +124,18 @@ static int has_free_term(const lab_search_result *result)
   return any;
 }
 
-/* Whether values of each log say more: they explain the logs, leave much less, or as much as a free term, which can
- * bend to nearly anything. */
+/* Schwarz's criterion of what a search leaves, row by row. */
+static double bic_of(const lab_search_result *result)
+{
+  return result->after.chi2 + result->fit.n * log((double)result->after.n);
+}
+
+/* Whether values of each log say more: they explain the logs, leave less than what stands in for them, or as much as a
+ * free term, which can bend to nearly anything. */
 static int is_better(const lab_search_result *own, const lab_search_result *shared)
 {
-  const enum lab_constant share = has_free_term(shared) && !has_free_term(own) ? LAB_NOISE_SLIP : LAB_DIFFER_CONVINCING;
-  return is_explained(own) || own->after.chi2 < lab_constant(share) * shared->after.chi2;
+  const int bends = has_free_term(shared) && !has_free_term(own);
+  return is_explained(own) || bic_of(own) < (bends ? lab_constant(LAB_NOISE_SLIP) : 1) * bic_of(shared);
 }
 
 /* The declared model stays what the logs share; that values are of each log is the first that was added to it. */
