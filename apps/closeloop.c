@@ -182,7 +182,8 @@ static int check_usage(const lab_cli *cli, lab_error *error)
   if (!init && sheet.n)
     return lab_fail(error, LAB_USAGE, "--sheet: goes with --init");
   if (init && cli->n_operands && !sheet.n)
-    return lab_fail(error, LAB_USAGE, "--init: expected --sheet before \"%s\"", cli->operand[0]);
+    return lab_fail(error, LAB_USAGE, "--init: needs a log, and --sheet before \"%s\": --init LOG.csv --sheet \"%s\"",
+                    cli->operand[0], cli->operand[0]);
   if (!list && reports)
     return lab_fail(error, LAB_USAGE, "--reports: goes with --batch; a single run writes everything");
   if (!list && allow_include)

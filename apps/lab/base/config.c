@@ -216,6 +216,9 @@ int lab_config_choice(const config_setting_t *setting, const void *table, size_t
   *choice = lab_name_index(word, table, n, stride);
   if (*choice >= 0)
     return LAB_OK;
+  if (n == 2)
+    return lab_config_fail(setting, error, "unknown word \"%.80s\"; expected \"%s\" or \"%s\"", word,
+                           *(const char *const *)table, *(const char *const *)((const char *)table + stride));
   return lab_config_fail(setting, error, "unknown word \"%.80s\"; the nearest known one is \"%s\"", word,
                          lab_name_nearest(word, table, n, stride));
 }

@@ -257,8 +257,9 @@ int lab_check_opposite(const lab_log_view *s, lab_check_result *f)
     return 0;
   return lab_check_fail(
       f, LAB_NO_ROW,
-      "x falls as p rises (correlation %.2f), but x counts in the direction in which air drives the stem: "
-      "turn it by log.scale = { x = -1.0; } and log.offset = { x = \"%g mm\"; }, or check the columns",
+      "x falls as p rises (correlation %.2f), but x counts in the direction in which air drives the stem. "
+      "Where air closes the valve, write actuator.fail = \"open\", where it opens it \"close\"; else turn x by "
+      "log.scale = { x = -1.0; } and log.offset = { x = \"%g mm\"; }, or check the columns",
       px / sqrt(pp * xx), 1e3 * (double)s->rig->params.stroke);
 }
 

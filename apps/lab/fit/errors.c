@@ -61,6 +61,11 @@ static int sum_up(const lab_unknowns *u, int (*of)(const lab_unknowns *, double 
 
 int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
 {
+  return sum_up(u, lab_unknowns_errors, errors, error);
+}
+
+int lab_errors_without_drift(const lab_unknowns *u, lab_errors *errors, lab_error *error)
+{
   return sum_up(u, lab_drift_errors, errors, error);
 }
 

@@ -94,6 +94,8 @@ static int retrace(lab_answer *a, lab_error *error)
       errors->rmse[c] = errors->in_noise[c] = (double)NAN;
     status = status == LAB_NUMERIC ? LAB_OK : status;
   }
+  if (a->now.result.n_path > 0)
+    a->report.fitted_path[a->now.result.n_path - 1] = a->now.result.after;
   return status;
 }
 

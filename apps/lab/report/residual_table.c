@@ -149,7 +149,9 @@ static void take_up(const lab_unknowns *u, const double *r, int stage, lab_resid
 static int collect_residuals(const lab_unknowns *u, int stage, lab_residual_table *v, lab_error *error)
 {
   double *r = malloc((u->n_rows + 1) * sizeof *r);
-  int status = r ? lab_drift_errors(u, r, error) : lab_fail_memory(error, "residuals");
+  int status = r ? LAB_OK : lab_fail_memory(error, "residuals");
+  if (status == LAB_OK)
+    status = stage == LAB_STAGE_BEFORE ? lab_unknowns_errors(u, r, error) : lab_drift_errors(u, r, error);
   if (status == LAB_OK)
     take_up(u, r, stage, v);
   free(r);

@@ -292,6 +292,17 @@ static void derive_spring(draft *d)
   derive(d, PNEU_PARAM_dry_friction, fmax(area * l.apart, 0), "half the width of the loop of p over x, times area");
 }
 
+/* Friction that no log shows grows with the actuator: of a packing that is not worn it is a few hundredths of what the
+ * spring gains over the stroke. */
+static void guess_friction(draft *d)
+{
+  static const double share = 0.03;
+  const pneu_params *p = &d->rig.params;
+  if (!d->derived[PNEU_PARAM_dry_friction])
+    derive(d, PNEU_PARAM_dry_friction, share * (double)(p->spring_rate * p->stroke),
+           "a guess, 3 % of what the spring gains over the stroke; of the packing nothing is known");
+}
+
 /* The largest flow into the chamber (sign 1) or out of it (-1) [kg/s]. */
 static double largest_flow(const draft *d, double sign)
 {
@@ -378,7 +389,7 @@ static void put_words(FILE *file, const draft *d)
     const char *key, *what;
   } words[] = {{"bench_set", ", in place of spring_rate and spring_preload"},
                {"diameter", ", in place of area"},
-               {"fail", ": the log's travel is how far the valve is open"}};
+               {"fail", ": travel in a log is how far the valve is open, in results how far air has driven the stem"}};
   size_t i;
   for (i = 0; i < sizeof words / sizeof words[0]; i++) {
     const lab_sheet_word *word = find_word(d, "actuator", words[i].key);
@@ -572,6 +583,7 @@ static int write_draft(draft *d, FILE *file, const char *log, const char *const 
     return d->error->status;
   derive_travel(d);
   derive_spring(d);
+  guess_friction(d);
   derive_orifices(d);
   put_all(file, d);
   return LAB_OK;

@@ -19,7 +19,7 @@ typedef struct lab_apart {
 int lab_apart_find(const lab_unknowns *declared, lab_apart *apart, lab_error *error);
 
 /* Where effects explain no more than a part of logs of which something differs, search once more with values of each
- * log. If that explains them, leaves a share of DIFFER_CONVINCING, or as much as a free term does, it is the answer,
+ * log. If that explains them, has a lower BIC, or leaves as much as a free term does, it is the answer,
  * and the bench's remarks say what differs; else nothing changes: what differs may only stand in for an effect.
  *
  * In/out:  bench      its logs

@@ -191,7 +191,8 @@ void lab_search_options_default(lab_search_options *options)
 
 int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_result *result, lab_error *error)
 {
-  const int status = lab_loop_errors(u, stage == LAB_STAGE_BEFORE ? &result->before : &result->after, error);
+  const int status = stage == LAB_STAGE_BEFORE ? lab_loop_errors(u, &result->before, error)
+                                               : lab_errors_without_drift(u, &result->after, error);
   return status == LAB_OK ? lab_unknowns_residual_stats(u, result->left[stage], error) : status;
 }
 

@@ -112,7 +112,7 @@ static void test_lab_drift_strain__drift_of_seven_tolerances__is_found(void **st
 
 /* A rig at rest whose sensor of pressure drifts by two tolerances, 1 kPa each, beside a noise of 320 Pa: the errors
  * that are shown are noise, without a prior's 1/(1 + w'w) of the line; those of a run without lines have it all. */
-static void test_lab_loop_errors__sensor_that_drifts__leave_its_line_out(void **state)
+static void test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_out(void **state)
 {
   enum { LONG = 2001 };
   static const double t_cmd[] = {99}, u_cmd[] = {1}, spacing = 0.01, reach = 2000;
@@ -132,9 +132,9 @@ static void test_lab_loop_errors__sensor_that_drifts__leave_its_line_out(void **
     seen.value[LAB_CHANNEL_P][i] += reach * ((double)i / (LONG - 1) - 0.5);
   assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
   lab_unknowns_none(&rig, &run, 1, u);
-  assert_int_equal(lab_loop_errors(u, &with, &error), LAB_OK);
+  assert_int_equal(lab_errors_without_drift(u, &with, &error), LAB_OK);
   assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
-  assert_int_equal(lab_loop_errors(u, &without, &error), LAB_OK);
+  assert_int_equal(lab_errors_without_drift(u, &without, &error), LAB_OK);
   assert_close(with.in_noise[LAB_CHANNEL_P], sqrt(1 + reach * reach / 12 / (320 * 320)), 0, 0.03);
   assert_close(without.in_noise[LAB_CHANNEL_P], 1, 0, 0.03);
   assert_close(without.in_noise[LAB_CHANNEL_X], with.in_noise[LAB_CHANNEL_X], 0, 0.001);
@@ -163,7 +163,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives),
       cmocka_unit_test(test_lab_drift_strain__drift_of_seven_tolerances__is_found),
-      cmocka_unit_test(test_lab_loop_errors__sensor_that_drifts__leave_its_line_out),
+      cmocka_unit_test(test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_out),
       cmocka_unit_test(test_lab_drift_open__no_tolerance__takes_nothing),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

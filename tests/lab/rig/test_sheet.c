@@ -172,7 +172,7 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
   assert_refused("actuator = { stroke = \"1 um\"; bench_set = [\"0 bar\", \"9 bar\"]; };", "actuator.bench_set",
                  "gives a spring_rate of");
   assert_refused("actuator = { area = 0.04; diameter = \"226 mm\"; };", "actuator.diameter", "area is there too");
-  assert_refused("actuator = { fail = \"shut\"; };", "actuator.fail", "nearest known");
+  assert_refused("actuator = { fail = \"shut\"; };", "actuator.fail", "expected \"close\" or \"open\"");
   assert_refused("actuator = { stroke = 0; fail = \"open\"; };", "actuator.fail", "needs actuator.stroke");
   assert_refused("transducer = { fill = { Kv = 1; Cv = 1; }; };", "transducer.fill", "one of Kv, Cv, C and Qn");
   assert_refused("transducer = { fill = { b = 0.5; }; };", "transducer.fill", "one of Kv, Cv, C and Qn");
