@@ -4,7 +4,7 @@
 #define TESTS_BADLOG_H
 
 #include "scratch.h"
-#include "second/rig.h"
+#include "virtual.h"
 
 enum { BAD_ROWS = 1001 };
 static const double bad_spacing = 0.01; /* [s] */
@@ -15,17 +15,12 @@ typedef struct bad_log {
   double t[BAD_ROWS], u[BAD_ROWS], p[BAD_ROWS], x[BAD_ROWS];
 } bad_log;
 
-/* Run the R1-400 with 40 cm3 of dead volume and a leak of this area [m2], filled and vented for 10 s. */
+/* Run the rig of virtual.h with a leak of this area [m2], filled and vented for 10 s. */
 static inline void bad_run(double leak, double spacing, const second_log *log)
 {
   static const double t_cmd[] = {0.402, 2.503, 4.001, 5.507, 7.204}, u_cmd[] = {1, 0, -1, 0.5, -0.5};
-  second_rig g = second_rig_default_r1_400();
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
+  second_rig g = virtual_rig(7);
   g.step = 1e-4;
-  g.seed = 7;
   g.leak_area = leak;
   assert_int_equal(second_run(&g, t_cmd, u_cmd, 5, 10, spacing, log, NULL), 0);
 }

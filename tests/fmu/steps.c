@@ -1,5 +1,7 @@
 /* An FMI 2 importer for co-simulation, the same on Linux and on Windows: fill for half a second, vent for another,
- * print pressure and position every 10 ms. steps LIBRARY TOKEN */
+ * print pressure and position every 10 ms.
+ *
+ *   steps LIBRARY TOKEN */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -292,8 +292,8 @@ static void derive_spring(draft *d)
   derive(d, PNEU_PARAM_dry_friction, fmax(area * l.apart, 0), "half the width of the loop of p over x, times area");
 }
 
-/* Friction that no log shows grows with the actuator: of a packing that is not worn it is a few hundredths of what the
- * spring gains over the stroke. */
+/* Friction that no log shows grows with the actuator: a start, by judgement, as a share of what the spring gains over
+ * the stroke. */
 static void guess_friction(draft *d)
 {
   static const double share = 0.03;
