@@ -1,5 +1,6 @@
 /* simulate: what a model predicts for the commands of a log, or for the standard experiment.
  * SPDX-License-Identifier: MIT */
+#include "lab/base/array.h"
 #include "lab/base/cli.h"
 #include "lab/log/log.h"
 #include "lab/base/outfile.h"
@@ -77,6 +78,18 @@ static int figures_of_log(const pneu_model *model, const lab_rig *rig, const lab
 
 /* ---- The program ---- */
 
+/* A command that goes back to 0, but never below, may be meant to vent there. */
+static void note_no_venting(const lab_rig *rig, const lab_log *log, const char *path)
+{
+  const double *u = log->value[LAB_CHANNEL_U];
+  double low, high;
+  if (!u || rig->params.proportional_band > 0 || rig->laws.pressure_input || !lab_range(u, log->n, &low, &high))
+    return;
+  if (low == 0 && u[log->n - 1] == 0 && high > 0)
+    fprintf(stderr, "%s: note: %s: u never goes below 0, so that nothing vents: 1 fills, 0 shuts, -1 vents\n",
+            program.name, path);
+}
+
 static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const char *path, FILE *file,
                              lab_error *error)
 {
@@ -88,6 +101,7 @@ static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const 
     fprintf(stderr, "%s: note: %s: %s\n", program.name, path, log.read_as);
   if (log.dropped)
     fprintf(stderr, "%s: note: %s: %zu damaged rows left out\n", program.name, path, log.dropped);
+  note_no_venting(rig, &log, path);
   status =
       figures ? figures_of_log(model, rig, &log, file, error) : lab_simulation_write(model, rig, &log, file, error);
   lab_log_free(&log);

@@ -119,6 +119,15 @@ static void test_simulate__log_without_outputs__gives_pressure_and_position(void
   (void)state;
   assert_int_equal(run("@/m.cfg @/only_u.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
+  assert_string_equal(err, "");
+}
+
+static void test_simulate__command_that_never_vents__is_noted(void **state)
+{
+  (void)state;
+  scratch_text("back.csv", "t [s],u [1]\n0,0\n1,1\n5,0\n9,0\n");
+  assert_int_equal(run("@/m.cfg @/back.csv"), 0);
+  assert_non_null(strstr(err, "u never goes below 0, so that nothing vents: 1 fills, 0 shuts, -1 vents"));
 }
 
 static void test_simulate__log_of_position__gives_position_alone(void **state)
@@ -356,6 +365,7 @@ int main(void)
       cmocka_unit_test(test_simulate__step__prints_the_standard_experiment),
       cmocka_unit_test(test_simulate__log__predicts_at_its_times),
       cmocka_unit_test(test_simulate__log_without_outputs__gives_pressure_and_position),
+      cmocka_unit_test(test_simulate__command_that_never_vents__is_noted),
       cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
       cmocka_unit_test(test_simulate__set_position__drives_through_the_positioner),
       cmocka_unit_test(test_simulate__metrics_of_set_positions__are_of_the_set_position),

@@ -422,8 +422,8 @@ static void put_laws(FILE *file, const draft *d)
   fprintf(file, "laws = { %s%s};\n", find_word(d, "laws", "flow") ? "" : "flow = \"choked\"; ", members);
 }
 
-/* To be away from a start of the fit, or from a default that nobody knows, is no deviation. Only what is derived and
- * not fitted, as a stroke, is as good as declared.
+/* To be away from a start of the fit, up to ten times, or from a default that nobody knows, is no deviation. Only what
+ * is derived and not fitted, as a stroke, is as good as declared.
  * In:      fitted  whether each of `needed` is */
 static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
 {
@@ -431,7 +431,8 @@ static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
   for (i = 0; i < NEEDED; i++) {
     if (is_param_said(d, needed[i]) || (d->derived[needed[i]] && !fitted[i]))
       continue;
-    fprintf(file, any++ ? " %s = \"100 %%\";" : "tolerance = { %s = \"100 %%\";", lab_param_info(needed[i]).name);
+    fprintf(file, "%s %s = \"%s %%\";", any++ ? "" : "tolerance = {", lab_param_info(needed[i]).name,
+            fitted[i] ? "1000" : "100");
   }
   if (any)
     fputs(" }; // starts and defaults: to be away from them is no deviation\n", file);

@@ -13,11 +13,14 @@ static const struct sheet_key {
 } sheet_keys[] = {
     {"bench_set", "actuator", "bench_set"},
     {"diameter", "actuator", "diameter"},
+    {"travel", "actuator", "stroke"},
     {"fail", "actuator", "fail"},
     {"supply", "supply", "pressure"},
     {"ambient", "ambient", "pressure"},
     {"tube.length", "tube", "length"},
     {"tube.bore", "tube", "bore"},
+    {"Kvs", "transducer.fill", "Kv"},
+    {"Kvs", "transducer.vent", "Kv"},
 #define ORIFICE(key)                                                                                                   \
   {"fill." key, "transducer.fill", key},                                                                               \
   {                                                                                                                    \
@@ -55,6 +58,8 @@ static int unknown(const char *name, lab_error *error)
     names[n++] = sheet_keys[i].name;
   for (i = 0; i < lab_key_count && n < NAMES; i++)
     names[n++] = lab_keys[i].key;
+  if (strcmp(name, "tube") == 0)
+    return lab_fail(error, LAB_USAGE, "--sheet: expected \"tube.length=2 m\" \"tube.bore=4 mm\", each by itself");
   return lab_fail(error, LAB_USAGE, "--sheet: unknown key \"%s\"; the nearest known one is \"%s\"", name,
                   lab_name_nearest(name, names, (size_t)n, sizeof names[0]));
 }
@@ -180,6 +185,20 @@ static const lab_product positioners[] = {
      "Siemens SIPART PS2, operating instructions A5E00074631-AE, pneumatic data (not the versions Ex d)"},
 };
 
+/* A product that the catalogue does not have: what it has, all of it or what has the text in its name. */
+static int unlisted(const char *kind, const char *text, const lab_product *of, size_t n, lab_error *error)
+{
+  char list[sizeof error->text - 200] = "";
+  size_t i, used = 0, like = 0;
+  for (i = 0; i < n; i++)
+    like += strstr(of[i].name, text) != NULL;
+  for (i = 0; i < n && used < sizeof list; i++)
+    if (like == 0 || strstr(of[i].name, text))
+      used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", of[i].name);
+  return lab_fail(error, LAB_USAGE, "--sheet: no %s \"%.80s\"; known ones%s: %s", kind, text, like ? " like it" : "",
+                  list);
+}
+
 #define PRODUCTS(table)                                                                                                \
   {                                                                                                                    \
     table, sizeof table / sizeof table[0]                                                                              \
@@ -201,8 +220,7 @@ int lab_product_read(const char *text, int *kind, const lab_product **product, l
   text += length + 1;
   i = lab_name_index(text, tables[*kind].of, tables[*kind].n, sizeof **product);
   if (i < 0)
-    return lab_fail(error, LAB_USAGE, "--sheet: unknown %s \"%s\"; the nearest known one is \"%s\"", words[*kind], text,
-                    lab_name_nearest(text, tables[*kind].of, tables[*kind].n, sizeof **product));
+    return unlisted(words[*kind], text, tables[*kind].of, tables[*kind].n, error);
   *product = &tables[*kind].of[i];
   return LAB_OK;
 }
