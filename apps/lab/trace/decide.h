@@ -37,6 +37,7 @@ typedef struct lab_quality {
   double values; /* measured values that are fitted */
   double bic;    /* Schwarz 1978, over the measured values; a free term costs more than an effect */
   int white;     /* not 0: more is left than the declared noise, but it is noise */
+  int whole;     /* not 0: it was fitted with all its values, none of which was held to straight lines */
   double strain; /* largest deviation of a declared value, over its tolerance */
 } lab_quality;
 

@@ -346,6 +346,21 @@ static void look_at_channel(const lab_unknowns *u, const double *r, int channel,
     s->height[i] = fmax(s->height[i], prominence(s, i));
 }
 
+/* Whether a line is where sampling would put a hum of the mains, which lab_log_remove_hum does not take off if it is
+ * slow. Where that is at 0, all slow lines would be. */
+static int may_be_hum(const lab_unknowns *u, double f)
+{
+  static const double mains[] = {50, 60}, off = 3e-3, slowest = 20;
+  int e, i, any = 0;
+  for (e = 0; e < u->n_runs; e++)
+    for (i = 0; i < 2; i++) {
+      const double rate = (double)(u->run[e].n - 1) / length_of(&u->run[e]);
+      const double seen = fabs(mains[i] - rate * floor(mains[i] / rate + 0.5));
+      any |= rate > slowest && seen > off * mains[i] && fabs(f - seen) < off * mains[i];
+    }
+  return any;
+}
+
 int lab_residual_periods(const lab_unknowns *u, const double *r, double *period, int *n, lab_error *error)
 {
   double rank[LAB_PERIODS_MAX];
@@ -359,7 +374,7 @@ int lab_residual_periods(const lab_unknowns *u, const double *r, double *period,
       look_at_channel(u, r, channel, &s);
     for (i = 1; i + 1 < s.n; i++)
       if (s.height[i] > lab_constant(LAB_CYCLE_CLEAR) && s.height[i] > s.height[i - 1] &&
-          s.height[i] >= s.height[i + 1])
+          s.height[i] >= s.height[i + 1] && !may_be_hum(u, (double)(s.first + i) * s.step))
         keep(period, rank, n, 1 / ((double)(s.first + i) * s.step), s.height[i]);
   }
   free(s.power);

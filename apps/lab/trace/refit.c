@@ -31,7 +31,7 @@ int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error)
     status = error->status = LAB_NUMERIC;
   q->values = (double)c->u.n_values;
   q->bic = bic(&c->u, q->chi2);
-  q->white = 0;
+  q->white = q->whole = 0;
   q->fitted = status == LAB_OK;
   if (q->fitted && c->u.window == 0 && !lab_is_noise(q) && q->chi2 < lab_constant(LAB_NOISE_DOUBTFUL) * q->values) {
     status = lab_unknowns_residual_stats(&c->u, left, error);
@@ -125,6 +125,42 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
   if (status == LAB_OK)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+/* How much lower BIC is if what is known of an error of an instrument beforehand is not believed; 0: it is none. */
+static double gain_without_prior(const lab_unknowns *u, const lab_unknown *x)
+{
+  const int effect = x->kind == LAB_UNKNOWN_PARAM && lab_unknown_is_held(x) ? pneu_effect_of(x->index) : -1;
+  const double strain = (x->value - x->prior) / lab_unknown_reach(u, x);
+  if (effect < 0 || strcmp(pneu_effect_at(effect)->equation, "sensor") != 0)
+    return 0;
+  return strain * strain - log((double)u->n_values);
+}
+
+int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
+{
+  const double before = c->quality.chi2;
+  int j, status = LAB_OK;
+  *any = 0;
+  for (j = 0; j < c->u.n && c->n_found < LAB_EFFECTS_MAX && status == LAB_OK; j++) {
+    const lab_unknown x = c->u.unknown[j];
+    lab_found *found;
+    if (!(gain_without_prior(&c->u, &x) > lab_constant(LAB_ALIKE_BIC)))
+      continue;
+    status = lab_unknowns_add(&c->u, x.index, x.value, error);
+    found = add_found(c);
+    found->effect = pneu_effect_of(x.index);
+    found->param = x.index;
+    found->statistic = pow((x.value - x.prior) / lab_unknown_reach(&c->u, &x), 2);
+    found->p_value = lab_chi2_tail(found->statistic, 1);
+    *any = 1;
+  }
+  if (!*any || status != LAB_OK)
+    return status;
+  status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  if (status == LAB_OK)
+    lab_candidate_explain(c, before);
+  return status;
 }
 
 /* ---- Refits of effects ---- */

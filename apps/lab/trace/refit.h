@@ -51,6 +51,13 @@ int lab_found_is_of_sensor(const lab_found *found);
 /* Whether something was found that begins. */
 int lab_candidate_begins(const lab_candidate *c);
 
+/* Take errors of instruments that are far beyond what is known of them beforehand, by odds (ALIKE_BIC), for what is
+ * missing, and fit again.
+ * In/out:  c    fitted, with what is held among its unknowns
+ * Out:     any  whether there are some
+ * Returns: as lab_candidate_fit. */
+int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error);
+
 /* Place again what begins: about other values it may begin elsewhere.  Returns: LAB_OK, LAB_WORLD */
 int lab_candidate_place_again(lab_candidate *c, lab_error *error);
 

@@ -6,6 +6,7 @@
 
 #include "../base/clock.h"
 #include "../fit/nuisance.h"
+#include "../rig/tolerance.h"
 
 /* Where the search is and what it is to bring. */
 typedef struct search {
@@ -194,6 +195,7 @@ static int unfold_one(search *s, lab_candidate *c, lab_error *error)
     s->unfolded = *whole;
   if (whole->quality.fitted)
     c->quality = whole->quality;
+  c->quality.whole = 1;
   return LAB_OK;
 }
 
@@ -202,25 +204,34 @@ static int is_unfolded(const search *s, const lab_candidate *c)
   return s->unfolded.quality.fitted && s->unfolded.quality.bic == c->quality.bic;
 }
 
+/* The best extension by straight lines that was not fitted with all its values yet, NULL: none has a lower BIC. */
+static lab_candidate *next_to_unfold(lab_candidate *c, int n, double bic)
+{
+  lab_candidate *next = NULL;
+  int i;
+  for (i = 0; i < n; i++)
+    if (c[i].quality.fitted && !c[i].quality.whole && c[i].quality.bic < (next ? next->quality.bic : bic))
+      next = &c[i];
+  return next;
+}
+
 /* Fit the best of n extensions with all their values, and rank them by that: about another model what varies unseen
  * bends otherwise. Where declared values vary, it takes long: if straight lines explain the logs, only the best one is
- * fitted, and what comes before it then. */
+ * fitted, what straight lines cannot tell from it, and what comes before it then. */
 static int rank_unfolded(search *s, lab_candidate *c, int n, lab_error *error)
 {
   const int most = lab_count(has_held(s) ? LAB_UNFOLDED_HELD : LAB_UNFOLDED);
   const int is_lazy = has_held(s) && lab_any(c, n, lab_is_noise);
-  int i, at;
-  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
-  for (i = 0; i < n && i < most && s->nuisance.n > 0 && !lab_cpu_is_spent(s->declared.u.until); i++) {
-    at = is_lazy ? 0 : i;
-    if (!c[at].quality.fitted || (is_lazy && is_unfolded(s, &c[0])))
+  const lab_candidate *best = next_to_unfold(c, n, HUGE_VAL);
+  const double alike = best ? best->quality.bic + lab_constant(LAB_ALIKE_BIC) : 0;
+  int i;
+  for (i = 0; i < most && s->nuisance.n > 0 && !lab_cpu_is_spent(s->declared.u.until); i++) {
+    const double bar = s->unfolded.quality.fitted ? fmax(alike, s->unfolded.quality.bic) : HUGE_VAL;
+    lab_candidate *next = next_to_unfold(c, n, is_lazy ? bar : HUGE_VAL);
+    if (!next)
       break;
-    if (unfold_one(s, &c[at], error))
+    if (unfold_one(s, next, error))
       return error->status;
-    if (is_lazy && !s->whole.quality.fitted)
-      break;
-    if (is_lazy)
-      qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
   }
   qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
   return LAB_OK;
@@ -333,6 +344,16 @@ static int measure_whiteness(const lab_candidate *c, int *white, lab_error *erro
   return LAB_OK;
 }
 
+/* Whether what was found last is an error of a sensor within what is known of it, beside something that begins and
+ * leaves only noise: a change that is not quite a step leaves about as much. */
+static int is_within_instruments(const lab_candidate *without, const lab_candidate *c)
+{
+  const lab_found *last = &c->found[c->n_found - 1];
+  const int j = lab_found_is_of_sensor(last) ? lab_unknowns_find(&c->u, last->param) : -1;
+  return j >= 0 && lab_is_noise(&without->quality) && lab_candidate_begins(without) &&
+         fabs(c->u.unknown[j].value) < lab_tolerance(&c->u.rig, last->param);
+}
+
 /* Whether it lowers it by as much as is asked for, or plainly does and leaves white noise, or it explains the logs and
  * declared values need no longer be beyond their tolerances for it, and not because a sensor is. */
 static int measure_gain(const search *s, int *enough, lab_error *error)
@@ -341,6 +362,9 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   double gain;
   if (gain_of(a, b, &gain, error))
     return error->status;
+  *enough = 0;
+  if (is_within_instruments(a, b))
+    return LAB_OK;
   *enough = !(gain < s->options->min_gain);
   if (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) && lab_is_noise(&b->quality))
     *enough |= !lab_found_is_of_sensor(&b->found[b->n_found - 1]);
@@ -872,6 +896,22 @@ static int give_back(const search *s, lab_finding *f)
   return LAB_OK;
 }
 
+/* Where only noise is left, an instrument may all the same be further off than one can be. */
+static int take_instruments(search *s, lab_error *error)
+{
+  lab_candidate *best = &s->beam[0];
+  int any, status;
+  if (!lab_is_noise(&best->quality) || lab_cpu_is_spent(s->declared.u.until))
+    return LAB_OK;
+  s->without = *best;
+  status = lab_candidate_take_instruments(best, &any, error);
+  if (status == LAB_OK && any)
+    note_way(s->result, best);
+  if (status == LAB_NUMERIC)
+    *best = s->without;
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
 /* The best model, fitted with all that varies. */
 static int end_with(search *s, lab_finding *f, lab_error *error)
 {
@@ -879,6 +919,8 @@ static int end_with(search *s, lab_finding *f, lab_error *error)
   if (unfold(s, error))
     return error->status;
   if (!lab_cpu_is_spent(f->declared.u.until) && lab_candidate_place_again(&s->beam[0], error))
+    return error->status;
+  if (take_instruments(s, error))
     return error->status;
   drop_neutral(&s->beam[0]);
   facts = facts_of(s);

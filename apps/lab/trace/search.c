@@ -18,15 +18,25 @@ static int explains(const lab_finding *f)
   return (f->best.n_found > 0 || lab_candidate_begins(&f->best)) && lab_is_noise(&f->best.quality);
 }
 
+/* When the first of two searches ends, so that most of the time is left to the other: no rig is just as declared. */
+static double share_of_time(double until)
+{
+  static const double share = 0.35;
+  const double now = lab_cpu_time();
+  return until > 0 ? now + share * (until - now) : 0;
+}
+
 /* The search from the declared values as they stand; what it finds is then fitted with tolerances. */
 static int search_exactly(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
                           lab_finding *f, lab_error *error)
 {
   f->declared.u = *u;
+  f->declared.u.until = share_of_time(u->until);
   if (lab_rounds_run(f, NULL, within, options, error))
     return error->status;
   if (!explains(f))
     return LAB_OK;
+  f->best.u.until = u->until;
   f->gain = f->best.quality.chi2;
   if (lab_unknowns_hold(&f->best.u, error) || lab_candidate_fit(&f->best, LAB_ROUNDS_ALL, error))
     return error->status;
@@ -47,6 +57,14 @@ static int comes_nearer(const lab_finding *exact, const lab_finding *tolerant)
 {
   return exact->best.quality.fitted && exact->result.verdict == LAB_VERDICT_UNDECIDED &&
          tolerant->result.verdict == LAB_VERDICT_UNDECIDED && exact->best.quality.bic < tolerant->best.quality.bic;
+}
+
+/* Whether effects beside values as declared are to be told, where there is an answer with deviations: one that names
+ * less is the simpler one, and gives way only to odds. */
+static int is_better(const lab_finding *exact, const lab_finding *tolerant)
+{
+  const int is_simple = tolerant->best.n_found < exact->best.n_found && lab_is_noise(&tolerant->best.quality);
+  return exact->best.quality.bic + (is_simple ? lab_constant(LAB_ALIKE_BIC) : 0) < tolerant->best.quality.bic;
 }
 
 /* When to stop where there is an answer already: after four times as long again, and a second. */
@@ -130,11 +148,12 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
     if (is_exact)
       whole->declared.u.until = enough(u->until, start);
+    begins |= is_exact && lab_candidate_begins(&exact->best);
     status = lab_rounds_run(whole, begins ? exact : NULL, NULL, options, error);
     if (status == LAB_OK)
       forget_what_was_in_vain(whole);
     is_exact = status == LAB_NUMERIC ? exact->best.quality.fitted
-               : is_exact            ? status != LAB_OK || exact->best.quality.bic < whole->best.quality.bic
+               : is_exact            ? status != LAB_OK || is_better(exact, whole)
                                      : status == LAB_OK && comes_nearer(exact, whole);
   }
   if (is_exact) {
@@ -294,7 +313,7 @@ static int run_again(const lab_search_options *options, outcome *o, lab_error *e
 
 /* Whether an answer without the isolated values is to be taken: it decides, and less is found or in doubt, or nothing
  * either way. Where more than these values is beyond the model, they may be real. */
-static int is_better(const lab_search_result *without, const lab_search_result *with)
+static int is_clearer(const lab_search_result *without, const lab_search_result *with)
 {
   return without->verdict != LAB_VERDICT_UNDECIDED && (doubt(without) < doubt(with) || doubt(without) == 0);
 }
@@ -317,7 +336,7 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
     status = run_again(options, o, error);
   }
   result->cut_short = o && o->result.cut_short;
-  if (o && status == LAB_OK && !result->cut_short && is_better(&o->result, result)) {
+  if (o && status == LAB_OK && !result->cut_short && is_clearer(&o->result, result)) {
     *declared = o->declared;
     *completed = o->completed;
     *result = o->result;

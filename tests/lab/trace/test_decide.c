@@ -8,7 +8,7 @@
 /* A fitted model with so many values that one standard deviation of chi-square is 20. */
 static lab_quality quality(double chi2, double bic)
 {
-  const lab_quality q = {1, chi2, 200, bic, 0, 0};
+  const lab_quality q = {1, chi2, 200, bic, 0, 0, 0};
   return q;
 }
 
@@ -49,7 +49,7 @@ static int holds(enum lab_phase phase, int action, const lab_facts *f)
 
 static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **state)
 {
-  lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0};
+  lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0, 0};
   (void)state;
   assert_true(lab_is_noise(&q));
   q.chi2 += 2;

@@ -69,6 +69,25 @@ static void assert_period(double got, double want, double length)
   assert_close(1 / got, 1 / want, 0.25 / length, 0);
 }
 
+/* Rows of 1/51.5 s make a hum of 50 Hz one of 1.5 Hz. */
+static void test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle(void **state)
+{
+  enum { N = 2000 };
+  const double every = 1 / 1.5;
+  size_t i;
+  (void)state;
+  open_log(0, N);
+  fill_with_noise(7);
+  add_sine(r, 0, N, 5, every, 1);
+  assert_true(find_cycles(r, period) > 0 && fabs(1 / period[0] - 1.5) < 0.1);
+  for (i = 0; i < N; i++)
+    t[0][i] = (double)i / 51.5;
+  fill_with_noise(7);
+  add_sine(r, 0, N, 5, every, 1);
+  if (find_cycles(r, period) > 0)
+    assert_true(fabs(1 / period[0] - 1.5) > 0.1);
+}
+
 /* Noise of 2000 rows has a power of 1 on every line, a sine of 0.3 one of 45. */
 static void test_lab_residual_periods__sine_in_noise__is_found_first(void **state)
 {
@@ -251,6 +270,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_residual_periods__sine_in_noise__is_found_first),
+      cmocka_unit_test(test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle),
       cmocka_unit_test(test_lab_residual_periods__gaps__do_not_hide_it),
       cmocka_unit_test(test_lab_residual_periods__uneven_rows__do_not_hide_it),
       cmocka_unit_test(test_lab_residual_periods__long_log__is_seen_in_cells),

@@ -122,6 +122,34 @@ static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **
   assert_true(d->beyond && !d->held);
 }
 
+/* Whether an effect was found first, or is told as one that the log cannot tell from what was. */
+static int is_told(const lab_search_result *result, const char *name)
+{
+  const int effect = pneu_effect_find(name);
+  int i, any = result->found[0].effect == effect;
+  for (i = 0; i < result->found[0].n_alike; i++)
+    any |= result->found[0].alike[i] == effect;
+  return any;
+}
+
+/* Pressure follows position, so that friction may grow with either; values fitted beside one of them, and held beside
+ * the other, do not tell them apart. */
+static void test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  static lab_deviations all;
+  second_rig g = true_rig();
+  (void)state;
+  g.friction_position = 0.12;
+  g.dead_volume *= 0.76;
+  g.spring_rate *= 1.17;
+  run_loop(&g, brisk, &u, &result, &all);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_true(is_told(&result, "friction_position") && is_told(&result, "friction_pressure"));
+}
+
 /* What no value within its tolerance does is named. */
 static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(void **state)
 {
@@ -297,6 +325,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect),
       cmocka_unit_test(test_lab_search_run__friction_beyond_its_tolerance__deviates),
+      cmocka_unit_test(test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike),
       cmocka_unit_test(test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass),
       cmocka_unit_test(test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters),
       cmocka_unit_test(test_lab_search_run__noisier_than_declared__is_noise_all_the_same),
