@@ -139,7 +139,7 @@ static double gain_without_prior(const lab_unknowns *u, const lab_unknown *x)
 
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
 {
-  const double before = c->quality.chi2;
+  const double excess = c->quality.chi2 - c->quality.values;
   int j, status = LAB_OK;
   *any = 0;
   for (j = 0; j < c->u.n && c->n_found < LAB_EFFECTS_MAX && status == LAB_OK; j++) {
@@ -153,14 +153,10 @@ int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
     found->param = x.index;
     found->statistic = pow((x.value - x.prior) / lab_unknown_reach(&c->u, &x), 2);
     found->p_value = lab_chi2_tail(found->statistic, 1);
+    found->explained = found->statistic / fmax(found->statistic, excess);
     *any = 1;
   }
-  if (!*any || status != LAB_OK)
-    return status;
-  status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
-  if (status == LAB_OK)
-    lab_candidate_explain(c, before);
-  return status;
+  return *any && status == LAB_OK ? lab_candidate_fit(c, LAB_ROUNDS_ALL, error) : status;
 }
 
 /* ---- Refits of effects ---- */

@@ -99,6 +99,7 @@ static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_
   assert_int_equal(c.found[0].effect, pneu_effect_find("channel_skew"));
   assert_close((double)*pneu_param_at(&c.u.rig.params, c.found[0].param), 0.06, 0, 0.02);
   assert_between(c.found[0].statistic, 50, 144); /* other tolerances take a part of it */
+  assert_between(c.found[0].explained, 0.5, 1);
   assert_true(c.quality.strain < 3);
 }
 
