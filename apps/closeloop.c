@@ -55,7 +55,7 @@ static const lab_option options[] = {
     {"init", LAB_OPTION_TEXT, &init, "LOG.csv",
      "write a rig file for this log to standard output, each line with a comment on where its value\ncomes from", 0, 0},
     {"sheet", LAB_OPTION_TEXTS, &sheet, "KEY=VALUE",
-     "with --init: what the data sheet says, \"area=400 cm2\", \"bench_set=0.2..1.0 bar\", stroke, fail,\n"
+     "for a rig file, with --init or alone: what the data sheet says, \"area=400 cm2\", \"bench_set=0.2..1.0 bar\", stroke, fail,\n"
      "supply, Kv, fill.Kv, vent.Qn, tube.length, tube.bore and the keys of pneu-rig(5), or\n"
      "actuator=fisher-657-40 and positioner=samson-3730 of the catalogue; may be given many times, or\n"
      "once with more KEY=VALUE behind it; without it, a terminal is asked",
@@ -66,7 +66,7 @@ static const lab_option options[] = {
 
 static const lab_program program = {
     "closeloop",
-    "RIG.cfg LOG.csv [LOG2.csv ...] | --batch LIST.csv | --init LOG.csv",
+    "RIG.cfg LOG.csv [LOG2.csv ...] | --batch LIST.csv | --init LOG.csv | --sheet KEY=VALUE ...",
     "Fit the declared model to logs of a test bench, trace the residual to a physical effect that the model lacks, add "
     "it, and report the error before and after.",
     options,
@@ -180,8 +180,8 @@ static int check_usage(const lab_cli *cli, lab_error *error)
 {
   if (init && (list || holdout || baseline))
     return lab_fail(error, LAB_USAGE, "--init: goes with --sheet and --out alone");
-  if (!init && sheet.n)
-    return lab_fail(error, LAB_USAGE, "--sheet: goes with --init");
+  if (sheet.n && (list || holdout || baseline))
+    return lab_fail(error, LAB_USAGE, "--sheet: goes with --init and --out alone");
   if (init && cli->n_operands && !sheet.n)
     return lab_fail(error, LAB_USAGE, "--init: needs a log, and --sheet before \"%s\": --init LOG.csv --sheet \"%s\"",
                     cli->operand[0], cli->operand[0]);
@@ -195,7 +195,7 @@ static int check_usage(const lab_cli *cli, lab_error *error)
     return lab_fail(error, LAB_USAGE, "--baseline: does not go with --batch");
   if (list && holdout)
     return lab_fail(error, LAB_USAGE, "--holdout: with --batch, the column holdout of the list says it");
-  if (init)
+  if (init || sheet.n)
     return LAB_OK;
   if (list ? cli->n_operands != 0 : cli->n_operands < 2)
     return lab_fail(error, LAB_USAGE, "expected %s, found %d operands; see --help", program.operands, cli->n_operands);
@@ -206,7 +206,7 @@ static int closeloop(const lab_cli *cli, lab_error *error)
 {
   if (check_usage(cli, error))
     return error->status;
-  if (init)
+  if (init || sheet.n)
     return run_init(cli, error);
   return list ? run_batch(cli, error) : run_one(cli, error);
 }

@@ -515,7 +515,8 @@ static void put_channel(FILE *file, const draft *d, int c)
   fputc('\n', file);
 }
 
-static void put_head(FILE *file, const draft *d)
+/* Of which log, and what it has. */
+static void put_log(FILE *file, const draft *d)
 {
   const double *t = d->log.value[LAB_CHANNEL_TIME];
   const double length = t[d->log.n - 1] - t[0], step = d->log.n > 1 ? length / (double)(d->log.n - 1) : 0;
@@ -533,6 +534,15 @@ static void put_head(FILE *file, const draft *d)
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (has(d, c))
       put_channel(file, d, c);
+}
+
+static void put_head(FILE *file, const draft *d)
+{
+  int c;
+  if (d->log.n)
+    put_log(file, d);
+  else
+    fputs("// Drafted by closeloop --sheet, without a log.\n", file);
   for (c = 0; c < LAB_PRODUCT_KINDS; c++)
     if (d->product[c])
       fprintf(file, "// Catalogue: %s. %s\n", d->product[c]->source,
@@ -554,7 +564,8 @@ static void put_all(FILE *file, const draft *d)
   put_inner(file, d, "tube", "tube");
   put_laws(file, d);
   put_drive(file, d);
-  put_fit(file, d);
+  if (d->log.n)
+    put_fit(file, d);
   put_noise(file, d);
 }
 
@@ -580,7 +591,7 @@ static int read_log(draft *d, const char *path)
 
 static int write_draft(draft *d, FILE *file, const char *log, const char *const *sheet, int n)
 {
-  if (read_words(d, sheet, n) || read_sheet(d) || read_log(d, log))
+  if (read_words(d, sheet, n) || read_sheet(d) || (log && read_log(d, log)))
     return d->error->status;
   derive_travel(d);
   derive_spring(d);

@@ -19,7 +19,8 @@
 #include "../base/message.h"
 
 /* Write a rig file, which lab_rig_read reads, for a log.
- * In:      sheet  n texts as lab_sheet_word_read takes them
+ * In:      log    NULL: there is none yet, and all is from the sheet
+ *          sheet  n texts as lab_sheet_word_read takes them
  * Returns: LAB_OK; LAB_USAGE for a word that is none; LAB_DATA where the log cannot be read or the sheet contradicts
  *          itself; LAB_WORLD. */
 int lab_draft_write(FILE *file, const char *log, const char *const *sheet, int n, lab_error *error);

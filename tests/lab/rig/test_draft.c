@@ -86,6 +86,23 @@ static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **stat
 }
 
 /* Without any sheet, a positioner's log with shares of the stroke: what is not known is marked. */
+/* Bench set of 0.8 bar on 350 cm2 over 15 mm. */
+static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
+{
+  static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
+                                      "supply=1.4 bar"};
+  char *text;
+  const lab_rig rig = draft_of(NULL, sheet, 5, &text);
+  (void)state;
+  assert_close((double)rig.params.spring_rate, 0.8e5 * 0.035 / 0.015, 0, 1e-9);
+  assert_close((double)rig.params.spring_preload, 0.015 / 4, 0, 1e-9);
+  assert_int_equal(rig.n_fit, 0);
+  assert_contains(text, "without a log");
+  assert_contains(text, "vent = { Kv = \"0.1\"; }");
+  assert_contains(text, "NOT KNOWN, a default: lumped moving mass");
+  free(text);
+}
+
 static void test_lab_draft_write__files_of_loggers__are_read_with_their_draft(void **state)
 {
   static const char *const files[] = {"excel-de.csv", "valvelink.csv", "numpy-savetxt.csv", "grafana.csv"};
@@ -237,6 +254,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit),
       cmocka_unit_test(test_lab_draft_write__words_of_the_sheet__are_not_fitted),
+      cmocka_unit_test(test_lab_draft_write__no_log_yet__is_all_of_the_sheet),
       cmocka_unit_test(test_lab_draft_write__files_of_loggers__are_read_with_their_draft),
       cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
       cmocka_unit_test(test_lab_draft_write__actuator_by_name__has_its_makers_values),
