@@ -24,16 +24,6 @@ static double line_at(const lab_run *x, int c, size_t i)
   return share * tolerance_of(x, c) / x->sigma[c];
 }
 
-/* The same as it counts: weighed and whitened. */
-static void weigh_channel(const lab_run *x, int c, double *v)
-{
-  size_t i;
-  for (i = 0; i < x->n; i++)
-    v[i] *= x->weight[(size_t)c * x->n + i];
-  if (x->colour[c].memory != 0)
-    lab_colour_whiten(&x->colour[c], v, x->n);
-}
-
 /* One channel: from w to v, of which I - v v' is (I + w w')^(-1/2). */
 static void open_channel(const lab_run *x, int c, double *v)
 {
@@ -41,7 +31,7 @@ static void open_channel(const lab_run *x, int c, double *v)
   size_t i;
   for (i = 0; i < x->n; i++)
     v[i] = line_at(x, c, i);
-  weigh_channel(x, c, v);
+  lab_run_weigh(x, c, v);
   length2 = lab_dot(v, v, x->n);
   scale = length2 > 0 ? sqrt((1 - 1 / sqrt(1 + length2)) / length2) : 0;
   for (i = 0; i < x->n; i++)
@@ -80,8 +70,8 @@ static void subtract_line(const lab_run *x, int c, double *r, double *room)
     line[i] = line_at(x, c, i);
     left[i] = r[i];
   }
-  weigh_channel(x, c, line);
-  weigh_channel(x, c, left);
+  lab_run_weigh(x, c, line);
+  lab_run_weigh(x, c, left);
   drift = lab_dot(line, left, x->n) / (1 + lab_dot(line, line, x->n));
   for (i = 0; i < x->n; i++)
     r[i] -= drift * line_at(x, c, i);

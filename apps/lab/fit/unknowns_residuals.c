@@ -82,23 +82,6 @@ static void weigh(const lab_run *e, double *r)
     }
 }
 
-/* Rows that are known less well count less. */
-static void weigh_rows(const lab_run *e, double *r)
-{
-  size_t i;
-  for (i = 0; i < e->n * (size_t)e->n_channels; i++)
-    r[i] *= e->weight[i];
-}
-
-/* Take the memory out of the noise. */
-static void whiten(const lab_run *e, double *r)
-{
-  int c;
-  for (c = 0; c < e->n_channels; c++)
-    if (e->colour[c].memory != 0)
-      lab_colour_whiten(&e->colour[c], r + (size_t)c * e->n, e->n);
-}
-
 /* The instants within a run at which a change begins or ends, in order, each once.  Returns: their number */
 static int cuts_of(const lab_unknowns *u, int e, double cut[LAB_EPISODES_MAX - 1])
 {
@@ -162,9 +145,11 @@ static int predict(const lab_unknowns *u, const lab_rig *model, const double *th
 
 void lab_unknowns_weigh(const lab_unknowns *u, int e, double *r)
 {
-  weigh_rows(&u->run[e], r);
-  whiten(&u->run[e], r);
-  lab_drift_take_out(&u->run[e], r);
+  const lab_run *x = &u->run[e];
+  int c;
+  for (c = 0; c < x->n_channels; c++)
+    lab_run_weigh(x, c, r + (size_t)c * x->n);
+  lab_drift_take_out(x, r);
 }
 
 /* Errors of one run over noise, row by row. */

@@ -154,6 +154,16 @@ void lab_run_close(lab_run *e)
   memset(e, 0, sizeof *e);
 }
 
+void lab_run_weigh(const lab_run *e, int c, double *v)
+{
+  const double *weight = e->weight + (size_t)c * e->n;
+  size_t i;
+  for (i = 0; i < e->n; i++)
+    v[i] *= weight[i];
+  if (e->colour[c].memory != 0)
+    lab_colour_whiten(&e->colour[c], v, e->n);
+}
+
 double lab_run_measured(const lab_run *e, int c, size_t i)
 {
   return e->log->value[e->channel[c]][e->first + i];
