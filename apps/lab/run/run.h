@@ -49,7 +49,8 @@ enum { LAB_EPISODES_MAX = 9 };
 int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
                              double *y, lab_error *error);
 
-/* Errors of channel c over its noise, as they count: weighed, and without the memory of the noise.  In/out: v  n values */
+/* Errors of channel c over its noise, as they count: weighed, and without the memory of the noise.
+ * In/out:  v  n values */
 void lab_run_weigh(const lab_run *e, int c, double *v);
 
 /* Value measured at row i of channel c (place in e->channel); NaN in a gap. */
