@@ -17,7 +17,8 @@ static const double steady = 0.3;   /* of the amplitude: both halves of a run ha
 static const double visible = 0.12; /* of the median second difference, a fifth of white noise: less does no harm */
 static const double grid = 3e-3;    /* of its frequency, by which the mains and a logger's clock may be off */
 static const double slowest = 20;   /* rows a second: of fewer, most frequencies are what the mains would look like */
-static const double lowest = 1.0 / 16; /* periods a row: what is slower may be the rig's */
+static const double mains[] = {50, 60}; /* Hz */
+static const double lowest = 1.0 / 16;  /* periods a row: what is slower may be the rig's */
 
 /* Rows of a run: times, and second differences of a channel, in which what is slow is small; NaN beside a gap. */
 typedef struct rows {
@@ -145,10 +146,26 @@ static int is_commanded(const double *u, const rows *r, double f, double *d)
   return fit_wave(&commanded, 0, r->n, f).explained > clear * 2 * sum / (double)r->n;
 }
 
-/* Whether sampling at a rate [1/s] leaves a frequency fast enough to be told from what the rig does. */
+/* What sampling at a rate [1/s] makes of a frequency [Hz]. */
+static double sampled(double f, double rate)
+{
+  return fabs(f - rate * floor(f / rate + 0.5));
+}
+
+/* Whether it leaves it fast enough to be told from what the rig does. */
 static int is_seen(double f, double rate)
 {
-  return fabs(f - rate * floor(f / rate + 0.5)) > lowest * rate;
+  return sampled(f, rate) > lowest * rate;
+}
+
+int lab_may_be_hum(double f, double rate)
+{
+  int i, any = 0;
+  for (i = 0; i < 2; i++) {
+    const double seen = sampled(mains[i], rate), off = grid * mains[i];
+    any |= rate > slowest && seen > off && fabs(f - seen) < off;
+  }
+  return any;
 }
 
 /* One line off one channel of a run, of which u is the command, or NULL.  Returns: it; a and b are 0 if there is none
@@ -174,7 +191,6 @@ static wave remove_line(const double *t, double *y, const double *u, size_t n, d
 
 static void remove_from(lab_log *log, size_t run, int channel, double rate, double *room)
 {
-  static const double mains[] = {50, 60};
   const size_t first = log->run[run], n = log->run[run + 1] - first;
   const int command = lab_log_command(log);
   const double *u = command < 0 ? NULL : log->value[command] + first;

@@ -22,6 +22,12 @@ void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *error);
 
+/* Whether a line is where sampling puts a hum of the mains, which lab_log_remove_hum leaves where it is slow: within
+ * 0.3 % of 50 or 60 Hz. Where that is at 0, all slow lines would be, and none counts.
+ * In:      f     [Hz] of the line
+ *          rate  [1/s] of rows */
+int lab_may_be_hum(double f, double rate);
+
 /* Rows of a log that a fit uses. Its time grows with the rows (about 10 s for 100,000 without an effect, several times
  * that with one), and what can be told from a stroke does not: 20,000 rows show one of 10 s every half a millisecond.
  */

@@ -8,6 +8,7 @@
 #include "../base/array.h"
 #include "../base/quantile.h"
 #include "../base/format.h"
+#include "../check/mend.h"
 #include "../fit/normal.h"
 #include "../rig/rigterm.h"
 #include "decide.h"
@@ -346,18 +347,12 @@ static void look_at_channel(const lab_unknowns *u, const double *r, int channel,
     s->height[i] = fmax(s->height[i], prominence(s, i));
 }
 
-/* Whether a line is where sampling would put a hum of the mains, which lab_log_remove_hum does not take off if it is
- * slow. Where that is at 0, all slow lines would be. */
+/* Whether some run makes a line of a hum. */
 static int may_be_hum(const lab_unknowns *u, double f)
 {
-  static const double mains[] = {50, 60}, off = 3e-3, slowest = 20;
-  int e, i, any = 0;
+  int e, any = 0;
   for (e = 0; e < u->n_runs; e++)
-    for (i = 0; i < 2; i++) {
-      const double rate = (double)(u->run[e].n - 1) / length_of(&u->run[e]);
-      const double seen = fabs(mains[i] - rate * floor(mains[i] / rate + 0.5));
-      any |= rate > slowest && seen > off * mains[i] && fabs(f - seen) < off * mains[i];
-    }
+    any |= lab_may_be_hum(f, (double)(u->run[e].n - 1) / length_of(&u->run[e]));
   return any;
 }
 

@@ -127,14 +127,13 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* How much lower BIC is if what is known of an error of an instrument beforehand is not believed; 0: it is none. */
-static double gain_without_prior(const lab_unknowns *u, const lab_unknown *x)
+/* What the prior of an error of an instrument adds to chi-square; 0: it is none. */
+static double cost_of_instrument(const lab_unknowns *u, const lab_unknown *x)
 {
   const int effect = x->kind == LAB_UNKNOWN_PARAM && lab_unknown_is_held(x) ? pneu_effect_of(x->index) : -1;
-  const double strain = (x->value - x->prior) / lab_unknown_reach(u, x);
   if (effect < 0 || strcmp(pneu_effect_at(effect)->equation, "sensor") != 0)
     return 0;
-  return strain * strain - log((double)u->n_values);
+  return pow((x->value - x->prior) / lab_unknown_reach(u, x), 2);
 }
 
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
@@ -144,14 +143,15 @@ int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
   *any = 0;
   for (j = 0; j < c->u.n && c->n_found < LAB_EFFECTS_MAX && status == LAB_OK; j++) {
     const lab_unknown x = c->u.unknown[j];
+    const double cost = cost_of_instrument(&c->u, &x);
     lab_found *found;
-    if (!(gain_without_prior(&c->u, &x) > lab_constant(LAB_ALIKE_BIC)))
+    if (!(cost - log((double)c->u.n_values) > lab_constant(LAB_ALIKE_BIC)))
       continue;
     status = lab_unknowns_add(&c->u, x.index, x.value, error);
     found = add_found(c);
     found->effect = pneu_effect_of(x.index);
     found->param = x.index;
-    found->statistic = pow((x.value - x.prior) / lab_unknown_reach(&c->u, &x), 2);
+    found->statistic = cost;
     found->p_value = lab_chi2_tail(found->statistic, 1);
     found->explained = found->statistic / fmax(found->statistic, excess);
     *any = 1;

@@ -907,7 +907,7 @@ static int take_instruments(search *s, lab_error *error)
   status = lab_candidate_take_instruments(best, &any, error);
   if (status == LAB_OK && any)
     note_way(s->result, best);
-  if (status == LAB_NUMERIC)
+  if (status != LAB_OK)
     *best = s->without;
   return status == LAB_WORLD ? status : LAB_OK;
 }

@@ -85,7 +85,6 @@ static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **stat
   free(text);
 }
 
-/* Without any sheet, a positioner's log with shares of the stroke: what is not known is marked. */
 /* Bench set of 0.8 bar on 350 cm2 over 15 mm. */
 static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
 {
@@ -103,6 +102,7 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
   free(text);
 }
 
+/* Without any sheet, a positioner's log with shares of the stroke: what is not known is marked. */
 static void test_lab_draft_write__files_of_loggers__are_read_with_their_draft(void **state)
 {
   static const char *const files[] = {"excel-de.csv", "valvelink.csv", "numpy-savetxt.csv", "grafana.csv"};
@@ -239,7 +239,7 @@ static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
   assert_string_equal(answers.text[1], "bench_set=0.4..2 bar");
   assert_string_equal(answers.text[2], "fail=open");
   assert_string_equal(answers.text[3], "moving_mass=5 kg");
-  assert_contains(said, "known ones");
+  assert_contains(said, "no actuator \"fisher-40\"; known ones: fisher-657-30, fisher-657-34, fisher-657-40, ");
   assert_contains(said, "expected two pressures");
   for (i = 0; i < answers.n; i++)
     words[i] = answers.text[i];
