@@ -4,7 +4,7 @@
  *
  * s the set position in shares of the stroke, which is pneu_input.u; span, zero and a wider dead band are effects of
  * their own. u is 0 while |e| is within the dead band, -1 below cutoff_low and 1 above cutoff_high. What is 0 is not
- * there. e' is that of the stem alone: s holds and then jumps.
+ * there. e' has the slope of a set position that ramps; one that jumps gives it no kick.
  * The state is I, 0 at rest. It stands still within the dead band, beyond the cut-offs and while u is clipped, lest it
  * wind up. Without pneu_input.set_position the command is u itself, and I stands still.
  * What would jump follows a straight line: u at the edge of the dead band, over EDGE of the stroke, and the rate of I
@@ -48,7 +48,8 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 {
   const pneu_real stroke = t->model->p.stroke, set = t->asked, scale = (1 + t->span) / stroke;
   const pneu_real error = set - t->x * scale - t->zero / stroke;
-  const pneu_real u = param[GAIN] * (error + state[0] - param[DERIVATIVE_TIME] * t->v * scale);
+  const pneu_real error_rate = t->input->u_rate - t->v * scale;
+  const pneu_real u = param[GAIN] * (error + state[0] + param[DERIVATIVE_TIME] * error_rate);
   const pneu_real passes = outside(error, param[DEAD_BAND] + t->dead_band);
   rate[0] = 0;
   if (!t->input->set_position || t->model->law.pressure_input)

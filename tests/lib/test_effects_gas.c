@@ -500,6 +500,21 @@ static double asked(const pneu_params *p, double set, double share)
   return fixture_look(&m, &s, &input).opening;
 }
 
+/* What a positioner with a derivative asks for where the stem is at rest on a set position that ramps. */
+static double asked_on_ramp(double gain, double derivative_time, double rate)
+{
+  pneu_params p = positioned(gain);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  fixture_set(&p, "derivative_time", derivative_time);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = set_position(&m, 0.5);
+  s = fixture_rest(&m, 1e5, 0.5 * (double)p.stroke, &input);
+  input.u_rate = (pneu_real)rate;
+  return fixture_look(&m, &s, &input).opening;
+}
+
 /* Where the stem comes to rest. */
 static pneu_state follow(const pneu_params *p, double set)
 {
@@ -537,6 +552,7 @@ static void footprint_positioner(void)
   input = fixture_input(&m, -0.3);
   s = fixture_rest(&m, 1e5, 0.01, &input);
   assert_close(fixture_look(&m, &s, &input).opening, -0.3, TOL(1e-15, 1e-7), 0);
+  assert_close(asked_on_ramp(20, 0.1, 0.05), 0.1, TOL(1e-12, 1e-5), 0);
   /* droop: the fill orifice passes what leaks, both choked, so that the opening is known, and so is the error; the
    * integral takes it away */
   p = positioned(20);
