@@ -19,7 +19,8 @@
 #else
 #define EDGE 1e-4
 #endif
-#define CLIPPED PNEU_C(1e-3)
+#define CLIPPED  PNEU_C(1e-3)
+#define ROUNDING PNEU_C(1e-6) /* of a set position that has come along a ramp */
 
 enum { GAIN, INTEGRAL_TIME, DERIVATIVE_TIME, DEAD_BAND, CUTOFF_LOW, CUTOFF_HIGH };
 
@@ -54,9 +55,9 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   rate[0] = 0;
   if (!t->input->set_position || t->model->law.pressure_input)
     return;
-  if (param[CUTOFF_LOW] > 0 && set < param[CUTOFF_LOW])
+  if (param[CUTOFF_LOW] > 0 && set < param[CUTOFF_LOW] - ROUNDING)
     t->asked = -1;
-  else if (param[CUTOFF_HIGH] > 0 && set > param[CUTOFF_HIGH])
+  else if (param[CUTOFF_HIGH] > 0 && set > param[CUTOFF_HIGH] + ROUNDING)
     t->asked = 1;
   else {
     t->asked = clip(u, -1, 1) * passes;
