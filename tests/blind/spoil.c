@@ -9,7 +9,7 @@
 /* ---- The run ---- */
 
 /* A ramp is a staircase with a step a millisecond, the positioner's cycle: coarser steps would each be a kick to its
- * derivative, which no row of the log shows. */
+ * derivative, which no row of the log shows. It ends exactly: beyond a cut-off by rounding, the positioner would shut. */
 static const double stair = 1e-3;
 
 static size_t stairs_of(const blind_move *m)
@@ -23,7 +23,7 @@ static size_t add_move(const blind_move *m, double from, double *t, double *u)
   size_t i;
   for (i = 0; i < stairs; i++) {
     t[i] = m->t + m->ramp * (double)i / (double)stairs;
-    u[i] = from + (m->to - from) * (double)(i + 1) / (double)stairs;
+    u[i] = i + 1 < stairs ? from + (m->to - from) * (double)(i + 1) / (double)stairs : m->to;
   }
   return stairs;
 }
