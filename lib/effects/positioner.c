@@ -20,7 +20,7 @@
 #define EDGE 1e-4
 #endif
 #define CLIPPED  PNEU_C(1e-3)
-#define ROUNDING PNEU_C(1e-6) /* of a set position that has come along a ramp */
+#define ROUNDING PNEU_C(1e-6) /* of the stroke: by so much a set position that has come along a ramp may be off */
 
 enum { GAIN, INTEGRAL_TIME, DERIVATIVE_TIME, DEAD_BAND, CUTOFF_LOW, CUTOFF_HIGH };
 

@@ -9,8 +9,7 @@
 /* ---- The run ---- */
 
 /* A ramp is a staircase with a step a millisecond, the positioner's cycle: coarser steps would each be a kick to its
- * derivative, which no row of the log shows. It ends exactly, lest it
- * pass a cut-off by rounding. */
+ * derivative, which no row of the log shows. It ends exactly, lest it pass a cut-off by rounding. */
 static const double stair = 1e-3;
 
 static size_t stairs_of(const blind_move *m)

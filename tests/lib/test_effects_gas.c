@@ -491,28 +491,19 @@ static pneu_input set_position(const pneu_model *m, double set)
   return input;
 }
 
-/* What the positioner asks for at rest at a share of the stroke. */
-static double asked(const pneu_params *p, double set, double share)
+/* What the positioner asks for at rest at a share of the stroke, on a set position that ramps [1/s]. */
+static double asked_on_ramp(const pneu_params *p, double set, double share, double rate)
 {
   const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  const pneu_input input = set_position(&m, set);
+  pneu_input input = set_position(&m, set);
   const pneu_state s = fixture_rest(&m, 1e5, share * (double)p->stroke, &input);
+  input.u_rate = (pneu_real)rate;
   return fixture_look(&m, &s, &input).opening;
 }
 
-/* What a positioner with a derivative asks for where the stem is at rest on a set position that ramps. */
-static double asked_on_ramp(double gain, double derivative_time, double rate)
+static double asked(const pneu_params *p, double set, double share)
 {
-  pneu_params p = positioned(gain);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  fixture_set(&p, "derivative_time", derivative_time);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = set_position(&m, 0.5);
-  s = fixture_rest(&m, 1e5, 0.5 * (double)p.stroke, &input);
-  input.u_rate = (pneu_real)rate;
-  return fixture_look(&m, &s, &input).opening;
+  return asked_on_ramp(p, set, share, 0);
 }
 
 /* Where the stem comes to rest. */
@@ -552,7 +543,10 @@ static void footprint_positioner(void)
   input = fixture_input(&m, -0.3);
   s = fixture_rest(&m, 1e5, 0.01, &input);
   assert_close(fixture_look(&m, &s, &input).opening, -0.3, TOL(1e-15, 1e-7), 0);
-  assert_close(asked_on_ramp(20, 0.1, 0.05), 0.1, TOL(1e-12, 1e-5), 0);
+  check_note("the derivative, on a set position that ramps");
+  p = positioned(20);
+  fixture_set(&p, "derivative_time", 0.1);
+  assert_close(asked_on_ramp(&p, 0.5, 0.5, 0.05), 20 * 0.1 * 0.05, TOL(1e-12, 1e-5), 0);
   /* droop: the fill orifice passes what leaks, both choked, so that the opening is known, and so is the error; the
    * integral takes it away */
   p = positioned(20);
