@@ -23,6 +23,7 @@ typedef struct search {
   lab_candidate pool[LAB_BEAM_WIDTH * LAB_REFIT_MAX]; /* extensions of them */
   int n_pool;
   int round, added, rounds_over, over;
+  int is_final;                     /* the time is spent, and the best model fitted with all its values */
   int has_begun;                    /* something that begins was taken up in this round */
   int has_extended;                 /* pool[0] is the best extension of the best candidate */
   lab_nuisance nuisance;            /* what is declared, within its tolerances */
@@ -738,23 +739,35 @@ static int linearise(search *s, lab_error *error)
   return lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
 }
 
+/* Fit what is to be the answer: as far as the time goes, and one step where it is spent. */
+static int fit_in_time(lab_candidate *c, lab_error *error)
+{
+  const double until = c->u.until;
+  int status = lab_cpu_is_spent(until) ? LAB_NUMERIC : lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  if (status != LAB_NUMERIC || !lab_cpu_is_spent(until))
+    return status;
+  c->u.until = 0;
+  status = lab_candidate_fit(c, 1, error);
+  c->u.until = until;
+  return status;
+}
+
 /* The best model with all its values fitted; as it is where that fails. */
 static int unfold(search *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
   int status = LAB_OK;
-  if (!best->u.nuisance && !has_held(s)) /* it was fitted to the end when it was ranked */
+  if (s->is_final || (!best->u.nuisance && !has_held(s))) /* fitted to the end when it was ranked */
     return status;
   if (best->u.nuisance && lab_nuisance_return(&best->u, error))
     return error->status;
   s->without = *best;
-  best->u.until = 0; /* this one fit belongs to the answer */
-  status = lab_candidate_fit(best, lab_cpu_is_spent(s->declared.u.until) ? 1 : LAB_ROUNDS_ALL, error);
+  best->u.until = s->declared.u.until;
+  status = fit_in_time(best, error);
   if (status == LAB_NUMERIC) {
     *best = s->without;
     status = LAB_OK;
   }
-  best->u.until = s->declared.u.until;
   s->result->path[s->result->n_path - 1].rig = best->u.rig;
   return status;
 }
@@ -800,9 +813,10 @@ static int linearise_about(search *s, lab_error *error)
 static int linearise_again(search *s, lab_error *error)
 {
   int status = unfold(s, error);
-  if (status == LAB_OK)
+  s->is_final = lab_cpu_is_spent(s->declared.u.until);
+  if (status == LAB_OK && !s->is_final)
     status = lab_candidate_place_again(&s->beam[0], error);
-  if (status != LAB_OK)
+  if (status != LAB_OK || s->is_final)
     return status;
   s->whole = s->beam[0];
   status = linearise_about(s, error);
