@@ -757,7 +757,7 @@ static int unfold(search *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
   int status = LAB_OK;
-  if (s->is_final || (!best->u.nuisance && !has_held(s))) /* fitted to the end when it was ranked */
+  if (!best->u.nuisance && (s->is_final || !has_held(s))) /* fitted to the end before */
     return status;
   if (best->u.nuisance && lab_nuisance_return(&best->u, error))
     return error->status;
@@ -865,7 +865,7 @@ static int needs_tolerances(const search *s)
 
 static int search_all(search *s, lab_error *error)
 {
-  for (s->round = 0, s->added = 1; s->added && !s->rounds_over && has_room(s); s->round++) {
+  for (s->round = 0, s->added = 1; s->added && !s->rounds_over && !s->is_final && has_room(s); s->round++) {
     double chi2;
     if (advance(s, error))
       return error->status;
