@@ -121,6 +121,21 @@ static int a_term_stands_out(const lab_facts *f)
   return f->term > lab_constant(LAB_TERM_MOSTLY) * f->excess && f->term > lab_constant(LAB_TERM_ALONE) * f->effect;
 }
 
+static int a_term_comes_near(const lab_facts *f)
+{
+  return !lab_is_noise(&f->free_term) && convinces(&f->free_term, &f->best, lab_constant(LAB_TERM_COMPELLING));
+}
+
+static int a_term_needs_tolerances(const lab_facts *f)
+{
+  return a_term_comes_near(f) && !f->held && f->within.fitted;
+}
+
+static int a_term_is_held(const lab_facts *f)
+{
+  return a_term_comes_near(f) && f->held;
+}
+
 static int is_better_by_bic(const lab_facts *f)
 {
   return f->extended.fitted && f->extended.bic < f->best.bic;
@@ -214,6 +229,10 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
      a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
      LAB_DO_FIT_SCORED_TERM},
+    {LAB_PHASE_SCORED, "Values as declared: that leaves more than noise, but less than TERM_COMPELLING of the excess.",
+     a_term_needs_tolerances, "End: the search goes on from values within their tolerances.", LAB_DO_END},
+    {LAB_PHASE_SCORED, "Values within their tolerances: the same.", a_term_is_held,
+     "Fit it with all its values; if that leaves only noise, refit no effect.", LAB_DO_UNFOLD_TERM},
 
     {LAB_PHASE_LED,
      "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader.",

@@ -84,6 +84,43 @@ static lab_found *add_found(lab_candidate *c)
   return found;
 }
 
+int lab_candidate_hold(lab_candidate *c, lab_error *error)
+{
+  static const double less = 0.7;
+  double before;
+  int status = lab_unknowns_weigh_held(&c->u, error);
+  if (status == LAB_OK)
+    status = lab_unknowns_hold(&c->u, error);
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  before = c->u.misfit;
+  if (status == LAB_OK)
+    status = lab_unknowns_weigh_held(&c->u, error);
+  if (status == LAB_OK && c->u.misfit < less * before)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error)
+{
+  int i, k;
+  *staged = *c;
+  staged->u = *declared;
+  staged->u.until = c->u.until;
+  staged->quality.fitted = 0;
+  for (i = 0; i < c->n_found; i++) {
+    const int params[] = {c->found[i].param, c->found[i].shape};
+    for (k = 0; k < 2; k++)
+      if (params[k] >= 0 &&
+          lab_unknowns_add(&staged->u, params[k], c->u.unknown[lab_unknowns_find(&c->u, params[k])].value, error))
+        return error->status;
+  }
+  lab_unknowns_take(&staged->u);
+  if (lab_candidate_fit(staged, LAB_ROUNDS_ALL, error))
+    return error->status;
+  return lab_candidate_hold(staged, error);
+}
+
 void lab_candidate_explain(lab_candidate *c, double chi2_before)
 {
   lab_found *found = &c->found[c->n_found - 1];

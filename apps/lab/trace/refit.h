@@ -33,6 +33,15 @@ typedef struct lab_candidate {
  * Returns: as lab_unknowns_fit; quality.fitted says whether it was LAB_OK. */
 int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
 
+/* Fit with what is declared within its tolerances; once more where that leaves much less.  Returns: LAB_OK, LAB_WORLD
+ */
+int lab_candidate_hold(lab_candidate *c, lab_error *error);
+
+/* The same effects from the declared values: fitted with these exactly as they are, and then within their tolerances.
+ * In:      declared  with nothing held and nothing added, fitted
+ * Returns: LAB_OK; LAB_DATA if there is no room; as lab_unknowns_fit. */
+int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error);
+
 /* Say what the last addition did to chi-square. */
 void lab_candidate_explain(lab_candidate *c, double chi2_before);
 

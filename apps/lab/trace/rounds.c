@@ -7,6 +7,7 @@
 #include "../base/clock.h"
 #include "../fit/nuisance.h"
 #include "../rig/tolerance.h"
+#include "unfold.h"
 
 /* Where the search is and what it is to bring. */
 typedef struct search {
@@ -17,7 +18,7 @@ typedef struct search {
   lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */
   const lab_quality *within;          /* the declared model with its values within tolerances; NULL: that is it */
   lab_candidate without;              /* what is left when an effect is left out */
-  lab_candidate whole, unfolded;      /* an extension with all its values fitted, and the best of these */
+  lab_unfolding unfolding;            /* extensions with all their values fitted, and the best of these */
   lab_candidate beam[LAB_BEAM_WIDTH]; /* best candidates so far, best first */
   int n_beam;
   lab_candidate pool[LAB_BEAM_WIDTH * LAB_REFIT_MAX]; /* extensions of them */
@@ -152,90 +153,15 @@ static void rank(search *s)
   s->n_pool = n;
 }
 
-/* What follows a command bends too much for the instants that a straight line has about another model. */
-static void restart_instants(lab_unknowns *u)
-{
-  int j;
-  for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_INSTANT)
-      u->unknown[j].value = u->unknown[j].prior;
-}
-
 /* Whether declared values vary unseen within their tolerances. */
 static int has_held(const search *s)
 {
-  return s->nuisance.n > 0 && !lab_nuisance_is_instants(&s->nuisance);
-}
-
-/* Fit an extension with all its values.  Returns: LAB_OK, LAB_WORLD */
-static int fit_whole(const search *s, const lab_candidate *c, lab_candidate *whole, lab_error *error)
-{
-  int status;
-  *whole = *c;
-  whole->quality.fitted = 0;
-  status = lab_nuisance_return(&whole->u, error);
-  if (status == LAB_OK) {
-    restart_instants(&whole->u);
-    status = lab_unknowns_keep_slopes(&whole->u, error);
-  }
-  if (status == LAB_OK) {
-    lab_nuisance_begin_with(&s->nuisance, &whole->u);
-    status = lab_candidate_fit(whole, LAB_ROUNDS_ALL, error);
-    lab_unknowns_forget_slopes(&whole->u);
-  }
-  return status == LAB_WORLD ? status : LAB_OK;
-}
-
-/* Fit one extension with all its values.  In/out: s->unfolded  the best such one so far */
-static int unfold_one(search *s, lab_candidate *c, lab_error *error)
-{
-  lab_candidate *whole = &s->whole;
-  if (fit_whole(s, c, whole, error))
-    return error->status;
-  if (whole->quality.fitted && lab_candidate_by_bic(whole, &s->unfolded) < 0)
-    s->unfolded = *whole;
-  if (whole->quality.fitted)
-    c->quality = whole->quality;
-  c->quality.whole = 1;
-  return LAB_OK;
+  return lab_unfold_has_held(&s->unfolding);
 }
 
 static int is_unfolded(const search *s, const lab_candidate *c)
 {
-  return s->unfolded.quality.fitted && s->unfolded.quality.bic == c->quality.bic;
-}
-
-/* The best extension by straight lines that was not fitted with all its values yet, NULL: none has a lower BIC. */
-static lab_candidate *next_to_unfold(lab_candidate *c, int n, double bic)
-{
-  lab_candidate *next = NULL;
-  int i;
-  for (i = 0; i < n; i++)
-    if (c[i].quality.fitted && !c[i].quality.whole && c[i].quality.bic < (next ? next->quality.bic : bic))
-      next = &c[i];
-  return next;
-}
-
-/* Fit the best of n extensions with all their values, and rank them by that: about another model what varies unseen
- * bends otherwise. Where declared values vary, it takes long: if straight lines explain the logs, only the best one is
- * fitted, what straight lines cannot tell from it, and what comes before it then. */
-static int rank_unfolded(search *s, lab_candidate *c, int n, lab_error *error)
-{
-  const int most = lab_count(has_held(s) ? LAB_UNFOLDED_HELD : LAB_UNFOLDED);
-  const int is_lazy = has_held(s) && lab_any(c, n, lab_is_noise);
-  const lab_candidate *best = next_to_unfold(c, n, HUGE_VAL);
-  const double alike = best ? best->quality.bic + lab_constant(LAB_ALIKE_BIC) : 0;
-  int i;
-  for (i = 0; i < most && s->nuisance.n > 0 && !lab_cpu_is_spent(s->declared.u.until); i++) {
-    const double bar = s->unfolded.quality.fitted ? fmax(alike, s->unfolded.quality.bic) : HUGE_VAL;
-    lab_candidate *next = next_to_unfold(c, n, is_lazy ? bar : HUGE_VAL);
-    if (!next)
-      break;
-    if (unfold_one(s, next, error))
-      return error->status;
-  }
-  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
-  return LAB_OK;
+  return s->unfolding.best.quality.fitted && s->unfolding.best.quality.bic == c->quality.bic;
 }
 
 /* ---- Extensions ---- */
@@ -251,7 +177,7 @@ static int refit_scored(search *s, const lab_candidate *base, const lab_scores *
     return error->status;
   if (base->n_found > 0 || lab_is_noise(&base->quality) || lab_any(c, *n, lab_is_noise))
     return LAB_OK;
-  if (has_held(s) && rank_unfolded(s, c, *n, error))
+  if (has_held(s) && lab_unfold_best(&s->unfolding, c, *n, error))
     return error->status;
   if (lab_any(c, *n, lab_is_noise))
     return LAB_OK;
@@ -265,7 +191,7 @@ static int refit_scored(search *s, const lab_candidate *base, const lab_scores *
   led = *n;
   if (lab_refit_hidden(base, scores, level, c, n, error))
     return error->status;
-  return has_held(s) ? rank_unfolded(s, c + led, *n - led, error) : LAB_OK;
+  return has_held(s) ? lab_unfold_best(&s->unfolding, c + led, *n - led, error) : LAB_OK;
 }
 
 /* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
@@ -409,10 +335,10 @@ static int add_effect(search *s, lab_error *error)
 /* The pool as it is with all values fitted, which may be known already; the best one stays so. */
 static int rank_whole(search *s, lab_error *error)
 {
-  if (!s->unfolded.quality.fitted && rank_unfolded(s, s->pool, s->n_pool, error))
+  if (!s->unfolding.best.quality.fitted && lab_unfold_best(&s->unfolding, s->pool, s->n_pool, error))
     return error->status;
   if (s->n_pool > 0 && is_unfolded(s, &s->pool[0]))
-    s->pool[0] = s->unfolded;
+    s->pool[0] = s->unfolding.best;
   return LAB_OK;
 }
 
@@ -428,7 +354,7 @@ static int advance(search *s, lab_error *error)
   const double reach = lab_constant(LAB_RIVAL) * s->beam[0].quality.chi2;
   int i, status = LAB_OK;
   s->added = s->n_pool = s->has_begun = 0;
-  s->unfolded.quality.fitted = 0;
+  s->unfolding.best.quality.fitted = 0;
   for (i = 0; status == LAB_OK && i < s->n_beam; i++)
     if (i == 0 || (!s->has_begun && !is_settled(s) && s->beam[i].quality.chi2 < reach))
       status = extend(s, &s->beam[i], error);
@@ -527,7 +453,7 @@ static int exchange(search *s, lab_error *error)
     if (extend(s, without, error) == LAB_WORLD)
       return error->status;
     rank(s);
-    s->unfolded.quality.fitted = 0;
+    s->unfolding.best.quality.fitted = 0;
     if (rank_whole(s, error))
       return error->status;
     if (s->n_pool == 0 || s->pool[0].quality.bic >= best->quality.bic) {
@@ -573,6 +499,17 @@ static int refit_terms(search *s, const lab_candidate *base, lab_candidate *best
 {
   on_progress(s, "trying free terms");
   return lab_refit_free_terms(base, s->term, s->n_terms, best, error);
+}
+
+/* The best free term ranks as it does with all its values fitted. */
+static int unfold_term(search *s, lab_error *error)
+{
+  lab_candidate *whole = &s->unfolding.whole;
+  if (lab_unfold(&s->unfolding, &s->free_term, whole, error))
+    return error->status;
+  if (whole->quality.fitted)
+    s->free_term.quality = whole->quality;
+  return LAB_OK;
 }
 
 /* Whether a refit might be worth it, were it to take twice as much off chi-square as the score says. */
@@ -690,6 +627,8 @@ static int act(search *s, int action, lab_error *error)
     return lab_score_free_terms(s->projection, s->term, &s->n_terms, error);
   case LAB_DO_FIT_SCORED_TERM:
     return refit_terms(s, &s->declared, &s->free_term, error);
+  case LAB_DO_UNFOLD_TERM:
+    return unfold_term(s, error);
   case LAB_DO_FIT_TERM:
     return find_term(s, &s->declared, &s->free_term, error);
   case LAB_DO_FIT_TERM_BESIDE:
@@ -818,11 +757,11 @@ static int linearise_again(search *s, lab_error *error)
     status = lab_candidate_place_again(&s->beam[0], error);
   if (status != LAB_OK || s->is_final)
     return status;
-  s->whole = s->beam[0];
+  s->without = s->beam[0];
   status = linearise_about(s, error);
   if (status != LAB_NUMERIC)
     return status;
-  s->beam[0] = s->whole;
+  s->beam[0] = s->without;
   s->over = 1;
   return error->status = LAB_OK;
 }
@@ -884,13 +823,26 @@ static int search_all(search *s, lab_error *error)
   return follow_rules(s, LAB_PHASE_END, error);
 }
 
+/* What begins, without what was found beside it: that has to be found again. */
+static int keep_onset(lab_candidate *c, lab_error *error)
+{
+  int i = c->n_found;
+  while (i-- > 0)
+    if (lab_unknowns_find_onset(&c->u, c->found[i].param) < 0)
+      drop_found(c, i);
+  return lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+}
+
 /* What begins is known already, but for what else may begin then. */
 static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_scores *begins, lab_error *error)
 {
-  s->beam[0] = *begun;
+  lab_candidate *best = &s->beam[0];
+  *best = *begun;
   s->begins = *begins;
-  note_step(s->result, begun);
-  note_way(s->result, begun);
+  if (keep_onset(best, error))
+    return error->status;
+  note_step(s->result, best);
+  note_way(s->result, best);
   return linearise_again(s, error) ? error->status : try_instead(s, error);
 }
 
@@ -926,6 +878,13 @@ static int take_instruments(search *s, lab_error *error)
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
+/* Where the time is spent, of the rules at the end those hold that ask for no more fits. */
+static int end_early(search *s, lab_error *error)
+{
+  const int status = follow_rules(s, LAB_PHASE_END, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* The best model, fitted with all that varies. */
 static int end_with(search *s, lab_finding *f, lab_error *error)
 {
@@ -954,6 +913,9 @@ int lab_rounds_run(lab_finding *f, const lab_finding *begun, const lab_quality *
   s->result = &f->result;
   s->within = within;
   s->declared = f->declared;
+  s->unfolding.nuisance = &s->nuisance;
+  s->unfolding.exact = f->exact;
+  s->unfolding.until = f->declared.u.until;
   status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
   if (status == LAB_OK) {
     note_way(s->result, &s->declared);
@@ -968,8 +930,8 @@ int lab_rounds_run(lab_finding *f, const lab_finding *begun, const lab_quality *
   }
   if (status == LAB_OK)
     status = search_all(s, error);
-  if (status == LAB_NUMERIC && lab_cpu_is_spent(f->declared.u.until))
-    status = s->beam[0].quality.fitted ? LAB_OK : status;
+  if (status == LAB_NUMERIC && lab_cpu_is_spent(f->declared.u.until) && s->beam[0].quality.fitted)
+    status = end_early(s, error);
   if (status == LAB_OK)
     status = is_given_up(s) ? give_back(s, f) : end_with(s, f, error);
   f->begins = s->begins;

@@ -10,8 +10,9 @@
 typedef struct lab_finding {
   lab_candidate declared; /* with what is held */
   lab_candidate best;
-  double gain;             /* of chi-square, by tolerances after the search */
-  lab_onset_scores begins; /* what may begin */
+  const lab_unknowns *exact; /* the declared model with nothing held, fitted; NULL: there is none */
+  double gain;               /* of chi-square, by tolerances after the search */
+  lab_onset_scores begins;   /* what may begin */
   lab_search_result result;
 } lab_finding;
 

@@ -44,12 +44,32 @@ static int search_exactly(const lab_unknowns *u, const lab_quality *within, cons
   return LAB_OK;
 }
 
-/* Whether a search that explains the logs by effects, or by what begins, needs no deviations beside. */
-static int is_enough(const lab_finding *f)
+/* How many things were found: what begins, and effects that act throughout. */
+static int count_causes(const lab_candidate *c)
+{
+  int i, n = c->u.rig.n_onsets;
+  for (i = 0; i < c->n_found; i++)
+    n += lab_unknowns_find_onset(&c->u, c->found[i].param) < 0;
+  return n;
+}
+
+static int has_held(const lab_unknowns *u)
+{
+  int j, any = 0;
+  for (j = 0; j < u->n; j++)
+    any |= lab_unknown_is_held(&u->unknown[j]);
+  return any;
+}
+
+/* Whether a search that explains the logs by what acts or begins needs no deviations beside. Of two such things one may
+ * stand for these.
+ * In:      tolerant  the declared model within its tolerances */
+static int is_enough(const lab_finding *f, const lab_unknowns *tolerant)
 {
   const int explained = f->result.verdict == LAB_VERDICT_EFFECT ||
                         (f->result.verdict == LAB_VERDICT_NONE && lab_candidate_begins(&f->best));
-  return explained && f->gain < lab_constant(LAB_DEVIATIONS_GAIN);
+  return explained && f->gain < lab_constant(LAB_DEVIATIONS_GAIN) &&
+         (count_causes(&f->best) < 2 || !has_held(tolerant));
 }
 
 /* Whether of two searches that explain nothing the first is to be told for its candidates. */
@@ -74,25 +94,6 @@ static double enough(double until, double start)
   return until > 0 ? fmin(until, end) : end;
 }
 
-/* Fit with what is declared within its tolerances; once more where that leaves much less.  Returns: LAB_OK, LAB_WORLD.
- */
-static int hold(lab_candidate *c, lab_error *error)
-{
-  static const double less = 0.7;
-  double before;
-  int status = lab_unknowns_weigh_held(&c->u, error);
-  if (status == LAB_OK)
-    status = lab_unknowns_hold(&c->u, error);
-  if (status == LAB_OK)
-    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
-  before = c->u.misfit;
-  if (status == LAB_OK)
-    status = lab_unknowns_weigh_held(&c->u, error);
-  if (status == LAB_OK && c->u.misfit < less * before)
-    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
-  return status == LAB_NUMERIC ? LAB_OK : status;
-}
-
 /* What a search from exact values says begins, with values within their tolerances.
  * In:      tolerant  the declared model with these, without anything that begins
  * In/out:  c         fitted
@@ -104,7 +105,7 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
   *begins = 0;
   if (!lab_candidate_begins(c) || lab_cpu_is_spent(c->u.until))
     return LAB_OK;
-  status = hold(c, error);
+  status = lab_candidate_hold(c, error);
   if (status == LAB_OK)
     status = lab_candidate_place_again(c, error);
   *begins = status == LAB_OK && lab_onset_convinces(&c->quality, tolerant);
@@ -136,8 +137,9 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   if (!exact)
     return lab_fail_memory(error, "the search");
   *exact = *whole;
+  whole->exact = u;
   whole->best.u = *u;
-  status = hold(&whole->best, error);
+  status = lab_candidate_hold(&whole->best, error);
   whole->declared = whole->best;
   if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
     status = search_exactly(u, &whole->best.quality, options, exact, error);
@@ -145,7 +147,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
     if (status == LAB_OK && !is_exact)
       status = tolerate_onset(&exact->best, &whole->best.quality, &begins, error);
   }
-  if (status != LAB_WORLD && !(is_exact && is_enough(exact))) {
+  if (status != LAB_WORLD && !(is_exact && is_enough(exact, &whole->declared.u))) {
     if (is_exact)
       whole->declared.u.until = enough(u->until, start);
     begins |= is_exact && lab_candidate_begins(&exact->best);

@@ -103,6 +103,25 @@ static void test_rules__first_scores__call_for_free_terms_where_no_effect_explai
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
 }
 
+/* It leaves 149 of an excess of 1500, and then 151. */
+static void test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_once(void **state)
+{
+  lab_facts f = declared_alone();
+  (void)state;
+  f.within = quality(1100, 1100);
+  f.best = quality(1700, 1700);
+  f.free_term = quality(349, 500);
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_END, &f));
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_UNFOLD_TERM, &f));
+  f.held = 1;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_END, &f));
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_UNFOLD_TERM, &f));
+  f.free_term.chi2 = 351;
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_UNFOLD_TERM, &f));
+  f.free_term.chi2 = 201; /* which is noise */
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_UNFOLD_TERM, &f));
+}
+
 static void test_rules__values_as_declared__end_where_tolerances_alone_are_better(void **state)
 {
   lab_facts f = declared_alone();
@@ -332,6 +351,7 @@ int main(void)
       cmocka_unit_test(test_lab_is_clean__one_standard_deviation__is_the_limit),
       cmocka_unit_test(test_lab_is_poor__half_of_the_excess__is_the_limit),
       cmocka_unit_test(test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it),
+      cmocka_unit_test(test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_once),
       cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_alone_are_better),
       cmocka_unit_test(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces),
       cmocka_unit_test(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left),
