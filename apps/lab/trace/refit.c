@@ -236,6 +236,7 @@ typedef struct shared {
 /* Where extensions of one model begin: at its fit, and at the values that its unknowns had before any fit. */
 typedef struct starts {
   shared of[2];
+  double until; /* [s] of CPU time: after it no more begin, so that there is time for those that did; 0: never */
 } starts;
 
 /* Find the slopes of a base, where there is room for them and they can be had. */
@@ -264,6 +265,7 @@ static int begin_fit(const lab_candidate *base, int steps, lab_candidate *c, lab
 /* Returns: NULL for want of memory; else to be closed */
 static starts *open_starts(const lab_candidate *base, lab_error *error)
 {
+  const double now = lab_cpu_time();
   starts *s = calloc(1, sizeof *s);
   error->status = LAB_OK;
   if (!s) {
@@ -272,6 +274,8 @@ static starts *open_starts(const lab_candidate *base, lab_error *error)
   }
   s->of[0].base = s->of[1].base = *base;
   undo_fit(&s->of[1].base.u);
+  if (base->u.until > 0)
+    s->until = now + lab_constant(LAB_BEGIN_TIME) * (base->u.until - now);
   return s;
 }
 
@@ -288,16 +292,13 @@ static void close_starts(starts *s, lab_candidate *c, int n)
   free(s);
 }
 
-/* The model with one effect more, from one start, after the first steps. */
+/* The model with one effect more, from one start, after the first steps.  In/out: c  the base, not fitted */
 static void begin_refit(const lab_candidate *base, const lab_score *score, enum start start, lab_candidate *c,
                         lab_error *all)
 {
   pneu_param_info info;
   lab_error ignored;
   lab_found *found;
-  *c = *base;
-  c->u.slopes = NULL;
-  c->quality.fitted = 0;
   pneu_param_describe(score->param, &info);
   if (lab_unknowns_add(&c->u, score->param, (double)info.neutral + size_at(score, start), &ignored) ||
       (score->shape >= 0 && lab_unknowns_add(&c->u, score->shape, score->shape_value, &ignored)))
@@ -367,8 +368,13 @@ static void race(starts *s, const lab_score *score, int n, enum start start, lab
   if (n > 0)
     share(from, all);
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < n; i++)
-    begin_refit(&from->base, &score[i], start, &mine[i], all);
+  for (i = 0; i < n; i++) {
+    mine[i] = from->base;
+    mine[i].u.slopes = NULL;
+    mine[i].quality.fitted = 0;
+    if (!isfinite(*best) || !lab_cpu_is_spent(s->until))
+      begin_refit(&from->base, &score[i], start, &mine[i], all);
+  }
   *best = fmin(*best, least_chi2(mine, n));
   reach = lab_constant(LAB_RIVAL) * *best;
 #pragma omp parallel for schedule(dynamic)
