@@ -31,6 +31,7 @@ static int fit_own(const lab_rig *model, const lab_run *run, int n, const lab_un
   if (lab_unknowns_open(&own, run, n, u, error))
     return error->status;
   start_from(fitted, u);
+  u->until = fitted->until;
   return u->n > 0 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
 }
 

@@ -359,13 +359,14 @@ static void race(starts *s, const lab_score *score, int n, enum start start, lab
 {
   lab_candidate *mine = malloc(((size_t)n + 1) * sizeof *mine);
   shared *from = &s->of[start == FROM_DECLARED || start == FROM_BOUND];
+  const int is_late = isfinite(*best) && lab_cpu_is_spent(s->until);
   double reach;
   int i;
   if (!mine) {
     lab_fail_memory(all, "refits");
     return;
   }
-  if (n > 0)
+  if (n > 0 && !is_late)
     share(from, all);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {

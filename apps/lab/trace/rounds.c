@@ -216,7 +216,7 @@ static int extend_scored(search *s, const lab_candidate *base, const lab_project
   }
   if (status != LAB_OK || s->has_begun)
     return status;
-  if (!lab_is_noise(&s->free_term.quality))
+  if (!s->over && !lab_is_noise(&s->free_term.quality))
     status = refit_scored(s, base, &scores, level, &n, error);
   if (status != LAB_OK || s->has_begun)
     return status;
@@ -372,14 +372,23 @@ static int advance(search *s, lab_error *error)
 
 /* ---- What was found before, again ---- */
 
+static void drop_effect(lab_candidate *c, const lab_found *found)
+{
+  if (lab_unknowns_find_onset(&c->u, found->param) >= 0)
+    lab_unknowns_drop_onset(&c->u);
+  if (found->shape >= 0)
+    lab_unknowns_drop(&c->u, found->shape);
+  lab_unknowns_drop(&c->u, found->param);
+}
+
+/* In:  which  the last one, if it is a free term */
 static void drop_found(lab_candidate *c, int which)
 {
   int k;
-  if (lab_unknowns_find_onset(&c->u, c->found[which].param) >= 0)
-    lab_unknowns_drop_onset(&c->u);
-  if (c->found[which].shape >= 0)
-    lab_unknowns_drop(&c->u, c->found[which].shape);
-  lab_unknowns_drop(&c->u, c->found[which].param);
+  if (c->found[which].term >= 0)
+    lab_unknowns_drop_term(&c->u);
+  else
+    drop_effect(c, &c->found[which]);
   c->n_found--;
   for (k = which; k < c->n_found; k++)
     c->found[k] = c->found[k + 1];
@@ -678,14 +687,16 @@ static int linearise(search *s, lab_error *error)
   return lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
 }
 
-/* Fit what is to be the answer: as far as the time goes, and one step where it is spent. */
+/* Fit what is to be the answer: as far as the time goes, and a step where it is spent, for which there is a tenth more.
+ */
 static int fit_in_time(lab_candidate *c, lab_error *error)
 {
+  static const double more = 0.1;
   const double until = c->u.until;
-  int status = lab_cpu_is_spent(until) ? LAB_NUMERIC : lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
-  if (status != LAB_NUMERIC || !lab_cpu_is_spent(until))
-    return status;
-  c->u.until = 0;
+  int status;
+  if (!lab_cpu_is_spent(until))
+    return lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  c->u.until = until > 0 ? lab_cpu_time() + more * until : 0;
   status = lab_candidate_fit(c, 1, error);
   c->u.until = until;
   return status;
@@ -824,13 +835,14 @@ static int search_all(search *s, lab_error *error)
 }
 
 /* What begins, without what was found beside it: that has to be found again. */
-static int keep_onset(lab_candidate *c, lab_error *error)
+static int keep_onset(lab_candidate *c, double until, lab_error *error)
 {
   int i = c->n_found;
   while (i-- > 0)
-    if (lab_unknowns_find_onset(&c->u, c->found[i].param) < 0)
+    if (c->found[i].term >= 0 || lab_unknowns_find_onset(&c->u, c->found[i].param) < 0)
       drop_found(c, i);
-  return lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  c->u.until = until;
+  return lab_candidate_hold(c, error);
 }
 
 /* What begins is known already, but for what else may begin then. */
@@ -839,7 +851,7 @@ static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_sco
   lab_candidate *best = &s->beam[0];
   *best = *begun;
   s->begins = *begins;
-  if (keep_onset(best, error))
+  if (keep_onset(best, s->declared.u.until, error))
     return error->status;
   note_step(s->result, best);
   note_way(s->result, best);

@@ -47,7 +47,9 @@ static int search_exactly(const lab_unknowns *u, const lab_quality *within, cons
 /* How many things were found: what begins, and effects that act throughout. */
 static int count_causes(const lab_candidate *c)
 {
-  int i, n = c->u.rig.n_onsets;
+  int i, n = 0;
+  for (i = 0; i < c->u.rig.n_onsets; i++)
+    n += c->begin[i].known != 0;
   for (i = 0; i < c->n_found; i++)
     n += lab_unknowns_find_onset(&c->u, c->found[i].param) < 0;
   return n;
@@ -87,11 +89,12 @@ static int is_better(const lab_finding *exact, const lab_finding *tolerant)
   return exact->best.quality.bic + (is_simple ? lab_constant(LAB_ALIKE_BIC) : 0) < tolerant->best.quality.bic;
 }
 
-/* When to stop where there is an answer already: after four times as long again, and a second. */
+/* When to stop where there is an answer already: after four times as long again, and a second; never where time does
+ * not count, so that an answer is the same each time. */
 static double enough(double until, double start)
 {
-  const double now = lab_cpu_time(), end = now + 4 * (now - start) + 1;
-  return until > 0 ? fmin(until, end) : end;
+  const double now = lab_cpu_time();
+  return until > 0 ? fmin(until, now + 4 * (now - start) + 1) : 0;
 }
 
 /* What a search from exact values says begins, with values within their tolerances.
@@ -123,15 +126,23 @@ static void forget_what_was_in_vain(lab_finding *f)
   f->result.verdict = lab_is_noise(&f->best.quality) ? LAB_VERDICT_NONE : LAB_VERDICT_UNDECIDED;
 }
 
+/* When a search ends: what follows it takes about as long as the first fit with tolerances, and a quarter of the
+ * search's time is kept for that already (answer.c). In:      start  [s] when that fit began */
+static double before_the_end(double until, double start)
+{
+  static const double kept = 0.25;
+  return until > 0 ? until - fmax(lab_cpu_time() - start - kept * (until - start), 0) : 0;
+}
+
 /* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
- * something may be missing from a rig that is as declared: if an effect explains them and needs no deviations beside,
- * none are looked for; else the better model of the two searches is the answer.
- * In:      u      the declared model, fitted
- * In/out:  whole  with the errors of that; then what is taken for the answer */
+ * something may be missing from a rig that is as declared: if one cause explains them and needs no deviations beside,
+ * none are looked for; else the better model of the two searches is the answer. In:      u      the declared model,
+ * fitted In/out:  whole  with the errors of that; then what is taken for the answer */
 static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, lab_finding *whole,
                              lab_error *error)
 {
   const double start = lab_cpu_time();
+  double until;
   lab_finding *exact = malloc(sizeof *exact);
   int status, is_exact = 0, begins = 0;
   if (!exact)
@@ -140,6 +151,8 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   whole->exact = u;
   whole->best.u = *u;
   status = lab_candidate_hold(&whole->best, error);
+  until = before_the_end(u->until, start);
+  whole->best.u.until = until;
   whole->declared = whole->best;
   if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
     status = search_exactly(u, &whole->best.quality, options, exact, error);
@@ -149,7 +162,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   }
   if (status != LAB_WORLD && !(is_exact && is_enough(exact, &whole->declared.u))) {
     if (is_exact)
-      whole->declared.u.until = enough(u->until, start);
+      whole->declared.u.until = enough(until, start);
     begins |= is_exact && lab_candidate_begins(&exact->best);
     status = lab_rounds_run(whole, begins ? exact : NULL, NULL, options, error);
     if (status == LAB_OK)
@@ -162,7 +175,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
     *whole = *exact;
     status = LAB_OK;
   }
-  whole->best.u.until = u->until;
+  whole->best.u.until = until;
   free(exact);
   return status;
 }

@@ -55,6 +55,9 @@ static int fit_staged(const lab_unfolding *f, const lab_candidate *c, lab_candid
   if (!staged)
     return lab_fail_memory(error, "a candidate");
   status = lab_candidate_stage(c, f->exact, staged, error);
+  staged->u.misfit = whole->u.misfit; /* so that tolerances cost as much */
+  if (status == LAB_OK)
+    status = lab_candidate_fit(staged, LAB_ROUNDS_ALL, error);
   if (status == LAB_OK && lab_candidate_by_bic(staged, whole) < 0)
     *whole = *staged;
   free(staged);

@@ -17,13 +17,17 @@ typedef struct lab_unfolding {
 int lab_unfold_has_held(const lab_unfolding *f);
 
 /* Fit a candidate with all its values: from where the straight lines lead, and, if that comes near to the logs, from
- * the declared values. Out:     whole  the better one, fitted or not Returns: LAB_OK, LAB_WORLD. */
+ * the declared values.
+ * Out:     whole  the better one, fitted or not
+ * Returns: LAB_OK, LAB_WORLD. */
 int lab_unfold(const lab_unfolding *f, const lab_candidate *c, lab_candidate *whole, lab_error *error);
 
 /* Fit the best of n candidates with all their values, and rank them by that. Where declared values vary, it takes long:
  * if straight lines explain the logs, only the best one is fitted, what straight lines cannot tell from it, and what
- * would come before it then, if it gained twice as much. In/out:  f->best  the best such one so far c        sorted,
- * best first Returns: LAB_OK, LAB_WORLD. */
+ * would come before it then, if it gained twice as much.
+ * In/out:  f->best  the best such one so far
+ *          c        sorted, best first
+ * Returns: LAB_OK, LAB_WORLD. */
 int lab_unfold_best(lab_unfolding *f, lab_candidate *c, int n, lab_error *error);
 
 #endif
