@@ -56,9 +56,10 @@ static const lab_option options[] = {
      "write a rig file for this log to standard output, each line with a comment on where its value\ncomes from", 0, 0},
     {"sheet", LAB_OPTION_TEXTS, &sheet, "KEY=VALUE",
      "for a rig file, with --init or alone: what the data sheet says, \"area=400 cm2\",\n"
-     "\"bench_set=0.2..1.0 bar\", stroke, fail, supply, Kv, fill.Kv, vent.Qn, tube.length, tube.bore and\n"
-     "the keys of pneu-rig(5), or actuator=fisher-657-40 and positioner=samson-3730 of the catalogue;\n"
-     "may be given many times, or once with more KEY=VALUE behind it; without it, a terminal is asked",
+     "\"bench_set=0.2..1.0 bar\", stroke, fail, supply, Kv, fill.Kv, vent.Qn, tube.length, tube.bore,\n"
+     "positioner.gain and the keys of pneu-rig(5), or actuator=fisher-657-40 and\n"
+     "positioner=samson-3730 of the catalogue; may be given many times, or once with more KEY=VALUE\n"
+     "behind it; without it, a terminal is asked",
      0, 0},
     {"allow-include", LAB_OPTION_FLAG, &allow_include, NULL,
      "with --batch: read rig files that take in others by @include", 0, 0},

@@ -272,14 +272,21 @@ static void add_deviation(char *text, const lab_report *report, const lab_deviat
   ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
 
+static int count_beyond(const lab_deviations *all)
+{
+  int i, n = 0;
+  for (i = 0; i < all->n; i++)
+    n += all->of[i].beyond != 0;
+  return n;
+}
+
 /* Those beyond their tolerance.  Returns: their number */
 static int add_deviations(char *text, const lab_report *report)
 {
   const lab_deviations *all = &report->deviations;
+  const int n = count_beyond(all);
   char *begin = text + strlen(text);
-  int i, n = 0, told = 0;
-  for (i = 0; i < all->n; i++)
-    n += all->of[i].beyond != 0;
+  int i, told = 0;
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
     if (all->of[i].beyond) {
       ADD(text, "%s", told ? ", " : "");
@@ -397,7 +404,9 @@ static void add_small(char *text, const lab_search_result *r)
 void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
   const lab_search_result *r = report->result;
-  const char *with = r->n_found > 1 ? "With them" : "With it";
+  const char *with = count_beyond(&report->deviations) > 0 ? "With all of this"
+                     : r->n_found > 1                      ? "With them"
+                                                           : "With it";
   *text = '\0';
   if (lab_report_doubt(report))
     return;

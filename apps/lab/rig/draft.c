@@ -466,20 +466,29 @@ static void put_fit(FILE *file, const draft *d)
     for (k = 0; k < NEEDED; k++)
       fitted[k] |= needed[k] == fit[i].param;
   }
-  if (lab_log_command(&d->log) == LAB_CHANNEL_SP)
+  if (lab_log_command(&d->log) == LAB_CHANNEL_SP && !find_word(d, "positioner", "gain"))
     fprintf(file, "%s\"positioner.gain\"", between);
   fputs(" );\n", file);
   put_tolerances(file, d, fitted);
 }
 
-/* A log with sp and no u has a positioner; one with neither is the balance of forces alone, driven by p. */
+/* What the sheet says of the positioner; a log with sp and no u has one in any case. */
+static void put_positioner(FILE *file, const draft *d)
+{
+  const int is_start = lab_log_command(&d->log) == LAB_CHANNEL_SP && !find_word(d, "positioner", "gain");
+  char members[SHEET_TEXT] = "";
+  put_members(d, "positioner", members, sizeof members);
+  if (is_start || *members)
+    fprintf(file, "positioner = { %s%s}; // %s\n", is_start ? "gain = 20; " : "", members,
+            is_start ? "the log has a set position and no command; the gain is a start for the fit"
+                     : source_of(d, find_word(d, "positioner", NULL)));
+}
+
+/* A log with neither u nor sp is the balance of forces alone, driven by p. */
 static void put_drive(FILE *file, const draft *d)
 {
   const int command = lab_log_command(&d->log);
-  if (command == LAB_CHANNEL_SP)
-    fputs(
-        "positioner = { gain = 20; }; // the log has a set position and no command; the gain is a start for the fit\n",
-        file);
+  put_positioner(file, d);
   if (command < 0 && has(d, LAB_CHANNEL_P) && has(d, LAB_CHANNEL_X))
     fputs("inputs = [\"p\"]; // the log has no command: p drives the stem, and the balance of mass is off\n", file);
 }

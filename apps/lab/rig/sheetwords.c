@@ -19,6 +19,17 @@ static const struct sheet_key {
     {"ambient", "ambient", "pressure"},
     {"tube.length", "tube", "length"},
     {"tube.bore", "tube", "bore"},
+#define POSITIONER(key)                                                                                                \
+  {                                                                                                                    \
+    "positioner." key, "positioner", key                                                                               \
+  }
+    POSITIONER("gain"),
+    POSITIONER("integral_time"),
+    POSITIONER("derivative_time"),
+    POSITIONER("dead_band"),
+    POSITIONER("cutoff_low"),
+    POSITIONER("cutoff_high"),
+#undef POSITIONER
     {"Kvs", "transducer.fill", "Kv"},
     {"Kvs", "transducer.vent", "Kv"},
 #define ORIFICE(key)                                                                                                   \
@@ -50,9 +61,22 @@ static int is_key(const lab_key *row, const char *name)
   return alone && strcmp(name, row->key) == 0;
 }
 
+/* A key that more groups than one have: with which to write it.  Out: list  Returns: how many there are */
+static int list_groups(const char *name, char list[LAB_SHEET_VALUE])
+{
+  size_t used = 0;
+  int i, n = 0;
+  for (i = 0; i < lab_key_count; i++)
+    if (strcmp(lab_keys[i].key, name) == 0 && used < LAB_SHEET_VALUE)
+      used += (size_t)snprintf(list + used, LAB_SHEET_VALUE - used, "%s\"%s.%s\"", n++ ? " or " : "", lab_keys[i].group,
+                               name);
+  return n;
+}
+
 static int unknown(const char *name, lab_error *error)
 {
   const char *names[NAMES];
+  char list[LAB_SHEET_VALUE];
   int i, n = 0;
   for (i = 0; i < SHEET_KEYS; i++)
     names[n++] = sheet_keys[i].name;
@@ -60,6 +84,8 @@ static int unknown(const char *name, lab_error *error)
     names[n++] = lab_keys[i].key;
   if (strcmp(name, "tube") == 0)
     return lab_fail(error, LAB_USAGE, "--sheet: expected \"tube.length=2 m\" \"tube.bore=4 mm\", each by itself");
+  if (list_groups(name, list) > 0)
+    return lab_fail(error, LAB_USAGE, "--sheet: which \"%s\"? Write %s", name, list);
   return lab_fail(error, LAB_USAGE, "--sheet: unknown key \"%s\"; the nearest known one is \"%s\"", name,
                   lab_name_nearest(name, names, (size_t)n, sizeof names[0]));
 }

@@ -17,7 +17,7 @@ typedef struct lab_sheet_word {
 } lab_sheet_word;
 
 /* Read "area=400 cm2", "supply.pressure=4 bar" (or "supply=4 bar"), "bench_set=0.2..1.0 bar", "fill.Kv=0.1", "Kv=0.1"
- * (both orifices), "tube.length=2 m", "flow=choked".
+ * (both orifices), "tube.length=2 m", "positioner.gain=20", "flow=choked".
  * Out:     word  up to two
  *          n     how many
  * Returns: LAB_OK; LAB_USAGE with the nearest known key. */

@@ -88,7 +88,10 @@ static int add_channels(lab_run *e, lab_error *error)
         (c != LAB_CHANNEL_FORCE || e->rig->laws.position_input) && add_channel(e, c, error))
       return error->status;
   if (e->n_channels == 0)
-    return lab_fail(error, LAB_DATA, "%s: expected a measured channel that is no input: p, x or T", e->log->path);
+    return lab_fail(error, LAB_DATA,
+                    "%s: expected a measured channel that is no input: p, x or T; say which column has it, as by "
+                    "log = { map = { p = \"PT-101\"; }; }",
+                    e->log->path);
   return LAB_OK;
 }
 

@@ -134,6 +134,21 @@ static void assert_no_word(const char *word, int status, const char *words)
   assert_contains(error.text, words);
 }
 
+/* What the sheet says of the positioner is declared, and not fitted. */
+static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **state)
+{
+  static const char *const sheet[] = {"area=400 cm2", "stroke=20 mm", "positioner.gain=39.6",
+                                      "positioner.dead_band=0.27 %"};
+  const int gain = pneu_param_find("positioner.gain");
+  char *text;
+  const lab_rig rig = draft_of(NULL, sheet, 4, &text);
+  (void)state;
+  assert_true(gain >= 0);
+  assert_close((double)*pneu_param_at((pneu_params *)&rig.params, gain), 39.6, 0, 1e-9);
+  assert_non_null(strstr(text, "positioner = { gain = \"39.6\"; dead_band = \"0.27 %\"; }; // sheet"));
+  free(text);
+}
+
 static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **state)
 {
   static const char *const twice[] = {"area=1 cm2", "area=2 cm2"};
@@ -141,7 +156,7 @@ static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **
   assert_no_word("aera=1 cm2", LAB_USAGE, "the nearest known one is \"area\"");
   assert_no_word("area", LAB_USAGE, "expected key=value");
   assert_no_word("name=\"x\"", LAB_USAGE, "without quotes");
-  assert_no_word("pressure=4 bar", LAB_USAGE, "unknown key \"pressure\""); /* supply's or ambient's */
+  assert_no_word("pressure=4 bar", LAB_USAGE, "Write \"supply.pressure\" or \"ambient.pressure\"");
   assert_no_word("bench_set=1 bar", LAB_USAGE, "expected two pressures");
   assert_no_word("area=1 kg", LAB_DATA, "actuator.area");
   assert_int_equal(lab_draft_write(stdout, log_path, twice, 2, &error), LAB_USAGE);
@@ -256,6 +271,7 @@ int main(void)
       cmocka_unit_test(test_lab_draft_write__words_of_the_sheet__are_not_fitted),
       cmocka_unit_test(test_lab_draft_write__no_log_yet__is_all_of_the_sheet),
       cmocka_unit_test(test_lab_draft_write__files_of_loggers__are_read_with_their_draft),
+      cmocka_unit_test(test_lab_draft_write__positioner_of_the_sheet__is_declared),
       cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
       cmocka_unit_test(test_lab_draft_write__actuator_by_name__has_its_makers_values),
       cmocka_unit_test(test_lab_draft_write__actuator_by_name__the_sheet_comes_first),
