@@ -90,6 +90,9 @@ paste -d , "$out/here.csv" "$out/there.csv" | awk -F , 'NR == 1 { n = NF / 2; ne
   { for (i = 1; i <= n; i++) { d = $i - $(i + n); size = $i < 0 ? -$i : $i; if (d * d > 1e-18 * size * size + 1e-18) bad++ } }
   END { exit bad || NR < 100 }' >"$out/log" 2>&1 || wrong "simulate.exe predicts something else than here"
 echo "ok      windows: --init drafts and simulate.exe predicts the same as here"
+wine "$there/export-fmu.exe" study/actuators/r1-400.cfg --fmi 2 --out "$out/there.fmu" >"$out/log" 2>&1 || wrong "export-fmu.exe"
+python3 tests/same_files.py "$out/r1-400.fmu" "$out/there.fmu" >"$out/log" 2>&1 || wrong "export-fmu.exe writes another FMU than here"
+echo "ok      windows: export-fmu.exe writes the same files into an FMU as here"
 if wine "$there/closeloop.exe" --batch list.csv >"$out/log" 2>&1 || ! grep -q "none on Windows" "$out/log"; then
   wrong "--batch does not say that there is none"
 fi

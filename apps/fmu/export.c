@@ -14,11 +14,12 @@
 
 enum { PATH_TEXT = 256 };
 
-/* Folders for binaries in FMI 2 and FMI 3: of this compiler's machine, if it has one, and of Windows. */
+/* Folders for binaries in FMI 2 and FMI 3: of the machine that builds export-fmu, if it has one (FMU_LINUX64 tells that
+ * to another machine's compiler), and of Windows. */
 static const struct {
   const char *folder[2], *ending;
 } platforms[] = {
-#if defined __x86_64__ && defined __linux__
+#if (defined __x86_64__ && defined __linux__) || defined FMU_LINUX64
     {{"linux64", "x86_64-linux"}, "so"},
 #elif defined __aarch64__ && defined __linux__
     {{NULL, "aarch64-linux"}, "so"},

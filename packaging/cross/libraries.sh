@@ -34,6 +34,10 @@ windows)
   sizes=
   # The numbers of C99: the system's own printf has three digits in an exponent.
   flags="$flags -D__USE_MINGW_ANSI_STDIO=1"
+  # Of export-fmu, which runs in no browser.
+  packages="$packages
+libzip 1.7.3-1
+libxml2 2.9.14+dfsg-1.3~deb12u6"
   ;;
 *)
   echo "libraries.sh: expected the target wasm or windows, found $target" >&2
@@ -104,6 +108,20 @@ build_cjson() {
   by_cmake cjson -DENABLE_CJSON_TEST=OFF -DENABLE_CUSTOM_COMPILER_FLAGS=OFF
 }
 
+# With zlib alone, which the system has for MinGW.
+build_libzip() {
+  set --
+  for part in COMMONCRYPTO GNUTLS MBEDTLS OPENSSL WINDOWS_CRYPTO BZIP2 LZMA ZSTD; do set -- "$@" -DENABLE_$part=OFF; done
+  for part in TOOLS REGRESS EXAMPLES DOC; do set -- "$@" -DBUILD_$part=OFF; done
+  by_cmake libzip "$@" -DZLIB_LIBRARY="/usr/$host/lib/libz.a" -DZLIB_INCLUDE_DIR="/usr/$host/include"
+}
+
+build_libxml2() {
+  set --
+  for part in ICONV LZMA PYTHON ZLIB TESTS PROGRAMS; do set -- "$@" -DLIBXML2_WITH_$part=OFF; done
+  by_cmake libxml2 "$@"
+}
+
 : "${MAKE:=make}"
 : >"$log"
 echo "$packages" | while read -r name version; do
@@ -116,7 +134,7 @@ done
 
 # What must go with a program that has them inside.
 for name in $(echo "$packages" | cut -d ' ' -f 1); do
-  for text in LICENSE NOTICE COPYING COPYING.LIB COPYRIGHT src/algs/*/COPYRIGHT src/algs/*/COPYING; do
+  for text in LICENSE NOTICE COPYING COPYING.LIB COPYRIGHT Copyright src/algs/*/COPYRIGHT src/algs/*/COPYING; do
     for file in "$prefix/src/$name"/$text; do
       [ ! -f "$file" ] || { printf '==== %s\n\n' "$name/${file#"$prefix/src/$name/"}" && cat "$file" && echo; }
     done
