@@ -16,7 +16,8 @@ static int standard, figures, json;
 
 static const lab_option options[] = {
     {"out", LAB_OPTION_TEXT, &out_path, "FILE", "write there instead of standard output", 0, 0},
-    {"step", LAB_OPTION_FLAG, &standard, NULL, "fill for 15 s and vent for 15 s, past any positioner, instead of following a log", 0, 0},
+    {"step", LAB_OPTION_FLAG, &standard, NULL,
+     "fill for 15 s and vent for 15 s, past any positioner, instead of following a log", 0, 0},
     {"metrics", LAB_OPTION_FLAG, &figures, NULL,
      "print figures of merit of the response instead of its rows: dead time, T63, T86,\n"
      "dead band, hysteresis, stroke times, air and energy; study/schedules/ has\n"
