@@ -67,12 +67,12 @@ own_apt() {
     -o Dir::State::lists="$prefix/apt/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User=root "$@" >>"$log" 2>&1
 }
 
-# fetch NAME VERSION: its folder of sources
+# fetch NAME VERSION: its folder of sources. A version that the distribution has replaced is gone: then that of now.
 fetch() {
   [ -d "$prefix/apt/lists" ] || sources || wrong "no lists of source packages"
-  (cd "$prefix/src" && own_apt source --download-only "$1=$2") || wrong "no source of $1 $2"
-  rm -rf "$prefix/src/$1"
-  (cd "$prefix/src" && dpkg-source -x "$1_${2#*:}.dsc" "$1" >>"$log" 2>&1) || wrong "the source of $1 does not unpack"
+  rm -rf "$prefix/src/$1" "$prefix/src/$1"_*
+  (cd "$prefix/src" && { own_apt source --download-only "$1=$2" || own_apt source --download-only "$1"; }) || wrong "no source of $1 $2"
+  (cd "$prefix/src" && dpkg-source -x "$1"_*.dsc "$1" >>"$log" 2>&1) || wrong "the source of $1 does not unpack"
 }
 
 # by_cmake NAME SETTINGS...
