@@ -8,7 +8,7 @@ mode=$1 kind=$2 readme=$3
 case $kind in
 times) rows="awk -f tests/bench/times.awk results/bench.csv" ;;
 sizes) rows="awk -f tests/firmware/sizes.awk results/size.csv" ;;
-trials) rows="awk -f tests/blind/readme.awk results/blind.md results/blind_noise.md results/blind_nothing.md" ;;
+trials) rows="awk -f tests/blind/readme.awk results/blind.md results/blind_noise.md results/blind_nothing.md results/blind_recorded.md" ;;
 rules | constants) rows="${BUILD:-build}/tests/decisions $kind" ;;
 *) exit 2 ;;
 esac

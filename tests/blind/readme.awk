@@ -1,4 +1,4 @@
-# From the totals of the blind trials to the README: results/blind.md, blind_nothing.md, blind_noise.md.
+# From the totals of the blind trials to the README: results/blind.md, blind_noise.md, blind_nothing.md, blind_recorded.md.
 BEGIN {
   FS = " *\\| *"
   print "| closeloop on rigs drawn at random | how often | 95 % interval |"
@@ -9,6 +9,9 @@ BEGIN {
   say["added under the right names", "blind_noise.md"] = "as the first row, without a declared noise"
   say["called unlisted, in the right equation", "blind.md"] = "something is missing that no catalogue has: reported as unknown, in the right equation"
   say["something named (false alarm)", "blind_nothing.md"] = "nothing is missing: something is named"
+  say["right or honestly undecided", "blind_recorded.md"] = "logs as benches and plants record them: right, or honestly undecided"
+  say["right", "blind_recorded.md"] = "... right"
+  say["confidently wrong (false alarm, overlooked, wrong)", "blind_recorded.md"] = "... something is named wrongly, or overlooked"
 }
 FNR == 1 { file = FILENAME; sub(".*/", "", file) }
 $2 ~ /: / {
