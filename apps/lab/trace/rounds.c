@@ -853,6 +853,8 @@ static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_sco
   s->begins = *begins;
   if (keep_onset(best, s->declared.u.until, error))
     return error->status;
+  if (!best->quality.fitted)
+    return lab_fail(error, LAB_NUMERIC, "what begins cannot be followed within tolerances");
   note_step(s->result, best);
   note_way(s->result, best);
   return linearise_again(s, error) ? error->status : try_instead(s, error);
