@@ -1,4 +1,4 @@
-# From the totals of the blind trials to the README: results/blind.md, blind_noise.md, blind_nothing.md, blind_recorded.md.
+# From the totals of the blind trials to study/guides/trust.md: results/blind.md, blind_noise.md, blind_nothing.md, blind_recorded.md.
 BEGIN {
   FS = " *\\| *"
   print "| closeloop on rigs drawn at random | how often | 95 % interval |"
