@@ -438,6 +438,12 @@ static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
     fputs(" }; // starts and defaults: to be away from them is no deviation\n", file);
 }
 
+/* A log with sp and no u has a positioner, the gain of which it can determine if the sheet does not say it. */
+static int fits_gain(const draft *d)
+{
+  return lab_log_command(&d->log) == LAB_CHANNEL_SP && !find_word(d, "positioner", "gain");
+}
+
 /* What the log can determine: orifices by p or x, supply and dead volume by p, spring and friction by both p and x. */
 static void put_fit(FILE *file, const draft *d)
 {
@@ -466,22 +472,25 @@ static void put_fit(FILE *file, const draft *d)
     for (k = 0; k < NEEDED; k++)
       fitted[k] |= needed[k] == fit[i].param;
   }
-  if (lab_log_command(&d->log) == LAB_CHANNEL_SP && !find_word(d, "positioner", "gain"))
+  if (fits_gain(d))
     fprintf(file, "%s\"positioner.gain\"", between);
   fputs(" );\n", file);
   put_tolerances(file, d, fitted);
 }
 
-/* What the sheet says of the positioner; a log with sp and no u has one in any case. */
+/* What the sheet says of the positioner, and a start of its gain for the fit. */
 static void put_positioner(FILE *file, const draft *d)
 {
-  const int is_start = lab_log_command(&d->log) == LAB_CHANNEL_SP && !find_word(d, "positioner", "gain");
   char members[SHEET_TEXT] = "";
+  if (!fits_gain(d)) {
+    put_inner(file, d, "positioner", "positioner");
+    return;
+  }
   put_members(d, "positioner", members, sizeof members);
-  if (is_start || *members)
-    fprintf(file, "positioner = { %s%s}; // %s\n", is_start ? "gain = 20; " : "", members,
-            is_start ? "the log has a set position and no command; the gain is a start for the fit"
-                     : source_of(d, find_word(d, "positioner", NULL)));
+  fprintf(file,
+          "positioner = { gain = 20; %s}; // the log has a set position and no command; the gain is a start for the "
+          "fit\n",
+          members);
 }
 
 /* A log with neither u nor sp is the balance of forces alone, driven by p. */

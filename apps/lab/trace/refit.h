@@ -33,8 +33,8 @@ typedef struct lab_candidate {
  * Returns: as lab_unknowns_fit; quality.fitted says whether it was LAB_OK. */
 int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
 
-/* Fit with what is declared within its tolerances; once more where that leaves much less.  Returns: LAB_OK, LAB_WORLD
- */
+/* Fit with what is declared within its tolerances; once more where that leaves much less.
+ * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_DATA if there is no room; LAB_WORLD. */
 int lab_candidate_hold(lab_candidate *c, lab_error *error);
 
 /* The same effects from the declared values: fitted with these exactly as they are, and then within their tolerances.

@@ -126,8 +126,9 @@ static void forget_what_was_in_vain(lab_finding *f)
   f->result.verdict = lab_is_noise(&f->best.quality) ? LAB_VERDICT_NONE : LAB_VERDICT_UNDECIDED;
 }
 
-/* When a search ends: what follows it takes about as long as the first fit with tolerances, and a quarter of the
- * search's time is kept for that already (answer.c). In:      start  [s] when that fit began */
+/* When a search ends [s]: what follows it takes about as long as the first fit with tolerances, and a quarter of the
+ * search's time is kept for that already (for_search in answer.c).
+ * In:      start  [s] when that fit began */
 static double before_the_end(double until, double start)
 {
   static const double kept = 0.25;
@@ -136,8 +137,9 @@ static double before_the_end(double until, double start)
 
 /* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
  * something may be missing from a rig that is as declared: if one cause explains them and needs no deviations beside,
- * none are looked for; else the better model of the two searches is the answer. In:      u      the declared model,
- * fitted In/out:  whole  with the errors of that; then what is taken for the answer */
+ * none are looked for; else the better model of the two searches is the answer.
+ * In:      u      the declared model, fitted
+ * In/out:  whole  with the errors of that; then what is taken for the answer */
 static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, lab_finding *whole,
                              lab_error *error)
 {

@@ -103,7 +103,8 @@ int lab_unfold_best(lab_unfolding *f, lab_candidate *c, int n, lab_error *error)
   double gain = 0;
   int i;
   for (i = 0; i < most && f->nuisance->n > 0 && !lab_cpu_is_spent(f->until); i++) {
-    const double bar = f->best.quality.fitted ? fmax(alike, f->best.quality.bic + 2 * gain) : HUGE_VAL;
+    const double bar =
+        f->best.quality.fitted ? fmax(alike, f->best.quality.bic + lab_constant(LAB_UNFOLDED_GAIN) * gain) : HUGE_VAL;
     lab_candidate *next = next_of(c, n, is_lazy ? bar : HUGE_VAL);
     const double line = next ? next->quality.bic : 0;
     if (!next)

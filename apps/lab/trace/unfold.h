@@ -24,7 +24,7 @@ int lab_unfold(const lab_unfolding *f, const lab_candidate *c, lab_candidate *wh
 
 /* Fit the best of n candidates with all their values, and rank them by that. Where declared values vary, it takes long:
  * if straight lines explain the logs, only the best one is fitted, what straight lines cannot tell from it, and what
- * would come before it then, if it gained twice as much.
+ * would come before it then, if it gained UNFOLDED_GAIN times as much.
  * In/out:  f->best  the best such one so far
  *          c        sorted, best first
  * Returns: LAB_OK, LAB_WORLD. */
