@@ -146,6 +146,9 @@ void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int run, lab
 /* Put the present values of the unknowns that all runs share into the model. */
 void lab_unknowns_take(lab_unknowns *u);
 
+/* Take the values that the unknowns had before any fit. */
+void lab_unknowns_undo_fit(lab_unknowns *u);
+
 /* Residuals (measured less predicted, over noise, whitened where the noise has memory; a gap counts 0), then those of
  * the priors.
  * In:      context  const lab_unknowns *

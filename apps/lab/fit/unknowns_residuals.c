@@ -265,6 +265,14 @@ void lab_unknowns_take(lab_unknowns *u)
   lab_unknowns_apply(u, now, LAB_ALL_RUNS, &u->rig);
 }
 
+void lab_unknowns_undo_fit(lab_unknowns *u)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    u->unknown[j].value = u->unknown[j].first;
+  lab_unknowns_take(u);
+}
+
 int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_error *error)
 {
   const lab_unknowns *u = context;

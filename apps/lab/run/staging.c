@@ -28,13 +28,18 @@ static int allocate(size_t rows, size_t models, lab_staging *s, lab_error *error
   return lab_fail_memory(error, "a schedule");
 }
 
-/* The rig as it is from a time on, and its model. */
+/* The rig as it is from a time on, and its model: in the scales of the first one, as states of effects are carried
+ * over.
+ */
 static int add_model(const lab_rig *rig, double from, lab_staging *s, lab_error *error)
 {
   const int k = s->n++;
+  int status;
   s->from[k] = from;
   lab_rig_at(rig, from, &s->rig[k]);
-  return lab_rig_model(&s->rig[k], &s->model[k], error);
+  status = lab_rig_model(&s->rig[k], &s->model[k], error);
+  memcpy(s->model[k].scale, s->model[0].scale, sizeof s->model[k].scale);
+  return status;
 }
 
 /* Models of all episodes, and of what begins in each after it has begun and before the next one does. */

@@ -229,13 +229,13 @@ static int move(lab_unknowns *u, int change, double from, double *chi2, lab_erro
   return better;
 }
 
-int lab_onset_settle(lab_unknowns *u, int change, double *chi2, lab_onset *begin, lab_error *error)
+int lab_onset_settle(lab_unknowns *u, int change, int anywhere, double *chi2, lab_onset *begin, lab_error *error)
 {
   enum { MOVES = 5 };
   int i, status = fit_since(u, change, chi2, error);
   for (i = 0; status == LAB_OK; i++) {
     const double from = when(u, change);
-    status = place(u, change, i == 0 ? ANYWHERE : i < MOVES ? NEAR : HERE, begin, error);
+    status = place(u, change, i == 0 && anywhere ? ANYWHERE : i < MOVES ? NEAR : HERE, begin, error);
     if (status != LAB_OK || (begin->low <= from && from <= begin->high))
       break;
     error->status = LAB_OK;
@@ -254,7 +254,7 @@ int lab_onset_find(lab_unknowns *u, int change, double level, double *chi2, lab_
   double whole;
   int status = throughout ? LAB_OK : lab_fail_memory(error, "an onset");
   if (status == LAB_OK)
-    status = lab_onset_settle(u, change, chi2, begin, error);
+    status = lab_onset_settle(u, change, 1, chi2, begin, error);
   if (status == LAB_OK) {
     *throughout = *u;
     set_from(throughout, change, -HUGE_VAL);

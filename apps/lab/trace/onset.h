@@ -14,8 +14,9 @@ typedef struct lab_onset {
 enum { LAB_ONSET_PLACES = 8 }; /* stretches of a run between which a change may begin or end, at first sight */
 
 /* Find when a change begins, and fit again, until it stays where it is; what is found begins between rows.
+ * In:      anywhere  0: near where it is
  * In/out, Out, Returns: as lab_onset_find */
-int lab_onset_settle(lab_unknowns *u, int change, double *chi2, lab_onset *begin, lab_error *error);
+int lab_onset_settle(lab_unknowns *u, int change, int anywhere, double *chi2, lab_onset *begin, lab_error *error);
 
 /* The same; where that is no better than acting throughout, the change acts throughout.
  * In:      change  place of a fitted LAB_UNKNOWN_CHANGE that the last run alone has, or of a LAB_UNKNOWN_ONSET of the

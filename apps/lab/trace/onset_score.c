@@ -64,6 +64,7 @@ typedef struct scan {
   lab_run run;       /* its only run */
   double *before;    /* open.m residuals */
   size_t n;          /* rows */
+  int first, last;   /* places at which it may begin */
   double *r;         /* the residual of p */
   double *column;    /* n_columns that are projected out of every slope, and what the residual has along each */
   double *along;
@@ -130,7 +131,7 @@ static void judge(const scan *s, const double *slope, double step, double up, do
       continue;
     if (k == 0)
       *throughout = fmax(*throughout, statistic);
-    else if (statistic > score->statistic) {
+    else if (s->first <= k && k <= s->last && statistic > score->statistic) {
       score->statistic = statistic;
       score->size = fmax(fmin(size, up), -down);
       score->onset = s->n * (size_t)k / PLACES;
@@ -232,7 +233,7 @@ static void add_columns(scan *s)
   lab_drift_take_out(&p->u->run[0], s->r);
 }
 
-static int open_scan(const lab_projection *p, scan *s, lab_error *error)
+static int open_scan(const lab_projection *p, size_t from, size_t to, scan *s, lab_error *error)
 {
   const size_t columns = (size_t)(p->n_basis + (p->u->nuisance ? p->u->nuisance->n : 0)) + 1;
   s->p = p;
@@ -242,6 +243,8 @@ static int open_scan(const lab_projection *p, scan *s, lab_error *error)
   s->open.run = &s->run;
   s->open.nuisance = NULL;
   s->n = s->run.n;
+  s->first = (int)(from * PLACES / s->n);
+  s->last = (int)(to * PLACES / s->n);
   lab_unknowns_count(&s->open);
   s->before = malloc(s->open.m * sizeof *s->before);
   s->r = malloc(s->open.n_data * sizeof *s->r);
@@ -285,10 +288,10 @@ static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
   return error->status;
 }
 
-int lab_onset_scores_find(const lab_projection *p, lab_onset_scores *all, lab_error *error)
+int lab_onset_scores_find(const lab_projection *p, size_t from, size_t to, lab_onset_scores *all, lab_error *error)
 {
   scan *s = calloc(1, sizeof *s);
-  int status = s ? open_scan(p, s, error) : lab_fail_memory(error, "a scan");
+  int status = s ? open_scan(p, from, to, s, error) : lab_fail_memory(error, "a scan");
   memset(all, 0, sizeof *all);
   if (status == LAB_OK) {
     list_values(p->u, all);

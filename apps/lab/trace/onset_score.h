@@ -22,8 +22,9 @@ typedef struct lab_onset_scores {
 } lab_onset_scores;
 
 /* Score all that may begin within a run.
- * In:      p  of the only run, seen row by row
+ * In:      p         of the only run, seen row by row
+ *          from, to  rows between which it begins; 0 and the end of the run: anywhere
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
-int lab_onset_scores_find(const lab_projection *p, lab_onset_scores *scores, lab_error *error);
+int lab_onset_scores_find(const lab_projection *p, size_t from, size_t to, lab_onset_scores *scores, lab_error *error);
 
 #endif

@@ -84,13 +84,11 @@ static lab_found *add_found(lab_candidate *c)
   return found;
 }
 
-int lab_candidate_hold(lab_candidate *c, lab_error *error)
+int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
 {
   static const double less = 0.7;
   double before;
   int status = lab_unknowns_weigh_held(&c->u, error);
-  if (status == LAB_OK)
-    status = lab_unknowns_hold(&c->u, error);
   if (status == LAB_OK)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   before = c->u.misfit;
@@ -99,6 +97,11 @@ int lab_candidate_hold(lab_candidate *c, lab_error *error)
   if (status == LAB_OK && c->u.misfit < less * before)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+int lab_candidate_hold(lab_candidate *c, lab_error *error)
+{
+  return lab_unknowns_hold(&c->u, error) ? error->status : lab_candidate_fit_held(c, error);
 }
 
 int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error)
@@ -158,7 +161,7 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
   if (!lab_candidate_begins(c))
     return LAB_OK;
   j = lab_unknowns_find_onset(&c->u, c->u.rig.onset[k].param);
-  status = lab_onset_settle(&c->u, j, &c->quality.chi2, &c->begin[k], error);
+  status = lab_onset_settle(&c->u, j, 1, &c->quality.chi2, &c->begin[k], error);
   if (status == LAB_OK)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
@@ -215,15 +218,6 @@ static double size_at(const lab_score *score, enum start start)
   return (double)(info.value - info.neutral) * (score->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
 }
 
-/* Take the values that the unknowns had before any fit. */
-static void undo_fit(lab_unknowns *u)
-{
-  int j;
-  for (j = 0; j < u->n; j++)
-    u->unknown[j].value = u->unknown[j].first;
-  lab_unknowns_take(u);
-}
-
 /* ---- Slopes that refits share ---- */
 
 /* Candidates that begin at the same values of their unknowns begin with the same slopes in them, and each keeps its own
@@ -273,7 +267,7 @@ static starts *open_starts(const lab_candidate *base, lab_error *error)
     return NULL;
   }
   s->of[0].base = s->of[1].base = *base;
-  undo_fit(&s->of[1].base.u);
+  lab_unknowns_undo_fit(&s->of[1].base.u);
   if (base->u.until > 0)
     s->until = now + lab_constant(LAB_BEGIN_TIME) * (base->u.until - now);
   return s;
@@ -640,6 +634,38 @@ int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, d
   if (best->quality.fitted && best->n_found > base->n_found)
     lab_candidate_explain(best, base->quality.chi2);
   free(c);
+  return error->status;
+}
+
+/* Find when near its time it begins. */
+static void place_near(lab_candidate *c, lab_error *all)
+{
+  lab_error error;
+  const int status = lab_onset_settle(&c->u, c->u.n - 1, 0, &c->quality.chi2, &c->begin[c->u.rig.n_onsets - 1], &error);
+  c->quality.fitted = status == LAB_OK;
+  if (status != LAB_OK)
+    lab_fail_together(all, &error);
+}
+
+int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, double from,
+                        lab_candidate *c, int *n, lab_error *error)
+{
+  const int most = lab_count(LAB_ONSET_LEADERS);
+  double reach;
+  int i;
+  error->status = LAB_OK;
+  for (i = 0; i < most && i < scores->n && scores->of[i].p_value < level; i++)
+    ;
+  *n = i;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < *n; i++)
+    begin_onset(base, &scores->of[i], from, lab_count(LAB_BRIEF_STEPS), &c[i], error);
+  reach = lab_constant(LAB_RIVAL) * least_chi2(c, *n);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < *n; i++)
+    if (c[i].quality.fitted && c[i].quality.chi2 <= reach)
+      place_near(&c[i], error);
+  qsort(c, (size_t)*n, sizeof *c, lab_candidate_by_bic);
   return error->status;
 }
 

@@ -33,7 +33,11 @@ typedef struct lab_candidate {
  * Returns: as lab_unknowns_fit; quality.fitted says whether it was LAB_OK. */
 int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
 
-/* Fit with what is declared within its tolerances; once more where that leaves much less.
+/* Fit with what is held among its unknowns; once more where that leaves much less.
+ * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_WORLD. */
+int lab_candidate_fit_held(lab_candidate *c, lab_error *error);
+
+/* Hold what is declared to its tolerances, and fit so.
  * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_DATA if there is no room; LAB_WORLD. */
 int lab_candidate_hold(lab_candidate *c, lab_error *error);
 
@@ -99,6 +103,14 @@ int lab_refit_hidden(const lab_candidate *base, const lab_scores *scores, double
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, double level, double bar,
                     lab_candidate *best, lab_error *error);
+
+/* Refit the leaders among what may begin at a time, and find when near it each begins.
+ * In:      base   as of lab_refit_onset, fitted or not
+ *          from   [s] of the log
+ * Out:     c      room for LAB_REFIT_MAX; n of them, best first, fitted or not
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, double from,
+                        lab_candidate *c, int *n, lab_error *error);
 
 /* Refit the leaders among what may begin in place of what does in a candidate, at the same time; at another where that
  * leaves more than noise.

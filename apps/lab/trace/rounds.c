@@ -624,7 +624,7 @@ static int act(search *s, int action, lab_error *error)
 {
   switch (action) {
   case LAB_DO_SCORE_ONSETS:
-    return lab_onset_scores_find(s->projection, &s->begins, error);
+    return lab_onset_scores_find(s->projection, 0, s->beam[0].u.run->n, &s->begins, error);
   case LAB_DO_FIT_CLEAR_ONSET:
     return fit_onset(s, LAB_ONSET_CLEAR, error);
   case LAB_DO_FIT_ONSET:
@@ -845,10 +845,28 @@ static int keep_onset(lab_candidate *c, double until, lab_error *error)
   return lab_candidate_hold(c, error);
 }
 
-/* What begins is known already, but for what else may begin then. */
+/* From the declared model, fitted. */
+static int begin(search *s, lab_error *error)
+{
+  if (lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error))
+    return error->status;
+  note_way(s->result, &s->declared);
+  if (linearise(s, error))
+    return error->status;
+  s->beam[0] = s->declared;
+  s->n_beam = 1;
+  note_step(s->result, &s->declared);
+  return LAB_OK;
+}
+
+/* What begins is known already, but for what else may begin then. The declared model is far from the logs. */
 static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_scores *begins, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
+  note_way(s->result, &s->declared);
+  note_step(s->result, &s->declared);
+  s->declared.quality.fitted = 0;
+  s->n_beam = 1;
   *best = *begun;
   s->begins = *begins;
   if (keep_onset(best, s->declared.u.until, error))
@@ -930,18 +948,7 @@ int lab_rounds_run(lab_finding *f, const lab_finding *begun, const lab_quality *
   s->unfolding.nuisance = &s->nuisance;
   s->unfolding.exact = f->exact;
   s->unfolding.until = f->declared.u.until;
-  status = lab_candidate_fit(&s->declared, LAB_ROUNDS_ALL, error);
-  if (status == LAB_OK) {
-    note_way(s->result, &s->declared);
-    status = linearise(s, error);
-  }
-  if (status == LAB_OK) {
-    s->beam[0] = s->declared;
-    s->n_beam = 1;
-    note_step(s->result, &s->declared);
-    if (begun)
-      status = go_on_from(s, &begun->best, &begun->begins, error);
-  }
+  status = begun ? go_on_from(s, &begun->best, &begun->begins, error) : begin(s, error);
   if (status == LAB_OK)
     status = search_all(s, error);
   if (status == LAB_NUMERIC && lab_cpu_is_spent(f->declared.u.until) && s->beam[0].quality.fitted)

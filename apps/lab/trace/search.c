@@ -10,6 +10,7 @@
 #include "../fit/deviations.h"
 #include "../fit/nuisance.h"
 #include "../fit/outliers.h"
+#include "early.h"
 #include "rounds.h"
 
 /* Whether a search has explained the logs. */
@@ -115,6 +116,36 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
+/* Whether something may begin within the logs. */
+static int may_begin(const lab_unknowns *u, const lab_search_options *options)
+{
+  return options->may_begin && u->n_runs == 1 && u->window == 0 && u->rig.n_onsets == 0;
+}
+
+/* The declared model within its tolerances, or what begins within the logs where that explains them.
+ * In/out:  within  as declared, fitted; where nothing begins, then with what is held, fitted
+ * Out:     begun
+ *          begins  whether something does
+ * Returns: LAB_OK, LAB_DATA, LAB_WORLD */
+static int fit_within(lab_candidate *within, const lab_search_options *options, lab_finding *begun, int *begins,
+                      lab_error *error)
+{
+  const lab_unknowns declared = within->u;
+  int status = lab_unknowns_hold(&within->u, error);
+  *begins = within->quality.fitted = 0;
+  if (status == LAB_OK && may_begin(&within->u, options)) {
+    status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
+    *begins = status == LAB_OK && begun->best.quality.fitted;
+  }
+  if (*begins) {
+    within->u = declared;
+    return lab_candidate_fit(within, 1, error);
+  }
+  if (status == LAB_OK && !within->quality.fitted)
+    status = lab_candidate_fit_held(within, error);
+  return status;
+}
+
 /* A search holds what varies unseen to straight lines. If the declared model, fitted without them, is the better one
  * after all, it was only these that asked for more. */
 static void forget_what_was_in_vain(lab_finding *f)
@@ -152,11 +183,11 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   *exact = *whole;
   whole->exact = u;
   whole->best.u = *u;
-  status = lab_candidate_hold(&whole->best, error);
+  status = fit_within(&whole->best, options, exact, &begins, error);
   until = before_the_end(u->until, start);
   whole->best.u.until = until;
   whole->declared = whole->best;
-  if (status == LAB_OK && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
+  if (status == LAB_OK && !begins && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
     status = search_exactly(u, &whole->best.quality, options, exact, error);
     is_exact = status == LAB_OK && explains(exact);
     if (status == LAB_OK && !is_exact)
@@ -341,7 +372,7 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
   lab_outliers out = {0};
   outcome *o = NULL;
   int status;
-  if (result->window > 0 || result->cut_short)
+  if (result->window > 0 || result->cut_short || (doubt(result) == 0 && completed->rig.n_onsets > 0))
     return LAB_OK;
   status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
   if (status == LAB_OK && can_be_accidents(&out, bench)) {

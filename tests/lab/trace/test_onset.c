@@ -1,11 +1,13 @@
 /* When what is found begins within a log of the independent rig. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "../../check.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 
 #include "../../../apps/lab/fit/deviations.h"
+#include "../../../apps/lab/trace/early.h"
 #include "../../../apps/lab/trace/search.h"
 
 enum { ROWS = 1401, COMMANDS = 8 };
@@ -43,18 +45,25 @@ static void declare(void)
     rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
 }
 
-static void close_loop(const second_rig *first, const second_rig *later, double change)
+/* The log of such a rig, and the declared model fitted to it. */
+static void open_log(const second_rig *first, const second_rig *later, double change)
 {
-  lab_search_options options;
   lab_error error = {0, ""};
   write_log(first, later, change);
   declare();
-  lab_search_options_default(&options);
-  options.max_effects = 1;
   assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log_read, &error), LAB_OK);
   assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+}
+
+static void close_loop(const second_rig *first, const second_rig *later, double change)
+{
+  lab_search_options options;
+  lab_error error = {0, ""};
+  open_log(first, later, change);
+  lab_search_options_default(&options);
+  options.max_effects = 1;
   assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
   assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, &all, &error), LAB_OK);
 }
@@ -152,6 +161,83 @@ static void test_lab_search_run__nothing_begins__has_no_onset(void **state)
   close_log();
 }
 
+/* ---- From the beginning of a run ---- */
+
+static lab_candidate within, onset;
+
+static void fit_early(const second_rig *first, const second_rig *later, double change)
+{
+  static lab_onset_scores begins;
+  lab_error error = {0, ""};
+  open_log(first, later, change);
+  within.u = u;
+  within.n_found = within.quality.fitted = 0;
+  assert_int_equal(lab_unknowns_hold(&within.u, &error), LAB_OK);
+  assert_int_equal(lab_early_fit(&within, 0.01, &onset, &begins, &error), LAB_OK);
+}
+
+static void test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model(void **state)
+{
+  const second_rig first = true_rig();
+  second_rig later = first;
+  (void)state;
+  later.spring_rate *= 0.7;
+  fit_early(&first, &later, 6.57);
+  assert_int_equal(within.quality.fitted, 0);
+  assert_int_equal(onset.quality.fitted, 1);
+  assert_int_equal(onset.u.rig.onset[0].param, pneu_param_find("spring_rate"));
+  assert_between(6.57, onset.begin[0].low, onset.begin[0].high);
+  assert_close(onset.u.rig.onset[0].value, later.spring_rate, 0, 0.02);
+  close_log();
+}
+
+static void test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run(void **state)
+{
+  const second_rig g = true_rig();
+  (void)state;
+  fit_early(&g, NULL, 0);
+  assert_int_equal(onset.quality.fitted, 0);
+  assert_int_equal(within.quality.fitted, 1);
+  assert_int_equal((int)within.quality.values, 2 * ROWS);
+  assert_true(lab_is_noise(&within.quality));
+  close_log();
+}
+
+static void test_lab_early_fit__missing_from_the_start__finds_neither(void **state)
+{
+  second_rig g = true_rig();
+  (void)state;
+  g.leak_area = 2e-8;
+  fit_early(&g, NULL, 0);
+  assert_int_equal(onset.quality.fitted, 0);
+  assert_int_equal(within.quality.fitted, 0);
+  close_log();
+}
+
+/* What a sensor shows is a state that goes on when the supply falls. */
+static void test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on(void **state)
+{
+  const second_rig g = true_rig();
+  const double from = 2.5; /* [s] both orifices are shut */
+  double *y = malloc(2 * ROWS * sizeof *y), most = 0;
+  lab_error error;
+  size_t i;
+  (void)state;
+  open_log(&g, NULL, 0);
+  *pneu_param_at(&rig.params, pneu_param_find("pressure_lag.pressure_time")) = (pneu_real)0.05;
+  assert_int_equal(lab_unknowns_add_onset(&u, pneu_param_find("supply_pressure"), from, 3e5, &error), LAB_OK);
+  rig.onset[rig.n_onsets++] = u.rig.onset[0];
+  assert_int_equal(lab_run_predict(&run, &rig, NULL, 1e-6, y, &error), LAB_OK);
+  for (i = 1; i < run.n; i++)
+    if (fabs(log_read.value[LAB_CHANNEL_TIME][i] - from) < 0.2)
+      most = fmax(most, fabs(y[i] - y[i - 1]));
+  assert_true(y[run.n / 6] > 1e5);
+  check_note("the pressure shown moves by %g Pa from row to row", most);
+  assert_true(most < 50);
+  free(y);
+  close_log();
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -159,6 +245,10 @@ int main(void)
       cmocka_unit_test(test_lab_search_run__friction_that_rises__deviates_since_then),
       cmocka_unit_test(test_lab_search_run__supply_that_falls__deviates_since_then),
       cmocka_unit_test(test_lab_search_run__nothing_begins__has_no_onset),
+      cmocka_unit_test(test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model),
+      cmocka_unit_test(test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run),
+      cmocka_unit_test(test_lab_early_fit__missing_from_the_start__finds_neither),
+      cmocka_unit_test(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
