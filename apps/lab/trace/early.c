@@ -191,12 +191,12 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], do
                              x->log->value[LAB_CHANNEL_TIME][x->first + between[0]], c, n, error);
 }
 
-/* The best of n frozen models with all their values.  In: c  best first */
+/* The first of n frozen models that leaves only noise with all its values, or the best one.  In: c  best first */
 static int thaw_best(const lab_candidate *base, lab_candidate *c, int n, lab_candidate *onset, lab_error *error)
 {
   const double reach = n > 0 ? lab_constant(LAB_RIVAL) * c[0].quality.chi2 : 0;
   int i, status = LAB_OK;
-  for (i = 0; status == LAB_OK && i < n && i < lab_count(LAB_ONSET_FINALISTS); i++) {
+  for (i = 0; status == LAB_OK && !lab_is_noise(&onset->quality) && i < n && i < lab_count(LAB_ONSET_FINALISTS); i++) {
     const lab_quality *q = &c[i].quality;
     if (!q->fitted || !(q->chi2 < reach && q->chi2 < lab_constant(LAB_EARLY_NEAR) * q->values))
       break;
