@@ -13,9 +13,10 @@
 enum { PLACES = 64 }; /* of a run at which anything may begin */
 
 /* Faults of a valve that come at once: a supply or a spring that fails, a packing that seizes, an orifice that clogs, a
- * leak, a sensor that is knocked, a lever that slips. What a design has, such as a tube, does not begin. */
-static const char *const values[] = {"supply_pressure", "dry_friction", "spring_rate", "spring_preload",
-                                     "orifice_area",    "fill_area",    "vent_area"};
+ * leak, a sensor that is knocked, a lever that slips. What a design has, such as a tube, does not begin. A vent area
+ * that changes is vent_restriction. */
+static const char *const values[] = {"supply_pressure", "dry_friction", "spring_rate",
+                                     "spring_preload",  "orifice_area", "fill_area"};
 static const char *const effects[] = {
     "chamber_leak",      "laminar_leak",      "porous_leak",     "supply_droop",   "exhaust_back_pressure",
     "vent_restriction",  "pressure_bias",     "pressure_gain",   "position_bias",  "position_gain",
