@@ -273,6 +273,16 @@ static const lab_found *first_alike(const lab_search_result *r)
   return NULL;
 }
 
+/* Whether another model that was tried comes as near as the best one by odds; alike ones are told by name. */
+static int has_rival(const lab_search_result *r)
+{
+  const lab_path_model *best = &r->path[r->n_path - 1];
+  int i, any = 0;
+  for (i = 0; i < r->n_steps; i++)
+    any |= strcmp(r->step[i].name, best->name) != 0 && r->step[i].bic < best->bic + lab_constant(LAB_ALIKE_BIC);
+  return any;
+}
+
 /* Whether anything else would do as well. */
 static void say_alike(const lab_search_result *r, cJSON *list)
 {
@@ -284,7 +294,7 @@ static void say_alike(const lab_search_result *r, cJSON *list)
       lab_json_say(list, "The log cannot tell %s from %s: each explains it equally well%s.", name_of(found->effect),
                    name_of(found->alike[0]), found->n_alike > 1 ? ", and so do others, see below" : "");
   }
-  if (named > 0 && !first_alike(r))
+  if (named > 0 && !first_alike(r) && !has_rival(r))
     lab_json_say(list, "No other effect of the catalogue explains the log as well.");
 }
 

@@ -243,18 +243,20 @@ static const struct {
              {"spring_rate", "the spring", "soft", "stiff"},
              {"orifice_area", "the area of both orifices", NULL, NULL}};
 
-/* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa" */
+/* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa". What is known to no better
+ * than its own size stands on no sheet. */
 static void add_ratio(char *text, const lab_deviation *d, const char *less, const char *more)
 {
   const double percent = 100 * (d->ratio - 1);
+  const char *sheet = d->tolerance < 1 ? "its sheet" : "what was assumed";
   if (!isfinite(d->ratio))
     ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
   else if (d->ratio >= 2 || d->ratio < 0.5)
-    ADD(text, "%.2g times its sheet", d->ratio);
+    ADD(text, "%.2g times %s", d->ratio, sheet);
   else if (less)
     ADD(text, "%.2g %% %s", fabs(percent), percent < 0 ? less : more);
   else
-    ADD(text, "%.2g %% %s its sheet", fabs(percent), percent < 0 ? "below" : "above");
+    ADD(text, "%.2g %% %s %s", fabs(percent), percent < 0 ? "below" : "above", sheet);
 }
 
 static void add_deviation(char *text, const lab_report *report, const lab_deviation *d, int first)

@@ -180,6 +180,10 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   lab_report_headline(&report, text);
   assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft, the dead volume 20 % above its "
                             "sheet, and 2 more; nothing else is missing.");
+  d->n = 1;
+  d->of[0].tolerance = 1;
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "Friction is 3.7 times what was assumed; nothing else is missing.");
   report = answer(LAB_VERDICT_EFFECT, 1);
   report.deviations.n = 1;
   report.deviations.of[0] = deviation("external_force", (double)NAN, 1);
