@@ -138,15 +138,11 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
   return LAB_OK;
 }
 
-/* ---- What is as declared, after all ---- */
+/* ---- Without some unknowns ---- */
 
-/* Which unknowns are held, and as declared as far as the log tells. */
-static void find_as_declared(const lab_unknowns *u, const lab_fit_result *fit, unsigned char is[LAB_FIT_MAX])
+static double declared_of(const lab_unknowns *u, const lab_unknown *x)
 {
-  const int compared = count_compared(&u->rig, u);
-  int j;
-  for (j = 0; j < u->n; j++)
-    is[j] = lab_unknown_is_held(&u->unknown[j]) && !is_told(&u->unknown[j], fit, j, u->unknown[j].prior, compared);
+  return x->index == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&u->declared, x->index);
 }
 
 /* The unknowns with these at their declared values, and not to be fitted.  Returns: how many these are */
@@ -156,13 +152,73 @@ static int leave_out(const lab_unknowns *u, const unsigned char *as_declared, la
   *less = *u;
   for (j = 0; j < u->n; j++)
     if (as_declared[j])
-      less->unknown[j].value = u->unknown[j].prior;
+      less->unknown[j].value = declared_of(u, &u->unknown[j]);
   lab_unknowns_take(less);
   for (j = less->n = 0; j < u->n; j++)
     if (!as_declared[j])
       less->unknown[less->n++] = u->unknown[j];
   lab_unknowns_count(less);
   return u->n - less->n;
+}
+
+/* ---- How far the intervals reach ---- */
+
+/* The others as they follow where unknown j goes to its declared value. */
+static void follow(const lab_unknowns *u, const lab_fit_result *fit, int j, lab_unknowns *less)
+{
+  const double share = (declared_of(u, &u->unknown[j]) - u->unknown[j].value) / fit->covariance[j][j];
+  int k;
+  for (k = 0; k < less->n; k++) {
+    lab_unknown *x = &less->unknown[k];
+    x->value = fmin(fmax(x->value + share * fit->covariance[k + (k >= j)][j], x->lower), x->upper);
+  }
+  lab_unknowns_take(less);
+}
+
+/* Widen one interval so that chi-square between the fit and the declared value rises as it does, or, where the time is
+ * spent, as it does without the others being fitted. */
+static int widen(const lab_unknowns *u, int j, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
+{
+  enum { STEPS = 3 };
+  const lab_unknown *x = &u->unknown[j];
+  const double off = declared_of(u, x) - x->value, expected = off * off / fit->covariance[j][j];
+  unsigned char only[LAB_FIT_MAX] = {0};
+  double chi2, wider;
+  only[j] = 1;
+  leave_out(u, only, less);
+  follow(u, fit, j, less);
+  if (lab_unknowns_fit(less, STEPS, &chi2, error))
+    return error->status;
+  wider = sqrt(expected / fmax((chi2 - fit->chi2) / fmax(fit->reduced_chi2, 1), 1));
+  if (wider > 1) {
+    fit->low[j] = fmax(x->value - wider * (x->value - fit->low[j]), x->lower);
+    fit->high[j] = fmin(x->value + wider * (fit->high[j] - x->value), x->upper);
+  }
+  return LAB_OK;
+}
+
+int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
+{
+  const int compared = count_compared(&u->rig, u);
+  lab_unknowns *less = malloc(sizeof *less);
+  int j, status = less ? LAB_OK : lab_fail_memory(error, "a fit");
+  for (j = 0; j < u->n && status != LAB_WORLD; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
+        is_told(&u->unknown[j], fit, j, declared_of(u, &u->unknown[j]), compared))
+      status = widen(u, j, less, fit, error);
+  free(less);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* ---- What is as declared, after all ---- */
+
+/* Which unknowns are held, and as declared as far as the log tells. */
+static void find_as_declared(const lab_unknowns *u, const lab_fit_result *fit, unsigned char is[LAB_FIT_MAX])
+{
+  const int compared = count_compared(&u->rig, u);
+  int j;
+  for (j = 0; j < u->n; j++)
+    is[j] = lab_unknown_is_held(&u->unknown[j]) && !is_told(&u->unknown[j], fit, j, u->unknown[j].prior, compared);
 }
 
 /* The values of fewer unknowns, and the declared ones, for all of them. */

@@ -285,6 +285,8 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   result->cut_short = lab_cpu_is_spent(u->until);
   status = lab_unknowns_intervals(u, &result->fit, error);
   if (status == LAB_OK)
+    status = lab_deviations_widen(u, &result->fit, error);
+  if (status == LAB_OK)
     status = lab_deviations_forget(u, &f->best.quality.chi2, &result->fit, error);
   if (result->n_path > 0)
     result->path[result->n_path - 1].rig = u->rig;

@@ -41,35 +41,48 @@ static void declare(lab_rig *rig)
     rig->fit[rig->n_fit++] = pneu_param_find(fitted[i]);
 }
 
-/* Run the loop on a log of the true rig under some commands; where `all` is given, with tolerances. */
-static void run_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result,
-                     lab_deviations *all)
+static lab_rig rig;
+static lab_log log_read;
+static lab_run run;
+
+/* A log of the true rig under some commands, and the declared model fitted to it; within tolerances if `held`. */
+static void open_log(const second_rig *g, const double *u_cmd, lab_unknowns *u, int held)
 {
-  static lab_rig rig;
-  static lab_log log;
-  static lab_run run;
   const char *path = scratch_path("log.csv");
-  lab_search_options options;
   lab_error error = {0, ""};
   write_log(g, u_cmd, path);
   declare(&rig);
-  lab_search_options_default(&options);
-  options.max_effects = 1;
-  options.min_gain = min_gain;
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log_read, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
   assert_int_equal(run.n_instants, COMMANDS);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
-  if (all) {
+  if (held) {
     assert_int_equal(lab_unknowns_hold(u, &error), LAB_OK);
     assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   }
+}
+
+static void close_log(void)
+{
+  lab_run_close(&run);
+  lab_log_free(&log_read);
+}
+
+/* Run the loop on such a log; where `all` is given, with tolerances. */
+static void run_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result,
+                     lab_deviations *all)
+{
+  lab_search_options options;
+  lab_error error = {0, ""};
+  lab_search_options_default(&options);
+  options.max_effects = 1;
+  options.min_gain = min_gain;
+  open_log(g, u_cmd, u, all != NULL);
   assert_int_equal(lab_search_run(u, &options, result, &error), LAB_OK);
   if (all)
     assert_int_equal(lab_deviations_find(&rig, u, &result->fit, all, &error), LAB_OK);
-  lab_run_close(&run);
-  lab_log_free(&log);
+  close_log();
 }
 
 static void close_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result)
@@ -120,6 +133,35 @@ static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **
   assert_non_null(d = deviation(&all, "dry_friction"));
   assert_close(d->ratio, 1.92, 0, 0.1);
   assert_true(d->beyond && !d->held);
+}
+
+/* Chi-square is a parabola here, so that an interval that was made ten times too narrow comes back, and one that is
+ * right stays. */
+static void test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says(void **state)
+{
+  static lab_unknowns u;
+  static lab_fit_result fit;
+  const second_rig g = true_rig();
+  const double narrower[] = {1, 10};
+  lab_error error;
+  int i, j, k;
+  (void)state;
+  open_log(&g, brisk, &u, 1);
+  j = lab_unknowns_find(&u, PNEU_PARAM_spring_rate);
+  for (i = 0; i < 2; i++) {
+    double wide;
+    assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+    wide = fit.high[j] - fit.low[j];
+    u.declared.spring_rate = (pneu_real)(u.unknown[j].value - 2 * wide);
+    fit.high[j] = u.unknown[j].value + wide / 2 / narrower[i];
+    fit.low[j] = u.unknown[j].value - wide / 2 / narrower[i];
+    for (k = 0; k < u.n; k++)
+      fit.covariance[k][j] /= narrower[i] * narrower[i];
+    assert_int_equal(lab_deviations_widen(&u, &fit, &error), LAB_OK);
+    check_note("%g of %g", fit.high[j] - fit.low[j], wide);
+    assert_close(fit.high[j] - fit.low[j], wide, 0, 0.1);
+  }
+  close_log();
 }
 
 /* Whether an effect was found first, or is told as one that the log cannot tell from what was. */
@@ -324,6 +366,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect),
+      cmocka_unit_test(test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says),
       cmocka_unit_test(test_lab_search_run__friction_beyond_its_tolerance__deviates),
       cmocka_unit_test(test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike),
       cmocka_unit_test(test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass),
