@@ -403,6 +403,30 @@ static void test_lab_report_html__leak__says_what_was_found(void **state)
   assert_contains(the_page(), "chamber_leak is significant: p-value");
 }
 
+/* Of the models that were tried one comes within odds of the best, which the page must not deny. */
+static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **state)
+{
+  static lab_search_result rival;
+  static const char claim[] = "No other effect of the catalogue explains the log as well.";
+  lab_report told = report;
+  char *text;
+  int i;
+  (void)state;
+  rival = result;
+  rival.found[0].n_alike = 0;
+  rival.n_steps = 2;
+  strcpy(rival.step[0].name, rival.path[rival.n_path - 1].name);
+  strcpy(rival.step[1].name, "another");
+  told.result = &rival;
+  for (i = 0; i < 2; i++) {
+    rival.step[1].bic = rival.path[rival.n_path - 1].bic + (i == 0 ? 5 : 50);
+    write_report(&told, scratch_path("rival"));
+    text = scratch_read(scratch_path("rival/report.html"));
+    assert_int_equal(strstr(text, claim) != NULL, i == 1);
+    free(text);
+  }
+}
+
 /* The log has no full stroke, so that its figures are reasons. */
 static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
 {
@@ -700,6 +724,7 @@ int main(void)
       cmocka_unit_test(test_lab_report_html__signature__measured_found_and_declared),
       cmocka_unit_test(test_lab_report_html__pressure_not_measured__is_said),
       cmocka_unit_test(test_lab_report_html__leak__says_what_was_found),
+      cmocka_unit_test(test_lab_report_html__rival_that_was_tried__is_not_denied),
       cmocka_unit_test(test_lab_report_html__figures_of_merit__or_why_not),
       cmocka_unit_test(test_lab_report_html__names_of_files_and_rigs__are_escaped),
       cmocka_unit_test(test_lab_report_html__twice__same_bytes),
