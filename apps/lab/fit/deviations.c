@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
 #include "../base/quantile.h"
 #include "../rig/tolerance.h"
 
@@ -175,9 +176,10 @@ static void follow(const lab_unknowns *u, const lab_fit_result *fit, int j, lab_
   lab_unknowns_take(less);
 }
 
-/* Widen one interval so that chi-square between the fit and the declared value rises as it does, or, where the time is
- * spent, as it does without the others being fitted. */
-static int widen(const lab_unknowns *u, int j, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
+/* Make the interval of unknown j wider until the parabola rises no more than chi-square does on the way to the declared
+ * value; where the time is spent the others are not fitted there.
+ * In:      least  chi-square of the fit */
+static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
 {
   enum { STEPS = 3 };
   const lab_unknown *x = &u->unknown[j];
@@ -189,7 +191,7 @@ static int widen(const lab_unknowns *u, int j, lab_unknowns *less, lab_fit_resul
   follow(u, fit, j, less);
   if (lab_unknowns_fit(less, STEPS, &chi2, error))
     return error->status;
-  wider = sqrt(expected / fmax((chi2 - fit->chi2) / fmax(fit->reduced_chi2, 1), 1));
+  wider = sqrt(expected / fmax((chi2 - least) / fmax(fit->reduced_chi2, 1), 1));
   if (wider > 1) {
     fit->low[j] = fmax(x->value - wider * (x->value - fit->low[j]), x->lower);
     fit->high[j] = fmin(x->value + wider * (fit->high[j] - x->value), x->upper);
@@ -197,15 +199,26 @@ static int widen(const lab_unknowns *u, int j, lab_unknowns *less, lab_fit_resul
   return LAB_OK;
 }
 
+/* Chi-square as fits have it, which follow the model less closely than intervals do. */
+static int chi2_of(const lab_unknowns *u, double *chi2, lab_error *error)
+{
+  double *r = malloc((u->m + 1) * sizeof *r);
+  const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  *chi2 = status == LAB_OK ? lab_dot(r, r, u->m) : 0;
+  free(r);
+  return status;
+}
+
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
 {
   const int compared = count_compared(&u->rig, u);
   lab_unknowns *less = malloc(sizeof *less);
-  int j, status = less ? LAB_OK : lab_fail_memory(error, "a fit");
-  for (j = 0; j < u->n && status != LAB_WORLD; j++)
+  double least;
+  int j, status = less ? chi2_of(u, &least, error) : lab_fail_memory(error, "a fit");
+  for (j = 0; j < u->n && (status == LAB_OK || j > 0) && status != LAB_WORLD; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
         is_told(&u->unknown[j], fit, j, declared_of(u, &u->unknown[j]), compared))
-      status = widen(u, j, less, fit, error);
+      status = widen(u, j, least, less, fit, error);
   free(less);
   return status == LAB_WORLD ? status : LAB_OK;
 }

@@ -48,9 +48,11 @@ typedef struct lab_deviations {
 int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, lab_deviations *all,
                         lab_error *error);
 
-/* Intervals are those of a parabola about the fit. Where chi-square rises less on the way to a declared value, that of
- * a value which would be told is widened until it rises as it does. In:      u    fitted, with what is held In/out: fit
- * its intervals Returns: LAB_OK, LAB_WORLD. */
+/* Intervals are those of a parabola about the fit. Where chi-square rises less than that on the way to the declared
+ * value, the interval of a value that would be told is made wider until the parabola rises no more.
+ * In:      u    fitted, with what is held
+ * In/out:  fit  its intervals
+ * Returns: LAB_OK, LAB_WORLD. */
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error);
 
 /* What is held and not told apart from its declared value goes back to it, if all of these together may; the rest is

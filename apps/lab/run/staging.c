@@ -28,9 +28,8 @@ static int allocate(size_t rows, size_t models, lab_staging *s, lab_error *error
   return lab_fail_memory(error, "a schedule");
 }
 
-/* The rig as it is from a time on, and its model: in the scales of the first one, as states of effects are carried
- * over.
- */
+/* The rig as it is from a time on, and its model, in the scales of the first one: states of effects go on from model to
+ * model. */
 static int add_model(const lab_rig *rig, double from, lab_staging *s, lab_error *error)
 {
   const int k = s->n++;
@@ -38,7 +37,8 @@ static int add_model(const lab_rig *rig, double from, lab_staging *s, lab_error 
   s->from[k] = from;
   lab_rig_at(rig, from, &s->rig[k]);
   status = lab_rig_model(&s->rig[k], &s->model[k], error);
-  memcpy(s->model[k].scale, s->model[0].scale, sizeof s->model[k].scale);
+  if (k > 0 && status == LAB_OK)
+    memcpy(s->model[k].scale, s->model[0].scale, sizeof s->model[k].scale);
   return status;
 }
 

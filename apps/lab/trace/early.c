@@ -8,9 +8,11 @@
 #include "../fit/drift.h"
 #include "../fit/nuisance.h"
 
-/* Parts of the run of which the first is tried, and between which it is seen where the run leaves the model; beginnings
- * that are tried. */
-enum { SHORTEST = 4, CLOSE = 24, LOOKS = 8 };
+enum {
+  SHORTEST = 4, /* the first beginning is one such part of the run */
+  CLOSE = 24,   /* where the run leaves the model is known to one such part */
+  LOOKS = 8     /* beginnings that are tried, at most */
+};
 
 /* ---- The beginning of a run ---- */
 
@@ -147,12 +149,13 @@ static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_e
 
 /* ---- What begins ---- */
 
-/* Keep all values as they are; only the instants of commands still vary. */
+/* Keep the values that all runs share as they are; what a run has for itself, the instants of its commands, still
+ * varies. */
 static void freeze(lab_unknowns *u)
 {
   int j, n = 0;
   for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_INSTANT)
+    if (u->unknown[j].run != LAB_ALL_RUNS)
       u->unknown[n++] = u->unknown[j];
   u->n = n;
   lab_unknowns_count(u);
@@ -187,11 +190,11 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], do
   lab_projection_close(&p);
   if (status != LAB_OK)
     return status;
-  return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1),
-                             x->log->value[LAB_CHANNEL_TIME][x->first + between[0]], c, n, error);
+  return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), between[0], c, n, error);
 }
 
-/* The first of n frozen models that leaves only noise with all its values, or the best one.  In: c  best first */
+/* The first of n frozen models that leaves only noise with all its values; else one that does not.  In: c  best first
+ */
 static int thaw_best(const lab_candidate *base, lab_candidate *c, int n, lab_candidate *onset, lab_error *error)
 {
   const double reach = n > 0 ? lab_constant(LAB_RIVAL) * c[0].quality.chi2 : 0;
@@ -201,8 +204,7 @@ static int thaw_best(const lab_candidate *base, lab_candidate *c, int n, lab_can
     if (!q->fitted || !(q->chi2 < reach && q->chi2 < lab_constant(LAB_EARLY_NEAR) * q->values))
       break;
     status = thaw(base, &c[i], error);
-    if (status == LAB_OK && lab_candidate_by_bic(&c[i], onset) < 0)
-      *onset = c[i];
+    *onset = c[i];
   }
   return status;
 }
@@ -211,7 +213,7 @@ static int thaw_best(const lab_candidate *base, lab_candidate *c, int n, lab_can
 static int fit_onset(const lab_candidate *base, const size_t between[2], double alpha, lab_candidate *onset,
                      lab_onset_scores *begins, lab_error *error)
 {
-  lab_candidate *frozen = malloc(sizeof *frozen), *c = malloc(LAB_REFIT_MAX * sizeof *c);
+  lab_candidate *frozen = malloc(sizeof *frozen), *c = malloc((size_t)lab_count(LAB_ONSET_LEADERS) * sizeof *c);
   lab_nuisance instants = {0};
   int n = 0, status = frozen && c ? LAB_OK : lab_fail_memory(error, "refits");
   if (status == LAB_OK) {

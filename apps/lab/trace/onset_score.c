@@ -245,7 +245,7 @@ static int open_scan(const lab_projection *p, size_t from, size_t to, scan *s, l
   s->open.nuisance = NULL;
   s->n = s->run.n;
   s->first = (int)(from * PLACES / s->n);
-  s->last = (int)(to * PLACES / s->n);
+  s->last = to < s->n ? (int)(to * PLACES / s->n) : PLACES - 1;
   lab_unknowns_count(&s->open);
   s->before = malloc(s->open.m * sizeof *s->before);
   s->r = malloc(s->open.n_data * sizeof *s->r);
@@ -279,7 +279,7 @@ static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
     throughout = fmax(throughout, own);
   }
   free(slopes);
-  all->tests = slopes_tried * PLACES;
+  all->tests = slopes_tried * (s->last - s->first + 1);
   all->throughout = throughout;
   for (i = 0; i < all->n; i++) {
     all->of[i].p_value = lab_chi2_tail(all->of[i].statistic, 1);

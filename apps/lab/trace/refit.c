@@ -89,6 +89,7 @@ int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
   static const double less = 0.7;
   double before;
   int status = lab_unknowns_weigh_held(&c->u, error);
+  c->quality.fitted = 0;
   if (status == LAB_OK)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   before = c->u.misfit;
@@ -641,25 +642,27 @@ int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, d
 static void place_near(lab_candidate *c, lab_error *all)
 {
   lab_error error;
+  const double before = c->quality.chi2;
   const int status = lab_onset_settle(&c->u, c->u.n - 1, 0, &c->quality.chi2, &c->begin[c->u.rig.n_onsets - 1], &error);
+  c->quality.bic += c->quality.chi2 - before;
   c->quality.fitted = status == LAB_OK;
   if (status != LAB_OK)
     lab_fail_together(all, &error);
 }
 
-int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, double from,
+int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, size_t row,
                         lab_candidate *c, int *n, lab_error *error)
 {
   const int most = lab_count(LAB_ONSET_LEADERS);
   double reach;
   int i;
   error->status = LAB_OK;
-  for (i = 0; i < most && i < scores->n && scores->of[i].p_value < level; i++)
-    ;
-  *n = i;
+  *n = 0;
+  while (*n < most && *n < scores->n && scores->of[*n].p_value < level)
+    ++*n;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < *n; i++)
-    begin_onset(base, &scores->of[i], from, lab_count(LAB_BRIEF_STEPS), &c[i], error);
+    begin_onset(base, &scores->of[i], time_of(base, row), lab_count(LAB_BRIEF_STEPS), &c[i], error);
   reach = lab_constant(LAB_RIVAL) * least_chi2(c, *n);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < *n; i++)

@@ -104,12 +104,12 @@ int lab_refit_hidden(const lab_candidate *base, const lab_scores *scores, double
 int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, double level, double bar,
                     lab_candidate *best, lab_error *error);
 
-/* Refit the leaders among what may begin at a time, and find when near it each begins.
+/* Refit the leaders among what may begin at a row, and find when near it each begins.
  * In:      base   as of lab_refit_onset, fitted or not
- *          from   [s] of the log
- * Out:     c      room for LAB_REFIT_MAX; n of them, best first, fitted or not
+ *          row    of the only run
+ * Out:     c      room for ONSET_LEADERS; n of them, best first, fitted or not
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, double from,
+int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, size_t row,
                         lab_candidate *c, int *n, lab_error *error);
 
 /* Refit the leaders among what may begin in place of what does in a candidate, at the same time; at another where that

@@ -13,7 +13,7 @@
 typedef struct search {
   const lab_search_options *options;
   lab_search_result *result;
-  lab_candidate declared;             /* the declared model, fitted */
+  lab_candidate declared;             /* the declared model, fitted unless something is known to begin */
   lab_candidate onset;                /* the declared model with what begins within its run; as free_term */
   lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */
   const lab_quality *within;          /* the declared model with its values within tolerances; NULL: that is it */
@@ -635,10 +635,14 @@ static int act(search *s, int action, lab_error *error)
   case LAB_DO_SCORE_TERMS:
     return lab_score_free_terms(s->projection, s->term, &s->n_terms, error);
   case LAB_DO_FIT_SCORED_TERM:
+    if (!s->declared.quality.fitted)
+      break;
     return refit_terms(s, &s->declared, &s->free_term, error);
   case LAB_DO_UNFOLD_TERM:
     return unfold_term(s, error);
   case LAB_DO_FIT_TERM:
+    if (!s->declared.quality.fitted)
+      break;
     return find_term(s, &s->declared, &s->free_term, error);
   case LAB_DO_FIT_TERM_BESIDE:
     s->has_extended = 1;
@@ -873,6 +877,8 @@ static int go_on_from(search *s, const lab_candidate *begun, const lab_onset_sco
     return error->status;
   if (!best->quality.fitted)
     return lab_fail(error, LAB_NUMERIC, "what begins cannot be followed within tolerances");
+  if (best->n_found > 0)
+    lab_candidate_explain(best, s->declared.quality.chi2);
   note_step(s->result, best);
   note_way(s->result, best);
   return linearise_again(s, error) ? error->status : try_instead(s, error);

@@ -19,8 +19,8 @@ typedef struct lab_finding {
 /* The search from a declared model, in the view that its unknowns have.
  * In:      begun    from the declared model with what begins, fitted, as its best; NULL: from the declared model
  *          within   the same with its values within tolerances, which the search is to beat; may be NULL
- * In/out:  f        declared: fitted or not; it is fitted once more, which finds the end of a valley; fitted where
- *                   something has begun
+ * In/out:  f        declared: fitted or not; fitted once more, which finds the end of a valley. With `begun` it is
+ *                   fitted already and stays as it is
  *                   best: with what was added
  *                   result: all but the errors, the fit and what was found
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD. */

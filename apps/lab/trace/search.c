@@ -123,22 +123,28 @@ static int may_begin(const lab_unknowns *u, const lab_search_options *options)
 }
 
 /* The declared model within its tolerances, or what begins within the logs where that explains them.
- * In/out:  within  as declared, fitted; where nothing begins, then with what is held, fitted
- * Out:     begun
- *          begins  whether something does
- * Returns: LAB_OK, LAB_DATA, LAB_WORLD */
-static int fit_within(lab_candidate *within, const lab_search_options *options, lab_finding *begun, int *begins,
-                      lab_error *error)
+ * In:      u       the declared model, fitted
+ * Out:     within  with what is held, fitted; where something begins as u
+ *          begun, begins  what begins, and whether anything does
+ * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD */
+static int fit_within(const lab_unknowns *u, const lab_search_options *options, lab_candidate *within,
+                      lab_finding *begun, int *begins, lab_error *error)
 {
-  const lab_unknowns declared = within->u;
-  int status = lab_unknowns_hold(&within->u, error);
+  static const double most = 0.8; /* of the time: if nothing begins the rest has to do */
+  const double now = lab_cpu_time();
+  int status;
+  within->u = *u;
+  within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
   *begins = within->quality.fitted = 0;
+  status = lab_unknowns_hold(&within->u, error);
   if (status == LAB_OK && may_begin(&within->u, options)) {
     status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
+    begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
   }
+  within->u.until = u->until;
   if (*begins) {
-    within->u = declared;
+    within->u = *u;
     return lab_candidate_fit(within, 1, error);
   }
   if (status == LAB_OK && !within->quality.fitted)
@@ -150,7 +156,7 @@ static int fit_within(lab_candidate *within, const lab_search_options *options, 
  * after all, it was only these that asked for more. */
 static void forget_what_was_in_vain(lab_finding *f)
 {
-  if (f->best.n_found == 0 || !(f->best.quality.bic > f->declared.quality.bic))
+  if (f->best.n_found == 0 || !f->declared.quality.fitted || !(f->best.quality.bic > f->declared.quality.bic))
     return;
   f->best = f->declared;
   f->result.n_path = 1;
@@ -182,8 +188,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
     return lab_fail_memory(error, "the search");
   *exact = *whole;
   whole->exact = u;
-  whole->best.u = *u;
-  status = fit_within(&whole->best, options, exact, &begins, error);
+  status = fit_within(u, options, &whole->best, exact, &begins, error);
   until = before_the_end(u->until, start);
   whole->best.u.until = until;
   whole->declared = whole->best;
@@ -200,7 +205,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
     status = lab_rounds_run(whole, begins ? exact : NULL, NULL, options, error);
     if (status == LAB_OK)
       forget_what_was_in_vain(whole);
-    is_exact = status == LAB_NUMERIC ? exact->best.quality.fitted
+    is_exact = status == LAB_NUMERIC ? exact->result.n_path > 0 && exact->best.quality.fitted
                : is_exact            ? status != LAB_OK || is_better(exact, whole)
                                      : status == LAB_OK && comes_nearer(exact, whole);
   }
@@ -375,7 +380,7 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
   outcome *o = NULL;
   int status;
   if (result->window > 0 || result->cut_short || (doubt(result) == 0 && completed->rig.n_onsets > 0))
-    return LAB_OK;
+    return LAB_OK; /* a step that is not quite one leaves a few values alone */
   status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
   if (status == LAB_OK && can_be_accidents(&out, bench)) {
     o = malloc(sizeof *o);
