@@ -109,6 +109,7 @@ static void test_lab_search_run__leak_that_begins__is_named_since_when(void **st
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_int_equal(result.n_found, 1);
   assert_true(is_said("chamber_leak"));
+  assert_between(result.found[0].explained, 0.5, 1.01);
   assert_int_equal(u.rig.onset[0].param, result.found[0].param);
   assert_between(5.43, result.begin[0].low, result.begin[0].high);
   assert_true(result.begin[0].high - result.begin[0].low < 0.5);
