@@ -90,6 +90,13 @@ static int is_better(const lab_finding *exact, const lab_finding *tolerant)
   return exact->best.quality.bic + (is_simple ? lab_constant(LAB_ALIKE_BIC) : 0) < tolerant->best.quality.bic;
 }
 
+/* Whether something that begins is to be told and not what acts throughout, which may show late and is simpler. */
+static int is_plainly_later(const lab_finding *early, const lab_finding *throughout)
+{
+  const double odds = lab_candidate_begins(&throughout->best) ? 0 : lab_constant(LAB_ALIKE_BIC);
+  return early->best.quality.bic + odds < throughout->best.quality.bic;
+}
+
 /* When to stop where there is an answer already: after four times as long again, and a second; never where time does
  * not count, so that an answer is the same each time. */
 static double enough(double until, double start)
@@ -182,20 +189,33 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
 {
   const double start = lab_cpu_time();
   double until;
-  lab_finding *exact = malloc(sizeof *exact);
+  lab_finding *exact = malloc(sizeof *exact), *early = malloc(sizeof *early);
   int status, is_exact = 0, begins = 0;
-  if (!exact)
+  if (!exact || !early) {
+    free(exact);
+    free(early);
     return lab_fail_memory(error, "the search");
-  *exact = *whole;
+  }
+  *exact = *early = *whole;
   whole->exact = u;
-  status = fit_within(u, options, &whole->best, exact, &begins, error);
+  status = fit_within(u, options, &whole->best, early, &begins, error);
+
   until = before_the_end(u->until, start);
   whole->best.u.until = until;
   whole->declared = whole->best;
-  if (status == LAB_OK && !begins && (!lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
-    status = search_exactly(u, &whole->best.quality, options, exact, error);
-    is_exact = status == LAB_OK && explains(exact);
-    if (status == LAB_OK && !is_exact)
+  if (status == LAB_OK && (begins || !lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
+    status = search_exactly(u, begins ? &early->best.quality : &whole->best.quality, options, exact, error);
+    is_exact = status == LAB_OK && explains(exact) && !(begins && is_plainly_later(early, exact));
+    if (begins && is_exact) {
+      begins = 0;
+      whole->best.u.until = u->until;
+      status = lab_candidate_hold(&whole->best, error);
+      whole->best.u.until = until;
+      whole->declared = whole->best;
+    } else if (begins && status != LAB_WORLD) {
+      *exact = *early;
+      status = LAB_OK;
+    } else if (status == LAB_OK && !is_exact)
       status = tolerate_onset(&exact->best, &whole->best.quality, &begins, error);
   }
   if (status != LAB_WORLD && !(is_exact && is_enough(exact, &whole->declared.u))) {
@@ -215,6 +235,7 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   }
   whole->best.u.until = until;
   free(exact);
+  free(early);
   return status;
 }
 
