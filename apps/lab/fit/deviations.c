@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/array.h"
 #include "../base/quantile.h"
 #include "../rig/tolerance.h"
 
@@ -178,7 +177,7 @@ static void follow(const lab_unknowns *u, const lab_fit_result *fit, int j, lab_
 
 /* Make the interval of unknown j wider until the parabola rises no more than chi-square does on the way to the declared
  * value; where the time is spent the others are not fitted there.
- * In:      least  chi-square of the fit */
+ * In:      least  chi-square of the fit, followed as closely as fits do, and not as intervals do */
 static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
 {
   enum { STEPS = 3 };
@@ -199,23 +198,14 @@ static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less,
   return LAB_OK;
 }
 
-/* Chi-square as fits have it, which follow the model less closely than intervals do. */
-static int chi2_of(const lab_unknowns *u, double *chi2, lab_error *error)
-{
-  double *r = malloc((u->m + 1) * sizeof *r);
-  const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
-  *chi2 = status == LAB_OK ? lab_dot(r, r, u->m) : 0;
-  free(r);
-  return status;
-}
-
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
 {
   const int compared = count_compared(&u->rig, u);
   lab_unknowns *less = malloc(sizeof *less);
   double least;
-  int j, status = less ? chi2_of(u, &least, error) : lab_fail_memory(error, "a fit");
-  for (j = 0; j < u->n && (status == LAB_OK || j > 0) && status != LAB_WORLD; j++)
+  int j, status = less ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
+  const int n = status == LAB_OK ? u->n : 0;
+  for (j = 0; j < n && status != LAB_WORLD; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
         is_told(&u->unknown[j], fit, j, declared_of(u, &u->unknown[j]), compared))
       status = widen(u, j, least, less, fit, error);

@@ -160,6 +160,9 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
  * In/out:  r       those of other runs stay */
 int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error);
 
+/* Their sum of squares at the present values; 0 where they are not to be had.  Returns: as lab_unknowns_residuals. */
+int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error);
+
 /* Those of all with another model, for the unknowns as they are.
  * In:      rig  in the place of the model; what each experiment has for itself still applies */
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error);

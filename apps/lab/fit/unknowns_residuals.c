@@ -289,6 +289,15 @@ int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, doubl
   return residuals_at(u, rig, now, -1, r, error);
 }
 
+int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error)
+{
+  double *r = malloc((u->m + 1) * sizeof *r);
+  const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  *chi2 = status == LAB_OK ? lab_dot(r, r, u->m) : 0;
+  free(r);
+  return status;
+}
+
 int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error)
 {
   double *r = malloc((u->m + 1) * sizeof *r);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/array.h"
 #include "../base/format.h"
 
 /* What a rig may begin anew with from log to log. Its areas, springs and friction are its own: where these seem to
@@ -65,23 +64,13 @@ static int set_apart(lab_apart *apart, double *chi2, int *any, lab_error *error)
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* Chi-square of a model as it stands. */
-static int chi2_of(const lab_unknowns *u, double *chi2, lab_error *error)
-{
-  double *r = malloc((u->m + 1) * sizeof *r);
-  int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
-  *chi2 = status == LAB_OK ? lab_dot(r, r, u->m) : 0;
-  free(r);
-  return status;
-}
-
 int lab_apart_find(const lab_unknowns *declared, lab_apart *apart, lab_error *error)
 {
   double chi2;
   int any = declared->n_runs > 1 && declared->window == 0, status;
   apart->n = 0;
   apart->declared = *declared;
-  status = any ? chi2_of(declared, &chi2, error) : LAB_OK;
+  status = any ? lab_unknowns_chi2(declared, &chi2, error) : LAB_OK;
   while (status == LAB_OK && any && apart->n < LAB_OWN_MAX && chi2 > (double)apart->declared.n_data)
     status = set_apart(apart, &chi2, &any, error);
   return status == LAB_WORLD ? status : LAB_OK;

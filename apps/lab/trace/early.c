@@ -193,8 +193,7 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], do
   return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), between[0], c, n, error);
 }
 
-/* The first of n frozen models that leaves only noise with all its values; else one that does not.  In: c  best first
- */
+/* The first of n frozen models, best first, that leaves only noise with all its values; else one that does not. */
 static int thaw_best(const lab_candidate *base, lab_candidate *c, int n, lab_candidate *onset, lab_error *error)
 {
   const double reach = n > 0 ? lab_constant(LAB_RIVAL) * c[0].quality.chi2 : 0;

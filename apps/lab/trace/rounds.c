@@ -586,6 +586,11 @@ static int add_term(search *s, lab_error *error)
 
 /* ---- Rules ---- */
 
+int lab_rounds_may_begin(const lab_unknowns *u, const lab_search_options *options)
+{
+  return options->may_begin && u->n_runs == 1 && u->window == 0 && u->rig.n_onsets == 0;
+}
+
 static lab_facts facts_of(const search *s)
 {
   const lab_candidate *best = &s->beam[0];
@@ -604,7 +609,7 @@ static lab_facts facts_of(const search *s)
   f.n_terms = best->u.rig.n_terms;
   for (i = 0; i < best->n_found; i++)
     f.found_term |= best->found[i].term >= 0;
-  f.can_begin = s->options->may_begin && best->u.n_runs == 1 && best->u.window == 0 && best->u.rig.n_onsets == 0;
+  f.can_begin = lab_rounds_may_begin(&best->u, s->options);
   f.onset = s->onset.quality;
   f.free_term = s->free_term.quality;
   if (s->has_extended)

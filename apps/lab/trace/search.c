@@ -123,12 +123,6 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* Whether something may begin within the logs. */
-static int may_begin(const lab_unknowns *u, const lab_search_options *options)
-{
-  return options->may_begin && u->n_runs == 1 && u->window == 0 && u->rig.n_onsets == 0;
-}
-
 /* The declared model within its tolerances, or what begins within the logs where that explains them.
  * In:      u       the declared model, fitted
  * Out:     within  with what is held, fitted; where something begins as u
@@ -144,7 +138,7 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
   *begins = within->quality.fitted = 0;
   status = lab_unknowns_hold(&within->u, error);
-  if (status == LAB_OK && may_begin(&within->u, options)) {
+  if (status == LAB_OK && lab_rounds_may_begin(&within->u, options)) {
     status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
     begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
@@ -199,7 +193,6 @@ static int search_tolerantly(const lab_unknowns *u, const lab_search_options *op
   *exact = *early = *whole;
   whole->exact = u;
   status = fit_within(u, options, &whole->best, early, &begins, error);
-
   until = before_the_end(u->until, start);
   whole->best.u.until = until;
   whole->declared = whole->best;
