@@ -75,7 +75,8 @@ int lab_index_add(lab_index *index, const char *name, const lab_done *done, lab_
   index->entry = entry;
   entry += index->n;
   cut(done->outcome.row, &row);
-  gain = fmax(worst(&row, BEFORE), 1) / fmax(worst(&row, AFTER), 1); /* what is below the noise is not to be gained */
+  /* below the noise one error is as good as another */
+  gain = fmax(worst(&row, BEFORE), 1) / fmax(worst(&row, AFTER), 1);
   *entry = (lab_index_entry){.name = strdup(name),
                              .row = strdup(done->outcome.row),
                              .page = done->outcome.status != LAB_OK    ? NULL

@@ -305,8 +305,8 @@ static void add_line(lab_index *index, const char *name, const char *row, int ex
 /* The worst first: by verdict, effects by how much of the error they explain, then in the order of the list. */
 static void test_lab_index__all_verdicts__worst_first(void **state)
 {
-  static const char *const order[] = {">torn<", ">odd<",    ">large<", ">small & <b><",
-                                      ">worn<", ">unsure<", ">fine<",  ">fine 2<"};
+  static const char *const order[] = {">torn<",   ">odd<",  ">large<",  ">small & <b><", ">worn<",
+                                      ">unsure<", ">fine<", ">fine 2<", ">quiet<"};
   lab_index index = {0};
   char path[700], *page;
   const char *last;
@@ -314,6 +314,7 @@ static void test_lab_index__all_verdicts__worst_first(void **state)
   (void)state;
   add_line(&index, "fine", "none,,,,1,1,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
   add_line(&index, "fine 2", "none,,,,3,3,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
+  add_line(&index, "quiet", "none,,,,0.004,0.001,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK); /* below the noise */
   add_line(&index, "worn", "none,,,,3,3,,,,,,,,,,,,,,,0,worn,deviates,dry_friction x3.7", LAB_WRITE_JSON, LAB_OK);
   add_line(&index, "small & <b>", "effect,dead_time,0.02 s,,2,1,,,9,8,,,,,,,,,,,0,late", LAB_WRITE_FIGURES, LAB_OK);
   add_line(&index, "unsure", "undecided,,,,2,2,,,,,,,,,,,,,,,1,\"no, idea\"", LAB_WRITE_JSON, LAB_OK);
@@ -334,7 +335,7 @@ static void test_lab_index__all_verdicts__worst_first(void **state)
     assert_non_null(last);
   }
   assert_contains(page, "<h1>hall 2.csv</h1>");
-  assert_contains(page, "<strong>8 lines:</strong>");
+  assert_contains(page, "<strong>9 lines:</strong>");
   assert_contains(page, "<a href=\"small%20%26%20%3Cb%3E/report.html\">");
   assert_contains(page, "<a href=\"fine%202/report.json\">");
   assert_contains(page, "<th scope=\"row\">torn</th>");
