@@ -360,6 +360,7 @@ struct pneu_model {
   pneu_real lower_stop, upper_stop;    /* [m] where the stem is stopped: 0 and travel, unless an effect moves them */
   pneu_real travel;                    /* [m] between touching both stops: stroke, less what an effect takes away */
   pneu_real stop_compliance;           /* [m/N] of either stop; 0: rigid */
+  pneu_real exponent_rise;             /* [1] n - 1 of an isothermal chamber that is not quite one; 0: isothermal */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */
@@ -475,8 +476,8 @@ int pneu_effect_find(const char *name);
 /* The effect that parameter i belongs to.  Returns: its index, or -1 for the base list and out of range. */
 int pneu_effect_of(int i);
 
-/* What effect i does to an actuator, with places for its size: "The chamber leaks: {size}, ...". What stands in braces is
- * the user's to fill in; {+more|less} is the first word of a positive size and the second of a negative one.
+/* What effect i does to an actuator, with places for its size: "The chamber leaks: {size}, ...". What stands in braces
+ * is the user's to fill in; {+more|less} is the first word of a positive size and the second of a negative one.
  * Returns: a constant sentence, or NULL out of range. */
 const char *pneu_effect_sentence(int i);
 
@@ -692,10 +693,9 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * In/out:  state, work
  * Returns: PNEU_OK, and `state` is again in the ranges above, v = 0 on a stop. PNEU_HELD, and it is so too, but the
  *          stem was held and is late: a controller goes on, and does not judge by this step; shorter ones from a copy
- *          of the start follow the stem. PNEU_E_NONFINITE where state, input or dt is outside the ranges, PNEU_E_DELAY as
- *          pneu_run, PNEU_E_SINGULAR, or PNEU_E_STEP_COUNT where the gas alone uses up its parts: `state` and
- *          input->delay then are unchanged, bit for bit. Each command that comes out of its delay within dt makes two
- *          steps of one. */
+ *          of the start follow the stem. PNEU_E_NONFINITE where state, input or dt is outside the ranges, PNEU_E_DELAY
+ * as pneu_run, PNEU_E_SINGULAR, or PNEU_E_STEP_COUNT where the gas alone uses up its parts: `state` and input->delay
+ * then are unchanged, bit for bit. Each command that comes out of its delay within dt makes two steps of one. */
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work);
 
 /* State inside an accepted step. Order 4: its error falls with the fifth power of the step's length; PNEU_ORDER 4:

@@ -405,6 +405,25 @@ static void test_closeloop__saturated_position__is_left_out_and_said(void **stat
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "stands at exactly 9 mm, its largest value");
 }
 
+/* Noise of a pressure that drives the model does not drive the stem: friction and spring come out as they are. */
+static void test_closeloop__pressure_as_input__shows_friction_and_spring(void **state)
+{
+  const char *rig = scratch_text(
+      "driven.cfg", "actuator = { area = \"400 cm^2\"; dead_volume = \"40 cm^3\"; stroke = \"20 mm\";\n"
+                    "  spring_rate = \"500 kN/m\"; spring_preload = \"10 mm\"; moving_mass = \"2 kg\";\n"
+                    "  dry_friction = \"160 N\"; viscous_friction = \"500 N.s/m\"; damping = \"1000 N.s/m\"; };\n"
+                    "supply = { pressure = \"400 kPa\"; temperature = \"298.15 K\"; };\n"
+                    "ambient = { pressure = \"101.325 kPa\"; temperature = \"298.15 K\"; };\n"
+                    "inputs = [\"p\"];\n"
+                    "noise = { pressure = \"0.32 kPa\"; position = \"0.02 mm\"; };\n");
+  char *report;
+  (void)state;
+  assert_limited(rig, &sound, "none", "channel p drives the model, without its noise of 0.3");
+  report = scratch_read(scratch_path("out/report.json"));
+  assert_contains(report, "Friction is 3 times its sheet, the spring 20 % soft; nothing else is missing");
+  free(report);
+}
+
 static void test_closeloop__spikes__are_left_out_and_said(void **state)
 {
   bad_log b = sound;
@@ -769,6 +788,7 @@ int main(void)
       cmocka_unit_test(test_closeloop__position_upside_down__is_refused),
       cmocka_unit_test(test_closeloop__saturated_pressure__is_left_out_and_said),
       cmocka_unit_test(test_closeloop__saturated_position__is_left_out_and_said),
+      cmocka_unit_test(test_closeloop__pressure_as_input__shows_friction_and_spring),
       cmocka_unit_test(test_closeloop__spikes__are_left_out_and_said),
       cmocka_unit_test(test_closeloop__values_that_stand_alone__are_left_out_and_said),
       cmocka_unit_test(test_closeloop__one_bad_value__brings_no_name),

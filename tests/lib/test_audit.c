@@ -180,6 +180,12 @@ static void check_effect(const char *name)
   }
 }
 
+static void test_chamber_exponent__run__keeps_mass_and_energy(void **state)
+{
+  (void)state;
+  check_effect("chamber_exponent");
+}
+
 static void test_chamber_leak__run__keeps_mass_and_energy(void **state)
 {
   (void)state;
@@ -247,6 +253,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_pneu_run__each_actuator_and_law__keeps_mass_and_energy),
       cmocka_unit_test(test_pneu_run__swept_ratio_and_other_index__keeps_mass_and_energy),
+      cmocka_unit_test(test_chamber_exponent__run__keeps_mass_and_energy),
       cmocka_unit_test(test_chamber_leak__run__keeps_mass_and_energy),
       cmocka_unit_test(test_choked_flow__run__keeps_mass_and_energy),
       cmocka_unit_test(test_heat_transfer__run__keeps_mass_and_energy),

@@ -120,8 +120,8 @@ static pneu_params ground(int e, int *gas)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   *gas = PNEU_GAS_ISOTHERMAL;
-  if (strcmp(names[e], "heat_transfer") != 0 && strcmp(names[e], "connecting_tube") != 0 &&
-      pneu_effect_find("heat_transfer") >= 0) {
+  if (strcmp(names[e], "heat_transfer") != 0 && strcmp(names[e], "chamber_exponent") != 0 &&
+      strcmp(names[e], "connecting_tube") != 0 && pneu_effect_find("heat_transfer") >= 0) {
     *gas = PNEU_GAS_ENERGY;
     fixture_set(&p, "film_conductance", 5);
   }

@@ -72,6 +72,35 @@ static void footprint_laminar_leak(void)
   }
 }
 
+/* Shut air that is compressed follows p V^n = const, T V^(n-1) = const; a film decides where there is one, and so does
+ * another law. */
+static void footprint_chamber_exponent(void)
+{
+  const double n = 1.25;
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  double share, start;
+  fixture_set(&p, "exponent_rise", n - 1);
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 2e5, 0.015, &input);
+  start = (double)s.p + (double)p.ambient_pressure;
+  share = (double)pneu_volume(&m, s.x);
+  input.position_rate = (pneu_real)-0.01;
+  fixture_run(&m, &s, &input, 1, TOL(1e-9, 1e-5), NULL);
+  share /= (double)pneu_volume(&m, s.x);
+  assert_between(share, 1.5, 4);
+  assert_close((double)s.p + (double)p.ambient_pressure, start * pow(share, n), 0, TOL(1e-7, 1e-4));
+  assert_close((double)s.T, (double)p.ambient_temperature * pow(share, n - 1), 0, TOL(1e-7, 1e-4));
+  assert_close((double)fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).g, (double)p.heat_ratio, 0, 0);
+  if (pneu_effect_find("heat_transfer") >= 0) {
+    fixture_set(&p, "film_resistance", 0.2);
+    assert_close((double)fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).g, (double)p.heat_ratio, 0, 0);
+  }
+}
+
 /* The flow solves s = q/c + (q/(c p_c))^2, s = p^2 - p_a^2 by size, from inside and outside; slow, it is laminar. */
 static void footprint_porous_leak(void)
 {
@@ -622,6 +651,7 @@ static void footprint_positioner_zero(void)
 }
 
 static footprint footprints[] = {
+    {"chamber_exponent", "shut_air__follows_its_power_law", footprint_chamber_exponent},
     {"chamber_leak", "shut_vessel__loses_pressure_as_a_choked_blowdown", footprint_chamber_leak},
     {"choked_flow", "share__mixes_the_laws", footprint_choked_flow},
     {"connecting_tube", "constant_inflow__chamber_trails_the_tube", footprint_connecting_tube},

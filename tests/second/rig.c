@@ -157,21 +157,27 @@ static double volume_at(const second_rig *g, double x)
   return g->dead_volume + 0.5 * (g->area + area_at(g, x)) * x; /* integral of a linear area */
 }
 
+/* The exponent by which the chamber's air stores energy. */
+static double kappa(const second_rig *g)
+{
+  return g->exponent > 0.0 ? g->exponent : g->gamma;
+}
+
 static chamber chamber_of(const second_rig *g, const double *y)
 {
   chamber c;
   c.V = volume_at(g, y[X]);
   c.A = area_at(g, y[X]);
-  c.P = (g->gamma - 1.0) * y[U] / c.V;
+  c.P = (kappa(g) - 1.0) * y[U] / c.V;
   c.p = c.P - g->ambient;
-  c.T = y[U] / y[M] * (g->gamma - 1.0) / g->gas_constant;
+  c.T = y[U] / y[M] * (kappa(g) - 1.0) / g->gas_constant;
   return c;
 }
 
 /* q enters the chamber from air at temperature T_from; if it is negative, -q leaves at the chamber's own. */
 static void exchange(const second_rig *g, double *d, double q, double T_from, double T)
 {
-  double cp = g->gamma / (g->gamma - 1.0) * g->gas_constant;
+  double cp = kappa(g) / (kappa(g) - 1.0) * g->gas_constant;
   d[q > 0.0 ? MASS_IN : MASS_OUT] += fabs(q);
   d[q > 0.0 ? H_IN : H_OUT] += cp * fabs(q) * (q > 0.0 ? T_from : T);
 }
@@ -268,7 +274,7 @@ static double wall_heat(const second_rig *g, const double *y, const chamber *c, 
 static void gas_rates(const world *w, const double *y, double t, const chamber *c, double *d)
 {
   const second_rig *g = w->rig;
-  double cv = g->gas_constant / (g->gamma - 1.0);
+  double cv = g->gas_constant / (kappa(g) - 1.0);
   transducer(w, y, t, c, d);
   leaks(g, c, d);
   d[M] = d[MASS_IN] - d[MASS_OUT];
@@ -406,7 +412,7 @@ static void runge_kutta(const world *w, const double *y, double h, double *out)
   for (int i = 0; i < STATES; i++)
     out[i] = y[i] + h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);
   if (w->rig->gas == SECOND_ISOTHERMAL) /* exactly, lest rounding warm the gas over millions of steps */
-    out[U] = out[M] * w->rig->gas_constant / (w->rig->gamma - 1.0) * w->rig->ambient_temperature;
+    out[U] = out[M] * w->rig->gas_constant / (kappa(w->rig) - 1.0) * w->rig->ambient_temperature;
 }
 
 /* One step; with refinement on, two halves instead of one while that makes a difference. */
@@ -579,7 +585,7 @@ static void start(world *w)
   if (g->lower_rate > 0.0 && y[X] == 0.0) /* the preload sits in the stop */
     y[X] = -g->spring_rate * g->spring_preload / (g->spring_rate + g->lower_rate);
   y[M] = P * volume_at(g, y[X]) / (g->gas_constant * T);
-  y[U] = y[M] * g->gas_constant / (g->gamma - 1.0) * T;
+  y[U] = y[M] * g->gas_constant / (kappa(g) - 1.0) * T;
   y[TUBE] = P * g->tube_volume / (g->gas_constant * g->ambient_temperature);
   y[WALL] = g->ambient_temperature;
   y[P_LAG] = P - g->ambient;

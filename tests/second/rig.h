@@ -28,6 +28,7 @@ typedef struct {
   double supply, supply_temperature;   /* Pa gauge, K */
   double ambient, ambient_temperature; /* Pa absolute, K */
   double gas_constant, gamma;          /* J/(kg K), 1 */
+  double exponent;                     /* 1, of the chamber in place of gamma: polytropic; 0: gamma */
   double linear_ratio;                 /* flow is linear in dP below this share of upstream pressure */
   double iso_b, iso_m;                 /* critical ratio and exponent of ISO 6358 */
   double step, refine_tolerance;       /* s; step is halved while halving moves P or x by more than this, relative */

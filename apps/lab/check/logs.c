@@ -21,9 +21,9 @@ static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error
     return error->status;
   if (!b->is_whole)
     lab_log_thin(log, LAB_THIN_ROWS, &b->limitations);
-  if (lab_log_clean(rig, log, &b->limitations, error))
+  if (lab_log_clean(rig, log, &b->limitations, error) || lab_plausible(rig, log, &b->limitations, &b->content, error))
     return error->status;
-  return lab_plausible(rig, log, &b->limitations, &b->content, error);
+  return lab_log_smooth_inputs(rig, log, &b->limitations, error);
 }
 
 int lab_logs_add(lab_logs *b, const lab_rig *rig, const char *path, lab_error *error)

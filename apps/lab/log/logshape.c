@@ -195,24 +195,19 @@ static int has_lead(const lab_log_format *format, int k, int channel)
 static int make_room(lab_log *log, const lab_log_format *format, lab_error *error)
 {
   const size_t rows = log->n + log->n_runs * (size_t)format->n_lead;
-  int *line = realloc(log->line, rows * sizeof *line);
   int c, k;
   size_t i;
-  log->line = line ? line : log->line;
-  for (c = 0; line && c < LAB_CHANNEL_COUNT; c++) {
-    const int is_new = !log->value[c];
-    double *value;
-    for (k = 0; k < format->n_lead && is_new && !has_lead(format, k, c); k++)
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
+    for (k = 0; k < format->n_lead && !log->value[c] && !has_lead(format, k, c); k++)
       continue;
-    if (k == format->n_lead)
+    if (log->value[c] || k == format->n_lead)
       continue;
-    if (!(value = realloc(log->value[c], rows * sizeof *value)))
+    if (!(log->value[c] = malloc(rows * sizeof *log->value[c])))
       return lab_fail_memory(error, log->path);
-    log->value[c] = value;
-    for (i = 0; is_new && i < log->n; i++)
-      value[i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
+    for (i = 0; i < log->n; i++)
+      log->value[c][i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
   }
-  return line ? LAB_OK : lab_fail_memory(error, log->path);
+  return lab_log_make_room(log, rows, error);
 }
 
 /* The first or last value of a channel in rows first..end - 1 that is no gap; NaN if there is none. */

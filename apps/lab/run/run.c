@@ -53,6 +53,48 @@ static void weigh_steps(const double *value, size_t n, double sigma, double inne
   }
 }
 
+/* How far an input may be off the line from a row to the next: a quarter of what the line bends by at either end. */
+static double off_line(const double *t, const double *y, size_t i, size_t n)
+{
+  double before, after;
+  if (i == 0 || i + 1 >= n)
+    return 0;
+  before = (y[i] - y[i - 1]) / (t[i] - t[i - 1]);
+  after = (y[i + 1] - y[i]) / (t[i + 1] - t[i]);
+  return isnan(after - before) ? 0 : fabs(after - before) * fmin(t[i] - t[i - 1], t[i + 1] - t[i]) / 4;
+}
+
+/* The error of the pressure that drives a stem, at row i of a run. */
+static double input_error(const lab_run *e, size_t i)
+{
+  const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first, *p = e->log->value[LAB_CHANNEL_P] + e->first;
+  const double here = off_line(t, p, i, e->n), before = i > 0 ? off_line(t, p, i - 1, e->n) : 0;
+  return hypot(e->log->smoothed[LAB_CHANNEL_P], fmax(here, before));
+}
+
+/* A stem follows the error of the pressure that drives it, by its area over its spring, and where it comes to rest it
+ * keeps it: all rows of the rest share one. What is left of the noise after smoothing is less, but lasts as many rows
+ * as it was smoothed over: it counts as if each row had its own. */
+static void weigh_input(const lab_run *e, double sigma, double *weight)
+{
+  static const double at_rest = 6; /* deviations of the noise */
+  const double *x = e->log->value[LAB_CHANNEL_X] + e->first;
+  const double gain = (double)(e->rig->params.area / e->rig->params.spring_rate);
+  size_t i, k, rows;
+  for (i = 0; i < e->n; i += rows) {
+    rows = rows_within(x, i, e->n, at_rest * sigma);
+    for (k = i; k < i + rows; k++)
+      weight[k] *= sigma / hypot(sigma, gain * input_error(e, k) * sqrt((double)rows));
+  }
+}
+
+/* Whether a stem on its spring is driven by a measured pressure. */
+static int follows_pressure(const lab_run *e, int channel)
+{
+  return channel == LAB_CHANNEL_X && e->rig->laws.pressure_input && e->log->value[LAB_CHANNEL_P] &&
+         e->rig->params.spring_rate > 0;
+}
+
 static int add_channel(lab_run *e, int channel, lab_error *error)
 {
   const double *value = e->log->value[channel] + e->first;
@@ -73,6 +115,8 @@ static int add_channel(lab_run *e, int channel, lab_error *error)
   e->channel[e->n_channels] = channel;
   e->resolution[e->n_channels] = q;
   weigh_steps(value, e->n, sigma, inner, q, e->weight + (size_t)e->n_channels * e->n);
+  if (follows_pressure(e, channel))
+    weigh_input(e, sigma, e->weight + (size_t)e->n_channels * e->n);
   e->sigma[e->n_channels++] = sigma;
   return LAB_OK;
 }

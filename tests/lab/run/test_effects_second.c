@@ -26,6 +26,13 @@ static void set_area_variation(pneu_params *p, second_rig *g, double size)
   BOTH("area_loss", area_slope, 0.08);
 }
 
+static void set_chamber_exponent(pneu_params *p, second_rig *g, double size)
+{
+  g->gas = SECOND_ENERGY; /* without heat, by another exponent */
+  g->exponent = 1 + 0.2 * size;
+  fixture_set(p, "exponent_rise", 0.2 * size);
+}
+
 static void set_chamber_leak(pneu_params *p, second_rig *g, double size)
 {
   BOTH("leak_area", leak_area, 3e-8);
@@ -232,6 +239,9 @@ static const effect_case cases[] = {
     CASE(wall_temperature,      2e-6, 8e-8, 2e-6),
 };
 /* clang-format on */
+
+/* In place of a chamber law. */
+static const effect_case exponent = CASE(chamber_exponent, 6e-7, 4e-8, 2e-7);
 
 static second_positioner other;
 
@@ -493,6 +503,19 @@ static void test_lab_response_run__each_effect__is_that_of_the_second_implementa
     }
 }
 
+static void test_lab_response_run__exponent__is_that_of_the_second_implementation(void **state)
+{
+  int flow;
+  (void)state;
+  if (pneu_effect_find(exponent.name) < 0)
+    skip();
+  for (flow = 0; flow < 2; flow++) {
+    run e = random_experiment((uint64_t)(70 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
+    exponent.set(&e.p, &e.g, flow ? 0.3 : 1);
+    assert_agrees(&e, &exponent.most, exponent.name);
+  }
+}
+
 static void test_lab_response_run__positioner__is_that_of_the_second_implementation(void **state)
 {
   int law, i;
@@ -737,6 +760,7 @@ static void test_effects_def__each_effect__is_compared(void **state)
       found += strcmp(cases[i].name, pneu_effect_at(e)->name) == 0;
     for (i = 0; i < COUNT(positioned); i++)
       found += strcmp(positioned[i].name, pneu_effect_at(e)->name) == 0;
+    found += strcmp(exponent.name, pneu_effect_at(e)->name) == 0;
     if (!found)
       fail_msg("%s is not compared with the second implementation", pneu_effect_at(e)->name);
   }
@@ -749,6 +773,7 @@ int main(void)
       cmocka_unit_test(test_effects_def__each_effect__is_compared),
       cmocka_unit_test(test_lab_response_run__base_model__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__each_effect__is_that_of_the_second_implementation),
+      cmocka_unit_test(test_lab_response_run__exponent__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__positioner__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation),
   };

@@ -251,6 +251,23 @@ static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **s
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
+static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **state)
+{
+  static lab_unknowns u;
+  static lab_search_result result;
+  second_rig g = true_rig();
+  (void)state;
+  if (pneu_effect_find("chamber_exponent") < 0)
+    skip();
+  g.gas = SECOND_ENERGY;
+  g.exponent = 1.2;
+  close_loop(&g, brisk, &u, &result);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_exponent");
+  assert_close((double)*pneu_param_at(&u.rig.params, result.found[0].param), 0.2, 0.01, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+}
+
 static void test_lab_search_run__leak__is_named_and_sized(void **state)
 {
   static lab_unknowns u;
@@ -373,6 +390,7 @@ int main(void)
       cmocka_unit_test(test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters),
       cmocka_unit_test(test_lab_search_run__noisier_than_declared__is_noise_all_the_same),
       cmocka_unit_test(test_lab_search_run__adiabatic_chamber__lacks_heat_transfer),
+      cmocka_unit_test(test_lab_search_run__polytropic_chamber__lacks_its_exponent),
       cmocka_unit_test(test_lab_search_run__leak__is_named_and_sized),
       cmocka_unit_test(test_lab_search_run__small_leak__is_added_where_it_is_plain),
       cmocka_unit_test(test_lab_search_run__many_slopes__share_the_level),

@@ -1,0 +1,292 @@
+/* Measured channels that drive the model, without most of their noise. */
+#include "mend.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "../base/format.h"
+#include "../base/noise.h"
+#include "../base/text.h"
+
+/* Sums over the values before each one, from which straight lines through any stretch of them are fitted. */
+typedef struct sums {
+  double n, t, tt, y, ty;
+} sums;
+
+/* A straight line through values from to end - 1, as it is at a time. */
+typedef struct line {
+  size_t from, end;
+  double value, slope, deviation; /* deviation of the value; SI */
+} line;
+
+/* The values of a run that are there. */
+typedef struct series {
+  size_t n;
+  double *t, *y;    /* n; t from the first row on */
+  sums *before;     /* n + 1 */
+  double sigma;     /* of the noise */
+  size_t from, end; /* windows reach no further */
+} series;
+
+/* Where a line ends and another begins. */
+typedef struct bend {
+  size_t after; /* this value, before the next */
+  int between;  /* not 0: neither value is as good a place */
+  double t, value;
+} bend;
+
+static sums between(const series *s, size_t from, size_t end)
+{
+  const sums *a = &s->before[from], *b = &s->before[end];
+  const sums d = {b->n - a->n, b->t - a->t, b->tt - a->tt, b->y - a->y, b->ty - a->ty};
+  return d;
+}
+
+static line line_at(const series *all, size_t from, size_t end, double t)
+{
+  const sums s = between(all, from, end);
+  const double mean = s.t / s.n, width = s.tt - s.t * mean, off = t - mean;
+  line l = {from, end, 0, (s.ty - mean * s.y) / width, all->sigma * sqrt(1 / s.n + off * off / width)};
+  l.value = s.y / s.n + off * l.slope;
+  return l;
+}
+
+/* The line through a window about value i: some sizes below the widest that agrees with all narrower ones (intersection
+ * of confidence intervals, Goldenshluger and Nemirovski 1997; Katkovnik 1999), so that a curve has bent off it by less
+ * than it scatters. No line where not even three values agree.
+ * In:      back, ahead  whether it reaches to either side */
+static line about(const series *s, size_t i, int back, int ahead)
+{
+  enum { BELOW = 4 };            /* sizes, which takes off half */
+  static const double reach = 2; /* deviations of an interval */
+  const line alone = {i, i + 1, s->y[i], 0, s->sigma};
+  line last[BELOW + 1];
+  double low = s->y[i] - reach * s->sigma, high = s->y[i] + reach * s->sigma;
+  size_t h;
+  int k;
+  for (k = 0; k <= BELOW; k++)
+    last[k] = alone;
+  for (h = back && ahead ? 1 : 2; h < s->n; h += 1 + h / 4) {
+    const size_t left = back ? h : 0, right = ahead ? h : 0;
+    line l;
+    if (left > i - s->from || i + right >= s->end)
+      break;
+    l = line_at(s, i - left, i + right + 1, s->t[i]);
+    low = fmax(low, l.value - reach * l.deviation);
+    high = fmin(high, l.value + reach * l.deviation);
+    if (!(low <= high))
+      break;
+    for (k = BELOW; k > 0; k--)
+      last[k] = last[k - 1];
+    last[0] = l;
+  }
+  return last[BELOW];
+}
+
+/* The best of windows on both sides and on either alone, which end at a bend. */
+static double smooth_at(const series *s, size_t i)
+{
+  static const int side[][2] = {{1, 0}, {0, 1}};
+  line best = about(s, i, 1, 1);
+  int k;
+  for (k = 0; k < 2; k++) {
+    const line l = about(s, i, side[k][0], side[k][1]);
+    if (l.deviation < best.deviation)
+      best = l;
+  }
+  return best.value;
+}
+
+/* How far two lines are apart at a time, in deviations. */
+static double apart(const series *s, const line *a, const line *b, double t)
+{
+  const line x = line_at(s, a->from, a->end, t), y = line_at(s, b->from, b->end, t);
+  return fabs(x.value - y.value) / hypot(x.deviation, y.deviation);
+}
+
+/* Whether the lines before value i and after the next one meet between the two, and are plainly not the same. */
+static int bends_after(const series *s, size_t i, bend *found)
+{
+  static const double plainly = 3, beside = 0.05; /* deviations; share of the time between two values */
+  const line a = about(s, i, 1, 0), b = about(s, i + 1, 0, 1);
+  const double dt = s->t[i + 1] - s->t[i], at = (b.value - b.slope * dt - a.value) / (a.slope - b.slope);
+  found->after = i;
+  found->t = s->t[i] + at;
+  found->value = a.value + a.slope * at;
+  found->between = at > beside * dt && at < (1 - beside) * dt;
+  return a.end - a.from >= 3 && b.end - b.from >= 3 && at >= 0 && at <= dt &&
+         fmax(apart(s, &a, &b, s->t[i]), apart(s, &a, &b, s->t[i + 1])) > plainly;
+}
+
+/* In:      s      n >= 1 values
+ * Out:     bends  at most n - 1
+ * Returns: how many */
+static size_t find_bends(const series *s, bend *bends)
+{
+  size_t i, n = 0;
+  for (i = 0; i + 1 < s->n; i++)
+    n += (size_t)bends_after(s, i, &bends[n]);
+  return n;
+}
+
+static int series_open(size_t room, series *s, lab_error *error)
+{
+  s->n = s->from = 0;
+  s->t = malloc(room * sizeof *s->t);
+  s->y = malloc(room * sizeof *s->y);
+  s->before = malloc((room + 1) * sizeof *s->before);
+  return s->t && s->y && s->before ? LAB_OK : lab_fail_memory(error, "an input without noise");
+}
+
+static void series_close(series *s)
+{
+  free(s->t);
+  free(s->y);
+  free(s->before);
+}
+
+/* In:      t, y  n values, with gaps */
+static void series_fill(const double *t, const double *y, size_t n, series *s)
+{
+  static const sums none = {0, 0, 0, 0, 0};
+  size_t i;
+  s->before[0] = none;
+  for (i = 0; i < n; i++) {
+    const double at = t[i] - t[0];
+    sums *next = &s->before[s->n + 1];
+    if (isnan(y[i]))
+      continue;
+    *next = s->before[s->n];
+    next->n += 1;
+    next->t += at;
+    next->tt += at * at;
+    next->y += y[i];
+    next->ty += at * y[i];
+    s->t[s->n] = at;
+    s->y[s->n++] = y[i];
+  }
+}
+
+/* The noise of a channel: as declared, unless the log shows less. */
+static int noise_of(const lab_rig *rig, const lab_log *log, size_t run, int channel, double *sigma, lab_error *error)
+{
+  const size_t first = log->run[run], n = log->run[run + 1] - first;
+  if (lab_noise_estimate(log->value[channel] + first, n, sigma, error))
+    return error->status;
+  *sigma = isnan(*sigma) ? 0 : fmin(*sigma, isnan(rig->noise[channel]) ? *sigma : rig->noise[channel]);
+  return LAB_OK;
+}
+
+/* What a row between two others has of what is compared: nothing. */
+static void clear_measured(const lab_rig *rig, lab_log *log, size_t row)
+{
+  static const int measured[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
+  size_t c;
+  for (c = 0; c < sizeof measured / sizeof measured[0]; c++)
+    if (log->value[measured[c]] && !rig->input[measured[c]])
+      log->value[measured[c]][row] = (double)NAN;
+}
+
+/* Rows of a run for the bends between its rows.
+ * In:      bends  n, in the order of time */
+static int insert(const lab_rig *rig, lab_log *log, size_t run, int channel, const bend *bends, size_t n,
+                  lab_error *error)
+{
+  size_t *after = malloc((n + 1) * sizeof *after), row = log->run[run], k;
+  int status = after ? LAB_OK : lab_fail_memory(error, "rows");
+  for (k = 0; status == LAB_OK && k < n; k++) {
+    while (log->value[LAB_CHANNEL_TIME][row + 1] < bends[k].t)
+      row++;
+    after[k] = row;
+  }
+  if (status == LAB_OK)
+    status = lab_log_repeat_rows(log, after, n, error);
+  for (k = 0; status == LAB_OK && k < n; k++) {
+    row = after[k] + k + 1;
+    clear_measured(rig, log, row);
+    log->value[LAB_CHANNEL_TIME][row] = bends[k].t;
+    log->value[channel][row] = bends[k].value;
+  }
+  free(after);
+  return status;
+}
+
+/* Values from..end - 1 in place of those of the log that are there.
+ * In/out:  row  of the first of them; then of the first after them */
+static void replace(const series *s, size_t *row, double *y)
+{
+  size_t i = s->from;
+  for (; i < s->end; ++*row)
+    if (!isnan(y[*row])) {
+      y[*row] = smooth_at(s, i++);
+    }
+}
+
+static int smooth_series(const lab_rig *rig, series *s, lab_log *log, size_t run, int channel, lab_error *error)
+{
+  const size_t first = log->run[run];
+  const double begin = log->value[LAB_CHANNEL_TIME][first];
+  bend *bends = malloc((s->n + 1) * sizeof *bends);
+  size_t row = 0, k, n, between = 0;
+  int status;
+  if (!bends)
+    return lab_fail_memory(error, "bends");
+  s->end = s->n;
+  n = find_bends(s, bends);
+  for (k = 0; k <= n; k++) {
+    s->end = k < n ? bends[k].after + 1 : s->n;
+    replace(s, &row, log->value[channel] + first);
+    s->from = s->end;
+  }
+  for (k = 0; k < n; k++)
+    if (bends[k].between) {
+      bends[between] = bends[k];
+      bends[between++].t += begin;
+    }
+  status = insert(rig, log, run, channel, bends, between, error);
+  free(bends);
+  return status;
+}
+
+/* Out:     sigma  0: there is no noise, and the channel stays as it is */
+static int smooth(const lab_rig *rig, lab_log *log, size_t run, int channel, double *sigma, lab_error *error)
+{
+  const size_t first = log->run[run], n = log->run[run + 1] - first;
+  series s;
+  int status = noise_of(rig, log, run, channel, sigma, error);
+  if (status != LAB_OK || !(*sigma > 0))
+    return status;
+  s.sigma = *sigma;
+  status = series_open(n, &s, error);
+  if (status == LAB_OK) {
+    series_fill(log->value[LAB_CHANNEL_TIME] + first, log->value[channel] + first, n, &s);
+    status = smooth_series(rig, &s, log, run, channel, error);
+  }
+  series_close(&s);
+  return status;
+}
+
+int lab_log_smooth_inputs(const lab_rig *rig, lab_log *log, lab_limitations *limitations, lab_error *error)
+{
+  static const int channels[] = {LAB_CHANNEL_P, LAB_CHANNEL_X};
+  size_t run, c;
+  for (c = 0; c < sizeof channels / sizeof channels[0]; c++) {
+    const int channel = channels[c];
+    char size[LAB_FORMAT_TEXT];
+    double sigma;
+    if (!rig->input[channel] || !log->value[channel])
+      continue;
+    for (run = 0; run < log->n_runs; run++) {
+      if (smooth(rig, log, run, channel, &sigma, error))
+        return error->status;
+      log->smoothed[channel] = fmax(log->smoothed[channel], sigma);
+    }
+    lab_format_brief(log->smoothed[channel], lab_channels[channel].unit, size);
+    if (log->smoothed[channel] > 0)
+      lab_limitation(
+          limitations,
+          "%s: channel %s drives the model, without its noise of %s; what that leaves counts as noise of what follows.",
+          lab_file_name(log->path), lab_channels[channel].key, size);
+  }
+  return LAB_OK;
+}

@@ -1,0 +1,36 @@
+/* Air that neither keeps its temperature nor all its heat: p V^n = const while the orifices are shut, by the balance of
+ * the polytropic law, n - 1 over the isothermal law's n = 1. The polytropic law has an n of its own, and beside a film
+ * (heat_transfer) the heat that passes decides; a film that passes none is the adiabatic chamber, so n ends before it.
+ * Size: n = 1.1 to 1.3 for strokes of 0.1 to 1 s. */
+#include "../internal.h"
+
+enum { RISE };
+
+static const pneu_param_info params[] = {
+    {"exponent_rise", "1", 0, PNEU_C(0.35), PNEU_C(0.2), 0, 0, "n - 1, n the exponent of the chamber"}};
+
+static int acts(const pneu_model *model, const pneu_real *param)
+{
+  return !model->law.pressure_input && model->law.gas == PNEU_GAS_ISOTHERMAL && param[RISE] > 0;
+}
+
+static void prepare(pneu_model *model, const pneu_real *param)
+{
+  model->exponent_rise = param[RISE];
+}
+
+const pneu_effect pneu_effect_record_chamber_exponent = {
+    "chamber_exponent",
+    "The air warms when compressed and cools when expanding, by a fixed exponent between isothermal and adiabatic.",
+    "Carneiro and Almeida 2006, Proc. IMechE I 220 (polytropic model)",
+    "energy",
+    "filling and venting are quicker than isothermal all along the stroke, and nothing moves on after it",
+    PNEU_STAGE_GEOMETRY,
+    params,
+    NULL,
+    NULL,
+    acts,
+    prepare};
+
+const char pneu_effect_sentence_chamber_exponent[] =
+    "The air in the chamber does not keep its temperature: its exponent is 1 + {size}.";
