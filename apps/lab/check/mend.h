@@ -49,9 +49,9 @@ void lab_log_thin(lab_log *log, size_t most, lab_limitations *limitations);
 int lab_log_clean(const lab_rig *rig, lab_log *log, lab_limitations *limitations, lab_error *error);
 
 /* Take the noise off p and x where they drive the model: it would drive a stem through its friction, to the end of what
- * it reaches. Each value becomes that of a straight line through its neighbours, about half as many as agree within
- * the noise that is declared, or less where the log shows less. Where such lines meet between two rows, a row is put in
- * that has the value there and nothing that is measured; no line goes on beyond.
+ * it reaches. Each value becomes that of a straight line through its neighbours, about half as many as agree within the
+ * noise that is declared, or less where the log shows less; x without a declared one stays as it is. Where such lines
+ * meet between two rows, a row is put in that has the value there and nothing that is measured; no line goes on beyond.
  * In/out:  log  smoothed has the noise of what was smoothed
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_log_smooth_inputs(const lab_rig *rig, lab_log *log, lab_limitations *limitations, lab_error *error);

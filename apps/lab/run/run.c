@@ -88,10 +88,10 @@ static void weigh_input(const lab_run *e, double sigma, double *weight)
   }
 }
 
-/* Whether a stem on its spring is driven by a measured pressure. */
+/* Whether a stem on its spring is driven by a measured pressure, with noise. */
 static int follows_pressure(const lab_run *e, int channel)
 {
-  return channel == LAB_CHANNEL_X && e->rig->laws.pressure_input && e->log->value[LAB_CHANNEL_P] &&
+  return channel == LAB_CHANNEL_X && e->rig->laws.pressure_input && e->log->smoothed[LAB_CHANNEL_P] > 0 &&
          e->rig->params.spring_rate > 0;
 }
 

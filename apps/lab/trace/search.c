@@ -241,6 +241,17 @@ static int has_found_cause(const lab_candidate *c)
   return any;
 }
 
+/* Whether declared values within tolerances explain the logs row by row: a valve that is worn or set otherwise is far
+ * from its declared model, and no rougher for that. */
+static int do_tolerances_do(const lab_unknowns *u, lab_candidate *within, int *enough, lab_error *error)
+{
+  int status;
+  within->u = *u;
+  status = lab_candidate_hold(within, error);
+  *enough = status == LAB_OK && within->quality.fitted && lab_is_noise(&within->quality);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
 /* The search seen coarsely, if the log is rough.
  * Out:     done  1 if it found a cause and left only noise; else
  *          f     is as it was */
@@ -248,13 +259,15 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
                            lab_error *error)
 {
   lab_finding *coarse = malloc(sizeof *coarse);
-  int status;
+  int status, enough = 0;
   *done = 0;
   if (!coarse)
     return lab_fail_memory(error, "the search");
   *coarse = *f;
   status = lab_unknowns_sticks_and_slips(u, &coarse->result.window, error);
-  if (status == LAB_OK && coarse->result.window > 0) {
+  if (status == LAB_OK && coarse->result.window > 0)
+    status = do_tolerances_do(u, &coarse->best, &enough, error);
+  if (status == LAB_OK && coarse->result.window > 0 && !enough) {
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
     status = lab_rounds_run(coarse, NULL, NULL, options, error);
