@@ -85,6 +85,12 @@ static void insulate(second_rig *g, double size)
   g->heat = 1 / size;
 }
 
+static void compress_by_power(second_rig *g, double size)
+{
+  g->gas = SECOND_ENERGY;
+  g->exponent = 1 + size;
+}
+
 static void bend_bristles(second_rig *g, double size)
 {
   g->bristle_rate = g->dry_friction / size;
@@ -131,6 +137,7 @@ const blind_effect blind_effects[] = {
     {"heat_transfer", "energy", "heat", "K/W", 5e-4, 2, film_resistance, .apply = insulate,
      .setting = BLIND_ISOTHERMAL},
     {"heat_transfer", "energy", "heat", "W/K", 1e-3, 2, film, .field = AT(heat), .setting = BLIND_ADIABATIC},
+    {"chamber_exponent", "energy", "heat", "1", 1e-3, 0.3, .apply = compress_by_power, .setting = BLIND_ISOTHERMAL},
     {"wall_temperature", "energy", "heat", "K/J", 1e-3, 0.2, .apply = warm_wall,
      .shape = {{"wall_loss", AT(wall_loss), 0.3, 3}}, .setting = BLIND_FILM},
     /* command */
