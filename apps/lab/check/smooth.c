@@ -183,13 +183,14 @@ static int noise_of(const lab_rig *rig, const lab_log *log, size_t run, int chan
   return LAB_OK;
 }
 
-/* What a row between two others has of what is compared: nothing. */
+/* What a row between two others has of what is measured: nothing. What drives the model goes on over such a gap, but
+ * for a force, which holds. */
 static void clear_measured(const lab_rig *rig, lab_log *log, size_t row)
 {
   static const int measured[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
   size_t c;
   for (c = 0; c < sizeof measured / sizeof measured[0]; c++)
-    if (log->value[measured[c]] && !rig->input[measured[c]])
+    if (log->value[measured[c]] && !(measured[c] == LAB_CHANNEL_FORCE && rig->input[LAB_CHANNEL_FORCE]))
       log->value[measured[c]][row] = (double)NAN;
 }
 

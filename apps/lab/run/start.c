@@ -76,15 +76,24 @@ static int is_scatter(const double *value, size_t n)
   return step2 >= least * error2 * (double)there * (double)steps;
 }
 
-/* Mean of the first n values; halved until they scatter and both halves agree within three standard errors, and the
- * first value alone where too few are left to tell. */
+/* Whether the first of n values is one like the others; a move at the start hardly shifts the mean of many. */
+static int begins_there(const double *value, size_t n)
+{
+  const double most = 4; /* standard deviations */
+  double error2;
+  const double centre = mean(value + 1, n - 1, &error2);
+  return isnan(value[0]) || fabs(value[0] - centre) <= most * sqrt(error2 * (double)(n - 1));
+}
+
+/* Mean of the first n values; halved until they scatter, the first is one of them and both halves agree within three
+ * standard errors, and the first value alone where too few are left to tell. */
 static double level(const double *value, size_t n)
 {
   const size_t few = 8;
   for (; n >= few; n /= 2) {
     double error_a, error_b, error2;
-    double a = mean(value, n / 2, &error_a), b = mean(value + n / 2, n - n / 2, &error_b);
-    if ((a - b) * (a - b) <= 9 * (error_a + error_b) && is_scatter(value, n))
+    const double a = mean(value, n / 2, &error_a), b = mean(value + n / 2, n - n / 2, &error_b);
+    if ((a - b) * (a - b) <= 9 * (error_a + error_b) && is_scatter(value, n) && begins_there(value, n))
       return mean(value, n, &error2);
   }
   return first_value(value, n);

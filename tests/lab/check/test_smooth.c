@@ -135,6 +135,19 @@ static void test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays(
     assert_close(log_made.value[LAB_CHANNEL_P][i], decay(log_made.value[LAB_CHANNEL_TIME][i]), 0, 0);
 }
 
+/* Another channel that drives the model goes on over the rows that are put in. */
+static void test_lab_log_smooth_inputs__two_inputs__neither_stands_still(void **state)
+{
+  size_t i;
+  (void)state;
+  make(ramp, sigma);
+  rig.input[LAB_CHANNEL_X] = 1;
+  smooth();
+  assert_int_equal(log_made.n, ROWS + 2);
+  for (i = 1; i < log_made.n; i++)
+    assert_true(!(log_made.value[LAB_CHANNEL_X][i] == log_made.value[LAB_CHANNEL_X][i - 1]));
+}
+
 static void test_lab_log_smooth_inputs__gaps__stay_gaps(void **state)
 {
   size_t i, gaps = 0;
@@ -163,6 +176,7 @@ int main(void)
       cmocka_unit_test_teardown(test_lab_log_smooth_inputs__curve__loses_most_of_its_noise, done),
       cmocka_unit_test_teardown(test_lab_log_smooth_inputs__bends__become_rows, done),
       cmocka_unit_test_teardown(test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays, done),
+      cmocka_unit_test_teardown(test_lab_log_smooth_inputs__two_inputs__neither_stands_still, done),
       cmocka_unit_test_teardown(test_lab_log_smooth_inputs__gaps__stay_gaps, done),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

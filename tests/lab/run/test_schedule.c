@@ -322,6 +322,18 @@ static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_fir
 }
 
 /* Down and up again, so that both halves of the curve have one mean. */
+/* A move in the first of many rows hardly shifts their mean, but it is where the run begins. */
+static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row(void **state)
+{
+  char text[8192] = "t [s],u [1],p [kPa]\n0,0,20\n";
+  size_t at = strlen(text);
+  int i;
+  (void)state;
+  for (i = 1; i < 300; i++)
+    at += (size_t)snprintf(text + at, sizeof text - at, "%d,0,%d.%d\n", i, 160, i * 7 % 10);
+  assert_close(start_of(text, 0).p, 20e3, 1e-6, 0);
+}
+
 static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(void **state)
 {
   char text[65536] = "t [s],u [1],p [kPa]\n", row[64];
@@ -587,6 +599,7 @@ int main(void)
       CASE(test_lab_inputs_from_log__missing_input__is_named),
       CASE(test_lab_run_initial_state__noise_at_rest__is_averaged),
       CASE(test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows),
+      CASE(test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row),
       CASE(test_lab_run_initial_state__curve_with_halves_alike__is_no_level),
       CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position),
       CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills),
