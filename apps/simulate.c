@@ -6,6 +6,7 @@
 #include "lab/base/outfile.h"
 #include "lab/run/schedule.h"
 #include "lab/run/simulation.h"
+#include "lab/check/mend.h"
 #include "lab/check/standstill.h"
 #include "lab/rig/rig.h"
 #include "lab/run/standard.h"
@@ -94,8 +95,9 @@ static void note_no_venting(const lab_rig *rig, const lab_log *log, const char *
 static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const char *path, FILE *file,
                              lab_error *error)
 {
+  lab_limitations said = {0};
   lab_log log;
-  int status = lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, &log, error);
+  int i, status = lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, &log, error);
   if (status != LAB_OK)
     return status;
   if (*log.read_as)
@@ -103,8 +105,12 @@ static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const 
   if (log.dropped)
     fprintf(stderr, "%s: note: %s: %zu damaged rows left out\n", program.name, path, log.dropped);
   note_no_venting(rig, &log, path);
-  status =
-      figures ? figures_of_log(model, rig, &log, file, error) : lab_simulation_write(model, rig, &log, file, error);
+  status = lab_log_smooth_inputs(rig, &log, &said, error);
+  for (i = 0; i < said.n; i++)
+    fprintf(stderr, "%s: note: %s\n", program.name, said.text[i]);
+  if (status == LAB_OK)
+    status =
+        figures ? figures_of_log(model, rig, &log, file, error) : lab_simulation_write(model, rig, &log, file, error);
   lab_log_free(&log);
   return status;
 }

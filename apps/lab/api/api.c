@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/clock.h"
+#include "../check/mend.h"
 #include "../report/answer.h"
 #include "../report/figures.h"
 #include "../rig/draft.h"
@@ -177,6 +178,7 @@ void lab_api_stop(void)
 
 static int simulate(const char *rig_name, const char *log_name, FILE *file, lab_error *error)
 {
+  lab_limitations unsaid = {0};
   lab_rig rig;
   lab_log log;
   pneu_model model;
@@ -187,7 +189,9 @@ static int simulate(const char *rig_name, const char *log_name, FILE *file, lab_
     return lab_simulation_write_standard(&model, file, error);
   if (lab_log_read(log_name, &rig.log, (double)rig.params.ambient_pressure, &log, error))
     return error->status;
-  status = lab_simulation_write(&model, &rig, &log, file, error);
+  status = lab_log_smooth_inputs(&rig, &log, &unsaid, error);
+  if (status == LAB_OK)
+    status = lab_simulation_write(&model, &rig, &log, file, error);
   lab_log_free(&log);
   return status;
 }

@@ -23,17 +23,11 @@ typedef struct line {
 typedef struct series {
   size_t n;
   double *t, *y;    /* n; t from the first row on */
+  size_t *row;      /* n: of the run */
   sums *before;     /* n + 1 */
   double sigma;     /* of the noise */
   size_t from, end; /* windows reach no further */
 } series;
-
-/* Where a line ends and another begins. */
-typedef struct bend {
-  size_t after; /* this value, before the next */
-  int between;  /* not 0: neither value is as good a place */
-  double t, value;
-} bend;
 
 static sums between(const series *s, size_t from, size_t end)
 {
@@ -104,29 +98,17 @@ static double apart(const series *s, const line *a, const line *b, double t)
   return fabs(x.value - y.value) / hypot(x.deviation, y.deviation);
 }
 
-/* Whether the lines before value i and after the next one meet between the two, and are plainly not the same. */
-static int bends_after(const series *s, size_t i, bend *found)
+/* Whether the lines before value i and after the next one meet between the two, and are plainly not the same.
+ * Out:     bend  where; nowhere if a value is as good a place */
+static int bends_after(const series *s, size_t i, lab_bend *bend)
 {
   static const double plainly = 3, beside = 0.05; /* deviations; share of the time between two values */
   const line a = about(s, i, 1, 0), b = about(s, i + 1, 0, 1);
   const double dt = s->t[i + 1] - s->t[i], at = (b.value - b.slope * dt - a.value) / (a.slope - b.slope);
-  found->after = i;
-  found->t = s->t[i] + at;
-  found->value = a.value + a.slope * at;
-  found->between = at > beside * dt && at < (1 - beside) * dt;
+  bend->t = at > beside * dt && at < (1 - beside) * dt ? s->t[i] + at : (double)NAN;
+  bend->value = a.value + a.slope * at;
   return a.end - a.from >= 3 && b.end - b.from >= 3 && at >= 0 && at <= dt &&
          fmax(apart(s, &a, &b, s->t[i]), apart(s, &a, &b, s->t[i + 1])) > plainly;
-}
-
-/* In:      s      n >= 1 values
- * Out:     bends  at most n - 1
- * Returns: how many */
-static size_t find_bends(const series *s, bend *bends)
-{
-  size_t i, n = 0;
-  for (i = 0; i + 1 < s->n; i++)
-    n += (size_t)bends_after(s, i, &bends[n]);
-  return n;
 }
 
 static int series_open(size_t room, series *s, lab_error *error)
@@ -134,14 +116,16 @@ static int series_open(size_t room, series *s, lab_error *error)
   s->n = s->from = 0;
   s->t = malloc(room * sizeof *s->t);
   s->y = malloc(room * sizeof *s->y);
+  s->row = malloc(room * sizeof *s->row);
   s->before = malloc((room + 1) * sizeof *s->before);
-  return s->t && s->y && s->before ? LAB_OK : lab_fail_memory(error, "an input without noise");
+  return s->t && s->y && s->row && s->before ? LAB_OK : lab_fail_memory(error, "an input without noise");
 }
 
 static void series_close(series *s)
 {
   free(s->t);
   free(s->y);
+  free(s->row);
   free(s->before);
 }
 
@@ -163,6 +147,7 @@ static void series_fill(const double *t, const double *y, size_t n, series *s)
     next->y += y[i];
     next->ty += at * y[i];
     s->t[s->n] = at;
+    s->row[s->n] = i;
     s->y[s->n++] = y[i];
   }
 }
@@ -183,82 +168,41 @@ static int noise_of(const lab_rig *rig, const lab_log *log, size_t run, int chan
   return LAB_OK;
 }
 
-/* What a row between two others has of what is measured: nothing. What drives the model goes on over such a gap, but
- * for a force, which holds. */
-static void clear_measured(const lab_rig *rig, lab_log *log, size_t row)
+/* Smooth values from..end - 1. */
+static void replace(const series *s, double *y)
 {
-  static const int measured[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_T, LAB_CHANNEL_FORCE};
-  size_t c;
-  for (c = 0; c < sizeof measured / sizeof measured[0]; c++)
-    if (log->value[measured[c]] && !(measured[c] == LAB_CHANNEL_FORCE && rig->input[LAB_CHANNEL_FORCE]))
-      log->value[measured[c]][row] = (double)NAN;
+  size_t i;
+  for (i = s->from; i < s->end; i++)
+    y[s->row[i]] = smooth_at(s, i);
 }
 
-/* Rows of a run for the bends between its rows.
- * In:      bends  n, in the order of time */
-static int insert(const lab_rig *rig, lab_log *log, size_t run, int channel, const bend *bends, size_t n,
-                  lab_error *error)
+/* In/out:  y     the rows of the run
+ * Out:     bend  after these, where neither it nor the next is a gap */
+static void smooth_series(series *s, double begin, double *y, lab_bend *bend)
 {
-  size_t *after = malloc((n + 1) * sizeof *after), row = log->run[run], k;
-  int status = after ? LAB_OK : lab_fail_memory(error, "rows");
-  for (k = 0; status == LAB_OK && k < n; k++) {
-    while (log->value[LAB_CHANNEL_TIME][row + 1] < bends[k].t)
-      row++;
-    after[k] = row;
+  const size_t n = s->n;
+  size_t i;
+  s->from = 0;
+  for (i = 0; i + 1 < n; i++) {
+    lab_bend found;
+    s->end = n;
+    if (!bends_after(s, i, &found))
+      continue;
+    if (s->row[i + 1] == s->row[i] + 1 && !isnan(found.t))
+      bend[s->row[i]] = (lab_bend){begin + found.t, found.value};
+    s->end = i + 1;
+    replace(s, y);
+    s->from = i + 1;
   }
-  if (status == LAB_OK)
-    status = lab_log_repeat_rows(log, after, n, error);
-  for (k = 0; status == LAB_OK && k < n; k++) {
-    row = after[k] + k + 1;
-    clear_measured(rig, log, row);
-    log->value[LAB_CHANNEL_TIME][row] = bends[k].t;
-    log->value[channel][row] = bends[k].value;
-  }
-  free(after);
-  return status;
-}
-
-/* Values from..end - 1 in place of those of the log that are there.
- * In/out:  row  of the first of them; then of the first after them */
-static void replace(const series *s, size_t *row, double *y)
-{
-  size_t i = s->from;
-  for (; i < s->end; ++*row)
-    if (!isnan(y[*row])) {
-      y[*row] = smooth_at(s, i++);
-    }
-}
-
-static int smooth_series(const lab_rig *rig, series *s, lab_log *log, size_t run, int channel, lab_error *error)
-{
-  const size_t first = log->run[run];
-  const double begin = log->value[LAB_CHANNEL_TIME][first];
-  bend *bends = malloc((s->n + 1) * sizeof *bends);
-  size_t row = 0, k, n, between = 0;
-  int status;
-  if (!bends)
-    return lab_fail_memory(error, "bends");
-  s->end = s->n;
-  n = find_bends(s, bends);
-  for (k = 0; k <= n; k++) {
-    s->end = k < n ? bends[k].after + 1 : s->n;
-    replace(s, &row, log->value[channel] + first);
-    s->from = s->end;
-  }
-  for (k = 0; k < n; k++)
-    if (bends[k].between) {
-      bends[between] = bends[k];
-      bends[between++].t += begin;
-    }
-  status = insert(rig, log, run, channel, bends, between, error);
-  free(bends);
-  return status;
+  s->end = n;
+  replace(s, y);
 }
 
 /* Out:     sigma  0: there is no noise, and the channel stays as it is */
 static int smooth(const lab_rig *rig, lab_log *log, size_t run, int channel, double *sigma, lab_error *error)
 {
   const size_t first = log->run[run], n = log->run[run + 1] - first;
+  const double *t = log->value[LAB_CHANNEL_TIME] + first;
   series s;
   int status = noise_of(rig, log, run, channel, sigma, error);
   if (status != LAB_OK || !(*sigma > 0))
@@ -266,11 +210,24 @@ static int smooth(const lab_rig *rig, lab_log *log, size_t run, int channel, dou
   s.sigma = *sigma;
   status = series_open(n, &s, error);
   if (status == LAB_OK) {
-    series_fill(log->value[LAB_CHANNEL_TIME] + first, log->value[channel] + first, n, &s);
-    status = smooth_series(rig, &s, log, run, channel, error);
+    series_fill(t, log->value[channel] + first, n, &s);
+    smooth_series(&s, t[0], log->value[channel] + first, log->bend[channel] + first);
   }
   series_close(&s);
   return status;
+}
+
+/* Room for the bends of a channel, and none so far. */
+static int open_bends(lab_log *log, int channel, lab_error *error)
+{
+  lab_bend *bend = malloc(log->n * sizeof *bend);
+  size_t i;
+  if (!bend)
+    return lab_fail_memory(error, "an input without noise");
+  for (i = 0; i < log->n; i++)
+    bend[i].t = bend[i].value = (double)NAN;
+  log->bend[channel] = bend;
+  return LAB_OK;
 }
 
 int lab_log_smooth_inputs(const lab_rig *rig, lab_log *log, lab_limitations *limitations, lab_error *error)
@@ -283,6 +240,8 @@ int lab_log_smooth_inputs(const lab_rig *rig, lab_log *log, lab_limitations *lim
     double sigma;
     if (!rig->input[channel] || !log->value[channel])
       continue;
+    if (open_bends(log, channel, error))
+      return error->status;
     for (run = 0; run < log->n_runs; run++) {
       if (smooth(rig, log, run, channel, &sigma, error))
         return error->status;

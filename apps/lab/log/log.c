@@ -338,8 +338,10 @@ int lab_log_read(const char *path, const lab_log_format *format, double ambient,
 void lab_log_free(lab_log *log)
 {
   int i;
-  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++) {
     free(log->value[i]);
+    free(log->bend[i]);
+  }
   free(log->path);
   free(log->line);
   free(log->run);
@@ -369,42 +371,4 @@ void lab_log_copy_row(lab_log *log, size_t from, size_t to)
     if (log->value[c])
       log->value[c][to] = log->value[c][from];
   log->line[to] = log->line[from];
-}
-
-int lab_log_make_room(lab_log *log, size_t rows, lab_error *error)
-{
-  int c, *line = realloc(log->line, rows * sizeof *line);
-  log->line = line ? line : log->line;
-  for (c = 0; line && c < LAB_CHANNEL_COUNT; c++) {
-    double *value = log->value[c] ? realloc(log->value[c], rows * sizeof *value) : NULL;
-    if (log->value[c] && !value)
-      return lab_fail_memory(error, log->path);
-    log->value[c] = value;
-  }
-  return line ? LAB_OK : lab_fail_memory(error, log->path);
-}
-
-/* How many of n rows, in order, are before row i. */
-static size_t count_before(const size_t *after, size_t n, size_t i)
-{
-  size_t k = 0;
-  while (k < n && after[k] < i)
-    k++;
-  return k;
-}
-
-int lab_log_repeat_rows(lab_log *log, const size_t *which, size_t n, lab_error *error)
-{
-  size_t i, k = n, run;
-  if (lab_log_make_room(log, log->n + n, error))
-    return error->status;
-  for (i = log->n; i-- > 0;) {
-    lab_log_copy_row(log, i, i + k);
-    if (k > 0 && which[k - 1] == i)
-      lab_log_copy_row(log, i, i + --k);
-  }
-  for (run = 0; run <= log->n_runs; run++)
-    log->run[run] += count_before(which, n, log->run[run]);
-  log->n += n;
-  return LAB_OK;
 }

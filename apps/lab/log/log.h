@@ -14,6 +14,11 @@ typedef struct lab_hum {
   double frequency, amplitude; /* [Hz], SI; 0: none */
 } lab_hum;
 
+/* Where what drives the model turns between a row and the next. */
+typedef struct lab_bend {
+  double t, value; /* [s], SI; NaN: nowhere */
+} lab_bend;
+
 typedef struct lab_log {
   char *path;                       /* for messages */
   size_t n;                         /* rows */
@@ -27,6 +32,7 @@ typedef struct lab_log {
   double clock_step;              /* [s] to which the time was rounded before it was mended; 0: it was not */
   lab_hum hum[LAB_CHANNEL_COUNT]; /* that was taken off the values */
   double smoothed[LAB_CHANNEL_COUNT]; /* noise that was taken off a channel that drives the model, SI; 0: none */
+  lab_bend *bend[LAB_CHANNEL_COUNT];  /* n: after each row, of a channel that was smoothed; NULL: of none */
   char read_as[LAB_READ_AS_TEXT];     /* what was guessed of how the file is written, in words; "": nothing */
 } lab_log;
 
@@ -41,14 +47,6 @@ void lab_log_free(lab_log *log);
 
 /* Put a row in the place of another. */
 void lab_log_copy_row(lab_log *log, size_t from, size_t to);
-
-/* Room for so many rows in all.  Returns: LAB_OK, LAB_WORLD. */
-int lab_log_make_room(lab_log *log, size_t rows, lab_error *error);
-
-/* Have rows twice, one after the other.
- * In:      which  n of them, in ascending order, each once
- * Returns: LAB_OK, LAB_WORLD. */
-int lab_log_repeat_rows(lab_log *log, const size_t *which, size_t n, lab_error *error);
 
 /* The channel that commands: u, or else the set position sp of a positioner; -1 where there is neither. */
 int lab_log_command(const lab_log *log);

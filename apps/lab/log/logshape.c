@@ -195,19 +195,24 @@ static int has_lead(const lab_log_format *format, int k, int channel)
 static int make_room(lab_log *log, const lab_log_format *format, lab_error *error)
 {
   const size_t rows = log->n + log->n_runs * (size_t)format->n_lead;
+  int *line = realloc(log->line, rows * sizeof *line);
   int c, k;
   size_t i;
-  for (c = 0; c < LAB_CHANNEL_COUNT; c++) {
-    for (k = 0; k < format->n_lead && !log->value[c] && !has_lead(format, k, c); k++)
+  log->line = line ? line : log->line;
+  for (c = 0; line && c < LAB_CHANNEL_COUNT; c++) {
+    const int is_new = !log->value[c];
+    double *value;
+    for (k = 0; k < format->n_lead && is_new && !has_lead(format, k, c); k++)
       continue;
-    if (log->value[c] || k == format->n_lead)
+    if (k == format->n_lead)
       continue;
-    if (!(log->value[c] = malloc(rows * sizeof *log->value[c])))
+    if (!(value = realloc(log->value[c], rows * sizeof *value)))
       return lab_fail_memory(error, log->path);
-    for (i = 0; i < log->n; i++)
-      log->value[c][i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
+    log->value[c] = value;
+    for (i = 0; is_new && i < log->n; i++)
+      value[i] = is_command(c) ? format->lead[format->n_lead - 1][c] : (double)NAN;
   }
-  return lab_log_make_room(log, rows, error);
+  return line ? LAB_OK : lab_fail_memory(error, log->path);
 }
 
 /* The first or last value of a channel in rows first..end - 1 that is no gap; NaN if there is none. */

@@ -50,8 +50,17 @@ static double driving(const lab_rig *rig, int channel, double value)
   return channel == LAB_CHANNEL_X ? fmin(fmax(value, 0), (double)rig->params.stroke) : value;
 }
 
-/* Slope of a channel from row i to its next value; what was before in a gap, 0 after the last value. */
-static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t i, size_t end, double before)
+/* Where a channel that drives the model turns after row i; NULL: it does not. */
+static const lab_bend *bend_after(const lab_rig *rig, const lab_log *log, int channel, size_t i)
+{
+  const lab_bend *bend = rig->input[channel] && log->bend[channel] ? &log->bend[channel][i] : NULL;
+  return bend && !isnan(bend->t) ? bend : NULL;
+}
+
+/* Slope of a channel from row i to where it turns or its next value; what was before in a gap, 0 after the last value.
+ * In:      bend  NULL: it does not turn before */
+static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t i, size_t end, const lab_bend *bend,
+                    double before)
 {
   const double *value = log->value[channel], *t = log->value[LAB_CHANNEL_TIME];
   size_t next = i + 1;
@@ -61,6 +70,8 @@ static double slope(const lab_rig *rig, const lab_log *log, int channel, size_t 
     return before;
   while (next < end && isnan(value[next]))
     next++;
+  if (bend)
+    return (driving(rig, channel, bend->value) - driving(rig, channel, value[i])) / (bend->t - t[i]);
   if (next == end)
     return 0;
   return (driving(rig, channel, value[next]) - driving(rig, channel, value[i])) / (t[next] - t[i]);
@@ -207,6 +218,25 @@ static void add_line(const course *c, const line *l, size_t i, pneu_input *input
     }
 }
 
+/* From where p or x turns after row i to the next row; the one first that turns first.
+ * In:      p, x  NULL: it does not */
+static void add_bends(const lab_rig *rig, const lab_log *log, size_t i, const lab_bend *p, const lab_bend *x,
+                      pneu_input *input, lab_inputs *to)
+{
+  int turn, of_p = p && (!x || p->t < x->t);
+  for (turn = 0; turn < 2; turn++, of_p = !of_p) {
+    const lab_bend *bend = of_p ? p : x;
+    const int channel = of_p ? LAB_CHANNEL_P : LAB_CHANNEL_X;
+    double rise;
+    if (!bend)
+      continue;
+    rise = driving(rig, channel, log->value[channel][i + 1]) - driving(rig, channel, bend->value);
+    *(of_p ? &input->pressure_rate : &input->position_rate) =
+        (pneu_real)(rise / (log->value[LAB_CHANNEL_TIME][i + 1] - bend->t));
+    add_input(bend->t, input, to);
+  }
+}
+
 static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t first, size_t end,
                  lab_inputs *inputs)
 {
@@ -220,18 +250,22 @@ static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log
   input.set_position = command == LAB_CHANNEL_SP;
   inputs->schedule.n = 0;
   for (i = first; i < end; i++) {
+    const lab_bend *p, *x;
     if (c.u && i == l.to)
       l = corner_from(&c, i, &l);
+    p = l.rate != 0 ? NULL : bend_after(rig, log, LAB_CHANNEL_P, i);
+    x = l.rate != 0 ? NULL : bend_after(rig, log, LAB_CHANNEL_X, i);
     input.supply_pressure = (pneu_real)held_input(rig, log, LAB_CHANNEL_PS, i, (double)input.supply_pressure);
     input.force = (pneu_real)held_input(rig, log, LAB_CHANNEL_FORCE, i, (double)input.force);
-    input.pressure_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_P, i, end, (double)input.pressure_rate);
-    input.position_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_X, i, end, (double)input.position_rate);
+    input.pressure_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_P, i, end, p, (double)input.pressure_rate);
+    input.position_rate = (pneu_real)slope(rig, log, LAB_CHANNEL_X, i, end, x, (double)input.position_rate);
     if (l.rate != 0)
       add_line(&c, &l, i, &input, inputs);
     else {
       input.u = (pneu_real)held(log, command, i, (double)input.u);
       input.u_rate = 0;
       add_input(t[i], &input, inputs);
+      add_bends(rig, log, i, p, x, &input, inputs);
     }
   }
   inputs->schedule.t = inputs->t;

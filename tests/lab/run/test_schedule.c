@@ -51,6 +51,27 @@ static lab_inputs drive_of(const lab_log *log, size_t run)
 
 /* ---- Schedules ---- */
 
+/* A pressure that turns between two rows goes to where it turns and on from there. */
+static void test_lab_inputs_from_log__bend__is_an_entry_of_its_own(void **state)
+{
+  lab_log log = read_log("t [s],p [kPa]\n0,0\n1,10\n2,12\n");
+  const lab_bend bends[] = {{0.5, 8e3}, {NAN, NAN}, {NAN, NAN}};
+  lab_inputs inputs;
+  (void)state;
+  log.bend[LAB_CHANNEL_P] = malloc(sizeof bends);
+  assert_non_null(log.bend[LAB_CHANNEL_P]);
+  memcpy(log.bend[LAB_CHANNEL_P], bends, sizeof bends);
+  set_inputs(1, 0, 0, 0);
+  inputs = drive_of(&log, 0);
+  assert_int_equal(inputs.schedule.n, 4);
+  assert_close(inputs.schedule.t[1], 0.5, 0, 0);
+  assert_close(inputs.schedule.input[0].pressure_rate, 16e3, 1e-9, 0);
+  assert_close(inputs.schedule.input[1].pressure_rate, 4e3, 1e-9, 0);
+  assert_close(inputs.schedule.input[2].pressure_rate, 2e3, 1e-9, 0);
+  lab_inputs_free(&inputs);
+  lab_log_free(&log);
+}
+
 static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
 {
   lab_log log = read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
@@ -584,6 +605,7 @@ static void test_lab_run_open__values_in_steps_without_noise__have_weights(void 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      CASE(test_lab_inputs_from_log__bend__is_an_entry_of_its_own),
       CASE(test_lab_inputs_from_log__equal_commands__are_one_entry),
       CASE(test_lab_inputs_from_log__ramp__runs_along_lines),
       CASE(test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there),
