@@ -476,8 +476,8 @@ int pneu_effect_find(const char *name);
 /* The effect that parameter i belongs to.  Returns: its index, or -1 for the base list and out of range. */
 int pneu_effect_of(int i);
 
-/* What effect i does to an actuator, with places for its size: "The chamber leaks: {size}, ...". What stands in braces
- * is the user's to fill in; {+more|less} is the first word of a positive size and the second of a negative one.
+/* What effect i does to an actuator, with places for its size: "The chamber leaks: {size}, ...". What stands in braces is
+ * the user's to fill in; {+more|less} is the first word of a positive size and the second of a negative one.
  * Returns: a constant sentence, or NULL out of range. */
 const char *pneu_effect_sentence(int i);
 
@@ -693,9 +693,10 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
  * In/out:  state, work
  * Returns: PNEU_OK, and `state` is again in the ranges above, v = 0 on a stop. PNEU_HELD, and it is so too, but the
  *          stem was held and is late: a controller goes on, and does not judge by this step; shorter ones from a copy
- *          of the start follow the stem. PNEU_E_NONFINITE where state, input or dt is outside the ranges, PNEU_E_DELAY
- * as pneu_run, PNEU_E_SINGULAR, or PNEU_E_STEP_COUNT where the gas alone uses up its parts: `state` and input->delay
- * then are unchanged, bit for bit. Each command that comes out of its delay within dt makes two steps of one. */
+ *          of the start follow the stem. PNEU_E_NONFINITE where state, input or dt is outside the ranges, PNEU_E_DELAY as
+ *          pneu_run, PNEU_E_SINGULAR, or PNEU_E_STEP_COUNT where the gas alone uses up its parts: `state` and
+ *          input->delay then are unchanged, bit for bit. Each command that comes out of its delay within dt makes two
+ *          steps of one. */
 int pneu_step(const pneu_model *model, pneu_state *state, const pneu_input *input, pneu_real dt, pneu_workspace *work);
 
 /* State inside an accepted step. Order 4: its error falls with the fifth power of the step's length; PNEU_ORDER 4:

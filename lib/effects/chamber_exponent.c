@@ -33,4 +33,4 @@ const pneu_effect pneu_effect_record_chamber_exponent = {
     prepare};
 
 const char pneu_effect_sentence_chamber_exponent[] =
-    "The air in the chamber does not keep its temperature: its exponent is 1 + {size}.";
+    "The air in the chamber does not keep its temperature: its exponent is {exponent}, not 1.";

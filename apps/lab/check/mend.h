@@ -50,8 +50,8 @@ int lab_log_clean(const lab_rig *rig, lab_log *log, lab_limitations *limitations
 
 /* Take the noise off p and x where they drive the model: it would drive a stem through its friction, to the end of what
  * it reaches. Each value becomes that of a straight line through its neighbours, about half as many as agree within the
- * noise that is declared, or less where the log shows less; x without a declared one stays as it is. Where such lines
- * meet between two rows is a bend; no line goes on beyond.
+ * noise that is declared, or less where the log shows less; without a declared one only a pressure is smoothed that
+ * drives a stem. Where such lines meet between two rows is a bend; no line goes on beyond.
  * In/out:  log  its values; smoothed, bend
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_log_smooth_inputs(const lab_rig *rig, lab_log *log, lab_limitations *limitations, lab_error *error);

@@ -153,14 +153,15 @@ static void series_fill(const double *t, const double *y, size_t n, series *s)
 }
 
 /* The noise of a channel: as declared, or what the log shows if that is less. Where none is declared only a pressure in
- * many rows shows its own: rows far apart differ by more, and a position that is moved by hand or motor has none. */
+ * many rows that drives a stem shows its own: rows far apart differ by more, and a position that a motor drives, or the
+ * pressure beside it, may ripple. */
 static int noise_of(const lab_rig *rig, const lab_log *log, size_t run, int channel, double *sigma, lab_error *error)
 {
   enum { MANY = 200 };
   const size_t first = log->run[run], n = log->run[run + 1] - first;
   const int is_declared = !isnan(rig->noise[channel]);
   *sigma = 0;
-  if (!is_declared && (channel != LAB_CHANNEL_P || n < MANY))
+  if (!is_declared && (channel != LAB_CHANNEL_P || rig->input[LAB_CHANNEL_X] || n < MANY))
     return LAB_OK;
   if (lab_noise_estimate(log->value[channel] + first, n, sigma, error))
     return error->status;

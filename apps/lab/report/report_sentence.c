@@ -31,6 +31,11 @@ static double of_itself(const about *a)
   return a->value;
 }
 
+static double exponent(const about *a)
+{
+  return 1 + a->value;
+}
+
 static double reciprocal(const about *a)
 {
   return 1 / a->value;
@@ -118,6 +123,7 @@ static const struct {
 } sizes[] = {
     {"size", "", of_itself, 1, NONE, 0},
     {"percent", "%", of_itself, 100, NONE, 0},
+    {"exponent", "1", exponent, 1, NONE, 0},
     {"reciprocal", "J/K", reciprocal, 1, NONE, 0},
     {"of_fill", "%", of_itself, 100, PNEU_PARAM_fill_area, 1000},
     {"of_stroke", "%", of_itself, 100, PNEU_PARAM_stroke, 1000},

@@ -241,9 +241,9 @@ static int has_found_cause(const lab_candidate *c)
   return any;
 }
 
-/* Whether declared values within tolerances explain the logs row by row: a valve that is worn or set otherwise is far
- * from its declared model, and no rougher for that. */
-static int do_tolerances_do(const lab_unknowns *u, lab_candidate *within, int *enough, lab_error *error)
+/* Whether declared values within tolerances leave only noise, row by row: a valve that is worn or set otherwise is far
+ * from its declared model, but need not stick and slip. */
+static int try_tolerances(const lab_unknowns *u, lab_candidate *within, int *enough, lab_error *error)
 {
   int status;
   within->u = *u;
@@ -266,7 +266,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   *coarse = *f;
   status = lab_unknowns_sticks_and_slips(u, &coarse->result.window, error);
   if (status == LAB_OK && coarse->result.window > 0)
-    status = do_tolerances_do(u, &coarse->best, &enough, error);
+    status = try_tolerances(u, &coarse->best, &enough, error);
   if (status == LAB_OK && coarse->result.window > 0 && !enough) {
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
