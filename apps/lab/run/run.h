@@ -29,7 +29,8 @@ typedef struct lab_run {
 /* Prepare a run. Noise that the rig does not declare is estimated (noise.h).
  * Out:     e  keeps rig and log; to be closed, also after an error
  *             Rounding to the resolution q adds q^2/12 to the variance. Where the noise is smaller than q, values that
- *             stay within a step share one error: the rows of such a stretch weigh no more than one.
+ *             stay within a step share one error: the rows of such a stretch weigh no more than one. So do, as far as
+ *             the noise of a pressure that drives the stem goes, the rows while it rests.
  * Returns: LAB_OK; LAB_DATA if nothing is measured that the model predicts; LAB_WORLD. */
 int lab_run_open(const lab_rig *rig, const lab_log *log, size_t run, lab_run *e, lab_error *error);
 void lab_run_close(lab_run *e);

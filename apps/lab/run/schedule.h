@@ -26,8 +26,8 @@ int lab_input_jumps(const pneu_input *before, double elapsed, const pneu_input *
 
 /* Inputs of one run of a log. A command holds until it changes; where it ramps over several rows, it runs along
  * straight lines that pass each row within the resolution, or 1e-4 of the range, and meet the levels before and after
- * them between two rows. Measured channels that are inputs run along straight lines between their values, over gaps as
- * well; a measured supply or force holds.
+ * them between two rows. Measured channels that are inputs run along straight lines between their values and bends,
+ * over gaps as well; a measured supply or force holds.
  * In:      model  of `rig`
  *          rig    says which channels are inputs
  *          run    0 <= run < log->n_runs
