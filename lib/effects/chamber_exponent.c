@@ -1,7 +1,7 @@
 /* Air that neither keeps its temperature nor all its heat: p V^n = const while the orifices are shut, by the balance of
  * the polytropic law, n - 1 over the isothermal law's n = 1. The polytropic law has an n of its own, and beside a film
- * (heat_transfer) the heat that passes decides; a film that passes none is the adiabatic chamber, so n ends before it.
- * Size: n = 1.1 to 1.3 for strokes of 0.1 to 1 s. */
+ * (heat_transfer) the heat that passes decides; a film that passes none is the adiabatic chamber, so n ends before
+ * it. */
 #include "../internal.h"
 
 enum { RISE };

@@ -8,9 +8,10 @@
 #include "../base/noise.h"
 #include "../base/text.h"
 
-/* Sums over the values before each one, from which straight lines through any stretch of them are fitted. */
+/* Sums over the values before each one, less the first, from which straight lines through any stretch of them are
+ * fitted; a short stretch late in a long log is a small difference of large ones. */
 typedef struct sums {
-  double n, t, tt, y, ty;
+  long double n, t, tt, y, ty;
 } sums;
 
 /* A straight line through values from to end - 1, as it is at a time. */
@@ -39,9 +40,10 @@ static sums between(const series *s, size_t from, size_t end)
 static line line_at(const series *all, size_t from, size_t end, double t)
 {
   const sums s = between(all, from, end);
-  const double mean = s.t / s.n, width = s.tt - s.t * mean, off = t - mean;
-  line l = {from, end, 0, (s.ty - mean * s.y) / width, all->sigma * sqrt(1 / s.n + off * off / width)};
-  l.value = s.y / s.n + off * l.slope;
+  const long double mean = s.t / s.n;
+  const double n = (double)s.n, width = (double)(s.tt - s.t * mean), off = (double)(t - mean);
+  line l = {from, end, 0, (double)(s.ty - mean * s.y) / width, all->sigma * sqrt(1 / n + off * off / width)};
+  l.value = all->y[0] + (double)(s.y / s.n) + off * l.slope;
   return l;
 }
 
@@ -140,15 +142,15 @@ static void series_fill(const double *t, const double *y, size_t n, series *s)
     sums *next = &s->before[s->n + 1];
     if (isnan(y[i]))
       continue;
-    *next = s->before[s->n];
-    next->n += 1;
-    next->t += at;
-    next->tt += at * at;
-    next->y += y[i];
-    next->ty += at * y[i];
     s->t[s->n] = at;
     s->row[s->n] = i;
-    s->y[s->n++] = y[i];
+    s->y[s->n] = y[i];
+    *next = s->before[s->n++];
+    next->n += 1;
+    next->t += at;
+    next->tt += (long double)at * at;
+    next->y += y[i] - s->y[0];
+    next->ty += (long double)at * (y[i] - s->y[0]);
   }
 }
 

@@ -90,6 +90,14 @@ static void close_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u
   run_loop(g, u_cmd, u, result, NULL);
 }
 
+/* The same, and what it names first. */
+static void assert_named(const second_rig *g, const char *name, lab_unknowns *u, lab_search_result *result)
+{
+  close_loop(g, brisk, u, result);
+  assert_int_equal(result->verdict, LAB_VERDICT_EFFECT);
+  assert_string_equal(pneu_effect_at(result->found[0].effect)->name, name);
+}
+
 static const lab_deviation *deviation(const lab_deviations *all, const char *name)
 {
   int i;
@@ -245,9 +253,7 @@ static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **s
   (void)state;
   g.gas = SECOND_ENERGY;
   g.heat = 0;
-  close_loop(&g, brisk, &u, &result);
-  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
-  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "heat_transfer");
+  assert_named(&g, "heat_transfer", &u, &result);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
@@ -261,9 +267,7 @@ static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **s
     skip();
   g.gas = SECOND_ENERGY;
   g.exponent = 1.2;
-  close_loop(&g, brisk, &u, &result);
-  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
-  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_exponent");
+  assert_named(&g, "chamber_exponent", &u, &result);
   assert_close((double)*pneu_param_at(&u.rig.params, result.found[0].param), 0.2, 0.01, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
@@ -277,10 +281,8 @@ static void test_lab_search_run__leak__is_named_and_sized(void **state)
   if (pneu_effect_find("chamber_leak") < 0)
     skip();
   g.leak_area = 1.5e-8;
-  close_loop(&g, brisk, &u, &result);
-  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_named(&g, "chamber_leak", &u, &result);
   assert_int_equal(result.n_found, 1);
-  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_leak");
   assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 1.5e-8, 0, 0.05);
   assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
