@@ -279,7 +279,8 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_END,
      "The best model has no free term and fewer than EFFECTS effects, and either none or an excess beyond "
      "REST_DEVIATIONS.",
-     has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
+     has_room_for_a_term, "Unless white noise is left, refit it with the best free term beside, if its score passes.",
+     LAB_DO_FIT_TERM_BESIDE},
     {LAB_PHASE_END,
      "That has a lower BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no declared value "
      "STRAINED tolerances off, if the best model has such a one and leaves only noise.",

@@ -107,22 +107,23 @@ static int follow(const lab_candidate *c, size_t known, size_t *rows, lab_error 
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* The next beginning to try: as far as the model follows the run, unless that is hardly further than is known. */
+/* The next beginning to try: as far as the model follows the run, unless that is hardly further than is known; the
+ * whole run before shorter ones. */
 static size_t go_further(const size_t between[2], size_t rows, size_t n)
 {
-  const size_t more = between[0] + between[0] / 2;
   if (rows > between[0] + between[0] / 4 && rows < between[1])
     return rows;
-  return between[1] <= n ? (between[0] + between[1]) / 2 : more < n ? more : n;
+  return between[1] <= n ? (between[0] + between[1]) / 2 : n;
 }
 
 /* The longest beginning that leaves only noise.
  * In/out:  c        the declared model with its values held; then fitted to that
- * Out:     between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
+ * Out:     whole    fitted to the whole run, unless that was not tried
+ *          between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
  *                   the run to beyond: it does not
  *          plain    whether that is beyond doubt
  * Returns: LAB_OK, LAB_WORLD */
-static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_error *error)
+static int find_beginning(lab_candidate *c, lab_candidate *whole, size_t between[2], int *plain, lab_error *error)
 {
   const size_t n = c->u.run->n;
   lab_candidate *next = malloc(sizeof *next);
@@ -135,7 +136,9 @@ static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_e
     status = (between[1] > n && between[0] > 0 ? fit_beginning_again : fit_beginning)(next, length, error);
     between[!lab_is_noise(&next->quality)] = length;
     *plain |= !next->quality.fitted || next->quality.chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * next->quality.values;
-    if (status != LAB_OK || between[0] == 0)
+    if (length == n)
+      *whole = *next;
+    if (status != LAB_OK || between[0] == 0 || (between[1] == n && !*plain))
       break;
     if (between[0] == length) {
       *c = *next;
@@ -247,11 +250,9 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
   if (status == LAB_OK) {
     *c = *within;
     lab_unknowns_undo_fit(&c->u);
-    status = find_beginning(c, between, &plain, error);
+    status = find_beginning(c, within, between, &plain, error);
   }
-  if (status == LAB_OK && between[0] == n)
-    *within = *c;
-  else if (status == LAB_OK && between[0] > 0 && plain)
+  if (status == LAB_OK && between[0] > 0 && between[1] <= n && plain)
     status = fit_onset(c, between, alpha, onset, begins, error);
   onset->quality.fitted &= status == LAB_OK && lab_is_noise(&onset->quality) && begins_later(onset);
   free(c);

@@ -257,13 +257,12 @@ static int gain_of(const lab_candidate *a, const lab_candidate *b, double *gain,
   return LAB_OK;
 }
 
-/* Whether a candidate leaves white noise: then nothing that the log recorded badly can have asked for its last effect.
- */
+/* Whether a candidate leaves white noise on every channel. */
 static int measure_whiteness(const lab_candidate *c, int *white, lab_error *error)
 {
   lab_residual_stats left[LAB_CHANNEL_COUNT];
   *white = 0;
-  if (c->u.window > 0 || c->found[c->n_found - 1].term >= 0)
+  if (c->u.window > 0)
     return LAB_OK;
   if (lab_unknowns_residual_stats(&c->u, left, error))
     return error->status;
@@ -295,7 +294,8 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   *enough = !(gain < s->options->min_gain);
   if (lab_is_strained(&a->quality) && !lab_is_strained(&b->quality) && lab_is_noise(&b->quality))
     *enough |= !lab_found_is_of_sensor(&b->found[b->n_found - 1]);
-  if (*enough || !(a->quality.bic - b->quality.bic > lab_constant(LAB_PLAIN_BIC)))
+  /* then nothing that the log recorded badly can have asked for its last effect */
+  if (*enough || !(a->quality.bic - b->quality.bic > lab_constant(LAB_PLAIN_BIC)) || b->found[b->n_found - 1].term >= 0)
     return LAB_OK;
   return measure_whiteness(b, enough, error);
 }
@@ -535,14 +535,17 @@ static int lowers_bic(const lab_candidate *base, const lab_term_score *t)
 }
 
 /* The best free term beside a candidate, if its score passes; where only noise is left and it can take MIN_GAIN off no
- * error, it is noted as small at once.  Out: best, fitted or not */
+ * error, it is noted as small at once. White noise is not asked.  Out: best, fitted or not */
 static int find_term(search *s, const lab_candidate *base, lab_candidate *best, lab_error *error)
 {
   const lab_term_score *t = s->term;
   lab_unknowns u = base->u;
   lab_projection p;
-  int status = lab_projection_open(&u, &p, error);
+  int white = 0, status = lab_is_noise(&base->quality) ? measure_whiteness(base, &white, error) : LAB_OK;
   best->quality.fitted = 0;
+  if (status != LAB_OK || white)
+    return status;
+  status = lab_projection_open(&u, &p, error);
   if (status == LAB_OK)
     status = lab_score_free_terms(&p, s->term, &s->n_terms, error);
   if (status == LAB_OK && s->n_terms > 0 && t->degrees > 0 &&
@@ -794,7 +797,8 @@ static int try_instead(search *s, lab_error *error)
   if (status != LAB_OK)
     return status;
   rank(s);
-  if (s->n_pool > 0 && s->pool[0].quality.bic < best->quality.bic) {
+  lab_refit_put_simplest_first(s->pool, s->n_pool);
+  if (s->n_pool > 0 && lab_refit_is_simpler(&s->pool[0], best)) {
     s->without = *best;
     *best = s->pool[0];
     s->pool[0] = s->without;

@@ -323,7 +323,11 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   if (result->n_path > 0)
     result->path[result->n_path - 1].rig = u->rig;
   lab_unknowns_view(u, 0);
-  return status == LAB_OK ? lab_search_measure(u, LAB_STAGE_AFTER, result, error) : status;
+  if (status == LAB_OK)
+    status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
+  if (status == LAB_OK && result->cut_short && !lab_residual_stats_white(result->left[LAB_STAGE_AFTER]))
+    result->verdict = LAB_VERDICT_UNDECIDED; /* there was no time for better ones */
+  return status;
 }
 
 /* Whether a search whose time was spent has ended further from the logs, row by row, than it began. */
