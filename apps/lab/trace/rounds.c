@@ -87,52 +87,10 @@ static void note_small(lab_search_result *result, const pneu_term *term)
 
 /* ---- Candidates side by side ---- */
 
-/* Whether two candidates have the same, whatever was added first, beside one addition of each; -1: beside nothing. */
-static int is_alike_but(const lab_candidate *a, int which_a, const lab_candidate *b, int which_b)
-{
-  int i, k, all = a->n_found == b->n_found;
-  for (i = 0; i < a->n_found; i++) {
-    int any = i == which_a;
-    for (k = 0; k < b->n_found; k++)
-      any |= k != which_b && a->found[i].param == b->found[k].param && a->found[i].term == b->found[k].term;
-    all &= any;
-  }
-  return all;
-}
-
-/* Whether the log cannot tell a candidate from a better one. */
-static int is_as_good(const lab_quality *better, const lab_quality *q)
-{
-  return !(fmin(q->bic - better->bic, q->chi2 - better->chi2) > lab_constant(LAB_ALIKE_BIC));
-}
-
-/* Effects of a pool, each added last, that are as good as one of a candidate's in its place: a better fit by one
- * unknown more is no reason to choose it, but nor does the log speak against it. */
-static void note_alike(lab_candidate *c, int which, const lab_candidate *pool, int n)
-{
-  lab_found *found = &c->found[which];
-  lab_rig end;
-  int i, k;
-  found->n_alike = 0;
-  for (i = 0; found->effect >= 0 && i < n; i++) {
-    const int last = pool[i].n_found - 1, effect = pool[i].found[last].effect;
-    int known = effect < 0 || effect == found->effect;
-    for (k = 0; k < found->n_alike; k++)
-      known |= found->alike[k] == effect;
-    if (known || !is_as_good(&c->quality, &pool[i].quality) || !is_alike_but(c, which, &pool[i], last))
-      continue;
-    if (found->n_alike < LAB_LEADERS_MAX) {
-      lab_rig_at(&pool[i].u.rig, HUGE_VAL, &end);
-      found->alike_params[found->n_alike] = end.params;
-    }
-    found->alike[found->n_alike++] = effect;
-  }
-}
-
 /* The same for what was added last to the best of the pool. */
 static void note_alike_best(search *s)
 {
-  note_alike(&s->pool[0], s->pool[0].n_found - 1, s->pool + 1, s->n_pool - 1);
+  lab_candidate_note_alike(&s->pool[0], s->pool[0].n_found - 1, s->pool + 1, s->n_pool - 1);
 }
 
 /* Sort the pool, best first, without what could not be fitted, and each model once. */
@@ -143,7 +101,7 @@ static void rank(search *s)
   for (i = 0; i < s->n_pool && s->pool[i].quality.fitted; i++) {
     int again = 0;
     for (k = 0; k < n; k++)
-      again |= is_alike_but(&s->pool[k], -1, &s->pool[i], -1);
+      again |= lab_candidate_is_alike_but(&s->pool[k], -1, &s->pool[i], -1);
     if (again)
       continue;
     if (n != i)
@@ -257,19 +215,6 @@ static int gain_of(const lab_candidate *a, const lab_candidate *b, double *gain,
   return LAB_OK;
 }
 
-/* Whether a candidate leaves white noise on every channel. */
-static int measure_whiteness(const lab_candidate *c, int *white, lab_error *error)
-{
-  lab_residual_stats left[LAB_CHANNEL_COUNT];
-  *white = 0;
-  if (c->u.window > 0)
-    return LAB_OK;
-  if (lab_unknowns_residual_stats(&c->u, left, error))
-    return error->status;
-  *white = lab_residual_stats_white(left);
-  return LAB_OK;
-}
-
 /* Whether what was found last is an error of a sensor within what is known of it, beside something that begins and
  * leaves only noise: a change that is not quite a step leaves about as much. */
 static int is_within_instruments(const lab_candidate *without, const lab_candidate *c)
@@ -297,7 +242,7 @@ static int measure_gain(const search *s, int *enough, lab_error *error)
   /* then nothing that the log recorded badly can have asked for its last effect */
   if (*enough || !(a->quality.bic - b->quality.bic > lab_constant(LAB_PLAIN_BIC)) || b->found[b->n_found - 1].term >= 0)
     return LAB_OK;
-  return measure_whiteness(b, enough, error);
+  return lab_candidate_is_white(b, enough, error);
 }
 
 /* Significant, but not worth adding: the best one, and what cannot be told from it. */
@@ -372,52 +317,6 @@ static int advance(search *s, lab_error *error)
 
 /* ---- What was found before, again ---- */
 
-static void drop_effect(lab_candidate *c, const lab_found *found)
-{
-  if (lab_unknowns_find_onset(&c->u, found->param) >= 0)
-    lab_unknowns_drop_onset(&c->u);
-  if (found->shape >= 0)
-    lab_unknowns_drop(&c->u, found->shape);
-  lab_unknowns_drop(&c->u, found->param);
-}
-
-/* In:  which  the last one, if it is a free term */
-static void drop_found(lab_candidate *c, int which)
-{
-  int k;
-  if (c->found[which].term >= 0)
-    lab_unknowns_drop_term(&c->u);
-  else
-    drop_effect(c, &c->found[which]);
-  c->n_found--;
-  for (k = which; k < c->n_found; k++)
-    c->found[k] = c->found[k + 1];
-}
-
-/* What the last fit has put to its neutral value is not there. */
-static void drop_neutral(lab_candidate *c)
-{
-  int i = c->n_found;
-  lab_rig last;
-  lab_rig_at(&c->u.rig, HUGE_VAL, &last);
-  while (i-- > 0) {
-    pneu_param_info info;
-    if (c->found[i].effect < 0)
-      continue;
-    pneu_param_describe(c->found[i].param, &info);
-    if (*pneu_param_at(&last.params, c->found[i].param) == info.neutral)
-      drop_found(c, i);
-  }
-}
-
-/* Without one of the found effects, fitted again, or not fitted where no fit is found.  Returns: LAB_OK, LAB_WORLD. */
-static int leave_out(const lab_candidate *c, int which, lab_candidate *without, lab_error *error)
-{
-  *without = *c;
-  drop_found(without, which);
-  return lab_candidate_fit(without, LAB_ROUNDS_ALL, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
-}
-
 /* Take out again what is not needed now that other effects have come. */
 static int remove_needless(search *s, lab_error *error)
 {
@@ -426,7 +325,7 @@ static int remove_needless(search *s, lab_error *error)
   for (i = 0; status == LAB_OK && best->n_found > 1 && i < best->n_found - 1; i++) {
     if (best->found[i].term >= 0)
       continue;
-    status = leave_out(best, i, without, error);
+    status = lab_candidate_leave_out(best, i, without, error);
     if (status == LAB_OK && without->quality.fitted && without->quality.bic <= best->quality.bic) {
       *best = *without;
       i = -1;
@@ -439,7 +338,7 @@ static int remove_needless(search *s, lab_error *error)
 static int swap_in(search *s, double chi2_without, int *other, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
-  *other = !is_alike_but(best, -1, &s->pool[0], -1);
+  *other = !lab_candidate_is_alike_but(best, -1, &s->pool[0], -1);
   lab_candidate_explain(&s->pool[0], chi2_without);
   note_alike_best(s);
   *best = s->pool[0];
@@ -455,7 +354,7 @@ static int exchange(search *s, lab_error *error)
   for (i = 0; status == LAB_OK && !s->over && i < best->n_found - 1; i++) {
     if (best->found[i].term >= 0)
       continue;
-    status = leave_out(best, i, without, error);
+    status = lab_candidate_leave_out(best, i, without, error);
     if (status != LAB_OK || !without->quality.fitted)
       continue;
     s->n_pool = 0;
@@ -466,7 +365,7 @@ static int exchange(search *s, lab_error *error)
     if (rank_whole(s, error))
       return error->status;
     if (s->n_pool == 0 || s->pool[0].quality.bic >= best->quality.bic) {
-      note_alike(best, i, s->pool, s->n_pool);
+      lab_candidate_note_alike(best, i, s->pool, s->n_pool);
       continue;
     }
     status = swap_in(s, without->quality.chi2, &other, error);
@@ -541,7 +440,7 @@ static int find_term(search *s, const lab_candidate *base, lab_candidate *best, 
   const lab_term_score *t = s->term;
   lab_unknowns u = base->u;
   lab_projection p;
-  int white = 0, status = lab_is_noise(&base->quality) ? measure_whiteness(base, &white, error) : LAB_OK;
+  int white = 0, status = lab_is_noise(&base->quality) ? lab_candidate_is_white(base, &white, error) : LAB_OK;
   best->quality.fitted = 0;
   if (status != LAB_OK || white)
     return status;
@@ -810,7 +709,7 @@ static int try_instead(search *s, lab_error *error)
     if (s->pool[i].n_found > 0)
       s->pool[n++] = s->pool[i];
   if (best->n_found > 0)
-    note_alike(best, best->n_found - 1, s->pool, n);
+    lab_candidate_note_alike(best, best->n_found - 1, s->pool, n);
   return status;
 }
 
@@ -853,7 +752,7 @@ static int keep_onset(lab_candidate *c, double until, lab_error *error)
   int i = c->n_found;
   while (i-- > 0)
     if (c->found[i].term >= 0 || lab_unknowns_find_onset(&c->u, c->found[i].param) < 0)
-      drop_found(c, i);
+      lab_candidate_drop(c, i);
   c->u.until = until;
   return lab_candidate_hold(c, error);
 }
@@ -942,7 +841,7 @@ static int end_with(search *s, lab_finding *f, lab_error *error)
     return error->status;
   if (take_instruments(s, error))
     return error->status;
-  drop_neutral(&s->beam[0]);
+  lab_candidate_drop_neutral(&s->beam[0]);
   facts = facts_of(s);
   f->best = s->beam[0];
   f->result.verdict = lab_decide_verdict(&facts);
