@@ -113,6 +113,46 @@ int lab_unit_dimension(const char *unit, char text[LAB_UNIT_TEXT], lab_error *er
   return LAB_OK;
 }
 
+int lab_unit_is_word(const char *word, const char *other)
+{
+  while (*word && tolower((unsigned char)*word) == *other)
+    word++, other++;
+  return !*word && !*other;
+}
+
+const char *lab_unit_of_pressure(const char *word, int *absolute)
+{
+  static const struct {
+    const char *word, *unit;
+    int absolute;
+  } words[] = {{"barg", "bar", 0},   {"bar g", "bar", 0},   {"bar(g)", "bar", 0},  {"bara", "bar", 1},
+               {"bar a", "bar", 1},  {"bar(a)", "bar", 1},  {"bar abs", "bar", 1}, {"mbarg", "mbar", 0},
+               {"mbara", "mbar", 1}, {"kpag", "kPa", 0},    {"kpa(g)", "kPa", 0},  {"kpaa", "kPa", 1},
+               {"kpa(a)", "kPa", 1}, {"kpa abs", "kPa", 1}, {"psig", "psi", 0},    {"psi(g)", "psi", 0},
+               {"psia", "psi", 1},   {"psi(a)", "psi", 1}};
+  size_t i;
+  for (i = 0; i < sizeof words / sizeof *words; i++)
+    if (lab_unit_is_word(word, words[i].word)) {
+      *absolute = words[i].absolute;
+      return words[i].unit;
+    }
+  return NULL;
+}
+
+/* What follows a number: "/4 in" makes 1 a quarter. */
+static const char *take_fraction(const char *text, double *number)
+{
+  char *end;
+  double below;
+  if (text[0] != '/' || !isdigit((unsigned char)text[1]))
+    return text;
+  below = strtod(text + 1, &end);
+  if (!(below > 0) || !isfinite(below))
+    return text;
+  *number /= below;
+  return end;
+}
+
 /* The number in front of a quantity.  Returns: where the unit begins, or NULL without a decimal number. */
 static const char *leading_number(const char *text, double *number)
 {
@@ -126,6 +166,7 @@ static const char *leading_number(const char *text, double *number)
   *number = strtod(text, &end);
   if (end <= digit || !isfinite(*number))
     return NULL;
+  end += take_fraction(end, number) - end;
   return end + strspn(end, " \t");
 }
 
@@ -140,10 +181,12 @@ static double tidied(double value)
 static int quantity(const char *text, const char *unit, int difference, double *value, lab_error *error)
 {
   double number, scale, offset;
-  const char *given = leading_number(text, &number);
-  int status;
+  const char *given = leading_number(text, &number), *plain;
+  int status, absolute = 0;
   if (!given)
     return lab_fail(error, LAB_DATA, "expected a number and a unit like %s, found \"%s\"", unit, text);
+  plain = lab_unit_of_pressure(given, &absolute);
+  given = plain && !absolute ? plain : given;
   status = lab_unit_factor(*given ? given : unit, unit, &scale, &offset, error);
   if (status == LAB_OK) {
     *value = scale * number + (difference ? 0 : offset);

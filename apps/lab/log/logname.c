@@ -13,61 +13,41 @@ enum { WORDS_TEXT = LAB_COLUMN_TEXT + 2 };
 /* Units that loggers write and UDUNITS does not read, or reads as another one. */
 static const struct unit_word {
   const char *word, *unit;
-  int absolute;
 } unit_words[] = {
-    {"barg", "bar", 0},
-    {"bar g", "bar", 0},
-    {"bar(g)", "bar", 0},
-    {"mbarg", "mbar", 0},
-    {"bara", "bar", 1},
-    {"bar a", "bar", 1},
-    {"bar(a)", "bar", 1},
-    {"bar abs", "bar", 1},
-    {"mbara", "mbar", 1},
-    {"kpa(g)", "kPa", 0},
-    {"kpa(a)", "kPa", 1},
-    {"kpa abs", "kPa", 1},
-    {"psig", "psi", 0},
-    {"psia", "psi", 1},
-    {"kg/cm2", "98066.5 Pa", 0}, /* technical atmosphere, kgf/cm2 (ISO 80000-4) */
-    {"kgf/cm2", "98066.5 Pa", 0},
-    {"c", "degC", 0},
-    {"deg c", "degC", 0},
-    {"grad c", "degC", 0},
-    {"f", "degF", 0},
-    {"deg f", "degF", 0},
-    {"sec", "s", 0},
-    {"secs", "s", 0},
-    {"sek", "s", 0},
-    {"sekunden", "s", 0},
-    {"msec", "ms", 0},
-    {"pct", "%", 0},
-    {"prozent", "%", 0},
-    {"% open", "%", 0},
-    {"percent open", "%", 0},
+    {"kg/cm2", "98066.5 Pa"}, /* technical atmosphere, kgf/cm2 (ISO 80000-4) */
+    {"kgf/cm2", "98066.5 Pa"},
+    {"c", "degC"},
+    {"deg c", "degC"},
+    {"grad c", "degC"},
+    {"f", "degF"},
+    {"deg f", "degF"},
+    {"sec", "s"},
+    {"secs", "s"},
+    {"sek", "s"},
+    {"sekunden", "s"},
+    {"msec", "ms"},
+    {"pct", "%"},
+    {"prozent", "%"},
+    {"% open", "%"},
+    {"percent open", "%"},
 };
 enum { UNIT_WORDS = sizeof unit_words / sizeof unit_words[0] };
-
-static int same_word(const char *a, const char *b)
-{
-  while (*a && tolower((unsigned char)*a) == *b)
-    a++, b++;
-  return !*a && !*b;
-}
 
 /* Whether a word is a unit into which `si` goes; a word of the table only where it fits. */
 static int unit_of(const char *word, const char *si, char unit[LAB_COLUMN_TEXT], int *absolute)
 {
   lab_error ignored;
   double scale, offset;
-  int i;
-  for (i = 0; i < UNIT_WORDS; i++)
-    if (same_word(word, unit_words[i].word) &&
-        lab_unit_factor(unit_words[i].unit, si, &scale, &offset, &ignored) == LAB_OK) {
-      strcpy(unit, unit_words[i].unit);
-      *absolute |= unit_words[i].absolute;
-      return 1;
-    }
+  int i, above_vacuum = 0;
+  const char *known = lab_unit_of_pressure(word, &above_vacuum);
+  for (i = 0; !known && i < UNIT_WORDS; i++)
+    if (lab_unit_is_word(word, unit_words[i].word))
+      known = unit_words[i].unit;
+  if (known && lab_unit_factor(known, si, &scale, &offset, &ignored) == LAB_OK) {
+    strcpy(unit, known);
+    *absolute |= above_vacuum;
+    return 1;
+  }
   if (!*word || isdigit((unsigned char)*word) || lab_unit_factor(word, si, &scale, &offset, &ignored) != LAB_OK)
     return 0;
   snprintf(unit, LAB_COLUMN_TEXT, "%s", word);

@@ -371,7 +371,7 @@ static void deny_steps(lab_metrics_work *m, int metric, int up)
                                      "with a signal that takes its time",
                                      "in a gap of the record",
                                      "before the stem was at rest",
-                                     "not settled before the next step or the end",
+                                     "not settled before the next step or the end (longer holds would tell)",
                                      "too small a movement"};
   int count[sizeof fate / sizeof *fate] = {0}, all = 0;
   char words[LAB_METRIC_TEXT] = "";
@@ -518,8 +518,8 @@ static void report_time(lab_metrics_work *m, int metric, int up, const lab_step_
   if (!step)
     deny(m, metric, up, largest);
   else
-    lab_metric_set(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s", up ? "up" : "down",
-                   step->t);
+    lab_metric_set(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s, to 99 %% of it",
+                   up ? "up" : "down", step->t);
 }
 
 /* The samples of a stroke, its rest before and after as one sample each.

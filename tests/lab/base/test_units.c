@@ -38,6 +38,20 @@ static void test_lab_quantity__units_of_rig_files__become_si(void **state)
   assert_quantity("+.5 mm", "m", 5e-4);
 }
 
+/* As sheets write them: all pressures of a rig file are above ambient. */
+static void test_lab_quantity__words_of_sheets__are_read(void **state)
+{
+  (void)state;
+  assert_quantity("20 psig", "Pa", 20 * 6894.757293168361);
+  assert_quantity("2.5 barg", "Pa", 250000);
+  assert_quantity("2.5 bar(g)", "Pa", 250000);
+  assert_quantity("1/4 in", "m", 0.00635);
+  assert_quantity("-3/8", "1", -0.375);
+  assert_bad("20 psia", "Pa", "psia");
+  assert_bad("1/0 in", "m", "unknown unit");
+  assert_bad("1/s", "m", "unknown unit");
+}
+
 /* What a person has written comes back as they would write it in SI; a number in SI, bit for bit. */
 static void test_lab_quantity__change_of_unit__adds_no_digits(void **state)
 {
@@ -151,6 +165,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_quantity__units_of_rig_files__become_si),
+      cmocka_unit_test(test_lab_quantity__words_of_sheets__are_read),
       cmocka_unit_test(test_lab_quantity__change_of_unit__adds_no_digits),
       cmocka_unit_test(test_lab_quantity__plain_number__is_si),
       cmocka_unit_test(test_lab_quantity__percent_and_one__work),

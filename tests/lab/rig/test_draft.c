@@ -96,9 +96,33 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
   assert_close((double)rig.params.spring_rate, 0.8e5 * 0.035 / 0.015, 0, 1e-9);
   assert_close((double)rig.params.spring_preload, 0.015 / 4, 0, 1e-9);
   assert_int_equal(rig.n_fit, 0);
+  assert_int_equal(rig.laws.flow, PNEU_FLOW_ISO6358);
   assert_contains(text, "without a log");
   assert_contains(text, "vent = { Kv = \"0.1\"; }");
   assert_contains(text, "NOT KNOWN, a default: lumped moving mass");
+  free(text);
+}
+
+/* Its orifices pass what IEC 60534-2-1 says of Kv, xT 0.72, to 4 %: kg/s of air at 293.15 K from 7 bar. */
+static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says(void **state)
+{
+  static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
+                                      "supply=1.4 bar"};
+  const double p1 = 7e5, R = 287.05, T = 293.15;
+  char *text;
+  lab_rig rig = draft_of(NULL, sheet, 5, &text);
+  pneu_model model;
+  int i;
+  (void)state;
+  assert_int_equal(pneu_model_init(&model, &rig.params, &rig.laws, NULL), PNEU_OK);
+  for (i = 1; i < 50; i++) {
+    const double x = fmin(i / 50.0, 0.72), kg_h = 31.6 * 0.1 * (1 - x / 2.16) * sqrt(x * p1 / 1e5 * p1 / (R * T));
+    pneu_flow flow;
+    pneu_orifice(&model, rig.laws.flow, rig.params.fill_area, (pneu_real)p1, (pneu_real)T,
+                 (pneu_real)(p1 * (1 - i / 50.0)), &flow);
+    check_note("pressure drop %d/50", i);
+    assert_close((double)flow.q, kg_h / 3600, 0, 0.042);
+  }
   free(text);
 }
 
@@ -270,6 +294,7 @@ int main(void)
       cmocka_unit_test(test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit),
       cmocka_unit_test(test_lab_draft_write__words_of_the_sheet__are_not_fitted),
       cmocka_unit_test(test_lab_draft_write__no_log_yet__is_all_of_the_sheet),
+      cmocka_unit_test(test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says),
       cmocka_unit_test(test_lab_draft_write__files_of_loggers__are_read_with_their_draft),
       cmocka_unit_test(test_lab_draft_write__positioner_of_the_sheet__is_declared),
       cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
