@@ -17,7 +17,7 @@ static const char *const fates[] = {"",
                                     "the signal takes its time",
                                     "gap",
                                     "the stem was not at rest before it",
-                                    "not settled before the next step or the end (longer holds would tell)",
+                                    "not settled before the next step or the end (hold longer)",
                                     "too small a movement"};
 
 static const double seen_share = 0.0005; /* a movement is seen from this share of the stroke on, and above noise */

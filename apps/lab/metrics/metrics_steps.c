@@ -371,7 +371,7 @@ static void deny_steps(lab_metrics_work *m, int metric, int up)
                                      "with a signal that takes its time",
                                      "in a gap of the record",
                                      "before the stem was at rest",
-                                     "not settled before the next step or the end (longer holds would tell)",
+                                     "not settled before the next step or the end (hold longer)",
                                      "too small a movement"};
   int count[sizeof fate / sizeof *fate] = {0}, all = 0;
   char words[LAB_METRIC_TEXT] = "";
