@@ -36,8 +36,25 @@ static void close_beginning(lab_run *part)
   free(part->drift);
 }
 
-/* Fit the first n rows.  In/out: c  as a model of the whole run  Returns: LAB_OK, LAB_WORLD */
-static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
+/* A few steps, and on to the end where these come near to the rows: else they are no noise. */
+static int fit_if_near(lab_candidate *c, lab_error *error)
+{
+  enum { STEPS = 5 };
+  static const double near = 4; /* times its expectation that chi-square is at most */
+  int status = lab_unknowns_weigh_held(&c->u, error);
+  c->quality.fitted = 0;
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, STEPS, error);
+  if (status == LAB_OK && c->quality.chi2 < near * c->quality.values)
+    status = lab_candidate_fit_held(c, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+/* Fit the first n rows.
+ * In:      fit  to the end or not
+ * In/out:  c    as a model of the whole run
+ * Returns: LAB_OK, LAB_WORLD */
+static int fit_beginning(lab_candidate *c, size_t n, int (*fit)(lab_candidate *c, lab_error *error), lab_error *error)
 {
   const lab_run *whole = c->u.run;
   lab_run part;
@@ -45,7 +62,7 @@ static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
   if (status == LAB_OK) {
     c->u.run = &part;
     lab_unknowns_view(&c->u, 0);
-    status = lab_candidate_fit_held(c, error);
+    status = fit(c, error);
   }
   close_beginning(&part);
   c->u.run = whole;
@@ -53,15 +70,16 @@ static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
   return status;
 }
 
-/* The same from the declared values as well, unless only noise is left: a short beginning may have led astray. */
-static int fit_beginning_again(lab_candidate *c, size_t n, lab_error *error)
+/* The same of a longer one than before; of the whole run from the declared values as well, unless only noise is left: a
+ * short beginning may have led astray. */
+static int fit_longer(lab_candidate *c, size_t n, lab_error *error)
 {
   lab_candidate *afresh = malloc(sizeof *afresh);
-  int status = afresh ? fit_beginning(c, n, error) : lab_fail_memory(error, "the beginning of a run");
-  if (status == LAB_OK && !lab_is_noise(&c->quality)) {
+  int status = afresh ? fit_beginning(c, n, fit_if_near, error) : lab_fail_memory(error, "the beginning of a run");
+  if (status == LAB_OK && n == c->u.run->n && !lab_is_noise(&c->quality)) {
     *afresh = *c;
     lab_unknowns_undo_fit(&afresh->u);
-    status = fit_beginning(afresh, n, error);
+    status = fit_beginning(afresh, n, fit_if_near, error);
     if (lab_candidate_by_bic(afresh, c) < 0)
       *c = *afresh;
   }
@@ -133,7 +151,8 @@ static int find_beginning(lab_candidate *c, lab_candidate *whole, size_t between
   between[1] = n + 1;
   for (i = 0; status == LAB_OK && i < LOOKS && between[1] > between[0] + n / CLOSE + 1; i++) {
     *next = *c;
-    status = (between[1] > n && between[0] > 0 ? fit_beginning_again : fit_beginning)(next, length, error);
+    status =
+        between[0] > 0 ? fit_longer(next, length, error) : fit_beginning(next, length, lab_candidate_fit_held, error);
     between[!lab_is_noise(&next->quality)] = length;
     *plain |= !next->quality.fitted || next->quality.chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * next->quality.values;
     if (length == n)
