@@ -36,16 +36,22 @@ static void close_beginning(lab_run *part)
   free(part->drift);
 }
 
-/* A few steps, and on to the end where these come near to the rows: else they are no noise. */
+/* Whether a fit may come to its end where only noise is left. */
+static int is_near(const lab_quality *q)
+{
+  static const double most = 4; /* times its expectation that chi-square is */
+  return q->fitted && q->chi2 < most * q->values;
+}
+
+/* A few steps, and on to the end where these come near to the rows: else they are taken to be no noise. */
 static int fit_if_near(lab_candidate *c, lab_error *error)
 {
   enum { STEPS = 5 };
-  static const double near = 4; /* times its expectation that chi-square is at most */
   int status = lab_unknowns_weigh_held(&c->u, error);
   c->quality.fitted = 0;
   if (status == LAB_OK)
     status = lab_candidate_fit(c, STEPS, error);
-  if (status == LAB_OK && c->quality.chi2 < near * c->quality.values)
+  if (status == LAB_OK && is_near(&c->quality))
     status = lab_candidate_fit_held(c, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
@@ -136,7 +142,7 @@ static size_t go_further(const size_t between[2], size_t rows, size_t n)
 
 /* The longest beginning that leaves only noise.
  * In/out:  c        the declared model with its values held; then fitted to that
- * Out:     whole    fitted to the whole run, unless that was not tried
+ * Out:     whole    fitted to the whole run, unless that was not tried or is far from it
  *          between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
  *                   the run to beyond: it does not
  *          plain    whether that is beyond doubt
@@ -155,7 +161,7 @@ static int find_beginning(lab_candidate *c, lab_candidate *whole, size_t between
         between[0] > 0 ? fit_longer(next, length, error) : fit_beginning(next, length, lab_candidate_fit_held, error);
     between[!lab_is_noise(&next->quality)] = length;
     *plain |= !next->quality.fitted || next->quality.chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * next->quality.values;
-    if (length == n)
+    if (length == n && is_near(&next->quality))
       *whole = *next;
     if (status != LAB_OK || between[0] == 0 || (between[1] == n && !*plain))
       break;
