@@ -157,7 +157,7 @@ static const char *take_fraction(const char *text, double *number)
 static const char *leading_number(const char *text, double *number)
 {
   char *end;
-  const char *digit = text + strspn(text, " \t");
+  const char *unit, *digit = text + strspn(text, " \t");
   digit += *digit == '+' || *digit == '-';
   if (!isdigit((unsigned char)*digit) && *digit != '.')
     return NULL;
@@ -166,8 +166,8 @@ static const char *leading_number(const char *text, double *number)
   *number = strtod(text, &end);
   if (end <= digit || !isfinite(*number))
     return NULL;
-  end += take_fraction(end, number) - end;
-  return end + strspn(end, " \t");
+  unit = take_fraction(end, number);
+  return unit + strspn(unit, " \t");
 }
 
 /* A value without the rounding of a change of unit: 40 cm^3 are 4e-05 m3 and not 4.000000000000001e-05. */
