@@ -48,6 +48,11 @@ int lab_is_clean(const lab_quality *q)
   return q->fitted && q->chi2 < beyond(q, LAB_CLEAN_DEVIATIONS) && !lab_is_strained(q);
 }
 
+int lab_leaves_rest(const lab_quality *q)
+{
+  return q->chi2 > beyond(q, LAB_REST_DEVIATIONS);
+}
+
 int lab_is_strained(const lab_quality *q)
 {
   return q->strain > lab_constant(LAB_STRAINED);
@@ -187,7 +192,7 @@ static int a_term_is_better(const lab_facts *f)
 static int has_room_for_a_term(const lab_facts *f)
 {
   return f->n_terms == 0 && f->n_found < LAB_EFFECTS_MAX &&
-         (f->n_found == 0 || f->best.chi2 > beyond(&f->best, LAB_REST_DEVIATIONS));
+         (f->n_found == 0 || lab_leaves_rest(&f->best));
 }
 
 /* Where only noise is left, a free term has to bring declared values back within their tolerances. */

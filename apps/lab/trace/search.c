@@ -350,7 +350,8 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   lab_unknowns_view(u, 0);
   if (status == LAB_OK)
     status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
-  if (status == LAB_OK && result->cut_short && !lab_residual_stats_white(result->left[LAB_STAGE_AFTER]))
+  if (status == LAB_OK && result->cut_short && lab_leaves_rest(&f->best.quality) &&
+      !lab_residual_stats_white(result->left[LAB_STAGE_AFTER]))
     result->verdict = LAB_VERDICT_UNDECIDED; /* there was no time for better ones */
   return status;
 }
