@@ -786,7 +786,7 @@ static void test_lab_log_read__unit_of_other_dimension__names_both(void **state)
 static void test_lab_log_read__unknown_unit__is_named(void **state)
 {
   (void)state;
-  assert_refused("t [s],p [kPaa]\n0,0\n", "log.csv:1: column 2", "kPaa");
+  assert_refused("t [s],p [kPaq]\n0,0\n", "log.csv:1: column 2", "kPaq");
 }
 
 static void test_lab_log_read__broken_brackets__are_refused(void **state)
