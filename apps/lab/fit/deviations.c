@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/clock.h"
 #include "../base/quantile.h"
 #include "../rig/tolerance.h"
 
@@ -176,35 +175,20 @@ static void follow(const lab_unknowns *u, const lab_fit_result *fit, int j, lab_
   lab_unknowns_take(less);
 }
 
-/* Fit the others where unknown j is as declared: a few steps, with the slopes that they have beside it. */
-static int fit_others(const lab_unknowns *u, const lab_fit_result *fit, int j, lab_unknowns *less, double *chi2,
-                      lab_error *error)
+/* Make the interval of unknown j wider until the parabola rises no more than chi-square does on the way to the declared
+ * value; where the time is spent the others are not fitted there.
+ * In:      least  chi-square of the fit, followed as closely as fits do, and not as intervals do */
+static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
 {
   enum { STEPS = 3 };
+  const lab_unknown *x = &u->unknown[j];
+  const double off = declared_of(u, x) - x->value, expected = off * off / fit->covariance[j][j];
   unsigned char only[LAB_FIT_MAX] = {0};
-  int status;
+  double chi2, wider;
   only[j] = 1;
   leave_out(u, only, less);
   follow(u, fit, j, less);
-  status = lab_unknowns_keep_slopes(less, error);
-  if (status == LAB_OK) {
-    lab_unknowns_begin_with(less, u);
-    status = lab_unknowns_fit(less, STEPS, chi2, error);
-  }
-  lab_unknowns_forget_slopes(less);
-  return status;
-}
-
-/* Make the interval of unknown j wider until the parabola rises no more than chi-square does on the way to the declared
- * value; where the time is spent the others are not fitted there.
- * In:      u      with its slopes
- *          least  chi-square of the fit, followed as closely as fits do, and not as intervals do */
-static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
-{
-  const lab_unknown *x = &u->unknown[j];
-  const double off = declared_of(u, x) - x->value, expected = off * off / fit->covariance[j][j];
-  double chi2, wider;
-  if (fit_others(u, fit, j, less, &chi2, error))
+  if (lab_unknowns_fit(less, STEPS, &chi2, error))
     return error->status;
   wider = sqrt(expected / fmax((chi2 - least) / fmax(fit->reduced_chi2, 1), 1));
   if (wider > 1) {
@@ -214,35 +198,18 @@ static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less,
   return LAB_OK;
 }
 
-/* Whether unknown j has an interval that is told. */
-static int has_told_interval(const lab_unknowns *u, const lab_fit_result *fit, int j, int compared)
-{
-  return u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
-         is_told(&u->unknown[j], fit, j, declared_of(u, &u->unknown[j]), compared);
-}
-
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
 {
   const int compared = count_compared(&u->rig, u);
-  lab_unknowns *with = malloc(2 * sizeof *with), *less = with + 1;
+  lab_unknowns *less = malloc(sizeof *less);
   double least;
-  int j, status = with ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
-  if (status != LAB_OK) {
-    free(with);
-    return status == LAB_WORLD ? status : LAB_OK;
-  }
-  *with = *u;
-  with->slopes = NULL;
-  if (!lab_cpu_is_spent(u->until)) {
-    status = lab_unknowns_keep_slopes(with, error);
-    if (status == LAB_OK)
-      status = lab_unknowns_find_slopes(with, error);
-  }
-  for (j = 0; j < u->n && status != LAB_WORLD; j++)
-    if (has_told_interval(u, fit, j, compared))
-      status = widen(with, j, least, less, fit, error);
-  lab_unknowns_forget_slopes(with);
-  free(with);
+  int j, status = less ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
+  const int n = status == LAB_OK ? u->n : 0;
+  for (j = 0; j < n && status != LAB_WORLD; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
+        is_told(&u->unknown[j], fit, j, declared_of(u, &u->unknown[j]), compared))
+      status = widen(u, j, least, less, fit, error);
+  free(less);
   return status == LAB_WORLD ? status : LAB_OK;
 }
 

@@ -10,12 +10,12 @@
 
 enum { N = LAB_FIT_MAX, STEPS = 40, TRIES = 12, KEPT_TRIES = 3 };
 
-static const double usual_enough = 0.02;     /* of chi-square: no decision hangs on it */
-static const double usual_share = 1e-6;      /* of chi-square */
-static const double excess_share = 1e-4;     /* of what chi-square has beyond one for each residual */
-static const double poor = 0.5;              /* gain over promise below which kept slopes are renewed */
-static const double near = 100, kept = 0.25; /* times `enough` that new slopes promise near the end, and the share of it
-                                                that is kept: where less is, no smooth surface is seen so closely */
+static const double usual_enough = 0.02;      /* of chi-square: no decision hangs on it */
+static const double usual_share = 1e-6;       /* of chi-square */
+static const double excess_share = 1e-4;      /* of what chi-square has beyond one for each residual */
+static const double poor = 0.5;               /* gain over promise below which kept slopes are renewed */
+static const double rough = 100, kept = 0.25; /* times `enough` that new slopes promise, and the share of it that is
+                                                 kept: where less is, no smooth surface is seen so closely */
 
 /* Where a descent is. */
 typedef struct descent {
@@ -28,7 +28,6 @@ typedef struct descent {
   double g[N];         /* J'r */
   double chi2, lambda;
   double enough;
-  int is_near; /* the slopes are those of the end, nearly */
 } descent;
 
 int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, double *chi2, lab_error *error)
@@ -210,16 +209,17 @@ static double enough_of(const descent *d)
 }
 
 /* One step downhill, damped until it is one. Of kept slopes there are few tries: where these fail, it is they that are
- * wrong. So there are near the end: where they fail there, the surface is rough, as where slips come and go.
+ * wrong.
  * In:      fresh    whether the slopes are those of this place
  * Out:     quality  gain over promise
  *          end      how it ended */
 static int step_down(descent *d, int fresh, double *quality, int *end, lab_error *error)
 {
+  const int most = fresh ? TRIES : KEPT_TRIES;
   const lab_fit_problem *p = d->problem;
   const double least = fmax(d->enough, enough_of(d)), lambda = d->lambda;
   double step[N];
-  int j, tries, most = fresh ? TRIES : KEPT_TRIES;
+  int j, tries;
   *end = FAILS;
   for (tries = 0; tries < most && !lab_cpu_is_spent(p->until); tries++) {
     double promised, chi2, gain;
@@ -233,9 +233,6 @@ static int step_down(descent *d, int fresh, double *quality, int *end, lab_error
       *end = PROMISES_NO_MORE;
       return LAB_OK;
     }
-    if (fresh && tries == 0)
-      d->is_near = promised < near * d->enough && !p->is_rough;
-    most = d->is_near ? KEPT_TRIES : most;
     for (j = 0; j < p->n; j++)
       d->trial[j] = fmin(fmax(d->theta[j] + step[j], p->lower[j]), p->upper[j]);
     status = lab_fit_evaluate(p, d->trial, d->r_trial, &chi2, error);
@@ -244,13 +241,13 @@ static int step_down(descent *d, int fresh, double *quality, int *end, lab_error
     gain = d->chi2 - chi2;
     if (status == LAB_OK && gain > 0) {
       *quality = gain / promised;
-      *end = gain < least || (d->is_near && *quality < kept) ? PROMISES_NO_MORE : GOES_ON;
+      *end = gain < least || (fresh && promised < rough * d->enough && *quality < kept) ? PROMISES_NO_MORE : GOES_ON;
       d->lambda *= *quality > 0.75 ? 0.1 : *quality < 0.25 ? 4 : 1;
       learn(d);
       accept(d, chi2);
       return LAB_OK;
     }
-    d->lambda = fmax(8 * d->lambda, d->is_near ? 0.3 : 1e-3);
+    d->lambda = fmax(8 * d->lambda, 1e-3);
   }
   if (!fresh)
     d->lambda = lambda; /* damping mends no slopes */
@@ -273,11 +270,11 @@ static int descend(descent *d, lab_error *error)
     multiply(d);
     if (step_down(d, fresh, &quality, &end, error))
       return error->status;
-    if (end != GOES_ON && (fresh || d->is_near || (p->is_brief && end == PROMISES_NO_MORE)))
+    if (end != GOES_ON && (fresh || (p->is_brief && end == PROMISES_NO_MORE)))
       break;
     steps += end == GOES_ON; /* that kept slopes lead nowhere is no step */
     /* before it ends, once more with slopes that are all new */
-    fresh = !d->is_near && (end != GOES_ON || quality < poor || p->is_rough);
+    fresh = end != GOES_ON || quality < poor || p->is_rough;
   }
   return LAB_OK;
 }

@@ -48,11 +48,6 @@ int lab_is_clean(const lab_quality *q)
   return q->fitted && q->chi2 < beyond(q, LAB_CLEAN_DEVIATIONS) && !lab_is_strained(q);
 }
 
-int lab_leaves_rest(const lab_quality *q)
-{
-  return q->chi2 > beyond(q, LAB_REST_DEVIATIONS);
-}
-
 int lab_is_strained(const lab_quality *q)
 {
   return q->strain > lab_constant(LAB_STRAINED);
@@ -192,7 +187,7 @@ static int a_term_is_better(const lab_facts *f)
 static int has_room_for_a_term(const lab_facts *f)
 {
   return f->n_terms == 0 && f->n_found < LAB_EFFECTS_MAX &&
-         (f->n_found == 0 || lab_leaves_rest(&f->best));
+         (f->n_found == 0 || f->best.chi2 > beyond(&f->best, LAB_REST_DEVIATIONS));
 }
 
 /* Where only noise is left, a free term has to bring declared values back within their tolerances. */
@@ -284,8 +279,7 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_END,
      "The best model has no free term and fewer than EFFECTS effects, and either none or an excess beyond "
      "REST_DEVIATIONS.",
-     has_room_for_a_term, "Unless white noise is left, refit it with the best free term beside, if its score passes.",
-     LAB_DO_FIT_TERM_BESIDE},
+     has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
     {LAB_PHASE_END,
      "That has a lower BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no declared value "
      "STRAINED tolerances off, if the best model has such a one and leaves only noise.",

@@ -47,9 +47,6 @@ int lab_is_noise(const lab_quality *q);
 /* Whether a model fits only with a declared value far beyond its tolerance. */
 int lab_is_strained(const lab_quality *q);
 
-/* Whether a fitted model leaves more than is expected of noise, if only a little: something may be left to find. */
-int lab_leaves_rest(const lab_quality *q);
-
 /* Whether a fitted model leaves nothing to explain, and strains nothing. */
 int lab_is_clean(const lab_quality *q);
 

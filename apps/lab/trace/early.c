@@ -36,31 +36,8 @@ static void close_beginning(lab_run *part)
   free(part->drift);
 }
 
-/* Whether a fit may come to its end where only noise is left. */
-static int is_near(const lab_quality *q)
-{
-  static const double most = 4; /* times its expectation that chi-square is */
-  return q->fitted && q->chi2 < most * q->values;
-}
-
-/* A few steps, and on to the end where these come near to the rows: else they are taken to be no noise. */
-static int fit_if_near(lab_candidate *c, lab_error *error)
-{
-  enum { STEPS = 5 };
-  int status = lab_unknowns_weigh_held(&c->u, error);
-  c->quality.fitted = 0;
-  if (status == LAB_OK)
-    status = lab_candidate_fit(c, STEPS, error);
-  if (status == LAB_OK && is_near(&c->quality))
-    status = lab_candidate_fit_held(c, error);
-  return status == LAB_NUMERIC ? LAB_OK : status;
-}
-
-/* Fit the first n rows.
- * In:      fit  to the end or not
- * In/out:  c    as a model of the whole run
- * Returns: LAB_OK, LAB_WORLD */
-static int fit_beginning(lab_candidate *c, size_t n, int (*fit)(lab_candidate *c, lab_error *error), lab_error *error)
+/* Fit the first n rows.  In/out: c  as a model of the whole run  Returns: LAB_OK, LAB_WORLD */
+static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
 {
   const lab_run *whole = c->u.run;
   lab_run part;
@@ -68,7 +45,7 @@ static int fit_beginning(lab_candidate *c, size_t n, int (*fit)(lab_candidate *c
   if (status == LAB_OK) {
     c->u.run = &part;
     lab_unknowns_view(&c->u, 0);
-    status = fit(c, error);
+    status = lab_candidate_fit_held(c, error);
   }
   close_beginning(&part);
   c->u.run = whole;
@@ -76,16 +53,15 @@ static int fit_beginning(lab_candidate *c, size_t n, int (*fit)(lab_candidate *c
   return status;
 }
 
-/* The same of a longer one than before; of the whole run from the declared values as well, unless only noise is left: a
- * short beginning may have led astray. */
-static int fit_longer(lab_candidate *c, size_t n, lab_error *error)
+/* The same from the declared values as well, unless only noise is left: a short beginning may have led astray. */
+static int fit_beginning_again(lab_candidate *c, size_t n, lab_error *error)
 {
   lab_candidate *afresh = malloc(sizeof *afresh);
-  int status = afresh ? fit_beginning(c, n, fit_if_near, error) : lab_fail_memory(error, "the beginning of a run");
-  if (status == LAB_OK && n == c->u.run->n && !lab_is_noise(&c->quality)) {
+  int status = afresh ? fit_beginning(c, n, error) : lab_fail_memory(error, "the beginning of a run");
+  if (status == LAB_OK && !lab_is_noise(&c->quality)) {
     *afresh = *c;
     lab_unknowns_undo_fit(&afresh->u);
-    status = fit_beginning(afresh, n, fit_if_near, error);
+    status = fit_beginning(afresh, n, error);
     if (lab_candidate_by_bic(afresh, c) < 0)
       *c = *afresh;
   }
@@ -131,23 +107,22 @@ static int follow(const lab_candidate *c, size_t known, size_t *rows, lab_error 
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* The next beginning to try: as far as the model follows the run, unless that is hardly further than is known; the
- * whole run before shorter ones. */
+/* The next beginning to try: as far as the model follows the run, unless that is hardly further than is known. */
 static size_t go_further(const size_t between[2], size_t rows, size_t n)
 {
+  const size_t more = between[0] + between[0] / 2;
   if (rows > between[0] + between[0] / 4 && rows < between[1])
     return rows;
-  return between[1] <= n ? (between[0] + between[1]) / 2 : n;
+  return between[1] <= n ? (between[0] + between[1]) / 2 : more < n ? more : n;
 }
 
 /* The longest beginning that leaves only noise.
  * In/out:  c        the declared model with its values held; then fitted to that
- * Out:     whole    fitted to the whole run, unless that was not tried or is far from it
- *          between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
+ * Out:     between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
  *                   the run to beyond: it does not
  *          plain    whether that is beyond doubt
  * Returns: LAB_OK, LAB_WORLD */
-static int find_beginning(lab_candidate *c, lab_candidate *whole, size_t between[2], int *plain, lab_error *error)
+static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_error *error)
 {
   const size_t n = c->u.run->n;
   lab_candidate *next = malloc(sizeof *next);
@@ -157,13 +132,10 @@ static int find_beginning(lab_candidate *c, lab_candidate *whole, size_t between
   between[1] = n + 1;
   for (i = 0; status == LAB_OK && i < LOOKS && between[1] > between[0] + n / CLOSE + 1; i++) {
     *next = *c;
-    status =
-        between[0] > 0 ? fit_longer(next, length, error) : fit_beginning(next, length, lab_candidate_fit_held, error);
+    status = (between[1] > n && between[0] > 0 ? fit_beginning_again : fit_beginning)(next, length, error);
     between[!lab_is_noise(&next->quality)] = length;
     *plain |= !next->quality.fitted || next->quality.chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * next->quality.values;
-    if (length == n && is_near(&next->quality))
-      *whole = *next;
-    if (status != LAB_OK || between[0] == 0 || (between[1] == n && !*plain))
+    if (status != LAB_OK || between[0] == 0)
       break;
     if (between[0] == length) {
       *c = *next;
@@ -275,9 +247,11 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
   if (status == LAB_OK) {
     *c = *within;
     lab_unknowns_undo_fit(&c->u);
-    status = find_beginning(c, within, between, &plain, error);
+    status = find_beginning(c, between, &plain, error);
   }
-  if (status == LAB_OK && between[0] > 0 && between[1] <= n && plain)
+  if (status == LAB_OK && between[0] == n)
+    *within = *c;
+  else if (status == LAB_OK && between[0] > 0 && plain)
     status = fit_onset(c, between, alpha, onset, begins, error);
   onset->quality.fitted &= status == LAB_OK && lab_is_noise(&onset->quality) && begins_later(onset);
   free(c);

@@ -13,7 +13,7 @@
  * begins there, and fit the whole run with it.
  * In:      alpha   chance of naming anything when nothing begins
  * In/out:  within  the declared model with what is held among its unknowns, seen row by row; fitted to the whole run
- *                  where that is near to it, else as it was
+ *                  where that leaves only noise, else as it was
  * Out:     onset   with what begins, fitted where that leaves only noise
  *          begins  scores of what may begin, about the values of the beginning
  * Returns: LAB_OK, LAB_WORLD. */

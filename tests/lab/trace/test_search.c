@@ -5,7 +5,6 @@
 #include "../../scratch.h"
 #include "../../virtual.h"
 
-#include "../../../apps/lab/base/clock.h"
 #include "../../../apps/lab/fit/deviations.h"
 #include "../../../apps/lab/trace/search.h"
 #include "../../../apps/lab/trace/freeterms.h"
@@ -312,31 +311,6 @@ static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **s
   min_gain = 0.02;
 }
 
-/* What there is no time to look into is not decided, unless white noise is all that is left. */
-static void test_lab_search_run__no_time__is_undecided_beside_coloured_noise(void **state)
-{
-  static const double share[] = {0, 0.0035};
-  static lab_unknowns u;
-  static lab_search_result result;
-  second_rig g = true_rig();
-  lab_search_options options;
-  lab_error error = {0, ""};
-  int i;
-  (void)state;
-  lab_search_options_default(&options);
-  for (i = 0; i < 2; i++) {
-    g.leak_area = share[i] * g.vent_area;
-    open_log(&g, brisk, &u, 0);
-    u.until = lab_cpu_time() / 2;
-    assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
-    check_note("leak of %g of the vent orifice", share[i]);
-    assert_true(result.cut_short);
-    assert_true(result.after.chi2 < 1.1 * (double)result.after.n);
-    assert_int_equal(result.verdict, share[i] > 0 ? LAB_VERDICT_UNDECIDED : LAB_VERDICT_NONE);
-    close_log();
-  }
-}
-
 /* Bonferroni: the level of a single score is that of all, shared by the slopes that were tried. */
 static void test_lab_search_run__many_slopes__share_the_level(void **state)
 {
@@ -421,7 +395,6 @@ int main(void)
       cmocka_unit_test(test_lab_search_run__polytropic_chamber__lacks_its_exponent),
       cmocka_unit_test(test_lab_search_run__leak__is_named_and_sized),
       cmocka_unit_test(test_lab_search_run__small_leak__is_added_where_it_is_plain),
-      cmocka_unit_test(test_lab_search_run__no_time__is_undecided_beside_coloured_noise),
       cmocka_unit_test(test_lab_search_run__many_slopes__share_the_level),
       cmocka_unit_test(test_lab_search_run__friction_bump__is_a_force_at_its_place),
       cmocka_unit_test(test_lab_search_run__stick_slip__is_seen_coarsely_and_named),
