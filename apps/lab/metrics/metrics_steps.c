@@ -518,8 +518,8 @@ static void report_time(lab_metrics_work *m, int metric, int up, const lab_step_
   if (!step)
     deny(m, metric, up, largest);
   else
-    lab_metric_set(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s, to 99 %% of it",
-                   up ? "up" : "down", step->t);
+    lab_metric_set(m, metric, step->stroke_time, step->stroke_error, "full stroke %s at t = %.6g s, to %g %% of it",
+                   up ? "up" : "down", step->t, 100 * share_stroke);
 }
 
 /* The samples of a stroke, its rest before and after as one sample each.

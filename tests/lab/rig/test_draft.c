@@ -103,7 +103,7 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
   free(text);
 }
 
-/* Its orifices pass what IEC 60534-2-1 says of Kv, xT 0.72, to 4 %: kg/s of air at 293.15 K from 7 bar. */
+/* Its orifices pass what IEC 60534-2-1 says of Kv, xT 0.72, to 4.2 %: kg/s of air at 293.15 K from 7 bar. */
 static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says(void **state)
 {
   static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
