@@ -193,6 +193,24 @@ static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
   lab_log_free(&log);
 }
 
+static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
+{
+  static const char *const units[] = {"bara", "bar(a)", "bar abs"};
+  lab_log log = read_log("t [s],p [kPaa]\n0,120\n");
+  size_t i;
+  (void)state;
+  assert_close(CHANNEL(log, P)[0], 20000, 1e-9, 0);
+  lab_log_free(&log);
+  for (i = 0; i < sizeof units / sizeof *units; i++) {
+    char text[64];
+    snprintf(text, sizeof text, "t [s],p [%s]\n0,1.2\n", units[i]);
+    check_note("%s", units[i]);
+    log = read_log(text);
+    assert_close(CHANNEL(log, P)[0], 20000, 1e-9, 0);
+    lab_log_free(&log);
+  }
+}
+
 static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state)
 {
   lab_log log;
@@ -933,6 +951,7 @@ int main(void)
       CASE(test_lab_log_read__semicolons_and_decimal_comma__are_read),
       CASE(test_lab_log_read__thousands_dots_in_time__are_left_out),
       CASE(test_lab_log_read__tabs_and_skipped_lines__are_read),
+      CASE(test_lab_log_read__units_above_vacuum__become_gauge),
       CASE(test_lab_log_read__raw_counts__take_a_unit_of_their_own),
       CASE(test_lab_log_read__scale_and_offset__act_on_si),
       CASE(test_lab_log_read__constants__fill_a_channel),
