@@ -173,6 +173,56 @@ static double before_the_end(double until, double start)
   return until > 0 ? until - fmax(lab_cpu_time() - start - kept * (until - start), 0) : 0;
 }
 
+/* The search from values exactly as declared and that from values within their tolerances, side by side. */
+typedef struct contest {
+  lab_finding exact, early; /* early: what begins where the run leaves the model that explains its beginning */
+  int is_exact;             /* whether `exact` is the answer so far */
+  int begins;               /* whether something was found to begin */
+  double start, until;      /* [s] of CPU time */
+} contest;
+
+/* What is found beside values exactly as declared, and whether that explains the logs.
+ * In:      u        the declared model, fitted
+ * In/out:  tolerant it within its tolerances, fitted */
+static int search_beside(const lab_unknowns *u, const lab_search_options *options, contest *c, lab_finding *tolerant,
+                         lab_error *error)
+{
+  lab_candidate *within = &tolerant->best;
+  int status = search_exactly(u, c->begins ? &c->early.best.quality : &within->quality, options, &c->exact, error);
+  c->is_exact = status == LAB_OK && explains(&c->exact) && !(c->begins && is_plainly_later(&c->early, &c->exact));
+  if (c->begins && c->is_exact) {
+    c->begins = 0;
+    within->u.until = u->until;
+    status = lab_candidate_hold(within, error);
+    within->u.until = c->until;
+    tolerant->declared = *within;
+  } else if (c->begins && status != LAB_WORLD) {
+    c->exact = c->early;
+    status = LAB_OK;
+  } else if (status == LAB_OK && !c->is_exact)
+    status = tolerate_onset(&c->exact.best, &within->quality, &c->begins, error);
+  return status;
+}
+
+/* The rounds from values within their tolerances, and whether their answer is the better one. */
+static int search_within(const lab_search_options *options, contest *c, lab_finding *tolerant, lab_error *error)
+{
+  const int begins = c->begins || (c->is_exact && lab_candidate_begins(&c->exact.best));
+  int status;
+  if (c->is_exact)
+    tolerant->declared.u.until = enough(c->until, c->start);
+  status = lab_rounds_run(tolerant, begins ? &c->exact : NULL, NULL, options, error);
+  if (status == LAB_OK)
+    forget_what_was_in_vain(tolerant);
+  if (status == LAB_NUMERIC)
+    c->is_exact = c->exact.result.n_path > 0 && c->exact.best.quality.fitted;
+  else if (c->is_exact)
+    c->is_exact = status != LAB_OK || is_better(&c->exact, tolerant);
+  else
+    c->is_exact = status == LAB_OK && comes_nearer(&c->exact, tolerant);
+  return status;
+}
+
 /* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
  * something may be missing from a rig that is as declared: if one cause explains them and needs no deviations beside,
  * none are looked for; else the better model of the two searches is the answer.
@@ -181,54 +231,29 @@ static double before_the_end(double until, double start)
 static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, lab_finding *whole,
                              lab_error *error)
 {
-  const double start = lab_cpu_time();
-  double until;
-  lab_finding *exact = malloc(sizeof *exact), *early = malloc(sizeof *early);
-  int status, is_exact = 0, begins = 0;
-  if (!exact || !early) {
-    free(exact);
-    free(early);
+  contest *c = malloc(sizeof *c);
+  lab_candidate *within = &whole->best;
+  int status;
+  if (!c)
     return lab_fail_memory(error, "the search");
-  }
-  *exact = *early = *whole;
+  c->exact = c->early = *whole;
+  c->is_exact = c->begins = 0;
+  c->start = lab_cpu_time();
   whole->exact = u;
-  status = fit_within(u, options, &whole->best, early, &begins, error);
-  until = before_the_end(u->until, start);
-  whole->best.u.until = until;
-  whole->declared = whole->best;
-  if (status == LAB_OK && (begins || !lab_is_noise(&whole->best.quality) || lab_is_strained(&whole->best.quality))) {
-    status = search_exactly(u, begins ? &early->best.quality : &whole->best.quality, options, exact, error);
-    is_exact = status == LAB_OK && explains(exact) && !(begins && is_plainly_later(early, exact));
-    if (begins && is_exact) {
-      begins = 0;
-      whole->best.u.until = u->until;
-      status = lab_candidate_hold(&whole->best, error);
-      whole->best.u.until = until;
-      whole->declared = whole->best;
-    } else if (begins && status != LAB_WORLD) {
-      *exact = *early;
-      status = LAB_OK;
-    } else if (status == LAB_OK && !is_exact)
-      status = tolerate_onset(&exact->best, &whole->best.quality, &begins, error);
-  }
-  if (status != LAB_WORLD && !(is_exact && is_enough(exact, &whole->declared.u))) {
-    if (is_exact)
-      whole->declared.u.until = enough(until, start);
-    begins |= is_exact && lab_candidate_begins(&exact->best);
-    status = lab_rounds_run(whole, begins ? exact : NULL, NULL, options, error);
-    if (status == LAB_OK)
-      forget_what_was_in_vain(whole);
-    is_exact = status == LAB_NUMERIC ? exact->result.n_path > 0 && exact->best.quality.fitted
-               : is_exact            ? status != LAB_OK || is_better(exact, whole)
-                                     : status == LAB_OK && comes_nearer(exact, whole);
-  }
-  if (is_exact) {
-    *whole = *exact;
+  status = fit_within(u, options, within, &c->early, &c->begins, error);
+  c->until = before_the_end(u->until, c->start);
+  within->u.until = c->until;
+  whole->declared = *within;
+  if (status == LAB_OK && (c->begins || !lab_is_noise(&within->quality) || lab_is_strained(&within->quality)))
+    status = search_beside(u, options, c, whole, error);
+  if (status != LAB_WORLD && !(c->is_exact && is_enough(&c->exact, &whole->declared.u)))
+    status = search_within(options, c, whole, error);
+  if (c->is_exact) {
+    *whole = c->exact;
     status = LAB_OK;
   }
-  whole->best.u.until = until;
-  free(exact);
-  free(early);
+  whole->best.u.until = c->until;
+  free(c);
   return status;
 }
 

@@ -1,0 +1,291 @@
+#include "candidate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../base/quantile.h"
+#include "../fit/nuisance.h"
+
+/* ---- Fits ---- */
+
+/* Schwarz 1978: what a fit costs, with what it fits counted, and what has no name against what has. A declared value
+ * that is held costs what its prior adds to chi-square. */
+static double bic(const lab_unknowns *u, double chi2)
+{
+  int j, n = 0;
+  for (j = 0; j < u->n; j++)
+    n += !lab_unknown_is_known(&u->unknown[j]);
+  n += u->rig.n_onsets; /* each has its time beside its value */
+  return chi2 + n * log((double)u->n_values) + lab_constant(LAB_TERM_BIC) * u->rig.n_terms;
+}
+
+int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error)
+{
+  lab_quality *q = &c->quality;
+  lab_residual_stats left[LAB_CHANNEL_COUNT];
+  int status = lab_unknowns_fit(&c->u, steps, &q->chi2, error);
+  if (status == LAB_DATA) /* with its values a run begins in no state of the rig: no fault of the data */
+    status = error->status = LAB_NUMERIC;
+  q->values = (double)c->u.n_values;
+  q->bic = bic(&c->u, q->chi2);
+  q->white = q->whole = 0;
+  q->fitted = status == LAB_OK;
+  if (q->fitted && c->u.window == 0 && !lab_is_noise(q) && q->chi2 < lab_constant(LAB_NOISE_DOUBTFUL) * q->values) {
+    status = lab_unknowns_residual_stats(&c->u, left, error);
+    q->fitted = status == LAB_OK;
+    q->white = q->fitted && lab_residual_stats_noise(left);
+  }
+  if (q->fitted) {
+    status = lab_nuisance_strain(&c->u, &q->strain, error);
+    q->fitted = status == LAB_OK;
+  }
+  return status;
+}
+
+int lab_any(const lab_candidate *c, int n, int (*is)(const lab_quality *q))
+{
+  int i, any = 0;
+  for (i = 0; i < n; i++)
+    any |= is(&c[i].quality);
+  return any;
+}
+
+double lab_least_chi2(const lab_candidate *c, int n)
+{
+  double least = INFINITY;
+  int i;
+  for (i = 0; i < n; i++)
+    if (c[i].quality.fitted)
+      least = fmin(least, c[i].quality.chi2);
+  return least;
+}
+
+int lab_candidate_by_bic(const void *x, const void *y)
+{
+  const lab_quality *a = &((const lab_candidate *)x)->quality, *b = &((const lab_candidate *)y)->quality;
+  if (a->fitted != b->fitted)
+    return b->fitted - a->fitted;
+  return a->bic < b->bic ? -1 : a->bic > b->bic;
+}
+
+int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
+{
+  static const double less = 0.7;
+  double before;
+  int status = lab_unknowns_weigh_held(&c->u, error);
+  c->quality.fitted = 0;
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  before = c->u.misfit;
+  if (status == LAB_OK)
+    status = lab_unknowns_weigh_held(&c->u, error);
+  if (status == LAB_OK && c->u.misfit < less * before)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+int lab_candidate_hold(lab_candidate *c, lab_error *error)
+{
+  return lab_unknowns_hold(&c->u, error) ? error->status : lab_candidate_fit_held(c, error);
+}
+
+int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error)
+{
+  int i, k;
+  *staged = *c;
+  staged->u = *declared;
+  staged->u.until = c->u.until;
+  staged->quality.fitted = 0;
+  for (i = 0; i < c->n_found; i++) {
+    const int params[] = {c->found[i].param, c->found[i].shape};
+    for (k = 0; k < 2; k++)
+      if (params[k] >= 0 &&
+          lab_unknowns_add(&staged->u, params[k], c->u.unknown[lab_unknowns_find(&c->u, params[k])].value, error))
+        return error->status;
+  }
+  lab_unknowns_take(&staged->u);
+  if (lab_candidate_fit(staged, LAB_ROUNDS_ALL, error))
+    return error->status;
+  return lab_candidate_hold(staged, error);
+}
+
+void lab_candidate_explain(lab_candidate *c, double chi2_before)
+{
+  lab_found *found = &c->found[c->n_found - 1];
+  found->explained = (chi2_before - c->quality.chi2) / fmax(chi2_before - c->quality.values, 1);
+}
+
+void lab_candidate_name(const lab_candidate *c, char *text, size_t size)
+{
+  size_t used = 0;
+  int i;
+  snprintf(text, size, "declared model");
+  for (i = 0; i < c->n_found && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " + " : "",
+                             c->found[i].effect < 0 ? "unlisted" : pneu_effect_at(c->found[i].effect)->name);
+  for (i = 0; i < c->u.n && used < size; i++)
+    if (c->u.unknown[i].kind == LAB_UNKNOWN_ONSET)
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " + " : "", c->u.unknown[i].name);
+}
+
+int lab_found_is_of_sensor(const lab_found *found)
+{
+  return found->effect >= 0 && strcmp(pneu_effect_at(found->effect)->equation, "sensor") == 0;
+}
+
+int lab_candidate_begins(const lab_candidate *c)
+{
+  const int n = c->u.rig.n_onsets;
+  return n > 0 && c->begin[n - 1].known;
+}
+
+int lab_candidate_place_again(lab_candidate *c, lab_error *error)
+{
+  const int k = c->u.rig.n_onsets - 1;
+  int j, status;
+  if (!lab_candidate_begins(c))
+    return LAB_OK;
+  j = lab_unknowns_find_onset(&c->u, c->u.rig.onset[k].param);
+  status = lab_onset_settle(&c->u, j, 1, &c->quality.chi2, &c->begin[k], error);
+  if (status == LAB_OK)
+    status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+/* What the prior of an error of an instrument adds to chi-square; 0: it is none. */
+static double cost_of_instrument(const lab_unknowns *u, const lab_unknown *x)
+{
+  const int effect = x->kind == LAB_UNKNOWN_PARAM && lab_unknown_is_held(x) ? pneu_effect_of(x->index) : -1;
+  if (effect < 0 || strcmp(pneu_effect_at(effect)->equation, "sensor") != 0)
+    return 0;
+  return pow((x->value - x->prior) / lab_unknown_reach(u, x), 2);
+}
+
+int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
+{
+  const double excess = c->quality.chi2 - c->quality.values;
+  int j, status = LAB_OK;
+  *any = 0;
+  for (j = 0; j < c->u.n && c->n_found < LAB_EFFECTS_MAX && status == LAB_OK; j++) {
+    const lab_unknown x = c->u.unknown[j];
+    const double cost = cost_of_instrument(&c->u, &x);
+    lab_found *found;
+    if (!(cost - log((double)c->u.n_values) > lab_constant(LAB_ALIKE_BIC)))
+      continue;
+    status = lab_unknowns_add(&c->u, x.index, x.value, error);
+    found = lab_candidate_add_found(c);
+    found->effect = pneu_effect_of(x.index);
+    found->param = x.index;
+    found->statistic = cost;
+    found->p_value = lab_chi2_tail(found->statistic, 1);
+    found->explained = found->statistic / fmax(found->statistic, excess);
+    *any = 1;
+  }
+  return *any && status == LAB_OK ? lab_candidate_fit(c, LAB_ROUNDS_ALL, error) : status;
+}
+
+int lab_candidate_is_white(const lab_candidate *c, int *white, lab_error *error)
+{
+  lab_residual_stats left[LAB_CHANNEL_COUNT];
+  *white = 0;
+  if (c->u.window > 0)
+    return LAB_OK;
+  if (lab_unknowns_residual_stats(&c->u, left, error))
+    return error->status;
+  *white = lab_residual_stats_white(left);
+  return LAB_OK;
+}
+
+/* ---- What was found ---- */
+
+lab_found *lab_candidate_add_found(lab_candidate *c)
+{
+  lab_found *found = &c->found[c->n_found++];
+  memset(found, 0, sizeof *found);
+  found->effect = found->term = found->shape = -1;
+  found->degrees = 1;
+  return found;
+}
+
+int lab_candidate_is_alike_but(const lab_candidate *a, int which_a, const lab_candidate *b, int which_b)
+{
+  int i, k, all = a->n_found == b->n_found;
+  for (i = 0; i < a->n_found; i++) {
+    int any = i == which_a;
+    for (k = 0; k < b->n_found; k++)
+      any |= k != which_b && a->found[i].param == b->found[k].param && a->found[i].term == b->found[k].term;
+    all &= any;
+  }
+  return all;
+}
+
+/* Whether the log cannot tell a candidate from a better one. */
+static int is_as_good(const lab_quality *better, const lab_quality *q)
+{
+  return !(fmin(q->bic - better->bic, q->chi2 - better->chi2) > lab_constant(LAB_ALIKE_BIC));
+}
+
+void lab_candidate_note_alike(lab_candidate *c, int which, const lab_candidate *pool, int n)
+{
+  lab_found *found = &c->found[which];
+  lab_rig end;
+  int i, k;
+  found->n_alike = 0;
+  for (i = 0; found->effect >= 0 && i < n; i++) {
+    const int last = pool[i].n_found - 1, effect = pool[i].found[last].effect;
+    int known = effect < 0 || effect == found->effect;
+    for (k = 0; k < found->n_alike; k++)
+      known |= found->alike[k] == effect;
+    if (known || !is_as_good(&c->quality, &pool[i].quality) || !lab_candidate_is_alike_but(c, which, &pool[i], last))
+      continue;
+    if (found->n_alike < LAB_LEADERS_MAX) {
+      lab_rig_at(&pool[i].u.rig, HUGE_VAL, &end);
+      found->alike_params[found->n_alike] = end.params;
+    }
+    found->alike[found->n_alike++] = effect;
+  }
+}
+
+static void drop_effect(lab_candidate *c, const lab_found *found)
+{
+  if (lab_unknowns_find_onset(&c->u, found->param) >= 0)
+    lab_unknowns_drop_onset(&c->u);
+  if (found->shape >= 0)
+    lab_unknowns_drop(&c->u, found->shape);
+  lab_unknowns_drop(&c->u, found->param);
+}
+
+void lab_candidate_drop(lab_candidate *c, int which)
+{
+  int k;
+  if (c->found[which].term >= 0)
+    lab_unknowns_drop_term(&c->u);
+  else
+    drop_effect(c, &c->found[which]);
+  c->n_found--;
+  for (k = which; k < c->n_found; k++)
+    c->found[k] = c->found[k + 1];
+}
+
+void lab_candidate_drop_neutral(lab_candidate *c)
+{
+  int i = c->n_found;
+  lab_rig last;
+  lab_rig_at(&c->u.rig, HUGE_VAL, &last);
+  while (i-- > 0) {
+    pneu_param_info info;
+    if (c->found[i].effect < 0)
+      continue;
+    pneu_param_describe(c->found[i].param, &info);
+    if (*pneu_param_at(&last.params, c->found[i].param) == info.neutral)
+      lab_candidate_drop(c, i);
+  }
+}
+
+int lab_candidate_leave_out(const lab_candidate *c, int which, lab_candidate *without, lab_error *error)
+{
+  *without = *c;
+  lab_candidate_drop(without, which);
+  return lab_candidate_fit(without, LAB_ROUNDS_ALL, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
+}
