@@ -37,6 +37,13 @@ int lab_refit_hidden(const lab_candidate *base, const lab_scores *scores, double
 int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, double level, double bar,
                     lab_candidate *best, lab_error *error);
 
+/* Whether of two models in which something begins the first is to be preferred: by BIC, but a value that changes needs
+ * nothing new to begin, and gives way to an effect only by odds (ALIKE_BIC).  In: fitted or not */
+int lab_refit_is_simpler(const lab_candidate *a, const lab_candidate *b);
+
+/* Put the one of n, best first, before the others that is to be preferred to them. */
+void lab_refit_put_simplest_first(lab_candidate *c, int n);
+
 /* Refit the leaders among what may begin at a row, and find when near it each begins.
  * In:      base   as of lab_refit_onset, fitted or not
  *          row    of the only run

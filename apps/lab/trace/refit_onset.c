@@ -147,6 +147,12 @@ int lab_refit_onset(const lab_candidate *base, const lab_onset_scores *scores, d
   return error->status;
 }
 
+/* What begins last in a candidate. */
+static int last_onset(const lab_candidate *c)
+{
+  return c->u.rig.onset[c->u.rig.n_onsets - 1].param;
+}
+
 /* Find when near its time it begins. */
 static void place_near(lab_candidate *c, lab_error *all)
 {
@@ -157,6 +163,27 @@ static void place_near(lab_candidate *c, lab_error *all)
   c->quality.fitted = status == LAB_OK;
   if (status != LAB_OK)
     lab_fail_together(all, &error);
+}
+
+int lab_refit_is_simpler(const lab_candidate *a, const lab_candidate *b)
+{
+  int value_a, value_b;
+  if (!a->quality.fitted || !b->quality.fitted)
+    return a->quality.fitted;
+  value_a = pneu_effect_of(last_onset(a)) < 0;
+  value_b = pneu_effect_of(last_onset(b)) < 0;
+  return a->quality.bic < b->quality.bic + (value_a - value_b) * lab_constant(LAB_ALIKE_BIC);
+}
+
+void lab_refit_put_simplest_first(lab_candidate *c, int n)
+{
+  int i;
+  for (i = 1; i < n; i++)
+    if (lab_refit_is_simpler(&c[i], &c[0])) {
+      const lab_candidate simplest = c[i];
+      memmove(c + 1, c, (size_t)i * sizeof *c);
+      c[0] = simplest;
+    }
 }
 
 int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, size_t row,
@@ -178,6 +205,7 @@ int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *score
     if (c[i].quality.fitted && c[i].quality.chi2 <= reach)
       place_near(&c[i], error);
   qsort(c, (size_t)*n, sizeof *c, lab_candidate_by_bic);
+  lab_refit_put_simplest_first(c, *n);
   return error->status;
 }
 

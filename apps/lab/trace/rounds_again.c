@@ -90,7 +90,8 @@ int lab_rounds_try_instead(lab_rounds *s, lab_error *error)
   if (status != LAB_OK)
     return status;
   lab_rounds_rank(s);
-  if (s->n_pool > 0 && s->pool[0].quality.bic < best->quality.bic) {
+  lab_refit_put_simplest_first(s->pool, s->n_pool);
+  if (s->n_pool > 0 && lab_refit_is_simpler(&s->pool[0], best)) {
     s->without = *best;
     *best = s->pool[0];
     s->pool[0] = s->without;

@@ -152,11 +152,42 @@ static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
   lab_log_free(&recorded);
 }
 
+/* A fitted candidate in which a parameter changes. */
+static lab_candidate begun(const char *param, double bic)
+{
+  lab_candidate c = {.quality = {.fitted = 1, .bic = bic}};
+  c.u.rig.n_onsets = 1;
+  c.u.rig.onset[0].param = pneu_param_find(param);
+  return c;
+}
+
+/* A supply that falls goes before one that gives way, unless that is better by odds. */
+static void test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_odds(void **state)
+{
+  static lab_candidate c[3];
+  const double alike = lab_constant(LAB_ALIKE_BIC);
+  int i;
+  (void)state;
+  for (i = 0; i < 2; i++) {
+    c[0] = begun("supply_droop.supply_resistance", 100);
+    c[1] = begun("chamber_leak.leak_area", 101);
+    c[2] = begun("supply_pressure", 100 + alike + (i ? 1 : -1));
+    lab_refit_put_simplest_first(c, 3);
+    assert_int_equal(c[0].u.rig.onset[0].param,
+                     pneu_param_find(i ? "supply_droop.supply_resistance" : "supply_pressure"));
+    assert_int_equal(c[i ? 2 : 0].u.rig.onset[0].param, pneu_param_find("supply_pressure"));
+  }
+  c[0].quality.fitted = 0;
+  assert_false(lab_refit_is_simpler(&c[0], &c[1]));
+  assert_true(lab_refit_is_simpler(&c[1], &c[0]));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way),
       cmocka_unit_test(test_lab_candidate_stage__bent_values__are_left_behind),
+      cmocka_unit_test(test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_odds),
       cmocka_unit_test(test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_tolerance),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
