@@ -3,38 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Begin where a fit of the same runs has ended. */
-static void start_from(const lab_unknowns *fitted, lab_unknowns *u)
-{
-  int j, k;
-  for (j = 0; j < u->n; j++)
-    for (k = 0; k < fitted->n; k++) {
-      const lab_unknown *x = &fitted->unknown[k];
-      if (x->kind == u->unknown[j].kind && x->run == u->unknown[j].run && x->index == u->unknown[j].index)
-        u->unknown[j].value = x->value;
-    }
-}
-
-/* Fit to runs what each log has for itself, and the instants at which the command changed, within the row that shows
- * each; nothing that the logs share.
- * In:      fitted  the final model of the same runs */
-static int fit_own(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_unknowns *u,
-                   lab_error *error)
-{
-  lab_rig own = *model;
-  int j;
-  for (own.n_fit = j = 0; j < model->n_fit; j++)
-    if (model->fit_per_log[j]) {
-      own.fit_per_log[own.n_fit] = 1;
-      own.fit[own.n_fit++] = model->fit[j];
-    }
-  if (lab_unknowns_open(&own, run, n, u, error))
-    return error->status;
-  start_from(fitted, u);
-  u->until = fitted->until;
-  return u->n > 0 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
-}
-
 /* Rows by which a run tells how it starts: the first tenth of those there are, and eight at least. */
 static size_t rows_at_start(const lab_run *x)
 {
@@ -90,17 +58,11 @@ static int judge_unseen(const lab_rig *model, const lab_run *run, int n, lab_unk
   return status;
 }
 
-int lab_judge(const lab_rig *model, const lab_run *run, int n, const lab_unknowns *fitted, lab_errors *errors,
-              lab_error *error)
+int lab_judge(const lab_rig *model, const lab_run *run, int n, lab_errors *errors, lab_error *error)
 {
   lab_unknowns *u = malloc(sizeof *u);
-  int status;
-  if (!u)
-    return lab_fail_memory(error, "the errors of a model");
-  if (!fitted)
-    status = judge_unseen(model, run, n, u, errors, error);
-  else
-    status = fit_own(model, run, n, fitted, u, error) || lab_loop_errors(u, errors, error) ? error->status : LAB_OK;
+  const int status =
+      u ? judge_unseen(model, run, n, u, errors, error) : lab_fail_memory(error, "the errors of a model");
   free(u);
   return status;
 }

@@ -32,7 +32,7 @@ typedef struct lab_report {
   const lab_changes *changes; /* since the baseline; NULL: there is none */
   int has_holdout;
   lab_errors holdout_before, holdout_after;
-  lab_errors fitted_path[LAB_SEARCH_PATH], holdout_path[LAB_SEARCH_PATH]; /* of result->path */
+  lab_errors holdout_path[LAB_SEARCH_PATH]; /* of result->path */
   int n_held;                                                             /* logs held out */
   lab_holdout_log held[LAB_REPORT_HOLDOUTS];                              /* each by itself */
   lab_advice separate[LAB_EFFECTS_MAX]; /* of each found effect from the first that looks like it */

@@ -264,7 +264,7 @@ static void add_steps(cJSON *root, const lab_report *report)
   int i;
   for (i = 0; i < r->n_path; i++) {
     cJSON *o = add_model(list, r->path[i].name, r->path[i].chi2, r->path[i].bic);
-    add_errors(o, "error", &report->fitted_path[i]);
+    add_errors(o, "error", &r->path[i].errors);
     if (report->has_holdout)
       add_errors(o, "holdout", &report->holdout_path[i]);
   }

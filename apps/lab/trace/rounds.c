@@ -35,7 +35,18 @@ void lab_rounds_note_way(lab_search_result *result, const lab_candidate *c)
   way->bic = c->quality.bic;
   if (c->u.nuisance)
     lab_nuisance_return(&u, &ignored);
-  way->rig = u.rig;
+  lab_rounds_note_values(result, &u);
+}
+
+void lab_rounds_note_values(lab_search_result *result, const lab_unknowns *u)
+{
+  lab_path_model *way = &result->path[result->n_path - 1];
+  lab_error ignored;
+  int c;
+  way->rig = u->rig;
+  if (lab_loop_errors(u, &way->errors, &ignored))
+    for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+      way->errors.rmse[c] = way->errors.in_noise[c] = (double)NAN;
 }
 
 void lab_rounds_note_small(lab_search_result *result, const pneu_term *term)

@@ -19,6 +19,10 @@ typedef struct lab_finding {
 /* Whether something may begin within the logs: they are one run, seen row by row, of which nothing begins yet. */
 int lab_rounds_may_begin(const lab_unknowns *u, const lab_search_options *options);
 
+/* Note a model that the search goes on from; the one noted last as it is now, with all its values fitted. */
+void lab_rounds_note_way(lab_search_result *result, const lab_candidate *c);
+void lab_rounds_note_values(lab_search_result *result, const lab_unknowns *u);
+
 /* The search from a declared model, in the view that its unknowns have.
  * In:      begun    from the declared model with what begins, fitted, as its best; NULL: from the declared model
  *          within   the same with its values within tolerances, which the search is to beat; may be NULL

@@ -43,7 +43,7 @@ int lab_rounds_unfold(lab_rounds *s, lab_error *error)
     *best = s->without;
     status = LAB_OK;
   }
-  s->result->path[s->result->n_path - 1].rig = best->u.rig;
+  lab_rounds_note_values(s->result, &best->u);
   return status;
 }
 

@@ -10,6 +10,7 @@
 #include "../fit/deviations.h"
 #include "../fit/nuisance.h"
 #include "../fit/outliers.h"
+#include "carry.h"
 #include "early.h"
 #include "rounds.h"
 
@@ -329,6 +330,15 @@ static void give_up(lab_finding *f, const lab_unknowns *declared)
   f->result.verdict = LAB_VERDICT_UNDECIDED;
 }
 
+/* Take out again what does not carry over to runs that are left out. */
+static int take_out_what_harms(lab_finding *f, lab_error *error)
+{
+  int any, status = lab_carry_prune(&f->best, &any, error);
+  if (any)
+    lab_rounds_note_way(&f->result, &f->best);
+  return status;
+}
+
 /* Intervals and errors of the model that was found.
  * Out:     u, result */
 static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, lab_error *error)
@@ -345,10 +355,14 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
     status = lab_deviations_widen(u, &result->fit, error);
   if (status == LAB_OK)
     status = lab_deviations_forget(u, &f->best.quality.chi2, &result->fit, error);
-  if (result->n_path > 0)
-    result->path[result->n_path - 1].rig = u->rig;
   lab_unknowns_view(u, 0);
-  return status == LAB_OK ? lab_search_measure(u, LAB_STAGE_AFTER, result, error) : status;
+  if (status == LAB_OK)
+    status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
+  if (status == LAB_OK && result->n_path > 0) {
+    result->path[result->n_path - 1].rig = u->rig;
+    result->path[result->n_path - 1].errors = result->after;
+  }
+  return status;
 }
 
 /* Whether a search whose time was spent has ended further from the logs, row by row, than it began. */
@@ -370,6 +384,8 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     status = search_coarsely(u, options, f, &done, error);
   if (status == LAB_OK && !done)
     status = search_tolerantly(u, options, f, error);
+  if (status == LAB_OK && !done)
+    status = take_out_what_harms(f, error);
   if (status == LAB_OK)
     status = conclude(f, u, result, error);
   if (f && f->result.n_path > 0 && (status == LAB_NUMERIC || (status == LAB_OK && is_worse(result)))) {

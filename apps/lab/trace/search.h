@@ -33,6 +33,7 @@ typedef struct lab_path_model {
   char name[LAB_PARAM_NAME_TEXT];
   double chi2, bic;
   lab_rig rig;
+  lab_errors errors; /* on the logs that it was fitted to; NaN where it cannot follow them */
 } lab_path_model;
 
 typedef struct lab_search_result {

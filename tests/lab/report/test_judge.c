@@ -42,9 +42,9 @@ static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **
   size_t i;
   (void)state;
   open_log();
-  assert_int_equal(lab_judge(&rig, &run, 1, NULL, &shared, &error), LAB_OK);
+  assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
   rig.fit_per_log[0] = 1;
-  assert_int_equal(lab_judge(&rig, &run, 1, NULL, &own, &error), LAB_OK);
+  assert_int_equal(lab_judge(&rig, &run, 1, &own, &error), LAB_OK);
   assert_true(own.in_noise[LAB_CHANNEL_X] < 0.25 * shared.in_noise[LAB_CHANNEL_X]);
   assert_int_equal(shared.n, 2 * ROWS);
   assert_int_equal(own.n, 2 * (ROWS - FEW)); /* its first tenth is not judged */

@@ -286,6 +286,9 @@ static void test_lab_search_run__leak__is_named_and_sized(void **state)
   assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 1.5e-8, 0, 0.05);
   assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+  assert_int_equal(result.n_path, 2);
+  assert_close(result.path[0].errors.in_noise[LAB_CHANNEL_P], result.before.in_noise[LAB_CHANNEL_P], 0, 1e-3);
+  assert_close(result.path[1].errors.chi2, result.after.chi2, 0, 0);
 }
 
 /* What takes less off the error than is asked for is listed, or added where that is plain and leaves white noise; least

@@ -1,0 +1,126 @@
+#include "carry.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "../base/clock.h"
+#include "../fit/errors.h"
+
+/* The unknowns of all runs but one.
+ * In:      run  room for the others, used as long as `less` is */
+static void leave_run(const lab_unknowns *u, int left, lab_run *run, lab_unknowns *less)
+{
+  int e, j, n = 0;
+  *less = *u;
+  less->slopes = NULL;
+  less->run = run;
+  less->n_rows = 0;
+  for (e = 0; e < u->n_runs; e++)
+    if (e != left) {
+      run[n++] = u->run[e];
+      less->n_rows += u->run[e].n * (size_t)u->run[e].n_channels;
+    }
+  less->n_runs = n;
+  for (n = j = 0; j < u->n; j++) {
+    if (u->unknown[j].run == left)
+      continue;
+    less->unknown[n] = u->unknown[j];
+    less->unknown[n++].run -= u->unknown[j].run > left;
+  }
+  less->n = n;
+  lab_unknowns_view(less, 0);
+}
+
+/* What one run has for itself, beside a model. */
+static void take_run(const lab_unknowns *u, int e, const lab_rig *model, lab_unknowns *one)
+{
+  int j;
+  *one = *u;
+  one->slopes = NULL;
+  one->rig = *model;
+  one->run = &u->run[e];
+  one->n_runs = 1;
+  one->n_rows = one->run->n * (size_t)one->run->n_channels;
+  for (one->n = j = 0; j < u->n; j++)
+    if (u->unknown[j].run == e) {
+      one->unknown[one->n] = u->unknown[j];
+      one->unknown[one->n++].run = 0;
+    }
+  lab_unknowns_view(one, 0);
+}
+
+/* Sum of squares on one run of a model that is fitted to the others.
+ * In/out:  run, less  room for that
+ * Out:     sum        infinite where it cannot be followed */
+static int predict_left(const lab_unknowns *u, int left, lab_run *run, lab_unknowns *less, double *sum,
+                        lab_error *error)
+{
+  enum { STEPS = 5 };
+  lab_rig model;
+  lab_errors errors;
+  int status;
+  leave_run(u, left, run, less);
+  status = lab_unknowns_fit(less, STEPS, NULL, error);
+  if (status == LAB_OK) {
+    model = less->rig;
+    take_run(u, left, &model, less);
+    status = less->n > 0 ? lab_unknowns_fit(less, STEPS, NULL, error) : LAB_OK;
+  }
+  if (status == LAB_OK)
+    status = lab_loop_errors(less, &errors, error);
+  *sum = status == LAB_OK ? errors.chi2 : (double)INFINITY;
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+int lab_carry_over(const lab_candidate *c, double *sum, lab_error *error)
+{
+  lab_run *run = calloc((size_t)c->u.n_runs, sizeof *run);
+  lab_unknowns *less = malloc(sizeof *less);
+  int e, status = run && less ? LAB_OK : lab_fail_memory(error, "the runs but one");
+  *sum = 0;
+  for (e = 0; e < c->u.n_runs && status == LAB_OK; e++) {
+    double one;
+    status = predict_left(&c->u, e, run, less, &one, error);
+    *sum += one;
+  }
+  free(less);
+  free(run);
+  return status;
+}
+
+static int is_asked(const lab_candidate *c)
+{
+  return c->u.n_runs >= lab_count(LAB_CARRY_RUNS) && c->u.window == 0 && !lab_is_noise(&c->quality);
+}
+
+/* A candidate without one of what was found, where that carries over better.
+ * In/out:  c, error_of  it and its error on runs left out */
+static int try_without(lab_candidate *c, int which, double *error_of, int *any, lab_error *error)
+{
+  lab_candidate *without = malloc(sizeof *without);
+  double sum = INFINITY;
+  int status = without ? lab_candidate_leave_out(c, which, without, error) : lab_fail_memory(error, "a candidate");
+  if (status == LAB_OK && without->quality.fitted)
+    status = lab_carry_over(without, &sum, error);
+  if (status == LAB_OK && sum < *error_of && !lab_cpu_is_spent(c->u.until)) {
+    *c = *without;
+    *error_of = sum;
+    *any = 1;
+  }
+  free(without);
+  return status;
+}
+
+int lab_carry_prune(lab_candidate *c, int *any, lab_error *error)
+{
+  double sum = INFINITY;
+  int i, status = LAB_OK;
+  *any = 0;
+  if (c->n_found == 0 || !is_asked(c) || lab_cpu_is_spent(c->u.until))
+    return LAB_OK;
+  status = lab_carry_over(c, &sum, error);
+  for (i = c->n_found - 1; i >= 0 && status == LAB_OK && !lab_cpu_is_spent(c->u.until); i--)
+    if (c->found[i].term < 0 || i == c->n_found - 1)
+      status = try_without(c, i, &sum, any, error);
+  return status;
+}

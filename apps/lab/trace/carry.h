@@ -1,0 +1,23 @@
+/* What carries over: an effect that helps on the runs it was fitted to, and harms on the others, stands in for
+ * something else.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_CARRY_H
+#define LAB_CARRY_H
+
+#include "candidate.h"
+
+/* Error of a model on each run when it is fitted to the others (leave-one-out cross-validation: Stone 1974, J. R. Stat.
+ * Soc. B 36:111). Of a run left out only what it has for itself is fitted: its start, the instants of its commands, its
+ * own value of what differs from log to log. Each fit takes a few steps from that to all runs. In:      c    fitted,
+ * seen row by row; two runs or more Out:     sum  of squares of the errors over the noise, of all runs; infinite where
+ * one cannot be followed Returns: LAB_OK, LAB_WORLD. */
+int lab_carry_over(const lab_candidate *c, double *sum, lab_error *error);
+
+/* Take out again, last first, each effect without which that error is smaller. There have to be three runs or more
+ * (CARRY_RUNS), more than noise left, and time: it ends when that is spent.
+ * In/out:  c    fitted
+ * Out:     any  whether one was taken out
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_carry_prune(lab_candidate *c, int *any, lab_error *error);
+
+#endif

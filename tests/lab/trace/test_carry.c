@@ -1,0 +1,113 @@
+/* Three logs of the independent rig: a leak that all of them have carries over, one of a single log does not. */
+#include "../../fixture.h"
+#include "../../scratch.h"
+#include "../../virtual.h"
+
+#include "../../../apps/lab/trace/carry.h"
+
+enum { ROWS = 401, LOGS = 3, COMMANDS = 3 };
+static const double spacing = 0.02; /* [s] */
+static const double t_cmd[COMMANDS] = {0.402, 3.003, 5.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
+static const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+static const double leak = 0.02; /* of the vent orifice */
+
+static lab_rig rig;
+static lab_log logs[LOGS];
+static lab_run run[LOGS];
+static lab_candidate c;
+static lab_error error;
+
+/* n logs, some with a leak, and a leak found beside the declared model. Where all leak, a stiffer spring leaves more
+ * than noise. */
+static void open_logs(const int leaks[LOGS], int n)
+{
+  int e;
+  lab_found *found;
+  virtual_declare(&rig);
+  rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
+  for (e = 0; e < n; e++) {
+    const char *path = scratch_path("one.csv");
+    second_rig g = virtual_rig((uint64_t)(3 + e));
+    g.spring_rate *= leaks[0] ? 1.02 : 1;
+    g.leak_area = leaks[e] ? leak * g.vent_area : 0;
+    virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
+    assert_int_equal(lab_log_read(path, &rig.log, 101325, &logs[e], &error), LAB_OK);
+    assert_int_equal(lab_run_open(&rig, &logs[e], 0, &run[e], &error), LAB_OK);
+  }
+  memset(&c, 0, sizeof c);
+  assert_int_equal(lab_unknowns_open(&rig, run, n, &c.u, &error), LAB_OK);
+  found = lab_candidate_add_found(&c);
+  found->effect = pneu_effect_find("chamber_leak");
+  found->param = pneu_param_find("chamber_leak.leak_area");
+  found->shape = found->term = -1;
+  assert_int_equal(lab_unknowns_add(&c.u, found->param, 1e-8, &error), LAB_OK);
+  lab_unknowns_view(&c.u, 0);
+  assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);
+  assert_false(lab_is_noise(&c.quality));
+}
+
+static void close_logs(int n)
+{
+  int e;
+  for (e = 0; e < n; e++) {
+    lab_run_close(&run[e]);
+    lab_log_free(&logs[e]);
+  }
+}
+
+static int is_pruned(const int leaks[LOGS], int n)
+{
+  int any;
+  open_logs(leaks, n);
+  assert_int_equal(lab_carry_prune(&c, &any, &error), LAB_OK);
+  assert_int_equal(any, c.n_found == 0);
+  assert_int_equal(c.u.n_runs, n);
+  close_logs(n);
+  return any;
+}
+
+static void test_lab_carry_prune__leak_of_all_logs__stays(void **state)
+{
+  (void)state;
+  assert_false(is_pruned((const int[LOGS]){1, 1, 1}, LOGS));
+}
+
+static void test_lab_carry_prune__leak_of_one_log__is_taken_out(void **state)
+{
+  (void)state;
+  assert_true(is_pruned((const int[LOGS]){0, 1, 0}, LOGS));
+}
+
+/* Of two logs one is all that is left to fit. */
+static void test_lab_carry_prune__two_logs__are_not_asked(void **state)
+{
+  (void)state;
+  assert_false(is_pruned((const int[LOGS]){0, 1}, 2));
+}
+
+/* A run left out has no part in the fit: what it errs by is what a fit to the others alone predicts of it. */
+static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(void **state)
+{
+  double sum, of_two;
+  (void)state;
+  open_logs((const int[LOGS]){1, 1, 1}, LOGS);
+  assert_int_equal(lab_carry_over(&c, &sum, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_chi2(&c.u, &of_two, &error), LAB_OK);
+  assert_between(sum / of_two, 0.9, 1.2);
+  c.u.n_runs = 2;
+  lab_unknowns_view(&c.u, 0);
+  assert_int_equal(lab_carry_over(&c, &of_two, &error), LAB_OK);
+  assert_between(of_two / sum, 0.6, 0.72);
+  close_logs(LOGS);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_carry_prune__leak_of_all_logs__stays),
+      cmocka_unit_test(test_lab_carry_prune__leak_of_one_log__is_taken_out),
+      cmocka_unit_test(test_lab_carry_prune__two_logs__are_not_asked),
+      cmocka_unit_test(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do),
+  };
+  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+}
