@@ -162,10 +162,11 @@ static story story_of(const sets_result *result, const cJSON *json, const char *
   return s;
 }
 
-/* The error below which nothing is left to explain: a fifth above what the sensor scatters or the bench repeats. */
-static double bar_of(const story *s)
+/* Whether an error leaves nothing to explain: it is at most a fifth above what the sensor scatters, row by row, or what
+ * the bench repeats. */
+static int is_explained(const story *s, model_error e)
 {
-  return 1.2 * fmax(s->noise, s->repeat);
+  return e.in_noise <= 1.2 || e.value <= 1.2 * s->repeat;
 }
 
 /* The error of the channel that was predicted and not fitted; it is that of a hold-out. */
@@ -240,9 +241,9 @@ enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
 /* What is left decides; where logs and rig file contradict each other, nothing does.  Returns: one of `verdicts` */
 static const char *verdict_word(const story *s)
 {
-  if (words_of(s->json, "doubt") || !(s->after.value <= bar_of(s)))
+  if (words_of(s->json, "doubt") || !is_explained(s, s->after))
     return "undecided";
-  if (s->held_after.value > bar_of(s))
+  if (!isnan(s->held_after.value) && !is_explained(s, s->held_after))
     return "fitted";
   if (cJSON_GetArraySize(at_keys(s->json, "unlisted", NULL)) > 0)
     return "unlisted";

@@ -136,7 +136,7 @@ int lab_drift_say(const lab_unknowns *u, lab_limitations *limitations, lab_error
   for (channel = 0; channel < LAB_CHANNEL_COUNT && status == LAB_OK; channel++) {
     const double drift = u->window ? 0 : largest(u, channel, r);
     if (drift != 0)
-      lab_limitation(limitations, "The sensor of %s drifts by %s over a run; that is taken out.",
+      lab_limitation(limitations, "Something as slow as a sensor of %s that drifts by %s over a run is taken out.",
                      lab_channels[channel].key, lab_format_quantity(drift, lab_channels[channel].unit, 2, text));
   }
   free(r);

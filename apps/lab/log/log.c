@@ -182,8 +182,8 @@ static int check_command(struct reader *r)
     return LAB_OK;
   now = r->log->value[command][r->log->n];
   if (isnan(now))
-    return lab_fail(r->error, LAB_DATA, "channel %s: expected a number, found a gap; %s holds until the next row",
-                    lab_channels[command].key, lab_channels[command].key);
+    return lab_fail(r->error, LAB_DATA, "channel %s: expected a number, found a gap; %s holds until the next row%s",
+                    lab_channels[command].key, lab_channels[command].key, LEAVE_OUT);
   if (command == LAB_CHANNEL_SP && fabs(now) > set_point_max)
     return lab_fail(r->error, LAB_DATA, "channel sp: expected a share of the stroke, found %g; is its unit %%?", now);
   if (command == LAB_CHANNEL_U && !r->format->command_is_pressure && fabs(now) > command_max)
@@ -217,8 +217,8 @@ static int check_time(struct reader *r, double t)
   if (r->log->n == 0 || (r->format->new_run == LAB_RUN_T_DROPS && t < r->last_t))
     return add_run(r);
   if (t <= r->last_t && r->format->n_quantities == 0)
-    return lab_fail(r->error, LAB_DATA, "channel t: expected more than %.9g s of the row before, found %.9g s%s",
-                    r->last_t, t, t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "");
+    return lab_fail(r->error, LAB_DATA, "channel t: expected more than the %.9g s of the row before, found %.9g s%s%s",
+                    r->last_t, t, t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "", LEAVE_OUT);
   return LAB_OK;
 }
 
@@ -274,8 +274,10 @@ static int finish(struct reader *r)
 {
   lab_log *log = r->log;
   if (log->n == 0)
-    return lab_fail(r->error, LAB_DATA, "%s: expected rows of data, found none (%zu damaged, %zu outside the window)",
-                    log->path, log->dropped, log->outside);
+    return lab_fail(
+        r->error, LAB_DATA,
+        "%s: expected rows of data, found none behind the header (%zu left out as damaged, %zu outside log.window)",
+        log->path, log->dropped, log->outside);
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;

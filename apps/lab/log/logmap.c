@@ -126,8 +126,9 @@ static int take(naming *m, int i, int channel, int absolute, const char *own)
   }
   if (find_unit(m, i, channel, own, unit, &absolute))
     return lab_column_of(m->heading[i].text, channel, absolute, unit, m->format, &m->header->column[i], m->error);
-  ask(m, channel, i, lab_usual_unit(channel, m->format), "column %d \"%s\" has no unit of %s; give that of a 1 in it",
-      i + 1, m->heading[i].text, lab_channels[channel].quantity);
+  ask(m, channel, i, lab_usual_unit(channel, m->format),
+      "column %d \"%s\" has no unit of %s; say which it is in place of the one below", i + 1, m->heading[i].text,
+      lab_channels[channel].quantity);
   return LAB_OK;
 }
 

@@ -26,6 +26,15 @@ static void on_progress(const lab_request *q, const char *what)
 
 /* ---- Reading ---- */
 
+/* Whether a log held out is one of those fitted, and the rig file does not say which of its rows are held out. */
+static int is_fitted(const lab_request *q, const lab_rig *rig, const char *path)
+{
+  int i, same = 0;
+  for (i = 0; i < q->n_logs; i++)
+    same |= strcmp(q->log[i], path) == 0;
+  return same && isnan(rig->log.holdout_from) && rig->log.holdout_first < 0;
+}
+
 static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
 {
   int i;
@@ -33,7 +42,13 @@ static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
   a->held.is_whole = 1;
   lab_log_format_hold_out(&a->rig_held.log);
   for (i = 0; i < q->n_holdout; i++)
-    if (lab_logs_add(&a->held, &a->rig_held, q->holdout[i], error))
+    if (is_fitted(q, &a->rig, q->holdout[i]))
+      return lab_fail(
+          error, LAB_USAGE,
+          "--holdout: %s is fitted too, so that it tests nothing; give another log, or hold out some of its "
+          "rows by log.holdout in the rig file",
+          q->holdout[i]);
+    else if (lab_logs_add(&a->held, &a->rig_held, q->holdout[i], error))
       return error->status;
   lab_limitations_join(&a->now.logs.limitations, &a->held.limitations);
   return LAB_OK;

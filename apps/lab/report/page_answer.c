@@ -25,9 +25,10 @@ static const char *where_of(const lab_report *report, const lab_found *found, ch
 
 static void put_verdict(const lab_sources *t, cJSON *page)
 {
-  static const char *const badge[] = {"nothing missing", "effect found", "not in the catalogue", "undecided"};
+  static const char *const badges[] = {"nothing missing", "effect found", "not in the catalogue", "undecided"};
   const lab_report *report = t->report;
   const int verdict = report->result->verdict;
+  const char *badge = verdict == LAB_VERDICT_NONE && lab_report_count_told(report) ? "values are off" : badges[verdict];
   char text[LAB_SENTENCE_TEXT];
   lab_report_headline(report, text);
   lab_json_put(page, "headline", "%s", text);
@@ -35,7 +36,7 @@ static void put_verdict(const lab_sources *t, cJSON *page)
   lab_report_evidence(report, text);
   lab_json_put(page, "evidence", "%s", text);
   lab_json_put(page, "verdict", "%s", lab_verdict_text(verdict));
-  lab_json_put(page, "badge", "%s", badge[verdict]);
+  lab_json_put(page, "badge", "%s", badge);
   lab_json_put(page, "rig", "%s", report->rig->name);
   lab_json_put(page, "rig_file", "%s", lab_file_name(report->rig->file));
   lab_json_put(page, "gas", "%s", pneu_gas_key(report->rig->laws.gas));
@@ -232,7 +233,9 @@ static void put_size(const lab_sources *t, cJSON *page)
     return;
   item = lab_json_append(others);
   lab_json_put(item, "value", "%s × noise", LAB_NUMBER(lab_report_in_noise(&r->after), 3));
-  lab_json_put(item, "words", "is the error of the declared model, fitted");
+  lab_json_put(item, "words",
+               lab_report_count_told(t->report) ? "is the error of the model with the values found"
+                                                : "is the error of the declared model, fitted");
 }
 
 /* ---- How certain, and what to do ---- */
@@ -258,7 +261,7 @@ static void say_onsets(const lab_sources *t, cJSON *list)
   for (k = 0; k < rig->n_onsets; k++) {
     const lab_onset *onset = lab_report_onset(t->report, rig->onset[k].param);
     if (onset)
-      lab_json_say(list, "It did not act from the start: %s has another value%s, the interval being that of 95 %%.",
+      lab_json_say(list, "The value of %s is another one%s; in brackets the interval of 95 %%.",
                    lab_fit_name(rig->onset[k].param, name), lab_report_since(onset, since));
   }
 }
@@ -370,6 +373,36 @@ static void put_sure(const lab_sources *t, cJSON *page)
   say_left(t, list);
 }
 
+/* What to look at where an effect was found, or what it does. */
+static const char *inspect(const lab_report *report, const lab_found *found, char sentence[LAB_FOUND_SENTENCE])
+{
+  static const struct {
+    const char *effect, *text;
+  } table[] = {
+#define X(effect, text) {#effect, text},
+#include "inspect.def"
+#undef X
+  };
+  size_t i;
+  for (i = 0; found->effect >= 0 && i < sizeof table / sizeof *table; i++)
+    if (!strcmp(table[i].effect, name_of(found->effect)))
+      return table[i].text;
+  return lab_report_found_sentence(report, found, sentence);
+}
+
+/* Each declared value that is told to be off. */
+static void say_values_to_check(const lab_report *report, cJSON *list)
+{
+  const lab_deviations *all = &report->deviations;
+  char text[LAB_SENTENCE_TEXT];
+  int i;
+  for (i = 0; i < all->n; i++)
+    if (lab_report_is_told(report, &all->of[i])) {
+      lab_report_deviation(report, &all->of[i], text);
+      lab_json_say(list, "Check on the rig, or correct in the rig file: %s.", text);
+    }
+}
+
 /* In:  next  what to record, of which the first is named */
 static void put_todo(const lab_sources *t, const cJSON *next, cJSON *page)
 {
@@ -377,21 +410,23 @@ static void put_todo(const lab_sources *t, const cJSON *next, cJSON *page)
   const lab_search_result *r = t->report->result;
   const lab_found *alike = first_alike(r);
   const cJSON *first = cJSON_GetArrayItem(next, 0);
-  char where[LAB_WHERE_TEXT];
+  char where[LAB_WHERE_TEXT], sentence[LAB_FOUND_SENTENCE], name[LAB_PARAM_NAME_TEXT];
   int i;
   if (lab_report_doubt(t->report))
     lab_json_say(list, "Correct the log or the rig file first: no effect is named while they contradict each other.");
   for (i = 0; i < r->n_found && r->verdict != LAB_VERDICT_UNDECIDED; i++)
     if (r->found[i].effect >= 0)
-      lab_json_say(list, "Check on the rig: %s", pneu_effect_at(r->found[i].effect)->what);
+      lab_json_say(list, "%s", inspect(t->report, &r->found[i], sentence));
     else
       lab_json_say(list, "Check what acts there on the rig: %s.", where_of(t->report, &r->found[i], where));
-  if (r->verdict == LAB_VERDICT_NONE)
+  say_values_to_check(t->report, list);
+  if (r->verdict == LAB_VERDICT_NONE && cJSON_GetArraySize(list) == 0)
     lab_json_say(list, "Nothing on the rig. The fitted model, model.cfg, can be used.");
-  else if (r->n_found > 0 && r->verdict != LAB_VERDICT_UNDECIDED)
-    lab_json_say(list, "If this is as intended, use model.cfg, which includes it.");
+  else if (r->verdict != LAB_VERDICT_UNDECIDED)
+    lab_json_say(list, "To predict the rig as it is now, use model.cfg, which has all of this.");
   if (t->report->next.kind == LAB_ADVICE_TEST)
-    lab_json_say(list, "To know more, record: %s.", t->report->next.text);
+    lab_json_say(list, "To know %s better, record: %s.", lab_fit_name(t->report->next.param, name),
+                 t->report->next.text);
   else if (alike)
     lab_json_say(list, "Record a test that separates %s from %s; see What to record next.", name_of(alike->effect),
                  name_of(alike->alike[0]));
@@ -414,6 +449,9 @@ static void put_rough(const lab_sources *t, cJSON *list)
       continue;
     if (u->unknown[j].kind == LAB_UNKNOWN_KNOT)
       knots++;
+    else if (half > fabs(u->unknown[j].value))
+      lab_json_say(list, "The log hardly tells the parameter %s: its interval is wider than its value.",
+                   u->unknown[j].name);
     else
       lab_json_say(list, "The parameter %s is known to within ±%.2g %%.", u->unknown[j].name,
                    100 * half / fabs(u->unknown[j].value));

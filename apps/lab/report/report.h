@@ -32,16 +32,16 @@ typedef struct lab_report {
   const lab_changes *changes; /* since the baseline; NULL: there is none */
   int has_holdout;
   lab_errors holdout_before, holdout_after;
-  lab_errors holdout_path[LAB_SEARCH_PATH]; /* of result->path */
-  int n_held;                                                             /* logs held out */
-  lab_holdout_log held[LAB_REPORT_HOLDOUTS];                              /* each by itself */
-  lab_advice separate[LAB_EFFECTS_MAX]; /* of each found effect from the first that looks like it */
-  lab_metrics *measured, *predicted;    /* figures of merit of the runs fitted; NULL: not made */
-  lab_advice next;                      /* the test that would tell most, where no effects are alike */
-  double fit_s, trace_s, total_s;       /* [s] on the clock; trace_s: the scan of all effects */
-  const lab_limitations *limitations;   /* what limits the conclusions; NULL: nothing */
-  lab_deviations deviations;            /* of the declared values */
-  const lab_rig *baseline;              /* as the rig was; NULL: unknown */
+  lab_errors holdout_path[LAB_SEARCH_PATH];  /* of result->path */
+  int n_held;                                /* logs held out */
+  lab_holdout_log held[LAB_REPORT_HOLDOUTS]; /* each by itself */
+  lab_advice separate[LAB_EFFECTS_MAX];      /* of each found effect from the first that looks like it */
+  lab_metrics *measured, *predicted;         /* figures of merit of the runs fitted; NULL: not made */
+  lab_advice next;                           /* the test that would tell most, where no effects are alike */
+  double fit_s, trace_s, total_s;            /* [s] on the clock; trace_s: the scan of all effects */
+  const lab_limitations *limitations;        /* what limits the conclusions; NULL: nothing */
+  lab_deviations deviations;                 /* of the declared values */
+  const lab_rig *baseline;                   /* as the rig was; NULL: unknown */
 } lab_report;
 
 /* What the files of an answer are written from. */
@@ -105,6 +105,14 @@ double lab_report_refit_explains(const lab_search_result *result, const lab_scor
 /* The first line: what deviates from the declared values, and what is missing, in the words of a person, with the names
  * of effects in brackets; the second: what that does to the error, "" where the log cannot carry an answer; and both.
  */
+/* Whether a deviation is told in the headline: it is beyond its tolerance, or began within the log; and how many are.
+ */
+int lab_report_is_told(const lab_report *report, const lab_deviation *d);
+int lab_report_count_told(const lab_report *report);
+
+/* "the spring is 35 % soft since 22.8 s".  Out: text */
+void lab_report_deviation(const lab_report *report, const lab_deviation *d, char text[LAB_SENTENCE_TEXT]);
+
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);

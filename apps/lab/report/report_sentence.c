@@ -247,14 +247,28 @@ static const struct {
   const char *name, *called, *less, *more;
 } plain[] = {{"dry_friction", "friction", NULL, NULL},
              {"spring_rate", "the spring", "soft", "stiff"},
-             {"orifice_area", "the area of both orifices", NULL, NULL}};
+             {"orifice_area", "the area of both orifices", NULL, NULL},
+             {"pressure_lag", "the lag of the pressure sensor", NULL, NULL},
+             {"position_lag", "the lag of the position sensor", NULL, NULL},
+             {"pressure_bias", "the zero of the pressure sensor", NULL, NULL},
+             {"position_bias", "the zero of the position sensor", NULL, NULL},
+             {"pressure_gain", "the gain error of the pressure sensor", NULL, NULL},
+             {"position_gain", "the gain error of the position sensor", NULL, NULL},
+             {"clock", "the offset between the clocks of the channels", NULL, NULL}};
 
-/* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa". What is known to no better
- * than its own size stands on no sheet. */
+/* What a value is off from: what is known to no better than its own size stands on no sheet, nor does the weather. */
+static const char *sheet_of(const lab_deviation *d)
+{
+  return !(d->tolerance < 1)                        ? "what was assumed"
+         : strcmp(d->name, "ambient_pressure") == 0 ? "what was declared"
+                                                    : "its sheet";
+}
+
+/* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa". */
 static void add_ratio(char *text, const lab_deviation *d, const char *less, const char *more)
 {
   const double percent = 100 * (d->ratio - 1);
-  const char *sheet = d->tolerance < 1 ? "its sheet" : "what was assumed";
+  const char *sheet = sheet_of(d);
   if (!isfinite(d->ratio))
     ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
   else if (d->ratio >= 2 || d->ratio < 0.5)
@@ -280,23 +294,35 @@ static void add_deviation(char *text, const lab_report *report, const lab_deviat
   ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
 
-static int count_beyond(const lab_deviations *all)
+int lab_report_is_told(const lab_report *report, const lab_deviation *d)
 {
+  return d->beyond || lab_report_onset(report, d->param);
+}
+
+int lab_report_count_told(const lab_report *report)
+{
+  const lab_deviations *all = &report->deviations;
   int i, n = 0;
   for (i = 0; i < all->n; i++)
-    n += all->of[i].beyond != 0;
+    n += lab_report_is_told(report, &all->of[i]);
   return n;
 }
 
-/* Those beyond their tolerance.  Returns: their number */
+void lab_report_deviation(const lab_report *report, const lab_deviation *d, char text[LAB_SENTENCE_TEXT])
+{
+  *text = '\0';
+  add_deviation(text, report, d, 1);
+}
+
+/* Those beyond their tolerance, and those that begin.  Returns: their number */
 static int add_deviations(char *text, const lab_report *report)
 {
   const lab_deviations *all = &report->deviations;
-  const int n = count_beyond(all);
+  const int n = lab_report_count_told(report);
   char *begin = text + strlen(text);
   int i, told = 0;
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
-    if (all->of[i].beyond) {
+    if (lab_report_is_told(report, &all->of[i])) {
       ADD(text, "%s", told ? ", " : "");
       add_deviation(text, report, &all->of[i], told++ == 0);
     }
@@ -409,12 +435,21 @@ static void add_small(char *text, const lab_search_result *r)
   ADD(text, more > 0 ? " and %d more." : ".", more);
 }
 
+/* What declared values that are off leave, and how much that is less than with those of the rig file. */
+static void add_corrected(char *text, const lab_search_result *r)
+{
+  static const double less = 1.05;
+  const double before = lab_report_in_noise(&r->before), after = lab_report_in_noise(&r->after);
+  if (before > less * after)
+    ADD(text, "With these values the error falls from %.2f to %.2f times the noise.", before, after);
+  else
+    ADD(text, "With these values the model leaves %.2f times the noise.", after);
+}
+
 void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
   const lab_search_result *r = report->result;
-  const char *with = count_beyond(&report->deviations) > 0 ? "With all of this"
-                     : r->n_found > 1                      ? "With them"
-                                                           : "With it";
+  const char *with = lab_report_count_told(report) > 0 ? "With all of this" : r->n_found > 1 ? "With them" : "With it";
   *text = '\0';
   if (lab_report_doubt(report))
     return;
@@ -426,6 +461,8 @@ void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   else if (r->n_found > 0)
     ADD(text, "%s the error falls from %.2f to %.2f times the noise.", with, lab_report_in_noise(&r->before),
         lab_report_in_noise(&r->after));
+  else if (lab_report_count_told(report) > 0)
+    add_corrected(text, r);
   else
     ADD(text, "The declared model leaves %.2f times the noise.", lab_report_in_noise(&r->after));
   if (r->verdict == LAB_VERDICT_NONE && is_small(r))
@@ -504,6 +541,8 @@ void lab_report_limits(const lab_report *report, cJSON *list)
   int i;
   for (i = 0; report->limitations && i < report->limitations->n; i++)
     lab_json_say(list, "%s", report->limitations->text[i]);
+  if (report->result->cut_short)
+    lab_json_say(list, "The search was ended by --budget: with more time it may find something else.");
   add_widening(report->result, list);
   add_clauses(report, list);
 }

@@ -877,7 +877,7 @@ static void test_lab_log_read__nothing_in_the_window__is_refused(void **state)
 {
   (void)state;
   format.from = 10;
-  assert_refused("t [s],u [1]\n0,0\n1,0\n", "log.csv", "2 outside the window");
+  assert_refused("t [s],u [1]\n0,0\n1,0\n", "log.csv", "2 outside log.window");
 }
 
 static void test_lab_log_read__ragged_row__counts_fields(void **state)

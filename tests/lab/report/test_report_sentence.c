@@ -180,6 +180,11 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   lab_report_headline(&report, text);
   assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft, the dead volume 20 % above its "
                             "sheet, and 2 more; nothing else is missing.");
+  lab_report_evidence(&report, text); /* not of the declared model, whose values these are not */
+  assert_string_equal(text, "With these values the error falls from 3.00 to 1.00 times the noise.");
+  result.before.chi2 = 1;
+  lab_report_evidence(&report, text);
+  assert_string_equal(text, "With these values the model leaves 1.00 times the noise.");
   d->n = 1;
   d->of[0].tolerance = 1;
   lab_report_headline(&report, text);
@@ -194,6 +199,44 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
                             "(dead_time).");
   lab_report_evidence(&report, text); /* which not one of the two alone has done */
   assert_string_equal(text, "With all of this the error falls from 3.00 to 1.00 times the noise.");
+}
+
+/* A value that changes within the log is told, though it stays within its tolerance. */
+static void test_lab_report_headline__value_that_changes__is_told_within_its_tolerance(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_NONE, 0);
+  (void)state;
+  report.deviations.condition = LAB_CONDITION_AS_DECLARED;
+  report.deviations.n = 1;
+  report.deviations.of[0] = deviation("dry_friction", 1.22, 0);
+  report.deviations.of[0].param = PNEU_PARAM_dry_friction;
+  completed.n = 1;
+  completed.unknown[0].kind = LAB_UNKNOWN_ONSET;
+  completed.rig.n_onsets = 1;
+  completed.rig.onset[0] = (lab_rig_onset){PNEU_PARAM_dry_friction, 22.5, 122};
+  result.begin[0] = (lab_onset){1, 22.5, 21.2, 23.4};
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "Friction is 22 % above its sheet since 22.5 s (21.2 to 23.4 s); nothing else is missing.");
+  assert_int_equal(lab_report_count_told(&report), 1);
+  completed.n = 0;
+  assert_int_equal(lab_report_count_told(&report), 0);
+}
+
+/* What to look at on the rig stands beside effects that there are. */
+static void test_inspect_def__each_line__is_of_an_effect(void **state)
+{
+  static const char *const names[] = {
+#define X(effect, text) #effect,
+#include "../../../apps/lab/report/inspect.def"
+#undef X
+  };
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof names / sizeof *names; i++) {
+    check_note("%s", names[i]);
+    assert_true(pneu_effect_find(names[i]) >= 0);
+  }
+  assert_int_equal(i, PNEU_EFFECT_COUNT - 1); /* the positioner is declared, and none of what is found */
 }
 
 /* Of many cycles the best is tried: page and report.json tell the chance over all of them. */
@@ -235,6 +278,8 @@ int main(void)
       cmocka_unit_test(test_lab_effect_sentence__share_of_nothing__is_left_out),
       cmocka_unit_test(test_lab_report_sentence__verdicts__what_is_missing_then_the_error),
       cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
+      cmocka_unit_test(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance),
+      cmocka_unit_test(test_inspect_def__each_line__is_of_an_effect),
       cmocka_unit_test(test_lab_report_chance__cycle__counts_what_was_looked_at),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
