@@ -48,6 +48,7 @@ expect 0 "run of a draft" "$programs/closeloop" "$folder/draft.cfg" "$folder/log
 grep -q '"verdict"' "$folder/drafted/report.json" || complain "a drafted rig file has no answer"
 expect 2 "draft with a wrong word" "$programs/closeloop" --init "$folder/log.csv" --sheet aera=1
 expect 2 "words without a draft" "$programs/closeloop" --sheet area=1 "$folder/rig.cfg" "$folder/log.csv"
+expect 2 "a log held out that is fitted" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --holdout "$folder/log.csv"
 expect 2 "a draft of a list" "$programs/closeloop" --init "$folder/log.csv" --batch "$folder/list.csv"
 
 expect 0 "first run" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --out "$folder/whole"

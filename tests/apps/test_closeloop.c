@@ -241,6 +241,16 @@ static void test_closeloop__times_out_of_order__name_the_line(void **state)
   assert_spoiled_is_refused(&b, "bad.csv:3", "channel t: expected more than");
 }
 
+/* A row whose time is that of the row before is left out where the rig file asks for it, and counted. */
+static void test_closeloop__damaged_rows__are_left_out_and_counted(void **state)
+{
+  bad_log b = sound;
+  (void)state;
+  b.t[500] = b.t[499];
+  b.t[600] = (double)NAN;
+  assert_limited(bad_rig("rig.cfg", "log = { damaged = \"drop\"; };\n"), &b, "none", "2 damaged rows of ");
+}
+
 static void test_closeloop__shuffled_rows__are_refused(void **state)
 {
   bad_log b = sound;
@@ -775,6 +785,7 @@ int main(void)
       cmocka_unit_test(test_closeloop__cut_off_header__is_refused),
       cmocka_unit_test(test_closeloop__last_value_cut_short__is_left_out),
       cmocka_unit_test(test_closeloop__times_out_of_order__name_the_line),
+      cmocka_unit_test(test_closeloop__damaged_rows__are_left_out_and_counted),
       cmocka_unit_test(test_closeloop__shuffled_rows__are_refused),
       cmocka_unit_test(test_closeloop__shuffled_values__do_not_match_the_command),
       cmocka_unit_test(test_closeloop__jump_in_time__is_a_limitation),

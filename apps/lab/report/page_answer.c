@@ -310,8 +310,11 @@ static void say_held_out(const lab_report *report, cJSON *list)
                  LAB_NUMBER(lab_report_in_noise(&report->holdout_before), 3),
                  LAB_NUMBER(lab_report_in_noise(&report->holdout_after), 3));
   else
-    lab_json_say(list, "On a log that was not used for the fit, the error is %s times the noise.",
-                 LAB_NUMBER(lab_report_in_noise(&report->holdout_before), 3));
+    lab_json_say(
+        list,
+        "On a log that was not used for the fit, the error is %s times the noise. Nothing is fitted there, not even "
+        "when a command came between two rows.",
+        LAB_NUMBER(lab_report_in_noise(&report->holdout_before), 3));
 }
 
 /* Whether what is left is noise: as the verdict has it. */
@@ -320,7 +323,13 @@ static void say_left(const lab_sources *t, cJSON *list)
   const lab_search_result *r = t->report->result;
   const lab_residual_stats *left = r->left[LAB_STAGE_AFTER];
   const int coloured = lab_residual_stats_coloured(left);
-  if (coloured > 0 && r->window == 0 && (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT))
+  if (r->window > 0 && r->n_found > 0)
+    lab_json_say(
+        list,
+        "The stem sticks and slips, and no model predicts the instants of single slips: the log was compared in "
+        "windows of %zu rows, and the error row by row need not fall.",
+        r->window);
+  else if (coloured > 0 && r->window == 0 && (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT))
     lab_json_say(list, "The residual is no larger than noise, but not white on %d of %d channels.", coloured,
                  t->figures->table.n_channels);
   else if (coloured > 0)
