@@ -691,13 +691,16 @@ static void say_precision(const pneu_params *params, lab_advice *advice)
              percent(advice->before, before), percent(advice->after, after));
 }
 
-/* Narrow the widest interval that can be narrowed. */
-static void narrow(const design *s, const lab_forecast_model *model, const widths *w, lab_advice *advice)
+/* Narrow the widest interval that can be narrowed, of parameters from one place on up to another.  Returns: whether one
+ * can */
+static int narrow(const design *s, const lab_forecast_model *model, const widths *w, int from, int to,
+                  lab_advice *advice)
 {
   const double *now = w->of[s->n - 1], worth_while = 0.9;
   int done[LAB_NORMAL_MAX] = {0}, j;
-  say_nothing(advice, "no schedule of the set narrows an interval by a tenth");
-  while ((j = widest(now, model->n, done)) >= 0) {
+  for (j = 0; j < from; j++)
+    done[j] = 1;
+  while ((j = widest(now, to, done)) >= 0) {
     double gain[LAB_TEST_PLAN_MAX];
     int i;
     for (i = 0; i < s->plans.n; i++)
@@ -712,8 +715,9 @@ static void narrow(const design *s, const lab_forecast_model *model, const width
     advice->before = now[j];
     advice->after = w->of[i][j];
     say_precision(&model->params, advice);
-    return;
+    return 1;
   }
+  return 0;
 }
 
 int lab_advise_precision(const lab_advice_request *request, const pneu_params *params, lab_advice *advice,
@@ -730,7 +734,9 @@ int lab_advise_precision(const lab_advice_request *request, const pneu_params *p
     return error->status;
   if (s) {
     find_all(s, &w);
-    narrow(s, &model, &w, advice);
+    if (!narrow(s, &model, &w, request->n_known, model.n, advice) &&
+        !narrow(s, &model, &w, 0, request->n_known, advice))
+      say_nothing(advice, "no schedule of the set narrows an interval by a tenth");
   }
   close_design(s);
   return LAB_OK;

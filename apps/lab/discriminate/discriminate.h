@@ -24,7 +24,8 @@ typedef struct lab_advice_request {
   double noise[LAB_CHANNEL_COUNT]; /* of the recorded channels among p, x, T, ps, SI; NaN: not recorded */
   double spacing;                  /* [s] between rows */
   int n_fit;
-  const int *fit;               /* what is fitted, as in lab_rig.fit */
+  const int *fit; /* what is fitted, as in lab_rig.fit */
+  int n_known;    /* the first of these, whose intervals are narrowed only where none of the others can be */
   const lab_schedule *recorded; /* what has been recorded; NULL: a fill and vent */
   double recorded_duration;     /* [s] from its first row */
 } lab_advice_request;

@@ -175,6 +175,7 @@ static int advise(lab_answer *a, lab_error *error)
   if (alike > 0 || r->window > 0 || report->completed->rig.n_terms > 0)
     return LAB_OK;
   memcpy(fit, q.fit, (size_t)q.n_fit * sizeof *fit);
+  q.n_known = q.n_fit; /* what was found is to be known first */
   for (i = 0; i < r->n_found; i++)
     fit[q.n_fit++] = r->found[i].param;
   q.fit = fit;
