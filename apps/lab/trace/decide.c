@@ -84,9 +84,11 @@ static int tolerances_are_better(const lab_facts *f)
   return f->within.fitted && f->within.bic < f->best.bic && !lab_is_noise(&f->free_term);
 }
 
+/* Values far beyond their tolerances explain nearly anything: they are no reason to look no further. */
 static int tolerances_beat_the_leaders(const lab_facts *f)
 {
-  return tolerances_are_better(f) && f->extended.fitted && f->within.bic < f->extended.bic;
+  return tolerances_are_better(f) && !lab_is_strained(&f->within) && f->extended.fitted &&
+         f->within.bic < f->extended.bic;
 }
 
 static int something_may_begin(const lab_facts *f)
@@ -235,7 +237,9 @@ const lab_rule lab_rules[] = {
      "Fit it with all its values; if that leaves only noise, refit no effect.", LAB_DO_UNFOLD_TERM},
 
     {LAB_PHASE_LED,
-     "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader.",
+     "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader, and "
+     "no "
+     "value more than STRAINED tolerances off.",
      tolerances_beat_the_leaders, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_LED,
      "No refit of a leader leaves only noise, no onset was tried yet, and something that may begin scores above "

@@ -84,11 +84,16 @@ static int comes_nearer(const lab_finding *exact, const lab_finding *tolerant)
 }
 
 /* Whether effects beside values as declared are to be told, where there is an answer with deviations: one that names
- * less is the simpler one, and gives way only to odds. */
+ * less is the simpler one, and gives way only to odds; one that needs values far beyond their tolerances has odds
+ * against it. */
 static int is_better(const lab_finding *exact, const lab_finding *tolerant)
 {
-  const int is_simple = tolerant->best.n_found < exact->best.n_found && lab_is_noise(&tolerant->best.quality);
-  return exact->best.quality.bic + (is_simple ? lab_constant(LAB_ALIKE_BIC) : 0) < tolerant->best.quality.bic;
+  const lab_quality *of_exact = &exact->best.quality, *of_tolerant = &tolerant->best.quality;
+  const double odds = lab_is_strained(of_tolerant) && !lab_is_strained(of_exact) ? -lab_constant(LAB_ALIKE_BIC)
+                      : tolerant->best.n_found < exact->best.n_found && lab_is_noise(of_tolerant)
+                          ? lab_constant(LAB_ALIKE_BIC)
+                          : 0;
+  return of_exact->bic + odds < of_tolerant->bic;
 }
 
 /* Whether something that begins is to be told and not what acts throughout, which may show late and is simpler. */
