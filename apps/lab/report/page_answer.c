@@ -194,18 +194,18 @@ static void put_why(const lab_sources *t, cJSON *page)
                  LAB_NUMBER(lab_chi2_threshold(r->level), 3));
   for (i = 0; i < r->n_listed; i++)
     lab_json_say(reasons,
-                 "The effect %s is significant, but would lower the error by less than --min-gain. It was not added.",
+                 "The effect %s shows, but too little to be worth adding: it would lower the error by less than --min-gain.",
                  name_of(r->listed[i]));
   if (r->has_small)
     lab_json_say(
         reasons,
-        "A free term that acts like %s (%s) is significant, but would lower the error by less than --min-gain. "
-        "It was not added.",
+        "A free term that acts like %s (%s) shows, but too little to be worth adding: it would lower "
+        "the error by less than --min-gain.",
         lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
   if (r->verdict == LAB_VERDICT_UNDECIDED)
     lab_json_say(
         reasons,
-        "The residual is not noise, and no effect of the catalogue explains it. The figures below show when and "
+        "The residual is not noise, and nothing that was tried explains it. The figures below show when and "
         "where it arises.");
 }
 

@@ -414,7 +414,7 @@ static void add_undecided(char *text, const lab_search_result *r)
   const int n = r->n_found;
   int i;
   if (n == 0) {
-    ADD(text, "The residual is %.2f times the noise, and no effect of the catalogue explains it.", after);
+    ADD(text, "The residual is %.2f times the noise, and nothing that was tried explains it.", after);
     return;
   }
   ADD(text, "With the best candidate%s, ", n > 1 ? "s" : "");
@@ -430,7 +430,7 @@ static void add_undecided(char *text, const lab_search_result *r)
 static void add_small(char *text, const lab_search_result *r)
 {
   const int more = r->n_listed + r->has_small - 1;
-  ADD(text, " Significant, but lowering the error by less than --min-gain: %s",
+  ADD(text, " Too small to be worth adding (--min-gain): %s",
       r->n_listed ? pneu_effect_at(r->listed[0])->name : "a free term");
   ADD(text, more > 0 ? " and %d more." : ".", more);
 }
