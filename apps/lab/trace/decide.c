@@ -84,11 +84,13 @@ static int tolerances_are_better(const lab_facts *f)
   return f->within.fitted && f->within.bic < f->best.bic && !lab_is_noise(&f->free_term);
 }
 
-/* Values far beyond their tolerances explain nearly anything: they are no reason to look no further. */
+/* Values far beyond their tolerances explain nearly anything: they are no reason to look no further where a leader that
+ * needs none comes near. */
 static int tolerances_beat_the_leaders(const lab_facts *f)
 {
-  return tolerances_are_better(f) && !lab_is_strained(&f->within) && f->extended.fitted &&
-         f->within.bic < f->extended.bic;
+  const int may_be_in_vain =
+      lab_is_strained(&f->within) && excess(&f->extended) < lab_constant(LAB_LEADER_NEAR) * excess(&f->declared);
+  return tolerances_are_better(f) && !may_be_in_vain && f->extended.fitted && f->within.bic < f->extended.bic;
 }
 
 static int something_may_begin(const lab_facts *f)
@@ -238,8 +240,7 @@ const lab_rule lab_rules[] = {
 
     {LAB_PHASE_LED,
      "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader, and "
-     "no "
-     "value more than STRAINED tolerances off.",
+     "no value more than STRAINED tolerances off if such a refit leaves less than LEADER_NEAR of the excess.",
      tolerances_beat_the_leaders, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_LED,
      "No refit of a leader leaves only noise, no onset was tried yet, and something that may begin scores above "

@@ -188,7 +188,9 @@ static void test_rules__values_as_declared__end_where_tolerances_beat_every_lead
   assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f));
   f.within = quality(600, 699);
   assert_true(holds(LAB_PHASE_LED, LAB_DO_END, &f));
-  f.within.strain = lab_constant(LAB_STRAINED) + 0.1; /* values far off explain nearly anything */
+  f.within.strain = lab_constant(LAB_STRAINED) + 0.1; /* values far off explain nearly anything, */
+  assert_true(holds(LAB_PHASE_LED, LAB_DO_END, &f));
+  f.extended = quality(215, 700); /* and a leader comes near */
   assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f));
   f.within.strain = 0;
   f.extended = (lab_quality){0};
