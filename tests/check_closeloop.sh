@@ -48,7 +48,6 @@ expect 0 "run of a draft" "$programs/closeloop" "$folder/draft.cfg" "$folder/log
 grep -q '"verdict"' "$folder/drafted/report.json" || complain "a drafted rig file has no answer"
 expect 2 "draft with a wrong word" "$programs/closeloop" --init "$folder/log.csv" --sheet aera=1
 expect 2 "words without a draft" "$programs/closeloop" --sheet area=1 "$folder/rig.cfg" "$folder/log.csv"
-expect 2 "a log held out that is fitted" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --holdout "$folder/log.csv"
 expect 2 "a draft of a list" "$programs/closeloop" --init "$folder/log.csv" --batch "$folder/list.csv"
 
 expect 0 "first run" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --out "$folder/whole"
@@ -111,6 +110,8 @@ done
 awk 'NR == 1 || NR % 3 == 0' "$folder/log.csv" >"$folder/third.csv"
 expect 0 "held out" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --holdout "$folder/log.csv,$folder/third.csv" \
   --out "$folder/held" --no-figures
+grep -q "log.csv is held out, but fitted too" "$folder/held/report.json" || complain "a log that is fitted and held out is not told"
+grep -q "third.csv is held out" "$folder/held/report.json" && complain "a log that is only held out is told"
 awk -F'[:,]' '/"(before|after|log|error|path|holdout)":/ { gsub(/[\t "]/, ""); where = $1 == "log" ? $2 : $1 == "path" ? "/path" : where "/" $1 }
   /"rmse":/ && where { print where, $2; where = "" }' "$folder/held/report.json" >"$folder/errors"
 # same LINE LINE: whether the errors of two lines agree within a twentieth
