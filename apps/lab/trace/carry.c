@@ -6,47 +6,30 @@
 #include "../base/clock.h"
 #include "../fit/errors.h"
 
-/* The unknowns of all runs but one.
- * In:      run  room for the others, used as long as `less` is */
-static void leave_run(const lab_unknowns *u, int left, lab_run *run, lab_unknowns *less)
+/* One run alone with what it has for itself, or all others with their unknowns.
+ * In:      run  room for them, used as long as `part` is */
+static void take_part(const lab_unknowns *u, int one, int alone, lab_run *run, lab_unknowns *part)
 {
   int e, j, n = 0;
-  *less = *u;
-  less->slopes = NULL;
-  less->run = run;
-  less->n_rows = 0;
+  *part = *u;
+  part->slopes = NULL;
+  part->run = run;
+  part->n_rows = 0;
   for (e = 0; e < u->n_runs; e++)
-    if (e != left) {
+    if ((e == one) == alone) {
       run[n++] = u->run[e];
-      less->n_rows += u->run[e].n * (size_t)u->run[e].n_channels;
+      part->n_rows += u->run[e].n * (size_t)u->run[e].n_channels;
     }
-  less->n_runs = n;
+  part->n_runs = n;
   for (n = j = 0; j < u->n; j++) {
-    if (u->unknown[j].run == left)
+    lab_unknown x = u->unknown[j];
+    if ((x.run == one) != alone)
       continue;
-    less->unknown[n] = u->unknown[j];
-    less->unknown[n++].run -= u->unknown[j].run > left;
+    x.run = alone ? 0 : x.run - (x.run > one);
+    part->unknown[n++] = x;
   }
-  less->n = n;
-  lab_unknowns_view(less, 0);
-}
-
-/* What one run has for itself, beside a model. */
-static void take_run(const lab_unknowns *u, int e, const lab_rig *model, lab_unknowns *one)
-{
-  int j;
-  *one = *u;
-  one->slopes = NULL;
-  one->rig = *model;
-  one->run = &u->run[e];
-  one->n_runs = 1;
-  one->n_rows = one->run->n * (size_t)one->run->n_channels;
-  for (one->n = j = 0; j < u->n; j++)
-    if (u->unknown[j].run == e) {
-      one->unknown[one->n] = u->unknown[j];
-      one->unknown[one->n++].run = 0;
-    }
-  lab_unknowns_view(one, 0);
+  part->n = n;
+  lab_unknowns_view(part, 0);
 }
 
 /* Sum of squares on one run of a model that is fitted to the others.
@@ -59,11 +42,12 @@ static int predict_left(const lab_unknowns *u, int left, lab_run *run, lab_unkno
   lab_rig model;
   lab_errors errors;
   int status;
-  leave_run(u, left, run, less);
+  take_part(u, left, 0, run, less);
   status = lab_unknowns_fit(less, STEPS, NULL, error);
   if (status == LAB_OK) {
     model = less->rig;
-    take_run(u, left, &model, less);
+    take_part(u, left, 1, run, less);
+    less->rig = model;
     status = less->n > 0 ? lab_unknowns_fit(less, STEPS, NULL, error) : LAB_OK;
   }
   if (status == LAB_OK)

@@ -103,7 +103,7 @@ int lab_rounds_refit_terms(lab_rounds *s, const lab_candidate *base, lab_candida
 int lab_rounds_unfold_term(lab_rounds *s, lab_error *error);
 
 /* The best free term beside a candidate, if its score passes; where only noise is left and it can take MIN_GAIN off no
- * error, it is noted as small at once. White noise is not asked.  Out: best, fitted or not */
+ * error, it is noted as small at once.  Out: best, fitted or not */
 int lab_rounds_find_term(lab_rounds *s, const lab_candidate *base, lab_candidate *best, lab_error *error);
 
 /* The declared model with a free term takes the place of what was found. */

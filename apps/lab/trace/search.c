@@ -335,12 +335,15 @@ static void give_up(lab_finding *f, const lab_unknowns *declared)
   f->result.verdict = LAB_VERDICT_UNDECIDED;
 }
 
-/* Take out again what does not carry over to runs that are left out. */
+/* Take out again what does not carry over to runs that are left out; what is left then is more than noise, as before.
+ */
 static int take_out_what_harms(lab_finding *f, lab_error *error)
 {
   int any, status = lab_carry_prune(&f->best, &any, error);
-  if (any)
+  if (any) {
     lab_rounds_note_way(&f->result, &f->best);
+    f->result.verdict = LAB_VERDICT_UNDECIDED;
+  }
   return status;
 }
 
