@@ -55,12 +55,7 @@ static int wrong_dimension(const char *from, const ut_unit *have, const char *to
   char found[LAB_UNIT_TEXT], expected[LAB_UNIT_TEXT];
   dimension(have, found);
   dimension(want, expected);
-  return lab_fail(
-      error, LAB_DATA, "expected a unit like %s (%s), found \"%s\" (%s)%s", to, expected, from, found,
-      strcmp(from, "mA") && strcmp(from, "V")
-          ? ""
-          : "; where it is a signal, write for p: log = { scale = { p = \"4..20 mA\"; }; range = { p = [\"0 bar\", "
-            "\"6 bar\"]; }; };");
+  return lab_fail(error, LAB_DATA, "expected a unit like %s (%s), found \"%s\" (%s)", to, expected, from, found);
 }
 
 /* Three points tell a line from a logarithm; far ones keep the digits of a scale beside an offset. */

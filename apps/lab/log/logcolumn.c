@@ -1,4 +1,5 @@
 #include "logformat.h"
+#include "logread.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -57,6 +58,21 @@ static int read_signal(const char *unit, const lab_signal *signal, lab_column *c
   return LAB_OK;
 }
 
+/* Of a signal, what it stands for has to be said. */
+static int refuse_unit(const char *text, int channel, const char *unit, const char *usual, lab_error *error)
+{
+  const char *key = lab_channels[channel].key, *scale = strcmp(unit, "mA") == 0  ? "4..20 mA"
+                                                        : strcmp(unit, "V") == 0 ? "0..10 V"
+                                                                                 : NULL;
+  if (!scale)
+    return lab_fail_in(error, "column \"%s\"", text);
+  return lab_fail(
+      error, LAB_DATA,
+      "column \"%s\" is a signal: write into the rig file, with its own range: log = { scale = { %s = \"%s\"; "
+      "}; range = { %s = [\"0 %s\", \"1 %s\"]; }; };",
+      text, key, scale, key, usual, usual);
+}
+
 int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_log_format *format,
                   lab_column *column, lab_error *error)
 {
@@ -75,7 +91,7 @@ int lab_column_of(const char *text, int channel, int absolute, const char *unit,
     column->scale /= format->stroke;
     column->offset /= format->stroke;
   } else if (lab_unit_factor(unit, si, &column->scale, &column->offset, error))
-    return lab_fail_in(error, "column \"%s\"", text);
+    return refuse_unit(text, channel, unit, lab_usual_unit(channel, format), error);
   column->offset -= absolute ? format->ambient : 0;
   return LAB_OK;
 }

@@ -799,6 +799,7 @@ static void test_lab_log_read__unit_of_other_dimension__names_both(void **state)
   (void)state;
   assert_refused("t [s],p [mm]\n0,0\n", "log.csv:1: column 2", "expected a unit like Pa");
   assert_refused("t [s],u [kPa]\n0,0\n", "log.csv:1: column 2", "expected a unit like 1");
+  assert_refused("t [s],x [mA]\n0,0\n", "log.csv:1: column 2", "scale = { x = \"4..20 mA\"; }; range = { x = [\"0 mm\"");
 }
 
 static void test_lab_log_read__unknown_unit__is_named(void **state)
