@@ -2,16 +2,25 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
-static void add(lab_limitations *limitations, const char *format, va_list args) LAB_PRINTF(2, 0);
+static int add(lab_limitations *limitations, const char *format, va_list args) LAB_PRINTF(2, 0);
 
-static void add(lab_limitations *limitations, const char *format, va_list args)
+/* The number of the text, from 1. What is said already is not said again. */
+static int add(lab_limitations *limitations, const char *format, va_list args)
 {
+  char text[LAB_LIMITATION_TEXT];
+  int i;
+  vsnprintf(text, sizeof text, format, args);
+  for (i = 0; i < limitations->n; i++)
+    if (!strcmp(limitations->text[i], text))
+      return i + 1;
   if (limitations->n < LAB_LIMITATION_MAX)
-    vsnprintf(limitations->text[limitations->n++], LAB_LIMITATION_TEXT, format, args);
+    memcpy(limitations->text[limitations->n++], text, sizeof text);
   else
     snprintf(limitations->text[LAB_LIMITATION_MAX - 1], LAB_LIMITATION_TEXT,
              "There are more limitations than the %d listed.", (int)LAB_LIMITATION_MAX - 1);
+  return limitations->n;
 }
 
 void lab_limitation(lab_limitations *limitations, const char *format, ...)
@@ -25,11 +34,12 @@ void lab_limitation(lab_limitations *limitations, const char *format, ...)
 void lab_limitation_no_verdict(lab_limitations *limitations, const char *format, ...)
 {
   va_list args;
+  int number;
   va_start(args, format);
-  add(limitations, format, args);
+  number = add(limitations, format, args);
   va_end(args);
   if (!limitations->doubt)
-    limitations->doubt = limitations->n;
+    limitations->doubt = number;
 }
 
 void lab_limitations_join(lab_limitations *limitations, const lab_limitations *held_out)

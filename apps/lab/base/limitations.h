@@ -13,7 +13,7 @@ typedef struct lab_limitations {
   int doubt; /* 1 + the text for which no effect may be named; 0: none */
 } lab_limitations;
 
-/* Add a sentence. Beyond LAB_LIMITATION_MAX the last one says that there are more. */
+/* Add a sentence, once. Beyond LAB_LIMITATION_MAX the last one says that there are more. */
 void lab_limitation(lab_limitations *limitations, const char *format, ...) LAB_PRINTF(2, 3);
 
 /* Add a sentence that forbids naming an effect: the verdict is "undecided". */

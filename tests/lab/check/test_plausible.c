@@ -635,11 +635,21 @@ static void test_lab_limitation__too_many__says_so(void **state)
   lab_limitation(&limitations, "first");
   lab_limitation_no_verdict(&limitations, "second %d", 2);
   for (i = 0; i < 2 * LAB_LIMITATION_MAX; i++)
-    lab_limitation(&limitations, "more");
+    lab_limitation(&limitations, "more %d", i);
   assert_int_equal(limitations.n, LAB_LIMITATION_MAX);
   assert_int_equal(limitations.doubt, 2);
   assert_string_equal(limitations.text[1], "second 2");
   assert_contains(limitations.text[LAB_LIMITATION_MAX - 1], "more limitations");
+}
+
+static void test_lab_limitation__said_already__is_said_once(void **state)
+{
+  (void)state;
+  lab_limitation(&limitations, "short");
+  lab_limitation(&limitations, "noisy");
+  lab_limitation_no_verdict(&limitations, "short");
+  assert_int_equal(limitations.n, 2);
+  assert_int_equal(limitations.doubt, 1);
 }
 
 static void test_lab_limitations_join__held_out_doubt__is_only_a_remark(void **state)
@@ -738,6 +748,7 @@ int main(void)
       TEST(test_lab_log_thin__short_log__stays),
       TEST(test_lab_log_thin__two_runs__keep_their_ends),
       TEST(test_lab_limitation__too_many__says_so),
+      TEST(test_lab_limitation__said_already__is_said_once),
       TEST(test_lab_limitations_join__held_out_doubt__is_only_a_remark),
       TEST(test_lab_log_remove_hum__only_the_mains__is_taken_off),
       TEST(test_lab_log_remove_hum__uneven_rows__are_as_good),

@@ -1,6 +1,6 @@
 /* Draws the curves with uPlot: drag to zoom, double-click to see all, point, touch or move the slider to read values. */
 const { columns, runs, t, keys, panels } = JSON.parse(document.getElementById("curves").textContent);
-const PAPER = 690, FLAT = 0.36, SIDE = 0.39, SIDE_FLAT = 0.45; /* px: width of what is printed; its height against that on a screen; both beside a table */
+const PAPER = 690, FLAT = 0.32, SIDE = 0.39, SIDE_FLAT = 0.42; /* px: width of what is printed; its height against that on a screen; both beside a table */
 
 for (const column of columns) {
   let sum = 0;
