@@ -550,7 +550,7 @@ static void footprint_positioner(void)
   /* with a dead band of 1 % and cut-offs at 2 and 98 % */
   static const struct law {
     double set, x, opening;
-  } law[] = {{0.5, 0.5, 0},    {0.5, 0.49, 0},     {0.5, 0.51, 0},          {0.5, 0.489, 0.22},    {0.5, 0.511, -0.22},
+  } law[] = {{0.5, 0.5, 0},    {0.5, 0.4901, 0},   {0.5, 0.5099, 0},        {0.5, 0.489, 0.22},    {0.5, 0.511, -0.22},
              {0.5, 0.47, 0.6}, {0.5, 0.53, -0.6},  {0.9, 0.2, 1},           {0.2, 0.9, -1},        {0.019, 0, -1},
              {0.02, 0, 0.4},   {0.0201, 0, 0.402}, {0.98, 1, -0.4},         {0.981, 1, 1},         {0.9799, 1, -0.402},
              {-3, 0.5, -1},    {3, 0.5, 1},        {0.98 + 1e-14, 1, -0.4}, {0.02 - 1e-14, 0, 0.4}};
@@ -712,9 +712,36 @@ static void test_positioner__holds_and_ramps__always_end(void **state)
   }
 }
 
+/* A leak pushes the stem out of the dead band, air is let in, and friction keeps the stem where it is until the
+ * pressure has risen by the whole friction band, 2 F/A, so that the cycle begins again. */
+static void test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band(void **state)
+{
+  const double slice = 0.02, band = 2 * 480.0 / 0.04;
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  double low = 1e9, high = 0, t;
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  fixture_set(&p, "gain", 20);
+  fixture_set(&p, "dead_band", 0.003);
+  fixture_set(&p, "leak_area", 3e-8);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = set_position(&m, 0.5);
+  s = fixture_rest(&m, 0, 0, &input);
+  fixture_run(&m, &s, &input, 60, TOL(1e-7, 1e-4), NULL);
+  for (t = 0; t < 60; t += slice) {
+    fixture_run(&m, &s, &input, slice, TOL(1e-7, 1e-4), NULL);
+    low = (double)s.p < low ? (double)s.p : low;
+    high = (double)s.p > high ? (double)s.p : high;
+    assert_close((double)s.x / 0.02, 0.497, 1e-3, 0);
+  }
+  assert_close(high - low, band, 0, 0.03);
+}
+
 int main(void)
 {
-  enum { OTHERS = 6 };
+  enum { OTHERS = 7 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
@@ -723,6 +750,7 @@ int main(void)
       cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
       cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
       cmocka_unit_test(test_positioner__holds_and_ramps__always_end),
+      cmocka_unit_test(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
   return cmocka_run_group_tests(tests, NULL, NULL);

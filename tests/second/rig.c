@@ -191,15 +191,15 @@ static double seen(const second_rig *g, double x)
 /* What a positioner sends.  Out: flows, the share of its error that the integral takes up */
 static double law(const second_positioner *k, double set, double e, double integral, double rate, double *flows)
 {
-  double u = k->gain * (e + integral + k->derivative_time * rate), beyond = fabs(e) - k->dead_band, open = 1.0;
+  double u = k->gain * (e + integral + k->derivative_time * rate);
   int off = set < k->cutoff_low || set > k->cutoff_high;
   *flows = 0.0;
   if (off)
     return set < k->cutoff_low ? -1.0 : 1.0;
-  if (k->dead_band > 0.0)
-    open = beyond <= 0.0 ? 0.0 : beyond < k->edge ? beyond / k->edge : 1.0;
-  *flows = fabs(u) >= 1.0 ? 0.0 : open;
-  return open * fmin(fmax(u, -1.0), 1.0);
+  if (k->dead_band > 0.0 && fabs(e) <= k->dead_band)
+    return 0.0;
+  *flows = fabs(u) < 1.0;
+  return fmin(fmax(u, -1.0), 1.0);
 }
 
 static int is_continuous(const world *w)

@@ -255,7 +255,6 @@ static second_positioner other;
 static void set_positioner(pneu_params *p, second_rig *g, double size)
 {
   (void)g;
-  other.edge = 1e-4; /* as positioner.c has it */
   LAW(gain, 15);
   LAW(dead_band, 0.004);
   LAW(cutoff_low, 0.15);
