@@ -415,6 +415,12 @@ static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
   return tolerance;
 }
 
+static int is_of_sensor(int param)
+{
+  const int effect = pneu_effect_of(param);
+  return effect >= 0 && strcmp(pneu_effect_at(effect)->equation, "sensor") == 0;
+}
+
 /* Of a declared value, the least share that a fit takes it for: a stem of no mass and no friction would ring. */
 static const double held_least = 0.2;
 
@@ -433,7 +439,7 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
     x = &u->unknown[u->n - 1];
     x->prior = (double)*pneu_param_at(&u->declared, param);
     x->first = x->prior;
-    if (param < PNEU_PARAM_BASE_COUNT && x->prior > 0)
+    if (x->prior > 0 && !is_of_sensor(param))
       x->lower = fmax(x->lower, held_least * x->prior);
     x->spread = x->tolerance = x->scale = tolerance;
   }

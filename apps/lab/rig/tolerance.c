@@ -10,10 +10,10 @@
 /* What a share is one of. */
 enum span { OF_VALUE, OF_SUPPLY, OF_STROKE };
 
-/* Defaults: a share, or a quantity where that is not 0. An effect stands for its first parameter. */
+/* Defaults: a share, or a quantity where that is not 0. */
 static const struct kind {
   const char *name, *effect;
-  int param;
+  int param; /* of the model, or of the effect */
   enum span span;
   double share, quantity;
 } kinds[] = {
@@ -47,6 +47,10 @@ static const struct kind {
     {"position_gain", "position_gain", 0, OF_VALUE, 0, 0.0025},
     {"position_lag", "position_lag", 0, OF_VALUE, 0, 5e-3},
     {"clock", "channel_skew", 0, OF_VALUE, 0, 5e-3},
+    {"positioner.gain", "positioner", 0, OF_VALUE, 0.2, 0},
+    {"positioner.integral_time", "positioner", 1, OF_VALUE, 0, 0},
+    {"positioner.derivative_time", "positioner", 2, OF_VALUE, 0, 0},
+    {"positioner.dead_band", "positioner", 3, OF_VALUE, 0, 0},
     {"pressure_drift", NULL, LAB_PRESSURE_DRIFT, OF_SUPPLY, 0.0025, 0},
     {"position_drift", NULL, LAB_POSITION_DRIFT, OF_STROKE, 0.0025, 0},
 };
@@ -58,7 +62,7 @@ static int param_of(const struct kind *k)
   const int effect = k->effect ? pneu_effect_find(k->effect) : 0;
   if (!k->effect)
     return k->param;
-  return effect < 0 ? -1 : pneu_effect_params(effect, NULL);
+  return effect < 0 ? -1 : pneu_effect_params(effect, NULL) + k->param;
 }
 
 /* What a share of a kind's tolerance is a share of. */
@@ -68,9 +72,9 @@ static double whole_of(const struct kind *k, const lab_rig *rig)
     return fabs((double)rig->params.supply_pressure);
   if (k->span == OF_STROKE)
     return (double)rig->params.stroke;
-  if (k->effect || k->param == LAB_PARAM_ORIFICE_AREA)
+  if (k->quantity > 0 || param_of(k) == LAB_PARAM_ORIFICE_AREA)
     return 1;
-  return fabs(lab_param_value(rig, k->param));
+  return fabs(lab_param_value(rig, param_of(k)));
 }
 
 /* The unit of a kind's tolerance, SI. */
@@ -95,6 +99,16 @@ const char *lab_tolerance_name(int param)
     if (param_of(&kinds[i]) == param)
       return kinds[i].name;
   return NULL;
+}
+
+/* The name of a kind in the group, which has no points: "positioner_gain". */
+static const char *key_of(const struct kind *k, char key[LAB_PARAM_NAME_TEXT])
+{
+  char *at;
+  snprintf(key, LAB_PARAM_NAME_TEXT, "%s", k->name);
+  while ((at = strchr(key, '.')))
+    *at = '_';
+  return key;
 }
 
 /* A text such as "5 %" of something that is not a share itself. */
@@ -128,9 +142,10 @@ static int read_one(const config_setting_t *setting, const struct kind *k, lab_r
 int lab_tolerance_read(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
   const char *names[KINDS + 1] = {"others"};
+  char keys[KINDS][LAB_PARAM_NAME_TEXT];
   int i, which, status;
   for (i = 0; i < KINDS; i++)
-    names[i + 1] = kinds[i].name;
+    names[i + 1] = key_of(&kinds[i], keys[i]);
   status = lab_config_known(group, names, KINDS + 1, sizeof names[0], error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
@@ -157,7 +172,7 @@ double lab_tolerance(const lab_rig *rig, int param)
 
 void lab_tolerance_write(FILE *file, const lab_rig *rig)
 {
-  char number[LAB_NUMBER_TEXT];
+  char number[LAB_NUMBER_TEXT], key[LAB_PARAM_NAME_TEXT];
   int i, any = rig->others_are_exact;
   if (any)
     fputs("tolerance = {\n  others = 0;\n", file);
@@ -165,7 +180,7 @@ void lab_tolerance_write(FILE *file, const lab_rig *rig)
     const int param = param_of(&kinds[i]);
     if (param < 0 || isnan(rig->tolerance[param]))
       continue;
-    fprintf(file, "%s  %s = \"%s %s\";\n", any++ ? "" : "tolerance = {\n", kinds[i].name,
+    fprintf(file, "%s  %s = \"%s %s\";\n", any++ ? "" : "tolerance = {\n", key_of(&kinds[i], key),
             lab_number_write(rig->tolerance[param], number), unit_of(&kinds[i]));
   }
   if (any)

@@ -232,7 +232,9 @@ static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
 
 int lab_score_can_be_missing(const lab_rig *rig, int effect)
 {
-  return strncmp(pneu_effect_at(effect)->name, "positioner", strlen("positioner")) != 0 || lab_rig_has_positioner(rig);
+  const char *name = pneu_effect_at(effect)->name;
+  return strncmp(name, "positioner", strlen("positioner")) != 0 ||
+         (strcmp(name, "positioner") != 0 && lab_rig_has_positioner(rig));
 }
 
 /* Whether the logs measure what an effect sets apart: the skew of channels takes two. */

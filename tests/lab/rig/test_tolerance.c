@@ -48,6 +48,19 @@ static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 }
 
 /* Wherever the group stands: a share of the supply is one of what the file declares. */
+static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(void **state)
+{
+  const int gain = pneu_param_find("gain");
+  (void)state;
+  assert_int_equal(read_rig("positioner = { gain = 30; };"), LAB_OK);
+  assert_close(lab_tolerance(&rig, gain), 0.2 * 30, 0, 1e-12);
+  assert_string_equal(lab_tolerance_name(gain), "positioner.gain");
+  assert_int_equal(read_rig("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };"), LAB_OK);
+  assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
+  assert_int_equal(read_rig(""), LAB_OK);
+  assert_close(lab_tolerance(&rig, gain), 0, 0, 0);
+}
+
 static void test_lab_tolerance_read__others__are_exact(void **state)
 {
   (void)state;
@@ -87,6 +100,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_tolerance__no_group__is_the_default_of_the_kind),
       cmocka_unit_test(test_lab_tolerance_read__share_and_quantity__are_in_si),
+      cmocka_unit_test(test_lab_tolerance_read__positioner__is_a_share_of_its_own_value),
       cmocka_unit_test(test_lab_tolerance_read__others__are_exact),
       cmocka_unit_test(test_lab_tolerance_read__mistakes__are_named),
       cmocka_unit_test(test_lab_tolerance_write__given_ones__are_read_again),

@@ -163,6 +163,15 @@ static void test_lab_search_run__positioner_out_of_adjustment__is_named_and_size
   assert_found("positioner_overlap", "positioner_overlap.overlap", 0.05, 5e-2);
 }
 
+static void test_lab_search_run__another_gain__is_a_value_that_is_off(void **state)
+{
+  (void)state;
+  k.gain = 14;
+  close_loop(WITH_SP | WITH_P);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find("gain")), 14, 0, 2e-2);
+}
+
 static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop(void **state)
 {
   (void)state;
@@ -209,6 +218,7 @@ int main(void)
       CASE(test_lab_search_run__set_position_and_travel__nothing_is_missing),
       CASE(test_lab_search_run__set_position_in_many_small_steps__is_no_hum),
       CASE(test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized),
+      CASE(test_lab_search_run__another_gain__is_a_value_that_is_off),
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
       CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing),
