@@ -31,7 +31,7 @@ static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
   for (i = 0; i < rig->n_fit; i++)
     fitted |= rig->fit[i] == x->index;
   return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&
-         (fitted || lab_unknown_is_held(x));
+         (fitted || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));
 }
 
 /* How many values are compared. */
@@ -76,7 +76,7 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   d->upper = unit * fit->high[j];
   d->ratio = d->declared != 0 ? d->found / d->declared : (double)NAN;
   d->tolerance = d->declared != 0 ? tolerance / fabs(d->declared) : tolerance;
-  d->held = lab_unknown_is_held(x);
+  d->held = lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
   d->beyond = fabs(d->found - d->declared) > tolerance;
   return tolerance > 0 ? fabs(d->found - d->declared) / tolerance : (double)INFINITY;
 }

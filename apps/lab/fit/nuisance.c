@@ -109,8 +109,8 @@ int lab_nuisance_strain(const lab_unknowns *u, double *strain, lab_error *error)
   int j, status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
   *strain = u->window == 0 && status == LAB_OK ? lab_drift_strain(u, r) : 0;
   for (j = 0; j < u->n; j++)
-    if (lab_unknown_is_held(&u->unknown[j]))
-      *strain = fmax(*strain, fabs(u->unknown[j].value - u->unknown[j].prior) / u->unknown[j].spread);
+    if (lab_unknown_is_held(&u->unknown[j]) || lab_unknown_is_let_go(&u->unknown[j]))
+      *strain = fmax(*strain, fabs(u->unknown[j].value - u->unknown[j].prior) / u->unknown[j].tolerance);
   for (j = 0; h && status == LAB_OK && j < h->n; j++)
     if (lab_unknown_is_held(&h->of[j]) && lab_unknowns_find(u, h->of[j].index) < 0)
       *strain = fmax(*strain, fabs(r[h->n_data + (size_t)j]) / h->misfit);

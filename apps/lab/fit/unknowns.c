@@ -424,6 +424,9 @@ static int is_of_sensor(int param)
 /* Of a declared value, the least share that a fit takes it for: a stem of no mass and no friction would ring. */
 static const double held_least = 0.2;
 
+/* The highest pressure of air that weather and depth make, about [Pa]: 108.5 kPa was measured (Tosontsengel, 2001). */
+static const double highest_ambient = 110e3;
+
 int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
 {
   lab_rig declared = u->rig;
@@ -441,10 +444,24 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
     x->first = x->prior;
     if (x->prior > 0 && !is_of_sensor(param))
       x->lower = fmax(x->lower, held_least * x->prior);
+    if (param == PNEU_PARAM_ambient_pressure)
+      x->upper = fmax(x->prior, highest_ambient);
     x->spread = x->tolerance = x->scale = tolerance;
   }
   lab_unknowns_view(u, u->window);
   return LAB_OK;
+}
+
+void lab_unknowns_let_go(lab_unknowns *u, int j)
+{
+  lab_unknown *x = &u->unknown[j];
+  x->spread = 0;
+  x->scale = fmax(fabs(x->prior), x->tolerance);
+}
+
+int lab_unknown_is_let_go(const lab_unknown *x)
+{
+  return x->kind == LAB_UNKNOWN_PARAM && x->index < PNEU_PARAM_BASE_COUNT && x->tolerance > 0 && x->spread == 0;
 }
 
 /* Move what a result says of one unknown. */

@@ -78,6 +78,12 @@ int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error);
 /* How far what is known of an unknown lets it vary: its spread, less where the model leaves more than noise. */
 double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x);
 
+/* Let a held value go: nothing is known of it any more, but it is still compared with its declared value. */
+void lab_unknowns_let_go(lab_unknowns *u, int j);
+
+/* Whether an unknown is a declared value that was held and let go. */
+int lab_unknown_is_let_go(const lab_unknown *x);
+
 /* Hold no longer: what was held stays in the model as it is.
  * In/out:  result  intervals of the unknowns, from which it is taken out; NULL: none */
 void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result);

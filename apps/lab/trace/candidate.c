@@ -2,8 +2,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "../base/clock.h"
 #include "../base/quantile.h"
 #include "../fit/nuisance.h"
 
@@ -83,6 +85,46 @@ int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
   if (status == LAB_OK && c->u.misfit < less * before)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+/* What its prior costs a declared value that is held; 0: it is none. */
+static double cost_of_value(const lab_unknowns *u, const lab_unknown *x)
+{
+  if (x->kind != LAB_UNKNOWN_PARAM || x->index >= PNEU_PARAM_BASE_COUNT || !lab_unknown_is_held(x))
+    return 0;
+  return pow((x->value - x->prior) / lab_unknown_reach(u, x), 2);
+}
+
+/* Let go the one value that takes most off BIC.  Out: any  whether one does */
+static int let_one_go(lab_candidate *c, int *any, lab_error *error)
+{
+  const double price = log((double)c->u.n_values);
+  lab_candidate *best = malloc(2 * sizeof *best), *trial = best + 1;
+  int j, status = LAB_OK;
+  if (!best)
+    return lab_fail_memory(error, "a candidate");
+  *best = *c;
+  for (j = 0; j < c->u.n && status != LAB_WORLD && !lab_cpu_is_spent(c->u.until); j++) {
+    if (!(cost_of_value(&c->u, &c->u.unknown[j]) > price))
+      continue;
+    *trial = *c;
+    lab_unknowns_let_go(&trial->u, j);
+    status = lab_candidate_fit(trial, LAB_ROUNDS_ALL, error);
+    if (status == LAB_OK && lab_candidate_by_bic(trial, best) < 0)
+      *best = *trial;
+  }
+  *any = best->quality.bic < c->quality.bic;
+  *c = *best;
+  free(best);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+int lab_candidate_let_go(lab_candidate *c, lab_error *error)
+{
+  int any = c->quality.fitted, status = LAB_OK;
+  while (any && status == LAB_OK)
+    status = let_one_go(c, &any, error);
+  return status;
 }
 
 int lab_candidate_hold(lab_candidate *c, lab_error *error)

@@ -36,6 +36,11 @@ int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
  * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_WORLD. */
 int lab_candidate_fit_held(lab_candidate *c, lab_error *error);
 
+/* Let values go that are held far from where the logs want them, one after the other, while BIC falls: many values that
+ * are each off a little, at the cost of a square, pass for one that is off by much. It is the one that is told.
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_candidate_let_go(lab_candidate *c, lab_error *error);
+
 /* Hold what is declared to its tolerances, and fit so.
  * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_DATA if there is no room; LAB_WORLD. */
 int lab_candidate_hold(lab_candidate *c, lab_error *error);

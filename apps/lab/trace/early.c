@@ -116,6 +116,11 @@ static size_t go_further(const size_t between[2], size_t rows, size_t n)
   return between[1] <= n ? (between[0] + between[1]) / 2 : more < n ? more : n;
 }
 
+static int is_plainly_off(const lab_quality *q)
+{
+  return !q->fitted || q->chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * q->values;
+}
+
 /* The longest beginning that leaves only noise.
  * In/out:  c        the declared model with its values held; then fitted to that
  * Out:     between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
@@ -134,7 +139,7 @@ static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_e
     *next = *c;
     status = (between[1] > n && between[0] > 0 ? fit_beginning_again : fit_beginning)(next, length, error);
     between[!lab_is_noise(&next->quality)] = length;
-    *plain |= !next->quality.fitted || next->quality.chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * next->quality.values;
+    *plain |= is_plainly_off(&next->quality);
     if (status != LAB_OK || between[0] == 0)
       break;
     if (between[0] == length) {
@@ -248,6 +253,10 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
     *c = *within;
     lab_unknowns_undo_fit(&c->u);
     status = find_beginning(c, between, &plain, error);
+  }
+  if (status == LAB_OK && between[0] > 0 && between[0] < n && !plain) {
+    status = lab_candidate_fit_held(within, error);
+    plain = is_plainly_off(&within->quality);
   }
   if (status == LAB_OK && between[0] == n)
     *within = *c;

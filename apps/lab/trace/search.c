@@ -156,7 +156,7 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   }
   if (status == LAB_OK && !within->quality.fitted)
     status = lab_candidate_fit_held(within, error);
-  return status;
+  return status == LAB_OK ? lab_candidate_let_go(within, error) : status;
 }
 
 /* A search holds what varies unseen to straight lines. If the declared model, fitted without them, is the better one
