@@ -20,7 +20,7 @@ static double tolerance_of(const lab_run *x, int c)
 static double line_at(const lab_run *x, int c, size_t i)
 {
   const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first, whole = t[x->n - 1] - t[0];
-  const double share = whole > 0 && !isnan(lab_run_measured(x, c, i)) ? (t[i] - t[0]) / whole - 0.5 : 0;
+  const double share = whole > 0 && !isnan(lab_run_measured(x, c, i)) ? (t[i] - t[0]) / whole : 0;
   return share * tolerance_of(x, c) / x->sigma[c];
 }
 

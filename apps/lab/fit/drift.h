@@ -1,4 +1,5 @@
-/* Sensors that drift: over a run, a channel is off by a straight line in time that is known to a tolerance.
+/* Sensors that drift: over a run, a channel comes to be off by a straight line in time, from nothing at its
+ * first row on, that is known to a tolerance.
  *
  * A line is no unknown. It is a part of the noise, with the covariance of a prior: what it explains within its
  * tolerance is taken out of every residual, and nothing is simulated for it.

@@ -55,7 +55,7 @@ static void close_run(void)
 /* w: what a drift of one tolerance adds, over the noise. */
 static double line(int i)
 {
-  return i == GAP ? 0 : tolerance / sigma * ((double)i / (ROWS - 1) - 0.5);
+  return i == GAP ? 0 : tolerance / sigma * (double)i / (ROWS - 1);
 }
 
 static double dot(const double *a, double (*b)(int), const double *c)
@@ -129,13 +129,13 @@ static void test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_ou
   virtual_declare(&rig);
   assert_int_equal(lab_log_read(path, &rig.log, 101325, &seen, &error), LAB_OK);
   for (i = 0; i < LONG; i++)
-    seen.value[LAB_CHANNEL_P][i] += reach * ((double)i / (LONG - 1) - 0.5);
+    seen.value[LAB_CHANNEL_P][i] += reach * (double)i / (LONG - 1);
   assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
   lab_unknowns_none(&rig, &run, 1, u);
   assert_int_equal(lab_errors_without_drift(u, &with, &error), LAB_OK);
   assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
   assert_int_equal(lab_errors_without_drift(u, &without, &error), LAB_OK);
-  assert_close(with.in_noise[LAB_CHANNEL_P], sqrt(1 + reach * reach / 12 / (320 * 320)), 0, 0.03);
+  assert_close(with.in_noise[LAB_CHANNEL_P], sqrt(1 + reach * reach / 3 / (320 * 320)), 0, 0.03);
   assert_close(without.in_noise[LAB_CHANNEL_P], 1, 0, 0.03);
   assert_close(without.in_noise[LAB_CHANNEL_X], with.in_noise[LAB_CHANNEL_X], 0, 0.001);
   lab_run_close(&run);
