@@ -84,11 +84,17 @@ int lab_report_size(const lab_report *report, int param)
   return j >= 0 ? j : lab_unknowns_find(report->completed, param);
 }
 
+/* When the logs begin [s]. */
+static double start_of(const lab_unknowns *u)
+{
+  return u->n_runs > 0 ? u->run[0].log->value[LAB_CHANNEL_TIME][u->run[0].first] : -HUGE_VAL;
+}
+
 const lab_onset *lab_report_onset(const lab_report *report, int param)
 {
   const int j = lab_unknowns_find_onset(report->completed, param);
   const lab_onset *begin = j < 0 ? NULL : &report->result->begin[report->completed->unknown[j].index];
-  return begin && begin->known ? begin : NULL;
+  return begin && begin->known && begin->low > start_of(report->completed) ? begin : NULL;
 }
 
 const char *lab_report_since(const lab_onset *onset, char text[LAB_SINCE_TEXT])

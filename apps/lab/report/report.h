@@ -75,7 +75,7 @@ const pneu_term *lab_report_term(const lab_report *report, const lab_found *foun
  * Returns: its place among those of the completed model, -1 if it was not fitted */
 int lab_report_size(const lab_report *report, int param);
 
-/* When a parameter of the completed model takes another value.  Returns: NULL if it has one throughout */
+/* When a parameter of the completed model takes another value.  Returns: NULL if it has one throughout, or may have */
 const lab_onset *lab_report_onset(const lab_report *report, int param);
 
 /* " since 12.3 s (12.29 to 12.31 s)", "" without an onset.  Out: text  Returns: text */

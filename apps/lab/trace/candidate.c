@@ -121,7 +121,8 @@ static int let_one_go(lab_candidate *c, int *any, lab_error *error)
 
 int lab_candidate_let_go(lab_candidate *c, lab_error *error)
 {
-  int any = c->quality.fitted, status = LAB_OK;
+  int any = c->quality.fitted && c->quality.chi2 < lab_constant(LAB_LET_GO) * c->quality.values;
+  int status = LAB_OK;
   while (any && status == LAB_OK)
     status = let_one_go(c, &any, error);
   return status;

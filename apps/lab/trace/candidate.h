@@ -37,7 +37,8 @@ int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
 int lab_candidate_fit_held(lab_candidate *c, lab_error *error);
 
 /* Let values go that are held far from where the logs want them, one after the other, while BIC falls: many values that
- * are each off a little, at the cost of a square, pass for one that is off by much. It is the one that is told.
+ * are each off a little, at the cost of a square, pass for one that is off by much. It is the one that is told. Where
+ * much more is left than noise, something is missing, for which these values would make up: none is let go.
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_candidate_let_go(lab_candidate *c, lab_error *error);
 

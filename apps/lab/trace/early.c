@@ -235,11 +235,12 @@ static int fit_onset(const lab_candidate *base, const size_t between[2], double 
   return status;
 }
 
-/* Whether something begins after the first row, beyond doubt. */
+/* Whether something begins later, beyond doubt, than what acts throughout would show. */
 static int begins_later(const lab_candidate *onset)
 {
   const lab_run *x = onset->u.run;
-  return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][x->first];
+  const size_t early = x->first + x->n / (2 * SHORTEST);
+  return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][early];
 }
 
 int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, lab_error *error)

@@ -42,8 +42,7 @@ int lab_rounds_unfold(lab_rounds *s, lab_error *error)
   if (status == LAB_NUMERIC) {
     *best = s->without;
     status = LAB_OK;
-  } else if (status == LAB_OK)
-    status = lab_candidate_let_go(best, error);
+  }
   lab_rounds_note_values(s->result, &best->u);
   return status;
 }
