@@ -111,27 +111,25 @@ static const char *key_of(const struct kind *k, char key[LAB_PARAM_NAME_TEXT])
   return key;
 }
 
-/* A text such as "5 %" of something that is not a share itself. */
-static int is_share(const config_setting_t *setting, const char *unit)
+/* A text such as "5 %" of something that is not a share itself, or is usually known to a share. */
+static int is_share(const config_setting_t *setting, const struct kind *k)
 {
   const char *text = config_setting_get_string(setting);
-  return text && strchr(text, '%') && strcmp(unit, "1") != 0;
+  return text && strchr(text, '%') && (k->share > 0 || strcmp(unit_of(k), "1") != 0);
 }
 
 static int read_one(const config_setting_t *setting, const struct kind *k, lab_rig *rig, lab_error *error)
 {
   const int param = param_of(k);
-  const char *unit;
   double value;
   int status;
   if (param < 0)
     return LAB_OK;
-  unit = unit_of(k);
-  if (is_share(setting, unit)) {
+  if (is_share(setting, k)) {
     status = lab_config_quantity(setting, "1", 0, INFINITY, &value, error);
     value *= whole_of(k, rig);
   } else {
-    status = lab_config_difference(setting, unit, &value, error);
+    status = lab_config_difference(setting, unit_of(k), &value, error);
     if (status == LAB_OK && !(value >= 0))
       status = lab_config_expected(setting, "a standard deviation, 0 or more", error);
   }

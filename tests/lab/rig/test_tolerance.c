@@ -57,6 +57,8 @@ static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(voi
   assert_string_equal(lab_tolerance_name(gain), "positioner.gain");
   assert_int_equal(read_rig("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };"), LAB_OK);
   assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
+  assert_int_equal(read_rig("positioner = { gain = 30; }; tolerance = { positioner_gain = \"10 %\"; };"), LAB_OK);
+  assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
   assert_int_equal(read_rig(""), LAB_OK);
   assert_close(lab_tolerance(&rig, gain), 0, 0, 0);
 }
