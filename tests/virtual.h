@@ -23,6 +23,11 @@ static inline second_rig virtual_rig(uint64_t seed)
   return g;
 }
 
+/* A command that fills, holds and vents, wholly and in part, within 14 s. */
+enum { VIRTUAL_COMMANDS = 8 };
+static const double virtual_t_cmd[VIRTUAL_COMMANDS] = {0.402, 2.003, 3.201, 4.507, 6.204, 8.002, 9.503, 11.507};
+static const double virtual_u_cmd[VIRTUAL_COMMANDS] = {1, 0, -1, 0, 0.8, -0.6, 1, -1};
+
 /* Write the log of a course: u, p and x in SI, every `spacing` [s] up to `end` [s]. */
 static inline void virtual_write(const second_rig *g, const second_course *course, double end, double spacing,
                                  const char *path)

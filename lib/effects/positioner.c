@@ -8,11 +8,12 @@
  * The state is I, 0 at rest. It stands still within the dead band, beyond the cut-offs and while u is clipped, lest it
  * wind up. Without pneu_input.set_position the command is u itself, and I stands still.
  * The rate of I where u is clipped follows a straight line over CLIPPED of the opening. u jumps at the edge of the dead
- * band, where error control shortens the step: a stem that a leak pushes out of the band is filled back into it, stops
- * by its friction, and is pushed out again. An opening that rises over 0.01 % of the stroke would hold it there
- * instead, and p would be off by up to the friction band (10 kPa on a rig with a leak of 3 % of its fill orifice). A
- * stem without friction goes in and out a hundred times a second; a run then takes some 16 times as long. Size: gain 10
- * to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
+ * band, where error control shortens the step: a stem that a leak pushes out of the band stops by its friction where it
+ * is, and air is let in until p has risen by the friction band, 2 F/A; then the cycle begins again. An opening that
+ * rises over 0.01 % of the stroke would hold the stem there, and p would be off by up to that. Without friction the
+ * stem goes in and out all the time: one such run took 16 times as long.
+ *
+ * Size: gain 10 to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
 #include "../internal.h"
 
 #define CLIPPED  PNEU_C(1e-3)

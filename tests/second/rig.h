@@ -81,8 +81,8 @@ typedef struct {
 
 /* A positioner: at every cycle, or all the time, with e = set position - x in shares of the stroke, it sends
  *   u = clip(gain (e + integral of e over integral_time + derivative_time de/dt), -1, 1),
- * 0 where |e| is within the dead band; set below cutoff_low it vents, above
- * cutoff_high it fills. The integral stands still within the dead band, beyond the cut-offs and while u is clipped. */
+ * 0 where |e| is within the dead band; set below cutoff_low it vents, above cutoff_high it fills. The integral stands
+ * still within the dead band, beyond the cut-offs and while u is clipped. */
 typedef struct {
   double gain, integral_time, derivative_time; /* 1, s (0: no integral), s */
   double dead_band, cutoff_low, cutoff_high;   /* shares of the stroke */

@@ -415,7 +415,7 @@ static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
   return tolerance;
 }
 
-static int is_of_sensor(int param)
+int lab_param_is_of_sensor(int param)
 {
   const int effect = pneu_effect_of(param);
   return effect >= 0 && strcmp(pneu_effect_at(effect)->equation, "sensor") == 0;
@@ -442,7 +442,7 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
     x = &u->unknown[u->n - 1];
     x->prior = (double)*pneu_param_at(&u->declared, param);
     x->first = x->prior;
-    if (x->prior > 0 && !is_of_sensor(param))
+    if (x->prior > 0 && !lab_param_is_of_sensor(param))
       x->lower = fmax(x->lower, held_least * x->prior);
     if (param == PNEU_PARAM_ambient_pressure)
       x->upper = fmax(x->prior, highest_ambient);

@@ -78,6 +78,9 @@ int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error);
 /* How far what is known of an unknown lets it vary: its spread, less where the model leaves more than noise. */
 double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x);
 
+/* Whether parameter `param` is an error of a sensor, and no value of the rig. */
+int lab_param_is_of_sensor(int param);
+
 /* Let a held value go: nothing is known of it any more, but it is still compared with its declared value. */
 void lab_unknowns_let_go(lab_unknowns *u, int j);
 

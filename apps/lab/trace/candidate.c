@@ -87,12 +87,15 @@ int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* What its prior costs a declared value that is held; 0: it is none. */
-static double cost_of_value(const lab_unknowns *u, const lab_unknown *x)
+/* What the prior of something that is held adds to chi-square. */
+static double cost_of_prior(const lab_unknowns *u, const lab_unknown *x)
 {
-  if (x->kind != LAB_UNKNOWN_PARAM || x->index >= PNEU_PARAM_BASE_COUNT || !lab_unknown_is_held(x))
-    return 0;
   return pow((x->value - x->prior) / lab_unknown_reach(u, x), 2);
+}
+
+static int is_value_held(const lab_unknown *x)
+{
+  return x->kind == LAB_UNKNOWN_PARAM && x->index < PNEU_PARAM_BASE_COUNT && lab_unknown_is_held(x);
 }
 
 /* Let go the one value that takes most off BIC.  Out: any  whether one does */
@@ -105,7 +108,7 @@ static int let_one_go(lab_candidate *c, int *any, lab_error *error)
     return lab_fail_memory(error, "a candidate");
   *best = *c;
   for (j = 0; j < c->u.n && status != LAB_WORLD && !lab_cpu_is_spent(c->u.until); j++) {
-    if (!(cost_of_value(&c->u, &c->u.unknown[j]) > price))
+    if (!is_value_held(&c->u.unknown[j]) || !(cost_of_prior(&c->u, &c->u.unknown[j]) > price))
       continue;
     *trial = *c;
     lab_unknowns_let_go(&trial->u, j);
@@ -121,8 +124,7 @@ static int let_one_go(lab_candidate *c, int *any, lab_error *error)
 
 int lab_candidate_let_go(lab_candidate *c, lab_error *error)
 {
-  int any = c->quality.fitted && c->quality.chi2 < lab_constant(LAB_LET_GO) * c->quality.values;
-  int status = LAB_OK;
+  int any = !lab_is_plainly_off(&c->quality), status = LAB_OK;
   while (any && status == LAB_OK)
     status = let_one_go(c, &any, error);
   return status;
@@ -174,7 +176,7 @@ void lab_candidate_name(const lab_candidate *c, char *text, size_t size)
 
 int lab_found_is_of_sensor(const lab_found *found)
 {
-  return found->effect >= 0 && strcmp(pneu_effect_at(found->effect)->equation, "sensor") == 0;
+  return found->effect >= 0 && lab_param_is_of_sensor(found->param);
 }
 
 int lab_candidate_begins(const lab_candidate *c)
@@ -196,13 +198,9 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* What the prior of an error of an instrument adds to chi-square; 0: it is none. */
-static double cost_of_instrument(const lab_unknowns *u, const lab_unknown *x)
+static int is_instrument_held(const lab_unknown *x)
 {
-  const int effect = x->kind == LAB_UNKNOWN_PARAM && lab_unknown_is_held(x) ? pneu_effect_of(x->index) : -1;
-  if (effect < 0 || strcmp(pneu_effect_at(effect)->equation, "sensor") != 0)
-    return 0;
-  return pow((x->value - x->prior) / lab_unknown_reach(u, x), 2);
+  return x->kind == LAB_UNKNOWN_PARAM && lab_param_is_of_sensor(x->index) && lab_unknown_is_held(x);
 }
 
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
@@ -212,7 +210,7 @@ int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
   *any = 0;
   for (j = 0; j < c->u.n && c->n_found < LAB_EFFECTS_MAX && status == LAB_OK; j++) {
     const lab_unknown x = c->u.unknown[j];
-    const double cost = cost_of_instrument(&c->u, &x);
+    const double cost = is_instrument_held(&x) ? cost_of_prior(&c->u, &x) : 0;
     lab_found *found;
     if (!(cost - log((double)c->u.n_values) > lab_constant(LAB_ALIKE_BIC)))
       continue;

@@ -43,6 +43,11 @@ int lab_is_noise(const lab_quality *q)
   return q->fitted && (q->white || is_as_small_as_noise(q));
 }
 
+int lab_is_plainly_off(const lab_quality *q)
+{
+  return !q->fitted || q->chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * q->values;
+}
+
 int lab_is_clean(const lab_quality *q)
 {
   return q->fitted && q->chi2 < beyond(q, LAB_CLEAN_DEVIATIONS) && !lab_is_strained(q);

@@ -44,6 +44,9 @@ typedef struct lab_quality {
 /* Whether a fitted model leaves only noise: chi-square as expected of the declared noise, or white. */
 int lab_is_noise(const lab_quality *q);
 
+/* Whether a model could not be fitted, or leaves more than could be noise. */
+int lab_is_plainly_off(const lab_quality *q);
+
 /* Whether a model fits only with a declared value far beyond its tolerance. */
 int lab_is_strained(const lab_quality *q);
 

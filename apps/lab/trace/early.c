@@ -116,11 +116,6 @@ static size_t go_further(const size_t between[2], size_t rows, size_t n)
   return between[1] <= n ? (between[0] + between[1]) / 2 : more < n ? more : n;
 }
 
-static int is_plainly_off(const lab_quality *q)
-{
-  return !q->fitted || q->chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * q->values;
-}
-
 /* The longest beginning that leaves only noise.
  * In/out:  c        the declared model with its values held; then fitted to that
  * Out:     between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
@@ -139,7 +134,7 @@ static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_e
     *next = *c;
     status = (between[1] > n && between[0] > 0 ? fit_beginning_again : fit_beginning)(next, length, error);
     between[!lab_is_noise(&next->quality)] = length;
-    *plain |= is_plainly_off(&next->quality);
+    *plain |= lab_is_plainly_off(&next->quality);
     if (status != LAB_OK || between[0] == 0)
       break;
     if (between[0] == length) {
@@ -235,12 +230,11 @@ static int fit_onset(const lab_candidate *base, const size_t between[2], double 
   return status;
 }
 
-/* Whether something begins later, beyond doubt, than what acts throughout would show. */
+/* Whether something begins after the first row, beyond doubt. */
 static int begins_later(const lab_candidate *onset)
 {
   const lab_run *x = onset->u.run;
-  const size_t early = x->first + x->n / (2 * SHORTEST);
-  return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][early];
+  return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][x->first];
 }
 
 int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, lab_error *error)
@@ -257,7 +251,7 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
   }
   if (status == LAB_OK && between[0] > 0 && between[0] < n && !plain) {
     status = lab_candidate_fit_held(within, error);
-    plain = is_plainly_off(&within->quality);
+    plain = lab_is_plainly_off(&within->quality);
   }
   if (status == LAB_OK && between[0] == n)
     *within = *c;

@@ -8,10 +8,7 @@
 #include "../../../apps/lab/trace/candidate.h"
 #include "../../../apps/lab/trace/decide.h"
 
-enum { COMMANDS = 8 };
 static const double end = 14, spacing = 0.01; /* [s] */
-static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.201, 4.507, 6.204, 8.002, 9.503, 11.507};
-static const double u_cmd[COMMANDS] = {1, 0, -1, 0, 0.8, -0.6, 1, -1};
 
 static lab_rig rig;
 static lab_log log_read;
@@ -21,7 +18,7 @@ static lab_candidate c;
 /* The declared model within its tolerances, fitted to a log of a rig. */
 static void hold(const second_rig *truth)
 {
-  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+  const second_course course = {.t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS};
   lab_error error = {0, ""};
   virtual_write(truth, &course, end, spacing, scratch_path("log.csv"));
   virtual_declare(&rig);

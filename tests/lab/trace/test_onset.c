@@ -10,10 +10,8 @@
 #include "../../../apps/lab/trace/early.h"
 #include "../../../apps/lab/trace/search.h"
 
-enum { ROWS = 1401, COMMANDS = 8 };
+enum { ROWS = 1401 };
 static const double end = 14, spacing = 0.01; /* [s] */
-static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.201, 4.507, 6.204, 8.002, 9.503, 11.507};
-static const double u_cmd[COMMANDS] = {1, 0, -1, 0, 0.8, -0.6, 1, -1};
 
 static lab_rig rig;
 static lab_log log_read;
@@ -30,7 +28,8 @@ static second_rig true_rig(void)
 /* A log of a rig that is another from some time on. */
 static void write_log(const second_rig *first, const second_rig *later, double change)
 {
-  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS, .later = later, .change = change};
+  const second_course course = {
+      .t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS, .later = later, .change = change};
   virtual_write(first, &course, end, spacing, scratch_path("log.csv"));
 }
 
