@@ -347,18 +347,62 @@ static int take_out_what_harms(lab_finding *f, lab_error *error)
   return status;
 }
 
+/* Whether what was found can as well be nothing: its interval reaches the value that has no effect. */
+static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, const lab_found *found)
+{
+  const int j = found->effect >= 0 ? lab_unknowns_find(&c->u, found->param) : -1;
+  pneu_param_info info;
+  if (j < 0)
+    return 0;
+  pneu_param_describe(found->param, &info);
+  return fit->low[j] <= (double)info.neutral && (double)info.neutral <= fit->high[j];
+}
+
+/* Take out one effect that can as well be nothing, if only noise is left without it: a switch that comes a row sooner
+ * by accident lowers chi-square as much as a small effect does.
+ * In/out:  f  with its intervals */
+static int take_out_accident(lab_finding *f, int *any, lab_error *error)
+{
+  lab_candidate *without = malloc(sizeof *without);
+  int i, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
+  *any = 0;
+  for (i = f->best.n_found - 1; status == LAB_OK && !*any && i >= 0; i--)
+    if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
+      status = lab_candidate_leave_out(&f->best, i, without, error);
+      *any = status == LAB_OK && lab_is_noise(&without->quality);
+    }
+  if (*any) {
+    f->best = *without;
+    f->result.verdict = f->best.n_found > 0 ? f->result.verdict : LAB_VERDICT_NONE;
+    lab_rounds_note_way(&f->result, &f->best);
+  }
+  free(without);
+  return status;
+}
+
+/* Intervals of the model that was found, without what can as well be nothing. */
+static int find_intervals(lab_finding *f, lab_error *error)
+{
+  int again = 1, status = LAB_OK;
+  while (status == LAB_OK && again) {
+    status = lab_unknowns_intervals(&f->best.u, &f->result.fit, error);
+    if (status == LAB_OK)
+      status = take_out_accident(f, &again, error);
+  }
+  return status;
+}
+
 /* Intervals and errors of the model that was found.
  * Out:     u, result */
 static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, lab_error *error)
 {
-  int status;
+  int status = find_intervals(f, error);
   *u = f->best.u;
   *result = f->result;
   result->n_found = f->best.n_found;
   memcpy(result->found, f->best.found, sizeof result->found);
   memcpy(result->begin, f->best.begin, sizeof result->begin);
   result->cut_short = lab_cpu_is_spent(u->until);
-  status = lab_unknowns_intervals(u, &result->fit, error);
   if (status == LAB_OK)
     status = lab_deviations_widen(u, &result->fit, error);
   if (status == LAB_OK)
