@@ -26,6 +26,7 @@ void pneu_chamber_rates(const pneu_terms *t, pneu_real *y_dot)
   if (!model->thermal) {
     /* V p' = R T (q_in - q_out) - p V' [B, Eqs. 6, 7] */
     y_dot[0] = (R * t->T * (t->mass_in - t->mass_out) - t->p * expansion) * per_volume;
+    y_dot[0] += model->rate_exponent_rise * y_dot[0]; /* effects/chamber_exponent.c */
     return;
   }
   /* first law with u = R T/(g - 1): g = gamma is the energy balance, g = n the polytropic law.

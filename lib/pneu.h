@@ -361,6 +361,7 @@ struct pneu_model {
   pneu_real travel;                    /* [m] between touching both stops: stroke, less what an effect takes away */
   pneu_real stop_compliance;           /* [m/N] of either stop; 0: rigid */
   pneu_real exponent_rise;             /* [1] n - 1 of an isothermal chamber that is not quite one; 0: isothermal */
+  pneu_real rate_exponent_rise;        /* [1] the same of the rate of pressure, while the temperature stays */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */

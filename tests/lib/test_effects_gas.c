@@ -72,6 +72,22 @@ static void footprint_laminar_leak(void)
   }
 }
 
+/* With the exponent of the rate alone, a choked isothermal leak decays n times as fast, and the temperature stays. */
+static void exponent_of_rate(double n)
+{
+  pneu_params p = fixture_vessel(1e-4);
+  const double g = 1.4, R = (double)p.gas_constant, T = 298.15, pa = (double)p.ambient_pressure;
+  const double c = sqrt(g / R) * pow(2 / (g + 1), (g + 1) / (2 * (g - 1)));
+  pneu_state s;
+  if (pneu_effect_find("chamber_leak") < 0)
+    return;
+  fixture_set(&p, "leak_area", 2e-8);
+  fixture_set(&p, "rate_exponent_rise", n - 1);
+  s = run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 5e5, 0, 10);
+  assert_close((double)s.p + pa, (5e5 + pa) * exp(-2e-8 * c * R * sqrt(T) / 1e-4 * n * 10), 0, TOL(1e-8, 1e-4));
+  assert_close(s.T, p.ambient_temperature, 0, 0);
+}
+
 /* Shut air that is compressed follows p V^n = const, T V^(n-1) = const; a film decides where there is one, and so does
  * another law. */
 static void footprint_chamber_exponent(void)
@@ -95,6 +111,7 @@ static void footprint_chamber_exponent(void)
   assert_close((double)s.p + (double)p.ambient_pressure, start * pow(share, n), 0, TOL(1e-7, 1e-4));
   assert_close((double)s.T, (double)p.ambient_temperature * pow(share, n - 1), 0, TOL(1e-7, 1e-4));
   assert_close((double)fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).g, (double)p.heat_ratio, 0, 0);
+  exponent_of_rate(n);
   if (pneu_effect_find("heat_transfer") >= 0) {
     fixture_set(&p, "film_resistance", 0.2);
     assert_close((double)fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).g, (double)p.heat_ratio, 0, 0);

@@ -170,7 +170,7 @@ static chamber chamber_of(const second_rig *g, const double *y)
   c.A = area_at(g, y[X]);
   c.P = (kappa(g) - 1.0) * y[U] / c.V;
   c.p = c.P - g->ambient;
-  c.T = y[U] / y[M] * (kappa(g) - 1.0) / g->gas_constant;
+  c.T = g->rate_exponent > 0.0 ? g->ambient_temperature : y[U] / y[M] * (kappa(g) - 1.0) / g->gas_constant;
   return c;
 }
 
@@ -281,6 +281,8 @@ static void gas_rates(const world *w, const double *y, double t, const chamber *
   d[WORK] = c->P * c->A * y[V];
   if (g->gas == SECOND_ISOTHERMAL) { /* U = m cv Ta; the heat is whatever that takes */
     d[U] = cv * g->ambient_temperature * d[M];
+    if (g->rate_exponent > 0.0) /* d(P V)/dt, of V dP/dt = n (R T dM/dt - P dV/dt) */
+      d[U] += (g->rate_exponent - 1.0) * (d[U] - d[WORK] / (kappa(g) - 1.0));
     d[HEAT] = d[U] - d[H_IN] + d[H_OUT] + d[WORK];
   } else {
     d[HEAT] = wall_heat(g, y, c, d);
@@ -411,7 +413,7 @@ static void runge_kutta(const world *w, const double *y, double h, double *out)
   }
   for (int i = 0; i < STATES; i++)
     out[i] = y[i] + h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);
-  if (w->rig->gas == SECOND_ISOTHERMAL) /* exactly, lest rounding warm the gas over millions of steps */
+  if (w->rig->gas == SECOND_ISOTHERMAL && w->rig->rate_exponent <= 0.0) /* exactly, lest rounding warm the gas over millions of steps */
     out[U] = out[M] * w->rig->gas_constant / (kappa(w->rig) - 1.0) * w->rig->ambient_temperature;
 }
 

@@ -29,6 +29,7 @@ typedef struct {
   double ambient, ambient_temperature; /* Pa absolute, K */
   double gas_constant, gamma;          /* J/(kg K), 1 */
   double exponent;                     /* 1, of the chamber in place of gamma: polytropic; 0: gamma */
+  double rate_exponent;                /* 1, before the rate of pressure of isothermal gas; 0: 1 */
   double linear_ratio;                 /* flow is linear in dP below this share of upstream pressure */
   double iso_b, iso_m;                 /* critical ratio and exponent of ISO 6358 */
   double step, refine_tolerance;       /* s; step is halved while halving moves P or x by more than this, relative */

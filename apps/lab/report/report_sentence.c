@@ -123,7 +123,7 @@ static const struct {
 } sizes[] = {
     {"size", "", of_itself, 1, NONE, 0},
     {"percent", "%", of_itself, 100, NONE, 0},
-    {"exponent", "1", exponent, 1, NONE, 0},
+    {"exponent", "", exponent, 1, NONE, 0},
     {"reciprocal", "J/K", reciprocal, 1, NONE, 0},
     {"of_fill", "%", of_itself, 100, PNEU_PARAM_fill_area, 1000},
     {"of_stroke", "%", of_itself, 100, PNEU_PARAM_stroke, 1000},

@@ -33,6 +33,12 @@ static void set_chamber_exponent(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "exponent_rise", 0.2 * size);
 }
 
+static void set_rate_exponent(pneu_params *p, second_rig *g, double size)
+{
+  g->rate_exponent = 1 + 0.3 * size;
+  fixture_set(p, "rate_exponent_rise", 0.3 * size);
+}
+
 static void set_chamber_leak(pneu_params *p, second_rig *g, double size)
 {
   BOTH("leak_area", leak_area, 3e-8);
@@ -242,6 +248,7 @@ static const effect_case cases[] = {
 
 /* In place of a chamber law. */
 static const effect_case exponent = CASE(chamber_exponent, 6e-7, 4e-8, 2e-7);
+static const effect_case rate_exponent = {"chamber_exponent", set_rate_exponent, {6e-7, 4e-8, 2e-7}};
 
 static second_positioner other;
 
@@ -512,6 +519,9 @@ static void test_lab_response_run__exponent__is_that_of_the_second_implementatio
     run e = random_experiment((uint64_t)(70 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
     exponent.set(&e.p, &e.g, flow ? 0.3 : 1);
     assert_agrees(&e, &exponent.most, exponent.name);
+    e = random_experiment((uint64_t)(72 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
+    rate_exponent.set(&e.p, &e.g, flow ? 0.3 : 1);
+    assert_agrees(&e, &rate_exponent.most, "rate_exponent_rise");
   }
 }
 

@@ -270,6 +270,11 @@ static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **s
   assert_named(&g, "chamber_exponent", &u, &result);
   assert_close((double)*pneu_param_at(&u.rig.params, result.found[0].param), 0.2, 0.01, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
+  g = true_rig();
+  g.rate_exponent = 1.2;
+  assert_named(&g, "chamber_exponent", &u, &result);
+  assert_close((double)*pneu_param_at(&u.rig.params, result.found[0].param), 0.2, 0.01, 0);
+  assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
 static void test_lab_search_run__leak__is_named_and_sized(void **state)
