@@ -14,7 +14,8 @@ static const pneu_param_info params[] = {
 
 static int acts(const pneu_model *model, const pneu_real *param)
 {
-  return !model->law.pressure_input && model->law.gas == PNEU_GAS_ISOTHERMAL && (param[RISE] > 0 || param[RATE_RISE] > 0);
+  return !model->law.pressure_input && model->law.gas == PNEU_GAS_ISOTHERMAL &&
+         (param[RISE] > 0 || param[RATE_RISE] > 0);
 }
 
 static void prepare(pneu_model *model, const pneu_real *param)

@@ -413,7 +413,8 @@ static void runge_kutta(const world *w, const double *y, double h, double *out)
   }
   for (int i = 0; i < STATES; i++)
     out[i] = y[i] + h / 6.0 * (k[0][i] + 2.0 * (k[1][i] + k[2][i]) + k[3][i]);
-  if (w->rig->gas == SECOND_ISOTHERMAL && w->rig->rate_exponent <= 0.0) /* exactly, lest rounding warm the gas over millions of steps */
+  /* exactly, lest rounding warm the gas over millions of steps */
+  if (w->rig->gas == SECOND_ISOTHERMAL && w->rig->rate_exponent <= 0.0)
     out[U] = out[M] * w->rig->gas_constant / (kappa(w->rig) - 1.0) * w->rig->ambient_temperature;
 }
 

@@ -54,7 +54,7 @@ static int refit_scored(lab_rounds *s, const lab_candidate *base, const lab_scor
     return error->status;
   if (base->n_found > 0 || lab_is_noise(&base->quality) || lab_any(c, *n, lab_is_noise))
     return LAB_OK;
-  if (lab_rounds_has_held(s) && lab_unfold_best(&s->unfolding, c, *n, error))
+  if (lab_unfold_best(&s->unfolding, c, *n, error))
     return error->status;
   if (lab_any(c, *n, lab_is_noise))
     return LAB_OK;
