@@ -39,4 +39,4 @@ const pneu_effect pneu_effect_record_chamber_exponent = {
     prepare};
 
 const char pneu_effect_sentence_chamber_exponent[] =
-    "The air in the chamber does not keep its temperature: its exponent is {exponent}, not 1.";
+    "The chamber is not isothermal: the exponent of its air is {exponent}, not 1.";

@@ -656,16 +656,6 @@ static int widest(const double *width, int n, const int *done)
   return at;
 }
 
-/* "±3.2 %" */
-static const char *percent(double width, char text[32])
-{
-  if (width > 1)
-    snprintf(text, 32, "over ±100 %%"); /* as wide as the value */
-  else
-    snprintf(text, 32, "±%.2g %%", 100 * width);
-  return text;
-}
-
 /* An effect at its neutral value has no size yet: what is known is how large it could be unseen. */
 static int is_neutral(const pneu_params *params, int param)
 {
@@ -679,7 +669,7 @@ static int is_neutral(const pneu_params *params, int param)
 
 static void say_precision(const pneu_params *params, lab_advice *advice)
 {
-  char name[LAB_PARAM_NAME_TEXT], before[32], after[32];
+  char name[LAB_PARAM_NAME_TEXT];
   lab_fit_name(advice->param, name);
   snprintf(advice->text, LAB_ADVICE_TEXT, "%s", advice->plan.text);
   if (is_neutral(params, advice->param))
@@ -687,8 +677,8 @@ static void say_precision(const pneu_params *params, lab_advice *advice)
              "This test would lower the detection limit of %s from %.0f %% to %.2g %% of its usual size.", name,
              100 * advice->before, 100 * advice->after);
   else
-    snprintf(advice->why, LAB_ADVICE_TEXT, "This test would narrow the interval of %s from %s to %s.", name,
-             percent(advice->before, before), percent(advice->after, after));
+    snprintf(advice->why, LAB_ADVICE_TEXT, "This test would narrow the interval of %s to %.2g %% of its width.", name,
+             100 * advice->after / advice->before);
 }
 
 /* Narrow the widest interval that can be narrowed, of parameters from one place on up to another.  Returns: whether one

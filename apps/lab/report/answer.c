@@ -204,6 +204,38 @@ static void keep_onsets(const lab_report *report, lab_deviations *all)
   all->n = n;
 }
 
+static int is_listed(const lab_deviations *all, const lab_deviation *d)
+{
+  int i, any = 0;
+  for (i = 0; i < all->n; i++)
+    any |= all->of[i].param == d->param;
+  return any;
+}
+
+/* Say which held values the model has elsewhere, though no interval leaves out what was declared: together they fit
+ * better. */
+static void remark_moved(lab_answer *a)
+{
+  enum { SAID = 5 };
+  static const double worth = 0.5; /* of a tolerance */
+  const lab_unknowns *u = &a->now.completed;
+  char text[LAB_LIMITATION_TEXT] = "", one[LAB_SENTENCE_TEXT];
+  lab_deviation d;
+  int j, n = 0;
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    if (!lab_deviation_of(&a->rig, u, &a->now.result.fit, j, &d) || !d.held || is_listed(&a->report.deviations, &d) ||
+        !(fabs(x->value - x->prior) > worth * x->tolerance) || n++ >= SAID)
+      continue;
+    lab_report_deviation(&a->report, &d, one);
+    lab_append(text, sizeof text, "%s%s", n > 1 ? ", " : "", one);
+  }
+  if (n > SAID)
+    lab_append(text, sizeof text, ", and %d more", n - SAID);
+  if (n > 0)
+    lab_limitation(&a->now.logs.limitations, "model.cfg also has what the log does not tell by itself: %s.", text);
+}
+
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
@@ -215,6 +247,8 @@ static int conclude(lab_answer *a, lab_error *error)
   if (lab_values_stand_in(a->now.result.verdict, a->now.result.fit.reduced_chi2)) {
     all->condition = LAB_CONDITION_CANNOT_TELL;
     keep_onsets(&a->report, all);
+  } else {
+    remark_moved(a);
   }
   lab_unknowns_settle(&a->now.completed, &a->now.result.fit);
   return LAB_OK;

@@ -609,7 +609,7 @@ static void fill_all(drawing *d)
 int lab_figures_make(const lab_report *report, lab_figures **figures, lab_error *error)
 {
   lab_figures *all = *figures = calloc(1, sizeof *all);
-  drawing d = {report, &all->table, all, NULL, NULL, report->result->n_found > 0 ? LAB_STAGE_COUNT : 1};
+  drawing d = {report, &all->table, all, NULL, NULL, lab_report_is_completed(report) ? LAB_STAGE_COUNT : 1};
   int status = all ? lab_residual_table_collect(report, &all->table, error) : lab_fail_memory(error, "the figures");
   if (status == LAB_OK && (d.kept = calloc(all->table.n + 1, 1))) {
     lay_out_time(&d);

@@ -42,7 +42,7 @@ static void put_verdict(const lab_sources *t, cJSON *page)
   lab_json_put(page, "gas", "%s", pneu_gas_key(report->rig->laws.gas));
   lab_json_put(page, "flow", "%s", pneu_flow_key(report->rig->laws.flow));
   lab_json_put(page, "version", "%s", PNEU_VERSION);
-  lab_json_put(page, "completed", "%s", lab_page_has_completed(t) ? "yes" : "");
+  lab_json_put(page, "completed", "%s", lab_report_is_completed(t->report) ? "yes" : "");
   lab_json_put(page, "holdout", "%s", report->has_holdout ? "yes" : "");
 }
 
@@ -221,7 +221,7 @@ static void put_size(const lab_sources *t, cJSON *page)
   lab_json_put(page, "size_heading",
                r->n_found == 0                       ? "Residual"
                : r->verdict == LAB_VERDICT_UNDECIDED ? "Best candidate, and its size"
-                                                     : "What is missing, and its size");
+                                                     : "What the model lacks, and its size");
   for (i = 0; i < r->n_found; i++)
     if (r->found[i].effect < 0) {
       item = lab_json_append(others);

@@ -11,10 +11,6 @@ void lab_page_put_coded(cJSON *to, const char *name, const char *text);
 
 void lab_page_put_share(cJSON *to, const char *name, double share);
 
-/* Whether the completed model is another than the declared one: something was added, or, with nothing to fit, the
- * instants of commands were. */
-int lab_page_has_completed(const lab_sources *t);
-
 /* Add a parameter of an effect to a list: what it means, how large it is, with unit and interval.
  * Returns: the item; NULL where it was not fitted */
 cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list);

@@ -6,11 +6,6 @@
 #include "../base/quantile.h"
 #include "page_private.h"
 
-int lab_page_has_completed(const lab_sources *t)
-{
-  return t->report->result->n_found > 0 || t->report->completed->rig.n_onsets > 0 || t->report->rig->n_fit == 0;
-}
-
 static void put_number(cJSON *to, const char *name, double value, int digits)
 {
   lab_json_put(to, name, "%s", LAB_NUMBER(value, digits));
@@ -50,7 +45,7 @@ static double largest_of(const column *columns, size_t n, int channel)
 static void put_errors(const lab_sources *t, cJSON *page)
 {
   const lab_report *report = t->report;
-  const int both = lab_page_has_completed(t), held = report->has_holdout;
+  const int both = lab_report_is_completed(t->report), held = report->has_holdout;
   const column columns[] = {{"declared model, fitted", &report->result->before, 1, "before"},
                             {"completed model", &report->result->after, both, "after"},
                             {"held-out log, declared model", &report->holdout_before, held, "before"},
@@ -272,7 +267,7 @@ static void put_whiteness(const lab_sources *t, cJSON *page)
     cJSON *item = lab_json_append(list);
     lab_json_put(item, "channel", "%s %s", lab_channels[channel].quantity, lab_channels[channel].key);
     lab_json_put(item, "before", "%.3f", before->correlation[1]);
-    if (lab_page_has_completed(t))
+    if (lab_report_is_completed(t->report))
       lab_json_put(item, "after", "%.3f", after->correlation[1]);
     put_number(item, "q", after->statistic, 3);
     lab_json_put(item, "lags", "%d", after->degrees);
@@ -351,7 +346,7 @@ static void put_figure(const lab_report *report, int i, const char *model, cJSON
 static void put_merit(const lab_sources *t, cJSON *page)
 {
   const lab_metrics *measured = t->report->measured;
-  const char *model = lab_page_has_completed(t) ? "completed model" : "declared model, fitted";
+  const char *model = lab_report_is_completed(t->report) ? "completed model" : "declared model, fitted";
   cJSON *list, *missing;
   int i;
   if (!measured)

@@ -95,6 +95,9 @@ const char *lab_report_doubt(const lab_report *report);
 /* The root mean square of all errors over the noise. */
 double lab_report_in_noise(const lab_errors *errors);
 
+/* Whether the completed model errs otherwise than the declared one: something was added, or values were moved. */
+int lab_report_is_completed(const lab_report *report);
+
 /* The chance of a score as large as that of something found, if nothing is missing. */
 double lab_report_chance(const lab_report *report, const lab_found *found);
 

@@ -430,7 +430,7 @@ static void add_undecided(char *text, const lab_search_result *r)
 static void add_small(char *text, const lab_search_result *r)
 {
   const int more = r->n_listed + r->has_small - 1;
-  ADD(text, " Too small to be worth adding (--min-gain): %s",
+  ADD(text, " Too small to be worth adding: %s",
       r->n_listed ? pneu_effect_at(r->listed[0])->name : "a free term");
   ADD(text, more > 0 ? " and %d more." : ".", more);
 }
@@ -464,7 +464,8 @@ void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   else if (lab_report_count_told(report) > 0)
     add_corrected(text, r);
   else
-    ADD(text, "The declared model leaves %.2f times the noise.", lab_report_in_noise(&r->after));
+    ADD(text, "The declared model leaves %.2f times the noise%s.", lab_report_in_noise(&r->after),
+        lab_report_is_completed(report) ? ", with values within their tolerances" : "");
   if (r->verdict == LAB_VERDICT_NONE && is_small(r))
     add_small(text, r);
   if (r->cut_short)

@@ -131,20 +131,23 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
 
 /* The declared model within its tolerances, or what begins within the logs where that explains them.
  * In:      u       the declared model, fitted
+ * In/out:  begun   with the errors of the declared model; then what begins
  * Out:     within  with what is held, fitted; where something begins as u
- *          begun, begins  what begins, and whether anything does
+ *          begins  whether anything does
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD */
 static int fit_within(const lab_unknowns *u, const lab_search_options *options, lab_candidate *within,
                       lab_finding *begun, int *begins, lab_error *error)
 {
   static const double most = 0.8; /* of the time: if nothing begins the rest has to do */
   const double now = lab_cpu_time();
+  const lab_errors *declared = &begun->result.before;
+  const lab_quality left = {.fitted = 1, .chi2 = declared->chi2, .values = (double)declared->n};
   int status;
   within->u = *u;
   within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
   *begins = within->quality.fitted = 0;
   status = lab_unknowns_hold(&within->u, error);
-  if (status == LAB_OK && lab_rounds_may_begin(&within->u, options)) {
+  if (status == LAB_OK && lab_is_plainly_off(&left) && lab_rounds_may_begin(&within->u, options)) {
     status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
     begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
@@ -283,6 +286,24 @@ static int try_tolerances(const lab_unknowns *u, lab_candidate *within, int *eno
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
+/* What was found coarsely, row by row, where that leaves only noise as well: then no slip asked for the coarse view. */
+static int see_row_by_row(lab_finding *coarse, lab_error *error)
+{
+  lab_candidate *rows = malloc(sizeof *rows);
+  int status = rows ? LAB_OK : lab_fail_memory(error, "a candidate");
+  if (status == LAB_OK) {
+    *rows = coarse->best;
+    lab_unknowns_view(&rows->u, 0);
+    status = lab_candidate_fit(rows, LAB_ROUNDS_ALL, error);
+  }
+  if (status == LAB_OK && lab_is_noise(&rows->quality)) {
+    coarse->best = *rows;
+    coarse->result.window = 0;
+  }
+  free(rows);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* The search seen coarsely, if the log is rough.
  * Out:     done  1 if it found a cause and left only noise; else
  *          f     is as it was */
@@ -304,8 +325,10 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
     status = lab_rounds_run(coarse, NULL, NULL, options, error);
     *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && has_found_cause(&coarse->best);
   }
-  if (*done)
+  if (*done) {
+    status = see_row_by_row(coarse, error);
     *f = *coarse;
+  }
   free(coarse);
   return status;
 }
@@ -372,6 +395,8 @@ static int take_out_accident(lab_finding *f, int *any, lab_error *error)
       *any = status == LAB_OK && lab_is_noise(&without->quality);
     }
   if (*any) {
+    if (f->result.n_listed < LAB_SCORES_MAX)
+      f->result.listed[f->result.n_listed++] = f->best.found[i + 1].effect;
     f->best = *without;
     f->result.verdict = f->best.n_found > 0 ? f->result.verdict : LAB_VERDICT_NONE;
     lab_rounds_note_way(&f->result, &f->best);

@@ -149,12 +149,14 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
                       "Something is missing, but the log does not say what. The residual is 1.00 times the noise, and "
                       "nothing that was tried explains it.");
   report = answer(LAB_VERDICT_NONE, 0);
-  assert_string_equal(sentence_of(&report), "Nothing is missing. The declared model leaves 1.00 times the noise.");
+  assert_string_equal(
+      sentence_of(&report),
+      "Nothing is missing. The declared model leaves 1.00 times the noise, with values within their tolerances.");
   result.n_listed = 2;
   result.listed[0] = PNEU_EFFECT_dead_time;
   assert_string_equal(sentence_of(&report),
                       "Nothing is missing that is worth adding. The declared model leaves 1.00 times the noise. "
-                      "Too small to be worth adding (--min-gain): dead_time and 1 more.");
+                      "Too small to be worth adding: dead_time and 1 more.");
   lab_limitation_no_verdict(&limitations, "The log is short.");
   assert_string_equal(sentence_of(&report), "Undecided: The log is short.");
 }
