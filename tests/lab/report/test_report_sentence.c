@@ -152,6 +152,7 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
   assert_string_equal(
       sentence_of(&report),
       "Nothing is missing. The declared model leaves 1.00 times the noise, with values within their tolerances.");
+  result.before = result.after;
   result.n_listed = 2;
   result.listed[0] = PNEU_EFFECT_dead_time;
   assert_string_equal(sentence_of(&report),
