@@ -215,6 +215,15 @@ double fixture_random(uint64_t *seed, double lo, double hi)
   return lo + (hi - lo) * ((double)(*seed >> 11) / 9007199254740992.0);
 }
 
+double fixture_normal(uint64_t *seed)
+{
+  double sum = -6;
+  int k;
+  for (k = 0; k < 12; k++)
+    sum += fixture_random(seed, 0, 1);
+  return sum;
+}
+
 double fixture_order(double coarse, double fine)
 {
   return log(coarse / fine) / log(2.0);

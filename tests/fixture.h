@@ -74,6 +74,9 @@ void fixture_standard(const pneu_model *model, fixture_stretch *stretch);
 /* Uniform in lo..hi, the same sequence in every build. */
 double fixture_random(uint64_t *seed, double lo, double hi);
 
+/* Nearly normal, by the sum of twelve: mean 0, variance 1. */
+double fixture_normal(uint64_t *seed);
+
 /* log2 of the ratio of two errors: the observed order when the step was halved. */
 double fixture_order(double coarse, double fine);
 

@@ -48,17 +48,12 @@ static inline void record_add(double t, double u, double p, double x)
   record_first[record.n_runs] = record.n;
 }
 
-/* Normal noise by the sum of twelve; on all rows of a channel. */
+/* Normal noise on all rows of a channel. */
 static inline void record_noise(double *channel, double sigma)
 {
   size_t i;
-  int k;
-  for (i = 0; i < record.n; i++) {
-    double sum = -6;
-    for (k = 0; k < 12; k++)
-      sum += fixture_random(&record_seed, 0, 1);
-    channel[i] += sigma * sum;
-  }
+  for (i = 0; i < record.n; i++)
+    channel[i] += sigma * fixture_normal(&record_seed);
 }
 
 static inline void record_measure(void)

@@ -1,20 +1,15 @@
 #include "timing.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <time.h>
+
+#include "../../apps/lab/base/array.h"
 
 double bench_seconds(void)
 {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 /* Value below which a share of the sorted samples lies. */
@@ -32,7 +27,7 @@ static bench_spread spread_of(double *sample, int n)
   for (i = 0; i < n; i++)
     if (isnan(sample[i]))
       return spread;
-  qsort(sample, (size_t)n, sizeof *sample, ascending);
+  lab_sort(sample, (size_t)n);
   spread.low = quantile(sample, n, 0.25);
   spread.median = quantile(sample, n, 0.5);
   spread.high = quantile(sample, n, 0.75);

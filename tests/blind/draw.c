@@ -138,16 +138,9 @@ static void draw_schedule(blind_chance *c, const piece *pieces, double time, dou
   s->end = floor(t / spacing) * spacing;
 }
 
-/* Time in which the full flow would fill the chamber at full stroke [s]. */
-static double filling_time(const second_rig *g)
-{
-  return (g->dead_volume + g->area * g->stroke) * (g->supply + g->ambient) /
-         (g->gas_constant * g->ambient_temperature * blind_full_flow(g));
-}
-
 static void draw_commands(blind_chance *c, blind_trial *t)
 {
-  const double time = filling_time(&t->base); /* whoever makes the log sees the stem arrive */
+  const double time = blind_filling_time(&t->base); /* whoever makes the log sees the stem arrive */
   const int partial = blind_uniform(c, 0, 1) < 0.5;
   t->spacing = 4e-3 + 0.25e-3 * blind_below(c, 5);
   draw_schedule(c, fit_pieces, time, t->spacing, partial, &t->fit);

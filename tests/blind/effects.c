@@ -47,6 +47,12 @@ double blind_full_flow(const second_rig *g)
   return choked * g->fill_area * (g->supply + g->ambient) / sqrt(g->gas_constant * g->supply_temperature);
 }
 
+double blind_filling_time(const second_rig *g)
+{
+  return (g->dead_volume + g->area * g->stroke) * (g->supply + g->ambient) /
+         (g->gas_constant * g->ambient_temperature * blind_full_flow(g));
+}
+
 /* A resistance that takes the whole supply pressure at full flow. */
 static double resistance(const second_rig *g)
 {

@@ -62,4 +62,7 @@ void blind_effect_apply(const blind_effect *effect, double size, const double *s
 /* Mass flow through the fully open supply orifice into a chamber at far lower pressure [kg/s]. */
 double blind_full_flow(const second_rig *rig);
 
+/* Time in which that would fill the chamber at full stroke [s]. */
+double blind_filling_time(const second_rig *rig);
+
 #endif

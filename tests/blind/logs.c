@@ -35,7 +35,7 @@ void blind_rows_free(blind_rows *rows)
   memset(rows, 0, sizeof *rows);
 }
 
-static int open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
+int blind_open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
 {
   char path[1024];
   snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -66,7 +66,7 @@ static void write_rows(FILE *file, const blind_rows *r, int channels)
 int blind_write_rows(const blind_rows *rows, int channels, const char *folder, const char *name, lab_error *error)
 {
   lab_outfile out;
-  if (open_in(folder, name, &out, error))
+  if (blind_open_in(folder, name, &out, error))
     return error->status;
   write_rows(out.file, rows, channels);
   return lab_out_close(&out, error);
@@ -127,7 +127,7 @@ void blind_write_declared(FILE *file, const second_rig *g, int channels, int tel
 int blind_write_rig(const blind_trial *t, const char *folder, lab_error *error)
 {
   lab_outfile out;
-  if (lab_make_folder(folder, error) || open_in(folder, "rig.cfg", &out, error))
+  if (lab_make_folder(folder, error) || blind_open_in(folder, "rig.cfg", &out, error))
     return error->status;
   blind_write_declared(out.file, &t->declared, t->channels, t->tells_noise);
   fputs("tolerance = { others = 0; }; // what is not fitted is exactly so\n", out.file);

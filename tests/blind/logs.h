@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "../../apps/lab/base/message.h"
+#include "../../apps/lab/base/outfile.h"
 #include "draw.h"
 
 /* Samples of a run; one block of memory, to be freed with blind_rows_free. */
@@ -22,6 +22,9 @@ void blind_rows_free(blind_rows *rows);
 
 /* Write what a rig file declares; nothing of it tells what a trial is about. */
 void blind_write_declared(FILE *file, const second_rig *rig, int channels, int tells_noise);
+
+/* Open a file of a folder to write it. */
+int blind_open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error);
 
 /* Write rig.cfg into a folder, which is made. */
 int blind_write_rig(const blind_trial *trial, const char *folder, lab_error *error);

@@ -119,8 +119,7 @@ static void draw_told(blind_chance *c, blind_recorded *r)
   }
 }
 
-/* What a value is known to. */
-static double tolerance_of(const blind_recorded *r, int value)
+double blind_known_to(const blind_recorded *r, int value)
 {
   return r->told[value] > 0 ? r->told[value] : blind_values[value].tolerance;
 }
@@ -128,14 +127,14 @@ static double tolerance_of(const blind_recorded *r, int value)
 /* Within tolerance; of friction at least a third is left. */
 static double draw_off(blind_chance *c, const blind_recorded *r, int value)
 {
-  const double z = normal(c) * tolerance_of(r, value);
+  const double z = normal(c) * blind_known_to(r, value);
   return blind_values[value].absolute ? z : fmax(1 + z, value == DAMPING ? 0.5 : 1.0 / 3);
 }
 
 /* 3 to 6 times the tolerance; ambient pressure only falls, with height. */
 static double draw_far_off(blind_chance *c, const blind_recorded *r, int value)
 {
-  const double far = blind_uniform(c, 3, 6) * tolerance_of(r, value);
+  const double far = blind_uniform(c, 3, 6) * blind_known_to(r, value);
   const int more = blind_uniform(c, 0, 1) < 0.5;
   return blind_values[value].absolute ? -far : more ? 1 + far : 1 / (1 + far);
 }
@@ -222,17 +221,10 @@ second_rig blind_recorded_first(const blind_recorded *r, unsigned which)
 
 /* ---- Commands ---- */
 
-/* Time in which the full flow would fill the chamber at full stroke [s]. */
-static double filling_time(const second_rig *g)
-{
-  return (g->dead_volume + g->area * g->stroke) * (g->supply + g->ambient) /
-         (g->gas_constant * g->ambient_temperature * blind_full_flow(g));
-}
-
 /* The schedule of the clean trial, in the time that this rig takes; ramps last up to half a move. */
 static void open_moves(blind_chance *c, double clean_time, blind_recorded *r)
 {
-  const double faster = filling_time(&r->t.base) / clean_time;
+  const double faster = blind_filling_time(&r->t.base) / clean_time;
   const blind_schedule *s = &r->t.fit;
   size_t i;
   r->n_moves = (int)s->n;
@@ -246,7 +238,7 @@ static void open_moves(blind_chance *c, double clean_time, blind_recorded *r)
 /* Set positions over the whole stroke, some at its ends; a fifth of the moves are slow, all where there are ramps. */
 static void set_moves(blind_chance *c, blind_recorded *r)
 {
-  const double time = filling_time(&r->t.base);
+  const double time = blind_filling_time(&r->t.base);
   double t = 0.5 + blind_uniform(c, 0, 1);
   int i;
   r->n_moves = 12;
@@ -393,7 +385,7 @@ void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_reco
   double clean_time, at;
   memset(r, 0, sizeof *r);
   blind_draw(seed, number, &r->t);
-  clean_time = filling_time(&r->t.base);
+  clean_time = blind_filling_time(&r->t.base);
   draw_kinds(&c, without, r);
   draw_loop(&c, r);
   draw_told(&c, r);

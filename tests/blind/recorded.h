@@ -90,6 +90,9 @@ typedef struct blind_recorded {
   uint64_t seed;                        /* of what the sensors and the logger add */
 } blind_recorded;
 
+/* Standard deviation with which a value is known, in its own measure. */
+double blind_known_to(const blind_recorded *r, int value);
+
 /* A trial depends on nothing but the seed, its number and what is left out.
  * In:  without  bits of the imperfections that it must not have */
 void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_recorded *r);

@@ -125,12 +125,6 @@ static int is_fitted(int value)
   return 0;
 }
 
-/* Standard deviation with which a value is known, in its own measure. */
-static double known_to(const blind_recorded *r, int value)
-{
-  return r->told[value] > 0 ? r->told[value] : blind_values[value].tolerance;
-}
-
 /* Of a standard deviation, or of a size, over which slopes are taken: so small that what can be told from nothing is
  * not told, and that a positioner hardly ever comes to rest a cycle sooner for it. */
 static const double slope_part = 1e-7;
@@ -140,7 +134,7 @@ static int value_columns(work *w, lab_error *error)
   int i;
   for (i = 0; i < BLIND_VALUES; i++) {
     blind_recorded r = w->r;
-    const double by = slope_part * known_to(&r, i);
+    const double by = slope_part * blind_known_to(&r, i);
     double *c = next_column(w);
     blind_value_shift(&r.t.declared, i, blind_values[i].absolute ? by : 1 + by);
     blind_value_shift(&r.t.base, i, blind_values[i].absolute ? by : 1 + by);
@@ -257,7 +251,7 @@ static int value_statistic(work *w, int value, double *result, lab_error *error)
   const double *slope = w->column + (size_t)value * w->m;
   size_t i;
   for (i = 0; i < w->m; i++)
-    w->s[i] = i < w->n ? slope[i] * off / known_to(&w->r, value) : 0;
+    w->s[i] = i < w->n ? slope[i] * off / blind_known_to(&w->r, value) : 0;
   return statistic(w, value, result, error);
 }
 

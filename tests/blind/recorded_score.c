@@ -1,9 +1,10 @@
 #include "recorded_score.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "../../apps/lab/base/text.h"
 
 const char *blind_class_text(int class)
 {
@@ -125,17 +126,7 @@ static int is_found(const blind_recorded *r, const blind_answer *a, int value)
   return d && (d->ratio - 1) * (blind_true_ratio(r, value) - 1) > 0;
 }
 
-static void append(char *text, const char *format, ...) LAB_PRINTF(2, 3);
-
-/* Adds to a text of BLIND_TEXT bytes. */
-static void append(char *text, const char *format, ...)
-{
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, BLIND_TEXT - used, format, args);
-  va_end(args);
-}
+#define append(text, ...) lab_append(text, BLIND_TEXT, __VA_ARGS__)
 
 static void count_due(const blind_recorded *r, const blind_visible *v, const blind_answer *a, blind_record *record)
 {

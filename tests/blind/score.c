@@ -1,9 +1,10 @@
 #include "score.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "../../apps/lab/base/text.h"
 
 /* ---- Right or not ---- */
 
@@ -107,17 +108,7 @@ static int right(const blind_trial *t, const blind_answer *a, enum level level)
 
 /* ---- Texts ---- */
 
-static void append(char *text, const char *format, ...) LAB_PRINTF(2, 3);
-
-/* Adds to a text of BLIND_TEXT bytes. */
-static void append(char *text, const char *format, ...)
-{
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, BLIND_TEXT - used, format, args);
-  va_end(args);
-}
+#define append(text, ...) lab_append(text, BLIND_TEXT, __VA_ARGS__)
 
 static void join(const blind_word *word, int n, char *text)
 {

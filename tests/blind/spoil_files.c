@@ -6,13 +6,6 @@
 
 #include "../../apps/lab/base/outfile.h"
 
-static int open_in(const char *folder, const char *name, lab_outfile *out, lab_error *error)
-{
-  char path[1024];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  return lab_out_open(out, path, error);
-}
-
 /* ---- The log ---- */
 
 /* A column of a log, with the digits that a logger would give it. */
@@ -70,7 +63,7 @@ static int write_log(const blind_recorded *r, const char *folder, size_t *n_rows
     return error->status;
   status = blind_spoil(r, &fine, &log, error);
   blind_fine_free(&fine);
-  if (status == LAB_OK && (status = open_in(folder, "fit.csv", &out, error)) == LAB_OK) {
+  if (status == LAB_OK && (status = blind_open_in(folder, "fit.csv", &out, error)) == LAB_OK) {
     write_rows(out.file, columns, columns_of(r, &log, columns), log.n);
     status = lab_out_close(&out, error);
   }
@@ -110,7 +103,7 @@ static int write_rig(const blind_recorded *r, const char *folder, lab_error *err
   second_rig declared = r->t.declared;
   declared.pressure_noise *= r->noise_told;
   declared.position_noise *= r->noise_told;
-  if (lab_make_folder(folder, error) || open_in(folder, "rig.cfg", &out, error))
+  if (lab_make_folder(folder, error) || blind_open_in(folder, "rig.cfg", &out, error))
     return error->status;
   blind_write_declared(out.file, &declared, r->t.channels, r->noise_told > 0);
   if (r->has & (1u << BLIND_TOLERANCE))

@@ -89,7 +89,7 @@ static int is_row(const blind_record *r, const blind_effect *e)
 }
 
 typedef struct tally {
-  int n, above, n_held, n_limit;
+  int n, above, n_held;
   blind_count detected, name, stated, family; /* above twice the limit */
   double *held, *limit;                       /* held-out errors above; information limits */
   blind_sized *sized;                         /* found against size */

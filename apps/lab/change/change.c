@@ -36,11 +36,7 @@ const char *lab_change_name(int param, char name[LAB_PARAM_NAME_TEXT])
 
 const char *lab_change_unit(const lab_change *change)
 {
-  pneu_param_info info;
-  if (change->param == LAB_PARAM_ORIFICE_AREA)
-    return "1";
-  pneu_param_describe(change->param, &info);
-  return info.unit;
+  return lab_param_info(change->param).unit;
 }
 
 /* ---- One after the other ---- */
@@ -73,8 +69,7 @@ static int refit_from(const lab_sides *c, const lab_score *score, double size, d
        lab_onset_find(&x->u, lab_sides_find(&x->u, x->param), level, &x->chi2, &x->begin, &error) == LAB_OK))
     x->fitted = keeps_baseline(c, x, &error);
   x->n_free = 1 + (x->shape >= 0) + x->begin.known;
-  if (error.status == LAB_WORLD)
-    lab_fail_together(all, &error);
+  lab_fail_together(all, &error);
   return x->fitted;
 }
 
@@ -192,8 +187,7 @@ static int was_there(const lab_sides *c, const extension *x, lab_error *all)
         !lab_sides_settle(both, &chi2, &error))
       there = chi2 < x->chi2 + lab_constant(LAB_ALIKE_BIC);
   }
-  if (error.status == LAB_WORLD)
-    lab_fail_together(all, &error);
+  lab_fail_together(all, &error);
   free(both);
   return there;
 }
@@ -278,12 +272,9 @@ static void size_up(const lab_sides *c, const lab_fit_result *fit, lab_change *c
   const int param = change->param;
   const int d = told_by(c, change), b = lab_unknowns_find(&c->u, param);
   const double by = c->u.unknown[d].value, half = lab_student_quantile(0.975, (double)INFINITY);
-  double variance = fit->covariance[d][d], unit = 1;
-  if (param == LAB_PARAM_ORIFICE_AREA) {
-    unit = change->then = b >= 0 ? c->u.unknown[b].value : 1;
-  } else {
-    change->then = b >= 0 ? c->u.unknown[b].value : (double)*pneu_param_at((pneu_params *)&c->u.rig.params, param);
-  }
+  double variance = fit->covariance[d][d], unit;
+  change->then = b >= 0 ? c->u.unknown[b].value : lab_param_value(&c->u.rig, param);
+  unit = param == LAB_PARAM_ORIFICE_AREA ? change->then : 1;
   if (b >= 0)
     variance += fit->covariance[b][b] / (unit * unit) + 2 * fit->covariance[b][d] / unit;
   change->now = change->then + unit * by;

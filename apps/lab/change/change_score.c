@@ -146,8 +146,7 @@ static int score_new(const lab_projection *p, int first, int throughout, lab_sco
       trial.usual = -trial.usual;
     tests = score_shapes(t, &trial, throughout, within, score, parts, all);
   }
-  if (error.status == LAB_WORLD)
-    lab_fail_together(all, &error);
+  lab_fail_together(all, &error);
   if (t)
     free(t->r);
   free(t);

@@ -88,8 +88,7 @@ static double chi2_with(const follower *f, const option *o, lab_error *all)
     if (apply(o, g, &error) == LAB_OK)
       chi2 = g->chi2;
   }
-  if (error.status == LAB_WORLD)
-    lab_fail_together(all, &error);
+  lab_fail_together(all, &error);
   free(g);
   return chi2;
 }

@@ -34,13 +34,8 @@ int lab_param_index(const char *name)
   return -1;
 }
 
-static double value_of(const lab_rig *rig, int param)
-{
-  return param == LAB_PARAM_ORIFICE_AREA ? 1 : fabs((double)*pneu_param_at((pneu_params *)&rig->params, param));
-}
-
 double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig)
 {
   const int of = lab_param_index(repeat->of ? repeat->of : repeat->name);
-  return repeat->share > 0 && of >= 0 ? repeat->share * value_of(rig, of) : repeat->spread;
+  return repeat->share > 0 && of >= 0 ? repeat->share * fabs(lab_param_value(rig, of)) : repeat->spread;
 }

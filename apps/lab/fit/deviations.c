@@ -68,7 +68,7 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   const int param = d->param = x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param : x->index;
   const double tolerance = x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, param);
   const double unit = earlier_factor(u, x);
-  d->declared = param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
+  d->declared = lab_param_value(rig, param);
   snprintf(d->name, sizeof d->name, "%s", lab_tolerance_name(param));
   snprintf(d->unit, sizeof d->unit, "%s", x->unit);
   d->found = unit * x->value;

@@ -27,22 +27,16 @@ static int no_room(lab_error *error)
 
 static void describe_param(lab_unknown *x, int param)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   x->kind = LAB_UNKNOWN_PARAM;
   x->index = param;
   lab_fit_name(param, x->name);
-  if (param == LAB_PARAM_ORIFICE_AREA) {
-    snprintf(x->unit, sizeof x->unit, "1");
-    x->lower = 1e-3;
-    x->upper = 1e3;
-    x->scale = 1;
-    return;
-  }
-  pneu_param_describe(param, &info);
   snprintf(x->unit, sizeof x->unit, "%s", info.unit);
   x->lower = (double)info.lower;
   x->upper = (double)info.upper;
-  x->scale = fabs((double)info.value - (param < PNEU_PARAM_BASE_COUNT || info.shape ? 0 : (double)info.neutral));
+  x->scale = param == LAB_PARAM_ORIFICE_AREA
+                 ? 1
+                 : fabs((double)info.value - (param < PNEU_PARAM_BASE_COUNT || info.shape ? 0 : (double)info.neutral));
 }
 
 int lab_unknown_is_known(const lab_unknown *x)
@@ -310,11 +304,6 @@ static void add_switches(lab_unknowns *u, int e)
       add_switch(u, e, (int)k, x->bracket[k], "s");
 }
 
-static double declared_value(const lab_rig *rig, int param)
-{
-  return param == LAB_PARAM_ORIFICE_AREA ? 1.0 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
-}
-
 /* A parameter that each experiment has for itself, from one on. */
 static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first, lab_error *error)
 {
@@ -322,7 +311,7 @@ static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first
   for (e = first; e < u->n_runs; e++) {
     char name[LAB_PARAM_NAME_TEXT];
     lab_unknown *x;
-    if (lab_unknowns_add(u, param, declared_value(rig, param), error))
+    if (lab_unknowns_add(u, param, lab_param_value(rig, param), error))
       return error->status;
     x = &u->unknown[u->n - 1];
     x->run = e;
@@ -387,7 +376,7 @@ int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_un
   u->tol = 1e-6;
   for (j = 0; j < rig->n_fit; j++)
     if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], 0, error)
-                            : lab_unknowns_add(u, rig->fit[j], declared_value(rig, rig->fit[j]), error))
+                            : lab_unknowns_add(u, rig->fit[j], lab_param_value(rig, rig->fit[j]), error))
       return error->status;
   for (e = 0; e < n_runs; e++)
     add_switches(u, e);

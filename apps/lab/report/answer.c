@@ -259,7 +259,7 @@ static int conclude(lab_answer *a, lab_error *error)
  * In:      budget, fit  [s] of CPU: what is given, and what the fit took */
 static double for_search(double budget, double fit)
 {
-  static const double least = 0.5, most = 0.8;
+  static const double least = 0.5, most = 0.7;
   return fmax(fmin(most * budget, budget - fit), least * budget);
 }
 

@@ -1,10 +1,10 @@
 /* What each figure shows: a function fills in its panels, and a row of `known` says how it is read. */
 #include <ctype.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/text.h"
 #include "../rig/rigterm.h"
 #include "../trace/freeterms.h"
 #include "figures.h"
@@ -44,16 +44,7 @@ static void entitle(const drawing *d, const char *title, const char *subtitle)
 }
 
 /* Append to the words for those who cannot see the figure. */
-static void describe_figure(const drawing *d, const char *format, ...) LAB_PRINTF(2, 3);
-
-static void describe_figure(const drawing *d, const char *format, ...)
-{
-  const size_t used = strlen(d->figure->alt);
-  va_list list;
-  va_start(list, format);
-  vsnprintf(d->figure->alt + used, LAB_FIGURE_ALT - used, format, list);
-  va_end(list);
-}
+#define describe_figure(d, ...) lab_append((d)->figure->alt, LAB_FIGURE_ALT, __VA_ARGS__)
 
 /* A panel more, over time, without curves. */
 static lab_panel *add_panel(const drawing *d, const char *name, const char *unit, int height)

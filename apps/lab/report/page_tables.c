@@ -144,14 +144,6 @@ static void put_deviations(const lab_sources *t, cJSON *page)
 
 /* ---- Parameters ---- */
 
-/* The whole unit of an unknown: x->unit has no room for the longest. */
-static const char *unit_of(const lab_unknown *x)
-{
-  pneu_param_info info;
-  const int is_listed = x->kind == LAB_UNKNOWN_PARAM && x->index != LAB_PARAM_ORIFICE_AREA;
-  return is_listed && pneu_param_describe(x->index, &info) == PNEU_OK ? info.unit : x->unit;
-}
-
 /* Digits at which both ends of the interval of an unknown can be told apart. */
 static int digits_of(const lab_sources *t, int j)
 {
@@ -166,7 +158,7 @@ static int digits_of(const lab_sources *t, int j)
 static void put_interval(const lab_sources *t, int j, cJSON *to)
 {
   const lab_fit_result *fit = &t->report->result->fit;
-  const double scale = lab_format_as(unit_of(&t->report->completed->unknown[j])).scale;
+  const double scale = lab_format_as(t->report->completed->unknown[j].unit).scale;
   const int digits = digits_of(t, j), state = fit->state[j];
   const char *low = LAB_NUMBER(scale * fit->low[j], digits), *high = LAB_NUMBER(scale * fit->high[j], digits);
   if (state == LAB_STATE_FREE)
@@ -188,8 +180,8 @@ cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list)
     return NULL;
   pneu_param_describe(param, &info);
   lab_json_put(item, "meaning", "%s", info.meaning);
-  put_quantity(item, "value", x->value, unit_of(x), digits_of(t, j));
-  lab_json_put(item, "unit", "%s", lab_format_as(unit_of(x)).unit);
+  put_quantity(item, "value", x->value, x->unit, digits_of(t, j));
+  lab_json_put(item, "unit", "%s", lab_format_as(x->unit).unit);
   put_interval(t, j, item);
   return item;
 }
@@ -198,7 +190,7 @@ static void put_parameter(const lab_sources *t, int j, cJSON *list)
 {
   const lab_unknowns *before = t->report->declared; /* as they were before anything was added */
   const lab_unknown *x = &t->report->completed->unknown[j];
-  const lab_format shown = lab_format_as(unit_of(x));
+  const lab_format shown = lab_format_as(x->unit);
   pneu_params declared = t->report->rig->params;
   pneu_param_info info = {0};
   cJSON *item = lab_json_append(list);

@@ -24,7 +24,7 @@ pneu_param_info lab_param_info(int param)
 
 double lab_param_value(const lab_rig *rig, int param)
 {
-  return (double)*pneu_param_at((pneu_params *)&rig->params, param);
+  return param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
 }
 
 const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT])

@@ -96,7 +96,7 @@ int lab_rig_has_positioner(const lab_rig *rig);
 /* What the library says of a parameter, or as much of LAB_PARAM_ORIFICE_AREA, a factor on both areas. */
 pneu_param_info lab_param_info(int param);
 
-/* The value of a parameter of the library. */
+/* The value of a parameter; 1 of LAB_PARAM_ORIFICE_AREA. */
 double lab_param_value(const lab_rig *rig, int param);
 
 /* Name of something fitted: "dry_friction", "orifice_area", "chamber_leak.leak_area".

@@ -190,8 +190,7 @@ static int read_b(const config_setting_t *transducer, lab_rig *rig, lab_error *e
   int i;
   for (i = 0; i < 2; i++) {
     const config_setting_t *orifice = lab_config_member(transducer, orifices[i]);
-    const config_setting_t *setting =
-        orifice && config_setting_is_group(orifice) ? lab_config_member(orifice, "b") : NULL;
+    const config_setting_t *setting = lab_config_member(orifice, "b");
     double b;
     if (!setting)
       continue;

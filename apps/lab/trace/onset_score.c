@@ -24,11 +24,6 @@ static const char *const effects[] = {
 
 /* ---- A model with one value changed ---- */
 
-static double value_of(const lab_rig *rig, int param)
-{
-  return param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&rig->params, param);
-}
-
 static void add(lab_rig *rig, int param, double size)
 {
   if (param == LAB_PARAM_ORIFICE_AREA) {
@@ -48,7 +43,7 @@ static double first_step(const lab_rig *rig, int param)
   if (param == LAB_PARAM_ORIFICE_AREA)
     return -share;
   pneu_param_describe(param, &info);
-  now = value_of(rig, param);
+  now = lab_param_value(rig, param);
   if (param < PNEU_PARAM_BASE_COUNT)
     return param == PNEU_PARAM_dry_friction ? share * now : -share * now;
   return now + (double)(info.value - info.neutral) < (double)info.upper ? (double)(info.value - info.neutral)
@@ -144,7 +139,7 @@ static void judge(const scan *s, const double *slope, double step, double up, do
 static int score_one(const scan *s, double *throughout, lab_score *score, double *slope, lab_error *all)
 {
   const lab_rig *rig = &s->open.rig;
-  const double now = value_of(rig, score->param);
+  const double now = lab_param_value(rig, score->param);
   double up = HUGE_VAL, down = 1, step = first_step(rig, score->param);
   pneu_param_info info;
   lab_error error;
@@ -193,7 +188,7 @@ static void list_values(const lab_unknowns *u, lab_onset_scores *all)
   int param;
   for (i = 0; i < sizeof values / sizeof *values; i++)
     for (param = 0; param < LAB_PARAM_COUNT; param++)
-      if (strcmp(lab_fit_name(param, name), values[i]) == 0 && value_of(&u->rig, param) != 0)
+      if (strcmp(lab_fit_name(param, name), values[i]) == 0 && lab_param_value(&u->rig, param) != 0)
         list_one(param, -1, -1, all);
 }
 

@@ -17,9 +17,7 @@ static double time_of(const lab_candidate *c, size_t row)
 static void begin_onset(const lab_candidate *base, const lab_score *score, double from, int steps, lab_candidate *c,
                         lab_error *all)
 {
-  const double now = score->param == LAB_PARAM_ORIFICE_AREA
-                         ? 1
-                         : (double)*pneu_param_at((pneu_params *)&base->u.rig.params, score->param);
+  const double now = lab_param_value(&base->u.rig, score->param);
   lab_error ignored;
   *c = *base;
   c->quality.fitted = 0;

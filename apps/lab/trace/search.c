@@ -389,7 +389,7 @@ static int take_out_accident(lab_finding *f, int *any, lab_error *error)
   lab_candidate *without = malloc(sizeof *without);
   int i, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
   *any = 0;
-  for (i = f->best.n_found - 1; status == LAB_OK && !*any && i >= 0; i--)
+  for (i = f->best.n_found - 1; status == LAB_OK && !*any && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
       *any = status == LAB_OK && lab_is_noise(&without->quality);

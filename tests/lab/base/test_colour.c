@@ -8,23 +8,14 @@ enum { DENSE = 24, N = 1600 };
 static double y[N];
 static lab_error error;
 
-static double normal(uint64_t *seed)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++) /* twelve uniform numbers: variance 1 */
-    sum += fixture_random(seed, 0, 1);
-  return sum;
-}
-
 /* Noise of a deviation about a level, on a ramp. */
 static void fill(lab_colour c, double sigma, double ramp, uint64_t seed)
 {
-  double slow = normal(&seed);
+  double slow = fixture_normal(&seed);
   int i;
   for (i = 0; i < N; i++) {
-    y[i] = sigma * (sqrt(1 - c.share) * normal(&seed) + sqrt(c.share) * slow) + 50 + ramp * i;
-    slow = c.memory * slow + sqrt(1 - c.memory * c.memory) * normal(&seed);
+    y[i] = sigma * (sqrt(1 - c.share) * fixture_normal(&seed) + sqrt(c.share) * slow) + 50 + ramp * i;
+    slow = c.memory * slow + sqrt(1 - c.memory * c.memory) * fixture_normal(&seed);
   }
 }
 
@@ -63,7 +54,7 @@ static void test_lab_colour_whiten__any_colour_with_gaps__has_the_likelihood_of_
   for (k = 0; k < COUNT(colour); k++) {
     double r[DENSE], white[DENSE], want, want_log, sum = 0, log_size;
     for (i = 0; i < DENSE; i++)
-      r[i] = white[i] = i == 5 || (i > 10 && i < 15) ? 0 : normal(&seed);
+      r[i] = white[i] = i == 5 || (i > 10 && i < 15) ? 0 : fixture_normal(&seed);
     want = dense(&colour[k], r, &want_log);
     log_size = lab_colour_whiten(&colour[k], white, DENSE);
     for (i = 0; i < DENSE; i++)
@@ -84,7 +75,7 @@ static void test_lab_colour_whiten__no_white_part__is_the_closed_form(void **sta
   int i;
   (void)state;
   for (i = 0; i < DENSE; i++)
-    r[i] = white[i] = normal(&seed);
+    r[i] = white[i] = fixture_normal(&seed);
   lab_colour_whiten(&c, white, DENSE);
   assert_close(white[0], r[0], 1e-12, 0);
   for (i = 1; i < DENSE; i++)
@@ -233,9 +224,9 @@ static void test_lab_colour_estimate__memory_without_end__is_no_colour(void **st
     double at = 0, to = 0;
     for (i = 0; i < N; i++) {
       if (i % 100 == 0)
-        to = 3 * normal(&own);
+        to = 3 * fixture_normal(&own);
       at += 0.03 * (to - at);
-      y[i] = at + normal(&own);
+      y[i] = at + fixture_normal(&own);
     }
     check_note("seed %d", seed);
     assert_close(estimate(400, &scale).memory, 0, 0, 0);

@@ -15,20 +15,11 @@ static double noise_of(const double *value, size_t n)
   return noise;
 }
 
-static double normal(uint64_t *seed)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++) /* twelve uniform numbers: variance 1 */
-    sum += fixture_random(seed, 0, 1);
-  return sum;
-}
-
 static void fill_white(double sigma, uint64_t seed)
 {
   int i;
   for (i = 0; i < N; i++)
-    y[i] = sigma * normal(&seed);
+    y[i] = sigma * fixture_normal(&seed);
 }
 
 /* ---- Estimate ---- */
@@ -195,7 +186,7 @@ static void test_lab_resolution__converter__is_its_step(void **state)
   int i;
   (void)state;
   for (i = 0; i < N; i++)
-    y[i] = 1e-5 * nearbyint(1e5 * 0.0305176 * nearbyint(normal(&seed) + 2 * sin(0.01 * i)));
+    y[i] = 1e-5 * nearbyint(1e5 * 0.0305176 * nearbyint(fixture_normal(&seed) + 2 * sin(0.01 * i)));
   y[N / 2] = (double)NAN;
   assert_close(lab_resolution(y, N), 0.0305176, 1e-5, 0);
 }

@@ -13,15 +13,6 @@ static lab_run run;
 static lab_unknowns u;
 static uint64_t seed;
 
-static double normal(void)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++)
-    sum += fixture_random(&seed, 0, 1);
-  return sum;
-}
-
 /* A valve whose travel scatters with a memory of 0.8 from row to row; the set position stays, or is the same. */
 static void write_log(int follows)
 {
@@ -32,8 +23,8 @@ static void write_log(int follows)
   fprintf(file, "t [s],sp [mm],x [mm]\n");
   seed = 7;
   for (i = 0; i < ROWS; i++) {
-    wander = 0.8 * wander + 0.3 * normal();
-    fprintf(file, "%d,%.4f,%.4f\n", i, 10 + (follows ? wander : 0), 10 + wander + 0.05 * normal());
+    wander = 0.8 * wander + 0.3 * fixture_normal(&seed);
+    fprintf(file, "%d,%.4f,%.4f\n", i, 10 + (follows ? wander : 0), 10 + wander + 0.05 * fixture_normal(&seed));
   }
   fclose(file);
 }

@@ -11,15 +11,6 @@ static const double sigma = 0.1;
 static const double scatter_bound = (0.03 + 0.05) / (0.2 * 1.155);
 static double measured[ROWS], predicted[ROWS], r[2 * WINDOWS];
 
-static double normal(uint64_t *seed)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++) /* twelve uniform numbers: variance 1 */
-    sum += fixture_random(seed, 0, 1);
-  return sum;
-}
-
 static double ramp(int i)
 {
   return 0.05 * i;
@@ -35,7 +26,7 @@ static void fill(double (*truth)(int), int phase, uint64_t seed)
 {
   int i;
   for (i = 0; i < ROWS; i++)
-    measured[i] = (truth ? truth(i) : sawtooth(i, phase)) + sigma * normal(&seed);
+    measured[i] = (truth ? truth(i) : sawtooth(i, phase)) + sigma * fixture_normal(&seed);
 }
 
 /* Root mean square of every other residual. */

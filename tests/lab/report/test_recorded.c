@@ -43,15 +43,6 @@ static const recorder quieter = {"three times the noise declared", 0.007, 0, 0, 
 
 /* ---- Recording ---- */
 
-static double normal(void)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++)
-    sum += fixture_random(&seed, 0, 1);
-  return sum;
-}
-
 static double at(const double *value, double t)
 {
   const int i = (int)fmin(fmax(t / fine, 0), FINE - 2);
@@ -81,17 +72,18 @@ static void run_truth(double leak)
 static void write_log(const recorder *r)
 {
   FILE *file = fopen(scratch_path("log.csv"), "w");
-  double coloured_p = normal(), coloured_x = normal();
+  double coloured_p = fixture_normal(&seed), coloured_x = fixture_normal(&seed);
   int k;
   assert_non_null(file);
   fputs("t [s],u [1],p [kPa],x [mm]\n", file);
   for (k = 0; k * r->spacing < t_end; k++) {
-    const double even = k * r->spacing, most = 0.49 * r->spacing, off = fmin(fmax(r->jitter * normal(), -most), most);
+    const double even = k * r->spacing, most = 0.49 * r->spacing,
+                 off = fmin(fmax(r->jitter * fixture_normal(&seed), -most), most);
     const double t = r->stamped ? even : fmax(even + off, 0), shown = r->stamped ? fmax(even + off, 0) : even;
     const double swing = r->hum * sin(314.1592653589793 * t), fresh = sqrt(1 - r->memory * r->memory);
     double p = at(truth.p, t), x = at(truth.x, t);
-    coloured_p = r->memory * coloured_p + fresh * normal();
-    coloured_x = r->memory * coloured_x + fresh * normal();
+    coloured_p = r->memory * coloured_p + fresh * fixture_normal(&seed);
+    coloured_x = r->memory * coloured_x + fresh * fixture_normal(&seed);
     p = converted(p + noise_p * (r->quiet * coloured_p + swing), rig.supply, r->bits);
     x = converted(x + noise_x * (r->quiet * coloured_x + swing), rig.stroke, r->bits);
     fprintf(file, "%.5f,%g,%.5f,%.6f\n", r->rounding > 0 ? r->rounding * nearbyint(shown / r->rounding) : shown,

@@ -11,15 +11,6 @@ static lab_log log_of[LOGS];
 static lab_run run[LOGS];
 static lab_unknowns u;
 
-static double normal(uint64_t *seed)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++) /* twelve uniform numbers: variance 1 */
-    sum += fixture_random(seed, 0, 1);
-  return sum;
-}
-
 /* A log of so many rows in which pressure and position are measured. */
 static void open_log(int e, size_t n)
 {
@@ -43,7 +34,7 @@ static void fill_with_noise(uint64_t seed)
 {
   int i;
   for (i = 0; i < 4 * ROWS; i++)
-    r[i] = normal(&seed);
+    r[i] = fixture_normal(&seed);
 }
 
 /* Add a sine to a channel of n rows. */
@@ -193,7 +184,7 @@ static void test_lab_residual_periods__drift__does_not_hide_it(void **state)
   open_log(0, N);
   fill_with_noise(9);
   for (i = 0; i < N; i++)
-    r[i] += walk += 0.5 * normal(&seed);
+    r[i] += walk += 0.5 * fixture_normal(&seed);
   add_sine(r, 0, N, 2, 0.9, 0);
   assert_true(find_cycles(r, period) > 0);
   assert_period(period[0], 0.9, N * spacing);

@@ -15,15 +15,6 @@ static lab_log run_log;
 static lab_term_score slot[LAB_TERM_SCORES_MAX];
 static double t[ROWS], command[ROWS], p[ROWS], x[ROWS];
 
-static double normal(uint64_t *seed)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++) /* twelve uniform numbers: variance 1 */
-    sum += fixture_random(seed, 0, 1);
-  return sum;
-}
-
 /* The R1-400 with 40 cm3 of dead volume. */
 static void declare(void)
 {
@@ -75,8 +66,8 @@ static void measure(const pneu_term *term, uint64_t seed)
   }
   assert_int_equal(lab_run_predict(&run, &truth, NULL, 1e-8, y, &error), LAB_OK);
   for (i = 0; i < ROWS; i++) {
-    p[i] = y[i] + sigma_p * normal(&seed);
-    x[i] = y[ROWS + i] + sigma_x * normal(&seed);
+    p[i] = y[i] + sigma_p * fixture_normal(&seed);
+    x[i] = y[ROWS + i] + sigma_x * fixture_normal(&seed);
   }
 }
 
