@@ -131,10 +131,10 @@ double lab_report_in_noise(const lab_errors *errors)
 
 int lab_report_is_completed(const lab_report *report)
 {
-  static const double alike = 0.01;
+  static const double alike = 0.01; /* errors below the noise count as the noise */
   const lab_search_result *r = report->result;
   const double before = lab_report_in_noise(&r->before), after = lab_report_in_noise(&r->after);
-  return r->n_found > 0 || report->completed->rig.n_onsets > 0 || fabs(after - before) > alike * before;
+  return r->n_found > 0 || report->completed->rig.n_onsets > 0 || fabs(after - before) > alike * fmax(before, 1);
 }
 
 double lab_report_chance(const lab_report *report, const lab_found *found)
