@@ -272,7 +272,7 @@ static void add_ratio(char *text, const lab_deviation *d, const char *less, cons
   if (!isfinite(d->ratio))
     ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
   else if (d->ratio >= 2 || d->ratio < 0.5)
-    ADD(text, "%.2g times %s", d->ratio, sheet);
+    ADD(text, d->ratio < 99.5 ? "%.2g times %s" : "%.0f times %s", d->ratio, sheet);
   else if (less)
     ADD(text, "%.2g %% %s", fabs(percent), percent < 0 ? less : more);
   else
