@@ -259,12 +259,13 @@ static void test_pneu_show__all_sensors_at_once__are_as_observed(void **state)
   assert_int_equal(show_as_observed(&m, &s, &input), any);
 }
 
-/* A free term that a sensor shows, and one that only acts. */
+/* Free terms that a sensor shows, one of them over the opening, and one that only acts. */
 static void test_pneu_show__free_terms__are_as_observed(void **state)
 {
   static const pneu_term term[] = {
       {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {3e3, 5e3}},
       {PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_PRESSURE, 2, 0, (pneu_real)4e5, {(pneu_real)1e-3, (pneu_real)2e-3}},
+      {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_OPENING, 2, -1, 1, {3e3, 5e3}},
       {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {30, 60}}};
   int i;
   (void)state;
@@ -276,7 +277,7 @@ static void test_pneu_show__free_terms__are_as_observed(void **state)
     assert_int_equal(pneu_model_terms(&m, &term[i], 1), PNEU_OK);
     s = filling(&m, &input);
     check_note("term %d", i);
-    assert_int_equal(show_as_observed(&m, &s, &input), i < 2);
+    assert_int_equal(show_as_observed(&m, &s, &input), i < 3);
   }
 }
 
