@@ -374,11 +374,8 @@ static int take_out_what_harms(lab_finding *f, lab_error *error)
 static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, const lab_found *found)
 {
   const int j = found->effect >= 0 ? lab_unknowns_find(&c->u, found->param) : -1;
-  pneu_param_info info;
-  if (j < 0)
-    return 0;
-  pneu_param_describe(found->param, &info);
-  return fit->low[j] <= (double)info.neutral && (double)info.neutral <= fit->high[j];
+  const double nothing = j >= 0 ? (double)lab_param_info(found->param).neutral : 0;
+  return j >= 0 && fit->low[j] <= nothing && nothing <= fit->high[j];
 }
 
 /* Take out one effect that can as well be nothing, if only noise is left without it: a switch that comes a row sooner
@@ -387,16 +384,16 @@ static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, con
 static int take_out_accident(lab_finding *f, int *any, lab_error *error)
 {
   lab_candidate *without = malloc(sizeof *without);
-  int i, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
-  *any = 0;
-  for (i = f->best.n_found - 1; status == LAB_OK && !*any && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
+  int i, out = -1, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
+  for (i = f->best.n_found - 1; status == LAB_OK && out < 0 && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
-      *any = status == LAB_OK && lab_is_noise(&without->quality);
+      out = status == LAB_OK && lab_is_noise(&without->quality) ? i : -1;
     }
+  *any = out >= 0;
   if (*any) {
     if (f->result.n_listed < LAB_SCORES_MAX)
-      f->result.listed[f->result.n_listed++] = f->best.found[i + 1].effect;
+      f->result.listed[f->result.n_listed++] = f->best.found[out].effect;
     f->best = *without;
     f->result.verdict = f->best.n_found > 0 ? f->result.verdict : LAB_VERDICT_NONE;
     lab_rounds_note_way(&f->result, &f->best);
