@@ -125,7 +125,7 @@ int pneu_state_rest(const pneu_model *model, pneu_real pressure, pneu_real tempe
                     const pneu_input *input, pneu_state *state)
 {
   const pneu_real p_abs = pressure + model->p.ambient_pressure;
-  const pneu_real T = model->thermal ? temperature : model->p.ambient_temperature;
+  const pneu_real T = model->thermal ? temperature + model->start_excess : model->p.ambient_temperature;
   if (!(p_abs > 0) || !(T > 0) || !(position >= 0 && position <= model->p.stroke) || p_abs * T > PNEU_C(1e30))
     return PNEU_E_NONFINITE;
   memset(state, 0, sizeof *state);

@@ -362,6 +362,7 @@ struct pneu_model {
   pneu_real stop_compliance;           /* [m/N] of either stop; 0: rigid */
   pneu_real exponent_rise;             /* [1] n - 1 of an isothermal chamber that is not quite one; 0: isothermal */
   pneu_real rate_exponent_rise;        /* [1] the same of the rate of pressure, while the temperature stays */
+  pneu_real start_excess;              /* [K] by which gas is warmer than told where a state of rest begins */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */
@@ -521,7 +522,8 @@ void pneu_input_default(const pneu_model *model, pneu_input *input);
 /* A state at rest.
  * In:      pressure     chamber pressure [Pa] gauge, > -ambient_pressure
  *          temperature  of the gas [K], > 0; where it is no state (isothermal law, pressure an input) ambient is taken
- *                       instead. Absolute pressure times temperature at most 1e30 Pa K
+ *                       instead; start_temperature adds its excess. Absolute pressure times temperature at most
+ *                       1e30 Pa K
  *          position     [m], 0..stroke; a stem beyond a stop that an effect has moved is put onto it, and one
  *                       pressed onto a stop that yields sinks in until it is carried
  * Out:     state        mode chosen from the balance of forces

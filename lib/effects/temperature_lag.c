@@ -17,7 +17,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 {
   (void)param;
-  state[0] = t->T / t->model->scale[1];
+  state[0] = (t->T - t->model->start_excess) / t->model->scale[1];
 }
 
 const pneu_effect pneu_effect_record_temperature_lag = {

@@ -150,6 +150,8 @@ static void test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_a
     const blind_effect *e = blind_effect_named(pneu_effect_at(i)->name);
     if (!e && strncmp(pneu_effect_at(i)->name, "positioner", strlen("positioner")) == 0)
       continue; /* these rigs have none */
+    if (!e && strcmp(pneu_effect_at(i)->name, "start_temperature") == 0)
+      continue; /* these begin as warm as the room */
     if (!e)
       fail_msg("no blind trial has %s", pneu_effect_at(i)->name);
     assert_string_equal(e->equation, pneu_effect_at(i)->equation);

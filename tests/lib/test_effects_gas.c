@@ -375,6 +375,34 @@ static double warmed(const pneu_params *p, int gas, double T0, double t)
   return (double)s.T;
 }
 
+/* Shut air that begins b too warm falls to p T_w/(T_w + b) as its film takes the heat; a thermometer that lags begins
+ * at what it was taken to show. */
+static void footprint_start_temperature(void)
+{
+  const double b = 30, P = 2e5 + 101325, Tw = 298.15;
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input shut;
+  pneu_state s;
+  pneu_shown shown;
+  fixture_set(&p, "start_excess", b);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  shut = fixture_input(&m, 0);
+  s = fixture_rest(&m, 2e5, 0, &shut);
+  assert_close((double)s.T, Tw, 0, TOL(0, 1e-6)); /* it has no temperature of its own */
+  if (pneu_effect_find("heat_transfer") < 0 || pneu_effect_find("temperature_lag") < 0)
+    return;
+  fixture_set(&p, "film_conductance", 5);
+  fixture_set(&p, "temperature_time", 10);
+  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  s = fixture_rest(&m, 2e5, 0, &shut);
+  assert_close((double)s.T, Tw + b, 0, TOL(1e-12, 1e-6));
+  assert_int_equal(pneu_show(&m, &s, &shut, &shown), PNEU_OK);
+  assert_close((double)shown.temperature, Tw, 0, TOL(1e-12, 1e-6));
+  fixture_run(&m, &s, &shut, 20, FIXTURE_TOL, NULL);
+  assert_close((double)s.p + 101325, P * Tw / (Tw + b), 0, TOL(1e-6, 1e-4));
+}
+
 static void footprint_heat_transfer(void)
 {
   const pneu_params base = fixture_vessel(1e-3);
@@ -683,6 +711,7 @@ static footprint footprints[] = {
     {"positioner_overlap", "spool__opens_late_or_never_shuts", footprint_positioner_overlap},
     {"positioner_span", "stem__rests_off_in_proportion", footprint_positioner_span},
     {"positioner_zero", "stem__rests_off_by_the_same", footprint_positioner_zero},
+    {"start_temperature", "shut_air__falls_as_it_cools", footprint_start_temperature},
     {"supply_droop", "filling__is_slowed_and_venting_is_not", footprint_supply_droop},
     {"transducer_lag", "vessel__runs_late_by_the_integral_of_the_lag", footprint_transducer_lag},
     {"vent_restriction", "venting__takes_longer_and_filling_does_not", footprint_vent_restriction},

@@ -41,7 +41,7 @@ static void describe_param(lab_unknown *x, int param)
 
 int lab_unknown_is_known(const lab_unknown *x)
 {
-  return x->spread > 0 && (x->kind == LAB_UNKNOWN_PARAM || x->kind == LAB_UNKNOWN_INSTANT);
+  return x->spread > 0 && ((x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS) || x->kind == LAB_UNKNOWN_INSTANT);
 }
 
 int lab_unknown_is_held(const lab_unknown *x)
@@ -304,9 +304,11 @@ static void add_switches(lab_unknowns *u, int e)
       add_switch(u, e, (int)k, x->bracket[k], "s");
 }
 
-/* A parameter that each experiment has for itself, from one on. */
+/* A parameter that each experiment has for itself, from one on. Where the rig file gives it a tolerance it is known to
+ * that, in each. */
 static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first, lab_error *error)
 {
+  const double tolerance = rig->tolerance[param];
   int e;
   for (e = first; e < u->n_runs; e++) {
     char name[LAB_PARAM_NAME_TEXT];
@@ -315,6 +317,10 @@ static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first
       return error->status;
     x = &u->unknown[u->n - 1];
     x->run = e;
+    if (tolerance > 0) {
+      x->prior = x->value;
+      x->spread = x->scale = tolerance;
+    }
     snprintf(x->name, sizeof x->name, "%.80s.%d", lab_fit_name(param, name), e + 1);
   }
   return LAB_OK;
@@ -328,6 +334,41 @@ static int add_own(lab_unknowns *u, int first, lab_error *error)
     if (u->rig.fit_per_log[j] && add_per_log(u, &u->rig, u->rig.fit[j], first, error))
       return error->status;
   return LAB_OK;
+}
+
+/* Mean of what each log has for itself of a parameter, and the standard deviation of one more log about it; that is NaN
+ * where there are not two. */
+static double mean_of_logs(const lab_unknowns *u, int param, double *deviation)
+{
+  double sum = 0, square = 0;
+  int j, n = 0;
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    if (x->kind != LAB_UNKNOWN_PARAM || x->index != param || x->run == LAB_ALL_RUNS)
+      continue;
+    n++;
+    sum += x->value;
+    square += x->value * x->value;
+  }
+  *deviation = n > 1 ? sqrt(fmax(square - sum * sum / n, 0) / (n - 1) * (1 + 1. / n)) : (double)NAN;
+  return sum / n;
+}
+
+lab_rig lab_unknowns_expected(const lab_unknowns *u)
+{
+  lab_rig rig = u->rig;
+  int j;
+  for (j = 0; j < rig.n_fit; j++) {
+    double deviation, mean;
+    if (!rig.fit_per_log[j] || rig.fit[j] == LAB_PARAM_ORIFICE_AREA || rig.tolerance[rig.fit[j]] > 0)
+      continue;
+    mean = mean_of_logs(u, rig.fit[j], &deviation);
+    if (deviation > 0) {
+      *pneu_param_at(&rig.params, rig.fit[j]) = (pneu_real)mean;
+      rig.tolerance[rig.fit[j]] = deviation;
+    }
+  }
+  return rig;
 }
 
 int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error)

@@ -62,6 +62,10 @@ void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_u
 /* The same but for what each log has for itself (fit_per_log).  Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);
 
+/* The rig as another log of it is expected: what each log had for itself (fit_per_log) is its mean over the logs
+ * fitted, known to how far one log is from that, unless the rig file says how well it is known. */
+lab_rig lab_unknowns_expected(const lab_unknowns *u);
+
 /* Collect the unknowns of a rig's fit list and the switches of the experiments.
  * Returns: LAB_OK; LAB_DATA if there are more than LAB_FIT_MAX (switches are then left out first). */
 int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);

@@ -77,7 +77,7 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
 /* ---- How far a model is from logs that it has not seen ---- */
 
 /* Errors on what was held out: of the models on the way there, and on each log by itself. */
-static int judge_each(lab_answer *a, lab_error *error)
+static int judge_each(lab_answer *a, const lab_rig *before, const lab_rig *after, lab_error *error)
 {
   lab_logs *held = &a->held;
   int i, first = 0;
@@ -90,8 +90,8 @@ static int judge_each(lab_answer *a, lab_error *error)
     while (first + n < held->n && held->run[first + n].log == &held->log[i])
       n++;
     log->name = lab_file_name(held->log[i].path);
-    if (lab_judge(&a->now.declared.rig, &held->run[first], n, &log->before, error) ||
-        lab_judge(&a->now.completed.rig, &held->run[first], n, &log->after, error))
+    if (lab_judge(before, &held->run[first], n, &log->before, error) ||
+        lab_judge(after, &held->run[first], n, &log->after, error))
       return error->status;
     first += n;
   }
@@ -104,15 +104,16 @@ static int hold_out(lab_answer *a, lab_error *error)
 {
   lab_report *report = &a->report;
   lab_logs *held = &a->held;
+  const lab_rig before = lab_unknowns_expected(&a->now.declared), after = lab_unknowns_expected(&a->now.completed);
   if (held->n == 0)
     return LAB_OK;
   if (a->now.completed.rig.n_onsets > a->rig.n_onsets)
     lab_limitation(&a->now.logs.limitations,
                    "what begins at %.6g s of the log begins at the same time of a held-out log",
                    a->now.completed.rig.onset[a->rig.n_onsets].from);
-  report->has_holdout = !lab_judge(&a->now.declared.rig, held->run, held->n, &report->holdout_before, error) &&
-                        !lab_judge(&a->now.completed.rig, held->run, held->n, &report->holdout_after, error) &&
-                        !judge_each(a, error);
+  report->has_holdout = !lab_judge(&before, held->run, held->n, &report->holdout_before, error) &&
+                        !lab_judge(&after, held->run, held->n, &report->holdout_after, error) &&
+                        !judge_each(a, &before, &after, error);
   if (report->has_holdout)
     return LAB_OK;
   if (error->status != LAB_NUMERIC)

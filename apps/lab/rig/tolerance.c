@@ -47,6 +47,7 @@ static const struct kind {
     {"position_gain", "position_gain", 0, OF_VALUE, 0, 0.0025},
     {"position_lag", "position_lag", 0, OF_VALUE, 0, 5e-3},
     {"clock", "channel_skew", 0, OF_VALUE, 0, 5e-3},
+    {"start_temperature", "start_temperature", 0, OF_VALUE, 0, 0},
     {"positioner.gain", "positioner", 0, OF_VALUE, 0.2, 0},
     {"positioner.integral_time", "positioner", 1, OF_VALUE, 0, 0},
     {"positioner.derivative_time", "positioner", 2, OF_VALUE, 0, 0},

@@ -43,7 +43,7 @@ void lab_rounds_note_values(lab_search_result *result, const lab_unknowns *u)
   lab_path_model *way = &result->path[result->n_path - 1];
   lab_error ignored;
   int c;
-  way->rig = u->rig;
+  way->rig = lab_unknowns_expected(u);
   if (lab_loop_errors(u, &way->errors, &ignored))
     for (c = 0; c < LAB_CHANNEL_COUNT; c++)
       way->errors.rmse[c] = way->errors.in_noise[c] = (double)NAN;

@@ -433,7 +433,7 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   if (status == LAB_OK)
     status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
   if (status == LAB_OK && result->n_path > 0) {
-    result->path[result->n_path - 1].rig = u->rig;
+    result->path[result->n_path - 1].rig = lab_unknowns_expected(u);
     result->path[result->n_path - 1].errors = result->after;
   }
   return status;

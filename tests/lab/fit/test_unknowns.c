@@ -170,6 +170,49 @@ static void test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches(vo
   assert_int_equal(u.m, DATA + USUAL);
 }
 
+/* Known to a tolerance in each run, and no nuisance that all share; a default of a kind is none. */
+static void test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run(void **state)
+{
+  int k;
+  (void)state;
+  declare();
+  fit_list("spring_preload", 1);
+  open_empty();
+  for (k = 0; k < RUNS; k++)
+    assert_close(u.unknown[k].spread, 0, 0, 0);
+  rig.tolerance[PNEU_PARAM_spring_preload] = 2e-3;
+  open_empty();
+  for (k = 0; k < RUNS; k++) {
+    assert_int_equal(u.unknown[k].run, k);
+    assert_close(u.unknown[k].spread, 2e-3, 0, 0);
+    assert_close(u.unknown[k].prior, (double)rig.params.spring_preload, 0, 0);
+    assert_int_equal(lab_unknown_is_known(&u.unknown[k]), 0);
+    u.unknown[k].value += 1e-3 * (k + 1);
+  }
+  assert_close((double)lab_unknowns_expected(&u).params.spring_preload, u.unknown[0].prior, 0, 0);
+  close_all();
+}
+
+/* Of 3 and 6: 4.5, and sqrt(4.5 (1 + 1/2)) from that. */
+static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(void **state)
+{
+  lab_rig next;
+  (void)state;
+  open_usual();
+  rig.fit_per_log[0] = 1; /* and one that nothing is expected of: a factor on both orifices */
+  open_empty();
+  assert_int_equal(u.unknown[1].run, 1);
+  u.unknown[0].value = 3;
+  u.unknown[1].value = 6;
+  next = lab_unknowns_expected(&u);
+  assert_close((double)next.params.dry_friction, 4.5, 0, 1e-6);
+  assert_close(next.tolerance[PNEU_PARAM_dry_friction], sqrt(4.5 * 1.5), 0, 1e-12);
+  assert_true(isnan(next.tolerance[LAB_PARAM_ORIFICE_AREA]));
+  u.unknown[1].value = 3; /* alike: nothing says by how much another may differ */
+  assert_true(isnan(lab_unknowns_expected(&u).tolerance[PNEU_PARAM_dry_friction]));
+  close_all();
+}
+
 static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **state)
 {
   int j;
@@ -1164,6 +1207,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
+      cmocka_unit_test(test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run),
+      cmocka_unit_test(test_lab_unknowns_expected__own_values__are_their_mean_and_spread),
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
       cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
       cmocka_unit_test(test_lab_unknowns_hold__damping_and_viscous_friction__are_one),

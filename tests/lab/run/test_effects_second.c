@@ -149,6 +149,12 @@ static void set_spring_hysteresis(pneu_params *p, second_rig *g, double size)
   BOTH("hysteresis_length", hysteresis_length, 2e-3);
 }
 
+static void set_start_temperature(pneu_params *p, second_rig *g, double size)
+{
+  g->start_temperature = g->ambient_temperature + 25 * size;
+  fixture_set(p, "start_excess", 25 * size);
+}
+
 static void set_stop_compliance(pneu_params *p, second_rig *g, double size)
 {
   const double compliance = 2e-8 * size;
@@ -249,6 +255,9 @@ static const effect_case cases[] = {
 /* In place of a chamber law. */
 static const effect_case exponent = CASE(chamber_exponent, 6e-7, 4e-8, 2e-7);
 static const effect_case rate_exponent = {"chamber_exponent", set_rate_exponent, {6e-7, 4e-8, 2e-7}};
+
+/* Before anything happens. */
+static const effect_case begins = CASE(start_temperature, 3e-6, 2e-7, 2e-6);
 
 static second_positioner other;
 
@@ -525,6 +534,19 @@ static void test_lab_response_run__exponent__is_that_of_the_second_implementatio
   }
 }
 
+static void test_lab_response_run__start_temperature__is_that_of_the_second_implementation(void **state)
+{
+  int i;
+  (void)state;
+  if (pneu_effect_find(begins.name) < 0)
+    skip();
+  for (i = 0; i < 2; i++) {
+    run e = random_experiment((uint64_t)(74 + i), PNEU_GAS_ENERGY, i ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
+    begins.set(&e.p, &e.g, i ? -1 : 1);
+    assert_agrees(&e, &begins.most, begins.name);
+  }
+}
+
 static void test_lab_response_run__positioner__is_that_of_the_second_implementation(void **state)
 {
   int law, i;
@@ -770,6 +792,7 @@ static void test_effects_def__each_effect__is_compared(void **state)
     for (i = 0; i < COUNT(positioned); i++)
       found += strcmp(positioned[i].name, pneu_effect_at(e)->name) == 0;
     found += strcmp(exponent.name, pneu_effect_at(e)->name) == 0;
+    found += strcmp(begins.name, pneu_effect_at(e)->name) == 0;
     if (!found)
       fail_msg("%s is not compared with the second implementation", pneu_effect_at(e)->name);
   }
@@ -783,6 +806,7 @@ int main(void)
       cmocka_unit_test(test_lab_response_run__base_model__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__each_effect__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__exponent__is_that_of_the_second_implementation),
+      cmocka_unit_test(test_lab_response_run__start_temperature__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__positioner__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation),
   };
