@@ -54,6 +54,33 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
   return lab_unknown_is_held(x) ? x->spread / u->misfit : x->spread;
 }
 
+/* Times its declared value up to which a stem's damping is sought: one that is far beyond it stands in for a lag. */
+static const double most_damping = 10;
+
+/* Where a parameter is sought at most. */
+static double upper_end(const lab_unknowns *u, int param, double upper)
+{
+  pneu_params declared = u->declared;
+  const int damps = param == PNEU_PARAM_damping || param == PNEU_PARAM_viscous_friction;
+  const double most = damps ? most_damping * (double)*pneu_param_at(&declared, param) : 0;
+  return most > 0 ? fmin(most, upper) : upper;
+}
+
+int lab_unknowns_lift(lab_unknowns *u, const lab_unknowns *found)
+{
+  int j, k, any = 0;
+  for (j = 0; j < u->n; j++) {
+    lab_unknown *x = &u->unknown[j];
+    const double upper = x->kind == LAB_UNKNOWN_PARAM ? (double)lab_param_info(x->index).upper : x->upper;
+    for (k = 0; k < found->n && x->upper < upper; k++)
+      if (strcmp(found->unknown[k].name, x->name) == 0 && !(found->unknown[k].value < x->upper)) {
+        x->upper = upper;
+        any = 1;
+      }
+  }
+  return any;
+}
+
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
 {
   const int held = lab_unknowns_find(u, param);
@@ -62,6 +89,7 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
     return no_room(error);
   x->spread = 0;
   describe_param(x, param);
+  x->upper = upper_end(u, param, x->upper);
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);

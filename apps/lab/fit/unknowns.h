@@ -144,6 +144,10 @@ int lab_unknowns_find_onset(const lab_unknowns *u, int param);
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);
 
+/* Let the damping of a stem be as large as the library takes it where `found` has it as large as it is sought, ten
+ * times its declared value. Returns: whether any was there. */
+int lab_unknowns_lift(lab_unknowns *u, const lab_unknowns *found);
+
 /* Drop a parameter and set it to its neutral value; one that was held is held again. */
 void lab_unknowns_drop(lab_unknowns *u, int param);
 

@@ -328,6 +328,20 @@ static int search_with_noise(const lab_search_options *how, lab_completion *c, l
   return lab_search_run(&c->completed, how, &c->result, error);
 }
 
+/* Search; where a stem's damping is as large as it is sought and nothing explains the logs, once more beyond that. */
+static int search_beyond(const lab_search_options *how, lab_completion *c, lab_error *error)
+{
+  if (search_with_noise(how, c, error))
+    return error->status;
+  if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.cut_short ||
+      !lab_unknowns_lift(&c->declared, &c->completed))
+    return LAB_OK;
+  if (lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error))
+    return error->status;
+  c->completed = c->declared;
+  return search_with_noise(how, c, error);
+}
+
 /* Search with what the logs share; where something seems to differ from log to log that is half of the time, and the
  * rest is for a search with values of each log. */
 static int search_apart(const lab_search_options *how, lab_completion *c, lab_error *error)
@@ -339,7 +353,7 @@ static int search_apart(const lab_search_options *how, lab_completion *c, lab_er
     c->declared.until = now + (end - now) / 2;
   c->completed = c->declared;
   if (status == LAB_OK)
-    status = search_with_noise(how, c, error);
+    status = search_beyond(how, c, error);
   if (status == LAB_OK)
     status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
   c->declared.until = c->completed.until = end;
