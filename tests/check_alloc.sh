@@ -13,13 +13,8 @@ work="$folder/work"
 rm -rf "$work"
 mkdir -p "$work"
 export OMP_NUM_THREADS=1 LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0
-wrong=0
+. tests/expect.sh
 runs=0
-
-complain() {
-  echo "$*"
-  wrong=$((wrong + 1))
-}
 
 # A rig without its leak, and a short log of one that leaks.
 printf 'effects = { chamber_leak = { leak_area = "0.4 mm^2"; }; };\n' | cat study/actuators/r1-400.cfg - >"$work/leaky.cfg"

@@ -6,22 +6,7 @@ set -u
 rm -rf "$BUILD/batch"
 mkdir -p "$BUILD/batch/list/rigs"
 folder=$(cd "$BUILD/batch" && pwd)
-wrong=0
-
-complain() {
-  echo "$*"
-  wrong=$((wrong + 1))
-}
-
-# expect STATUS WHAT COMMAND...
-expect() {
-  status=$1
-  what=$2
-  shift 2
-  "$@" >"$folder/out" 2>"$folder/err"
-  got=$?
-  [ "$got" -eq "$status" ] || complain "$what: expected status $status, got $got: $(cat "$folder/err")"
-}
+. tests/expect.sh
 
 list=list # the name of the one to run
 

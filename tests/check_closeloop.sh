@@ -7,22 +7,7 @@ programs=$(cd "$BUILD/bin" && pwd)
 rm -rf "$folder"
 mkdir -p "$folder/bin" "$folder/empty"
 files="report.json report.html model.cfg model.h effects.def residual.csv signature.svg response.svg residual.svg arguments.svg autocorrelation.svg"
-wrong=0
-
-complain() {
-  echo "$*"
-  wrong=$((wrong + 1))
-}
-
-# expect STATUS WHAT COMMAND...
-expect() {
-  status=$1
-  what=$2
-  shift 2
-  "$@" >"$folder/out" 2>"$folder/err"
-  got=$?
-  [ "$got" -eq "$status" ] || complain "$what: expected status $status, got $got: $(cat "$folder/err")"
-}
+. tests/expect.sh
 
 # A rig that answers as declared, and its log.
 printf 'fit = ("spring_rate");\nnoise = { pressure = "0.3 kPa"; position = "0.02 mm"; };\n' |

@@ -7,12 +7,7 @@ set -u
 folder="$BUILD/holdout"
 rm -rf "$folder"
 mkdir -p "$folder"
-wrong=0
-
-complain() {
-  echo "$*"
-  wrong=$((wrong + 1))
-}
+. tests/expect.sh
 
 # errors REPORT: "before.pressure 12.3", "holdout.before.pressure 4.5", ... in SI
 errors() {

@@ -52,11 +52,10 @@ static int begin_trial(const lab_projection *p, int first, int param, tried *t, 
 
 double lab_change_usual(const lab_unknowns *u, int param)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   double now;
   if (param == LAB_PARAM_ORIFICE_AREA)
     return 0.1;
-  pneu_param_describe(param, &info);
   now = (double)*pneu_param_at((pneu_params *)&u->rig.params, param);
   if (param >= PNEU_PARAM_BASE_COUNT)
     return (double)info.value - (double)info.neutral;
@@ -183,8 +182,7 @@ static int is_off(const lab_unknowns *u, int first, int count)
 {
   int i, off = 1;
   for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
+    const pneu_param_info info = lab_param_info(i);
     off = off && (info.shape ||
                   (lab_unknowns_find(u, i) < 0 && *pneu_param_at((pneu_params *)&u->rig.params, i) == info.neutral));
   }

@@ -343,8 +343,7 @@ static int is_own(int first, int count, pneu_params *mine, pneu_params *theirs)
 {
   int i, acts = 0, differs = 0;
   for (i = first; i < first + count; i++) {
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
+    const pneu_param_info info = lab_param_info(i);
     acts |= !info.shape && *pneu_param_at(mine, i) != info.neutral;
     differs |= *pneu_param_at(mine, i) != *pneu_param_at(theirs, i);
   }
@@ -660,11 +659,9 @@ static int widest(const double *width, int n, const int *done)
 static int is_neutral(const pneu_params *params, int param)
 {
   pneu_params copy = *params;
-  pneu_param_info info;
-  if (param == LAB_PARAM_ORIFICE_AREA || param < PNEU_PARAM_BASE_COUNT)
-    return 0;
-  pneu_param_describe(param, &info);
-  return !info.shape && *pneu_param_at(&copy, param) == info.neutral;
+  const pneu_param_info info = lab_param_info(param);
+  return param != LAB_PARAM_ORIFICE_AREA && param >= PNEU_PARAM_BASE_COUNT && !info.shape &&
+         *pneu_param_at(&copy, param) == info.neutral;
 }
 
 static void say_precision(const pneu_params *params, lab_advice *advice)

@@ -81,10 +81,9 @@ static double value_of(const pneu_params *params, int param)
 double lab_forecast_scale(const pneu_params *params, int param)
 {
   const double value = fabs(value_of(params, param));
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   if (param == LAB_PARAM_ORIFICE_AREA)
     return value;
-  pneu_param_describe(param, &info);
   if (param >= PNEU_PARAM_BASE_COUNT && !info.shape)
     return fabs((double)(info.value - info.neutral));
   return value != 0 ? value : info.value != 0 ? fabs((double)info.value) : 1;
@@ -99,13 +98,12 @@ static double change_of(const pneu_params *from, const pneu_params *to, int para
 void lab_forecast_bounds(const pneu_params *params, int param, double scale, double *lower, double *upper)
 {
   const double value = value_of(params, param);
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   if (param == LAB_PARAM_ORIFICE_AREA) {
     *lower = (narrowest - 1) * value / scale;
     *upper = (double)INFINITY;
     return;
   }
-  pneu_param_describe(param, &info);
   *lower = ((double)info.lower - value) / scale;
   *upper = ((double)info.upper - value) / scale;
 }
@@ -113,14 +111,13 @@ void lab_forecast_bounds(const pneu_params *params, int param, double scale, dou
 void lab_forecast_shift(pneu_params *params, int param, double change, double scale)
 {
   const double value = value_of(params, param) + change * scale;
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   if (param == LAB_PARAM_ORIFICE_AREA) {
     const double factor = fmax(value / (double)params->fill_area, narrowest);
     params->fill_area *= (pneu_real)factor;
     params->vent_area *= (pneu_real)factor;
     return;
   }
-  pneu_param_describe(param, &info);
   *pneu_param_at(params, param) = (pneu_real)fmin(fmax(value, (double)info.lower), (double)info.upper);
 }
 

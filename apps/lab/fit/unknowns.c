@@ -54,31 +54,36 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
   return lab_unknown_is_held(x) ? x->spread / u->misfit : x->spread;
 }
 
-/* Times its declared value up to which a stem's damping is sought: one that is far beyond it stands in for a lag. */
+/* Times its declared value that a stem's damping can be: one that is far beyond it stands in for a lag. */
 static const double most_damping = 10;
 
-/* Where a parameter is sought at most. */
-static double upper_end(const lab_unknowns *u, int param, double upper)
+/* Ten times the declared damping; infinite of all else, and where none is declared. */
+static double most_of(const lab_unknowns *u, int param)
 {
-  pneu_params declared = u->declared;
   const int damps = param == PNEU_PARAM_damping || param == PNEU_PARAM_viscous_friction;
-  const double most = damps ? most_damping * (double)*pneu_param_at(&declared, param) : 0;
-  return most > 0 ? fmin(most, upper) : upper;
+  const double declared = damps ? (double)*pneu_param_at((pneu_params *)&u->declared, param) : 0;
+  return declared > 0 ? most_damping * declared : (double)INFINITY;
 }
 
-int lab_unknowns_lift(lab_unknowns *u, const lab_unknowns *found)
+int lab_unknowns_is_overdamped(const lab_unknowns *u)
 {
-  int j, k, any = 0;
-  for (j = 0; j < u->n; j++) {
-    lab_unknown *x = &u->unknown[j];
-    const double upper = x->kind == LAB_UNKNOWN_PARAM ? (double)lab_param_info(x->index).upper : x->upper;
-    for (k = 0; k < found->n && x->upper < upper; k++)
-      if (strcmp(found->unknown[k].name, x->name) == 0 && !(found->unknown[k].value < x->upper)) {
-        x->upper = upper;
-        any = 1;
-      }
-  }
+  int j, any = 0;
+  for (j = 0; j < u->n; j++)
+    any |= u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].value > most_of(u, u->unknown[j].index);
   return any;
+}
+
+void lab_unknowns_limit_damping(lab_unknowns *u)
+{
+  int j;
+  u->is_damping_limited = 1;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM) {
+      lab_unknown *x = &u->unknown[j];
+      x->upper = fmin(x->upper, most_of(u, x->index));
+      x->value = fmin(x->value, x->upper);
+    }
+  lab_unknowns_take(u);
 }
 
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
@@ -89,7 +94,8 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
     return no_room(error);
   x->spread = 0;
   describe_param(x, param);
-  x->upper = upper_end(u, param, x->upper);
+  if (u->is_damping_limited)
+    x->upper = fmin(x->upper, most_of(u, param));
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);
@@ -240,7 +246,7 @@ int lab_unknowns_find_onset(const lab_unknowns *u, int param)
 
 void lab_unknowns_drop(lab_unknowns *u, int param)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(param);
   int j = lab_unknowns_find(u, param);
   if (j >= 0 && u->unknown[j].tolerance > 0) {
     u->unknown[j].spread = u->unknown[j].tolerance;
@@ -249,7 +255,6 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
   if (j >= 0)
     for (u->n--; j < u->n; j++)
       u->unknown[j] = u->unknown[j + 1];
-  pneu_param_describe(param, &info);
   *pneu_param_at(&u->rig.params, param) = info.shape ? info.value : info.neutral;
 }
 

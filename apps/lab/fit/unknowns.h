@@ -42,8 +42,9 @@ typedef struct lab_unknowns {
   pneu_params declared; /* as declared; orifice_area scales its areas */
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
-  double tol;       /* of the stepper; 0: as in response.h */
-  double misfit;    /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
+  double tol;    /* of the stepper; 0: as in response.h */
+  double misfit; /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
+  int is_damping_limited;
   double until;     /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
   size_t n_rows;    /* rows times channels, gaps among them */
   size_t window;    /* rows of a window where the residuals are those of windowed.h; 0: row by row */
@@ -144,9 +145,12 @@ int lab_unknowns_find_onset(const lab_unknowns *u, int param);
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);
 
-/* Let the damping of a stem be as large as the library takes it where `found` has it as large as it is sought, ten
- * times its declared value. Returns: whether any was there. */
-int lab_unknowns_lift(lab_unknowns *u, const lab_unknowns *found);
+/* Whether a damping is more than ten times what is declared. Little is known of a stem's damping, but as much as that
+ * is a lag, or a stem that sticks. */
+int lab_unknowns_is_overdamped(const lab_unknowns *u);
+
+/* Let none be more than that from now on, in what is added as well. */
+void lab_unknowns_limit_damping(lab_unknowns *u);
 
 /* Drop a parameter and set it to its neutral value; one that was held is held again. */
 void lab_unknowns_drop(lab_unknowns *u, int param);

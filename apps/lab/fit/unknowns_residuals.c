@@ -11,14 +11,13 @@
 /* Add to what all runs have, within the bounds. */
 static void apply_change(const lab_unknown *x, double value, lab_rig *rig)
 {
-  pneu_param_info info;
+  const pneu_param_info info = lab_param_info(x->index);
   pneu_real *at;
   if (x->index == LAB_PARAM_ORIFICE_AREA) {
     rig->params.fill_area *= 1 + (pneu_real)value;
     rig->params.vent_area *= 1 + (pneu_real)value;
     return;
   }
-  pneu_param_describe(x->index, &info);
   at = pneu_param_at(&rig->params, x->index);
   *at = (pneu_real)fmin(fmax((double)*at + value, (double)info.lower), (double)info.upper);
 }

@@ -328,18 +328,36 @@ static int search_with_noise(const lab_search_options *how, lab_completion *c, l
   return lab_search_run(&c->completed, how, &c->result, error);
 }
 
-/* Search; where a stem's damping is as large as it is sought and nothing explains the logs, once more beyond that. */
-static int search_beyond(const lab_search_options *how, lab_completion *c, lab_error *error)
+/* What a search has led from and to. */
+typedef struct course {
+  lab_unknowns declared, completed;
+  lab_search_result result;
+} course;
+
+/* Search; where a stem is damped far more than declared, once more with less, which is the answer if it explains as
+ * much or more. */
+static int search_less_damped(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
-  if (search_with_noise(how, c, error))
-    return error->status;
-  if (c->result.verdict != LAB_VERDICT_UNDECIDED || c->result.cut_short ||
-      !lab_unknowns_lift(&c->declared, &c->completed))
-    return LAB_OK;
-  if (lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error))
-    return error->status;
+  course *more;
+  int status = search_with_noise(how, c, error);
+  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_overdamped(&c->completed))
+    return status;
+  more = malloc(sizeof *more);
+  if (!more)
+    return lab_fail_memory(error, "a search with less damping");
+  *more = (course){c->declared, c->completed, c->result};
+  lab_unknowns_limit_damping(&c->declared);
+  status = lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error);
   c->completed = c->declared;
-  return search_with_noise(how, c, error);
+  if (status == LAB_OK)
+    status = search_with_noise(how, c, error);
+  if (status != LAB_OK || !lab_search_is_better(&c->result, &more->result)) {
+    c->declared = more->declared;
+    c->completed = more->completed;
+    c->result = more->result;
+  }
+  free(more);
+  return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
 /* Search with what the logs share; where something seems to differ from log to log that is half of the time, and the
@@ -353,7 +371,7 @@ static int search_apart(const lab_search_options *how, lab_completion *c, lab_er
     c->declared.until = now + (end - now) / 2;
   c->completed = c->declared;
   if (status == LAB_OK)
-    status = search_beyond(how, c, error);
+    status = search_less_damped(how, c, error);
   if (status == LAB_OK)
     status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
   c->declared.until = c->completed.until = end;

@@ -174,12 +174,10 @@ cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list)
 {
   const int j = lab_report_size(t->report, param);
   const lab_unknown *x = &t->report->completed->unknown[j < 0 ? 0 : j];
-  pneu_param_info info;
   cJSON *item = j < 0 ? NULL : lab_json_append(list);
   if (!item)
     return NULL;
-  pneu_param_describe(param, &info);
-  lab_json_put(item, "meaning", "%s", info.meaning);
+  lab_json_put(item, "meaning", "%s", lab_param_info(param).meaning);
   put_quantity(item, "value", x->value, x->unit, digits_of(t, j));
   lab_json_put(item, "unit", "%s", lab_format_as(x->unit).unit);
   put_interval(t, j, item);
@@ -290,9 +288,8 @@ static void put_candidates(const lab_sources *t, cJSON *page)
   for (i = 0; i < scores->n; i++) {
     const lab_score *c = &scores->of[i];
     const double explained = lab_report_refit_explains(t->report->result, c);
-    pneu_param_info info;
     cJSON *item = lab_json_append(list);
-    pneu_param_describe(c->param, &info);
+    const pneu_param_info info = lab_param_info(c->param);
     lab_json_put(item, "effect", "%s", pneu_effect_at(c->effect)->name);
     lab_json_put(item, "parameter", "%s", info.name);
     put_number(item, "statistic", c->statistic, 3);

@@ -64,12 +64,10 @@ static void add_changes(const lab_changes *changes, cJSON *root)
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
   const int j = param < 0 ? -1 : lab_report_size(report, param);
-  pneu_param_info info;
-  if (j < 0)
-    return;
-  pneu_param_describe(param, &info);
-  add_interval(to, info.name, report->completed->unknown[j].value, info.unit, report->result->fit.low[j],
-               report->result->fit.high[j]);
+  const lab_unknown *x = &report->completed->unknown[j < 0 ? 0 : j];
+  if (j >= 0)
+    add_interval(to, lab_param_info(param).name, x->value, x->unit, report->result->fit.low[j],
+                 report->result->fit.high[j]);
 }
 
 static void add_found(cJSON *to, const lab_report *report, int which)
@@ -216,8 +214,7 @@ static void add_candidates(cJSON *to, const lab_search_result *r)
   for (i = 0; i < scores->n; i++) {
     const lab_score *c = &scores->of[i];
     cJSON *o = lab_json_append(list);
-    pneu_param_info info;
-    pneu_param_describe(c->param, &info);
+    const pneu_param_info info = lab_param_info(c->param);
     cJSON_AddStringToObject(o, "effect", pneu_effect_at(c->effect)->name);
     cJSON_AddStringToObject(o, "parameter", info.name);
     LAB_JSON_NUMBERS(o, {"statistic", c->statistic}, {"p_value", c->p_value},

@@ -100,33 +100,6 @@ static void say(const lab_apart *apart, const lab_unknowns *completed, lab_limit
   }
 }
 
-static int is_explained(const lab_search_result *result)
-{
-  return result->verdict == LAB_VERDICT_NONE || result->verdict == LAB_VERDICT_EFFECT;
-}
-
-static int has_free_term(const lab_search_result *result)
-{
-  int i, any = 0;
-  for (i = 0; i < result->n_found; i++)
-    any |= result->found[i].term >= 0;
-  return any;
-}
-
-/* Schwarz's criterion of what a search leaves, row by row. */
-static double bic_of(const lab_search_result *result)
-{
-  return result->after.chi2 + result->fit.n * log((double)result->after.n);
-}
-
-/* Whether values of each log say more: they explain the logs, leave less than what stands in for them, or as much as a
- * free term, which can bend to nearly anything. */
-static int is_better(const lab_search_result *own, const lab_search_result *shared)
-{
-  const int bends = has_free_term(shared) && !has_free_term(own);
-  return is_explained(own) || bic_of(own) < (bends ? lab_constant(LAB_NOISE_SLIP) : 1) * bic_of(shared);
-}
-
 /* The declared model stays what the logs share; that values are of each log is the first that was added to it. */
 static void follow_on(const lab_apart *apart, const lab_search_result *shared, lab_search_result *own)
 {
@@ -147,7 +120,7 @@ int lab_apart_search(const lab_apart *apart, const lab_search_options *options, 
   lab_search_result *own;
   lab_unknowns *u;
   int status;
-  if (apart->n == 0 || is_explained(result))
+  if (apart->n == 0 || lab_search_explains(result))
     return LAB_OK;
   own = calloc(1, sizeof *own);
   u = malloc(sizeof *u);
@@ -157,7 +130,7 @@ int lab_apart_search(const lab_apart *apart, const lab_search_options *options, 
     u->until = completed->until;
     status = lab_search_run(u, options, own, error);
   }
-  if (status == LAB_OK && is_better(own, result)) {
+  if (status == LAB_OK && lab_search_is_better(own, result)) {
     follow_on(apart, result, own);
     *completed = *u;
     *result = *own;

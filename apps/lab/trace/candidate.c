@@ -315,11 +315,8 @@ void lab_candidate_drop_neutral(lab_candidate *c)
   lab_rig last;
   lab_rig_at(&c->u.rig, HUGE_VAL, &last);
   while (i-- > 0) {
-    pneu_param_info info;
-    if (c->found[i].effect < 0)
-      continue;
-    pneu_param_describe(c->found[i].param, &info);
-    if (*pneu_param_at(&last.params, c->found[i].param) == info.neutral)
+    const int param = c->found[i].param;
+    if (c->found[i].effect >= 0 && *pneu_param_at(&last.params, param) == lab_param_info(param).neutral)
       lab_candidate_drop(c, i);
   }
 }

@@ -38,12 +38,10 @@ static void add(lab_rig *rig, int param, double size)
 static double first_step(const lab_rig *rig, int param)
 {
   static const double share = 0.2;
-  pneu_param_info info;
-  double now;
+  const pneu_param_info info = lab_param_info(param);
+  const double now = lab_param_value(rig, param);
   if (param == LAB_PARAM_ORIFICE_AREA)
     return -share;
-  pneu_param_describe(param, &info);
-  now = lab_param_value(rig, param);
   if (param < PNEU_PARAM_BASE_COUNT)
     return param == PNEU_PARAM_dry_friction ? share * now : -share * now;
   return now + (double)(info.value - info.neutral) < (double)info.upper ? (double)(info.value - info.neutral)

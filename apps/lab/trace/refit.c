@@ -80,8 +80,7 @@ enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, FROM_BOUND, STARTS };
 /* By how much an effect leaves neutral at the start. */
 static double size_at(const lab_score *score, enum start start)
 {
-  pneu_param_info info;
-  pneu_param_describe(score->param, &info);
+  const pneu_param_info info = lab_param_info(score->param);
   if (start == FROM_BOUND)
     return (double)(info.upper - info.neutral);
   if (start == FROM_SLOPE && score->size != 0)
@@ -93,10 +92,9 @@ static double size_at(const lab_score *score, enum start start)
 static void begin_refit(const lab_candidate *base, const lab_score *score, enum start start, lab_candidate *c,
                         lab_error *all)
 {
-  pneu_param_info info;
   lab_error ignored;
   lab_found *found;
-  pneu_param_describe(score->param, &info);
+  const pneu_param_info info = lab_param_info(score->param);
   if (lab_unknowns_add(&c->u, score->param, (double)info.neutral + size_at(score, start), &ignored) ||
       (score->shape >= 0 && lab_unknowns_add(&c->u, score->shape, score->shape_value, &ignored)))
     return; /* no room */

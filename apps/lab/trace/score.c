@@ -173,8 +173,7 @@ static int score_shape(const lab_projection *p, lab_score *score, double shape_v
 {
   shaped_effect effect = {.p = p, .model = p->u->rig, .param = score->param};
   lab_trial trial = {.shape_value = shape_value, .slope = effect_slope, .context = &effect};
-  pneu_param_info info;
-  pneu_param_describe(score->param, &info);
+  const pneu_param_info info = lab_param_info(score->param);
   effect.present = (double)*pneu_param_at(&effect.model.params, score->param); /* neutral, but for one that is held */
   trial.usual = (double)info.value - (double)info.neutral;
   trial.up = (double)info.upper - effect.present;
@@ -187,8 +186,7 @@ static int score_shape(const lab_projection *p, lab_score *score, double shape_v
 
 double lab_score_shape(const lab_score *score, int which)
 {
-  pneu_param_info info;
-  pneu_param_describe(score->shape, &info);
+  const pneu_param_info info = lab_param_info(score->shape);
   return fmin(fmax(shapes[which] * (double)info.value, (double)info.lower), (double)info.upper);
 }
 
@@ -219,8 +217,7 @@ static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
   for (i = first + count - 1; i >= first; i--) {
     const int j = lab_unknowns_find(u, i);
     const int held = j >= 0 ? lab_unknown_is_held(&u->unknown[j]) : u->nuisance && lab_nuisance_holds(u->nuisance, i);
-    pneu_param_info info;
-    pneu_param_describe(i, &info);
+    const pneu_param_info info = lab_param_info(i);
     if (lab_unknowns_find_onset(u, i) >= 0 ||
         (!held && (j >= 0 || (!info.shape && *pneu_param_at((pneu_params *)&u->rig.params, i) != info.neutral))))
       return 0;
@@ -255,8 +252,7 @@ static void list_effects(const lab_unknowns *u, lab_scores *scores)
     if (!is_absent(u, first, count, &shape) || !lab_score_can_be_missing(&u->rig, e) || !is_measured(u, e))
       continue;
     for (i = first; i < first + count && scores->n < LAB_SCORES_MAX; i++) {
-      pneu_param_info info;
-      pneu_param_describe(i, &info);
+      const pneu_param_info info = lab_param_info(i);
       if (info.shape)
         continue;
       scores->of[scores->n].effect = e;

@@ -342,6 +342,31 @@ void lab_search_options_default(lab_search_options *options)
   options->may_begin = 1;
 }
 
+int lab_search_explains(const lab_search_result *result)
+{
+  return result->verdict == LAB_VERDICT_NONE || result->verdict == LAB_VERDICT_EFFECT;
+}
+
+static int has_free_term(const lab_search_result *result)
+{
+  int i, any = 0;
+  for (i = 0; i < result->n_found; i++)
+    any |= result->found[i].term >= 0;
+  return any;
+}
+
+/* Schwarz's criterion of what a search leaves, row by row. */
+static double bic_of(const lab_search_result *result)
+{
+  return result->after.chi2 + result->fit.n * log((double)result->after.n);
+}
+
+int lab_search_is_better(const lab_search_result *other, const lab_search_result *first)
+{
+  const int bends = has_free_term(first) && !has_free_term(other);
+  return lab_search_explains(other) || bic_of(other) < (bends ? lab_constant(LAB_NOISE_SLIP) : 1) * bic_of(first);
+}
+
 int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_result *result, lab_error *error)
 {
   const int status = stage == LAB_STAGE_BEFORE ? lab_loop_errors(u, &result->before, error)

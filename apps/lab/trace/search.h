@@ -89,4 +89,11 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
 int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_result *result, lab_error *error);
 
+/* Whether a search explains the logs: by declared values alone, or by effects that have a name. */
+int lab_search_explains(const lab_search_result *result);
+
+/* Whether another search says more than the first: it explains the logs, has a lower BIC, or leaves about as much as a
+ * free term of the first, which can bend to nearly anything. */
+int lab_search_is_better(const lab_search_result *other, const lab_search_result *first);
+
 #endif

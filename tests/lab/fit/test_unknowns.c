@@ -213,11 +213,9 @@ static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(vo
   close_all();
 }
 
-/* Up to ten times as declared, and beyond that only where a model wants it; of what is declared as none, as far as the
- * library takes it. */
-static void test_lab_unknowns_lift__damping_at_its_end__may_be_larger(void **state)
+/* Ten times as declared is the most, also of what is added later; of what is declared as none there is no such end. */
+static void test_lab_unknowns_limit_damping__far_more_than_declared__is_ten_times(void **state)
 {
-  static lab_unknowns found;
   const double upper = (double)lab_param_info(PNEU_PARAM_damping).upper;
   double declared;
   (void)state;
@@ -225,17 +223,20 @@ static void test_lab_unknowns_lift__damping_at_its_end__may_be_larger(void **sta
   declared = (double)rig.params.damping;
   assert_true(declared > 0);
   fit_list("damping", 0);
-  fit_list("dry_friction", 0);
   open_empty();
-  assert_close(u.unknown[0].upper, 10 * declared, 0, 1e-12);
-  assert_close(u.unknown[1].upper, (double)lab_param_info(PNEU_PARAM_dry_friction).upper, 0, 0);
-  found = u;
-  assert_int_equal(lab_unknowns_lift(&u, &found), 0);
-  found.unknown[0].value = found.unknown[0].upper;
-  assert_int_equal(lab_unknowns_lift(&u, &found), 1);
-  assert_close(u.unknown[0].upper, upper, 0, 0);
+  u.unknown[0].value = 9.9 * declared;
+  assert_int_equal(lab_unknowns_is_overdamped(&u), 0);
+  u.unknown[0].value = 26 * declared;
+  assert_int_equal(lab_unknowns_is_overdamped(&u), 1);
+  lab_unknowns_limit_damping(&u);
+  assert_close(u.unknown[0].value, 10 * declared, 0, 1e-6);
+  assert_close((double)u.rig.params.damping, 10 * declared, 0, 1e-6);
+  assert_int_equal(lab_unknowns_is_overdamped(&u), 0);
+  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_dry_friction, 1, &error), LAB_OK);
+  assert_close(u.unknown[u.n - 1].upper, (double)lab_param_info(PNEU_PARAM_dry_friction).upper, 0, 0);
   rig.params.damping = 0;
   open_empty();
+  lab_unknowns_limit_damping(&u);
   assert_close(u.unknown[0].upper, upper, 0, 0);
   close_all();
 }
@@ -1236,7 +1237,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
       cmocka_unit_test(test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run),
       cmocka_unit_test(test_lab_unknowns_expected__own_values__are_their_mean_and_spread),
-      cmocka_unit_test(test_lab_unknowns_lift__damping_at_its_end__may_be_larger),
+      cmocka_unit_test(test_lab_unknowns_limit_damping__far_more_than_declared__is_ten_times),
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
       cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
       cmocka_unit_test(test_lab_unknowns_hold__damping_and_viscous_friction__are_one),
