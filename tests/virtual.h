@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "../apps/lab/log/log.h"
 #include "../apps/lab/rig/rig.h"
 #include "check.h"
 #include "second/rig.h"
@@ -45,6 +46,21 @@ static inline void virtual_write(const second_rig *g, const second_course *cours
     fprintf(file, "%.3f,%g,%.1f,%.7f\n", log.t[i], log.u[i], log.p[i], log.x[i]);
   fclose(file);
   free(t);
+}
+
+/* A log of n rows in one run: time, command, pressure and position, the last NULL where it is not measured. One at a
+ * time. */
+static inline lab_log virtual_log(size_t n, double *t, double *command, double *p, double *x)
+{
+  static char path[] = "bench/log.csv";
+  static size_t first[2];
+  lab_log log = {.path = path, .n = n, .n_runs = 1, .run = first};
+  first[1] = n;
+  log.value[LAB_CHANNEL_TIME] = t;
+  log.value[LAB_CHANNEL_U] = command;
+  log.value[LAB_CHANNEL_P] = p;
+  log.value[LAB_CHANNEL_X] = x;
+  return log;
 }
 
 /* The same rig as it is declared, with its noise; nothing is fitted. */

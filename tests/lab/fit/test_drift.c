@@ -17,19 +17,10 @@ static double t[ROWS], command[ROWS], p[ROWS], weight[ROWS];
 
 static void open_run(void)
 {
-  static size_t first[2] = {0, ROWS};
-  static char path[] = "log.csv";
   int i;
   lab_rig_default(&rig);
   rig.params.supply_pressure = 140000;
-  memset(&one_log, 0, sizeof one_log);
-  one_log.path = path;
-  one_log.n = ROWS;
-  one_log.n_runs = 1;
-  one_log.run = first;
-  one_log.value[LAB_CHANNEL_TIME] = t;
-  one_log.value[LAB_CHANNEL_U] = command;
-  one_log.value[LAB_CHANNEL_P] = p;
+  one_log = virtual_log(ROWS, t, command, p, NULL);
   for (i = 0; i < ROWS; i++) {
     t[i] = 0.1 * i + 3;
     p[i] = i == GAP ? NAN : 0;

@@ -1,5 +1,6 @@
 /* Slopes in many instants from few simulations, beside those of one simulation each. */
 #include "../../fixture.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/fit/instants.h"
 #include "../../../apps/lab/fit/unknowns.h"
@@ -18,8 +19,6 @@ static double r[DATA + LAB_FIT_MAX], column[DATA + LAB_FIT_MAX], J[(DATA + LAB_F
 /* One run in which the command alternates between two values, 1 s each; nothing is measured. */
 static void open_run(double up, double down)
 {
-  static size_t first[] = {0, ROWS};
-  static char path[] = "log.csv";
   int i;
   lab_rig_default(&rig);
   rig.laws.flow = PNEU_FLOW_CHOKED;
@@ -28,15 +27,7 @@ static void open_run(double up, double down)
   rig.params.vent_area *= 10;
   rig.noise[LAB_CHANNEL_P] = 300;
   rig.noise[LAB_CHANNEL_X] = 2e-5;
-  memset(&run_log, 0, sizeof run_log);
-  run_log.path = path;
-  run_log.n = ROWS;
-  run_log.value[LAB_CHANNEL_TIME] = t;
-  run_log.value[LAB_CHANNEL_U] = command;
-  run_log.value[LAB_CHANNEL_P] = p;
-  run_log.value[LAB_CHANNEL_X] = x;
-  run_log.n_runs = 1;
-  run_log.run = first;
+  run_log = virtual_log(ROWS, t, command, p, x);
   for (i = 0; i < ROWS; i++) {
     t[i] = spacing * i;
     command[i] = i < ROWS_EACH / 2 ? 0 : (i + ROWS_EACH / 2) / ROWS_EACH % 2 ? up : down;

@@ -1,5 +1,6 @@
 /* Single values that neither the model nor their neighbours know of, in a log that the model itself has made. */
 #include "../../fixture.h"
+#include "../../virtual.h"
 #include "../../words.h"
 
 #include "../../../apps/lab/fit/outliers.h"
@@ -45,23 +46,13 @@ static void measure(void)
 /* The R1-400 filled and vented; the model knows every value. */
 static int open_log(void **state)
 {
-  static size_t first[] = {0, ROWS};
-  static char path[] = "bench/log.csv";
   int i;
   (void)state;
   lab_rig_default(&rig);
   rig.laws.flow = PNEU_FLOW_CHOKED;
   rig.noise[LAB_CHANNEL_P] = sigma_p;
   rig.noise[LAB_CHANNEL_X] = sigma_x;
-  memset(&run_log, 0, sizeof run_log);
-  run_log.path = path;
-  run_log.n = ROWS;
-  run_log.value[LAB_CHANNEL_TIME] = t;
-  run_log.value[LAB_CHANNEL_U] = command;
-  run_log.value[LAB_CHANNEL_P] = p;
-  run_log.value[LAB_CHANNEL_X] = x;
-  run_log.n_runs = 1;
-  run_log.run = first;
+  run_log = virtual_log(ROWS, t, command, p, x);
   run_log.line = line;
   for (i = 0; i < ROWS; i++) {
     t[i] = spacing * i;

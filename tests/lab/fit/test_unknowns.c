@@ -1,5 +1,6 @@
 /* What a fit looks for: two runs of a log that the model itself has made, with known values for all of it. */
 #include "../../fixture.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/fit/errors.h"
 #include "../../../apps/lab/fit/windowed.h"
@@ -52,16 +53,9 @@ static void declare(void)
 static void write_commands(void)
 {
   static size_t first[RUNS + 1] = {0, ROWS, RUNS * ROWS};
-  static char path[] = "log.csv";
   static const double fill[RUNS] = {1, 0.7}, vent[RUNS] = {-1, -0.6};
   int k, i;
-  memset(&run_log, 0, sizeof run_log);
-  run_log.path = path;
-  run_log.n = RUNS * ROWS;
-  run_log.value[LAB_CHANNEL_TIME] = t;
-  run_log.value[LAB_CHANNEL_U] = command;
-  run_log.value[LAB_CHANNEL_P] = p;
-  run_log.value[LAB_CHANNEL_X] = x;
+  run_log = virtual_log(RUNS * ROWS, t, command, p, x);
   run_log.n_runs = RUNS;
   run_log.run = first;
   for (k = 0; k < RUNS; k++)

@@ -1,5 +1,6 @@
 /* Where something without a name acts: logs that the model itself has made, with a free term in it and noise on top. */
 #include "../../fixture.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/trace/freeterms.h"
 
@@ -31,19 +32,9 @@ static void declare(void)
 /* Twice up and down, slowly, in a minute. */
 static void open_log(void)
 {
-  static size_t first[2] = {0, ROWS};
-  static char path[] = "log.csv";
   int i;
   lab_run_close(&run);
-  memset(&run_log, 0, sizeof run_log);
-  run_log.path = path;
-  run_log.n = ROWS;
-  run_log.value[LAB_CHANNEL_TIME] = t;
-  run_log.value[LAB_CHANNEL_U] = command;
-  run_log.value[LAB_CHANNEL_P] = p;
-  run_log.value[LAB_CHANNEL_X] = x;
-  run_log.n_runs = 1;
-  run_log.run = first;
+  run_log = virtual_log(ROWS, t, command, p, x);
   for (i = 0; i < ROWS; i++) {
     t[i] = spacing * i;
     command[i] = t[i] < 1 ? 0 : fmod(t[i] - 1, 29.5) < 14.75 ? 0.25 : -0.25;
