@@ -425,6 +425,7 @@ static double amplitude(const pneu_term *term)
 int lab_free_term_stretch(const pneu_term *term, double *from, double *to, double *level, double *peak)
 {
   const double knot = (double)(term->to - term->from) / (term->n - 1);
+  double beside;
   int i, begin, end, first = -1, last = -1;
   *from = (double)term->from;
   *to = (double)term->to;
@@ -445,8 +446,9 @@ int lab_free_term_stretch(const pneu_term *term, double *from, double *to, doubl
       first = first < 0 ? i : first;
       last = i;
     }
-  *to = *from + knot * fmax(last, 0);
-  *from += knot * fmax(first, 0);
+  beside = first >= 0 && first == last ? 0.5 : 0; /* one knot alone fades towards its neighbours */
+  *to = *from + knot * fmin(fmax(last, 0) + beside, term->n - 1);
+  *from += knot * fmax(first - beside, 0);
   return last - first < (end - begin) / 2;
 }
 

@@ -42,7 +42,8 @@ int lab_residual_periods(const lab_unknowns *u, const double *r, double *period,
 /* ---- Where a term acts ---- */
 
 /* The stretch of its argument outside which a term stays near one level. Knots at one end that are exactly 0, up to
- * half of them, do not count: no log has reached them, and nothing is known there.
+ * half of them, do not count: no log has reached them, and nothing is known there. One knot alone reaches half of the
+ * way to its neighbours.
  * A cycle acts at all times: its whole period, with its largest amplitude as the peak.
  * Out:     level  where it does not act, in its unit; peak  its largest departure from there, signed
  * Returns: 1 if the stretch is a short one, 0 if it acts nearly everywhere. */

@@ -93,12 +93,26 @@ static void test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_it
 {
   static const double low[] = {14, 100, -14}, high[] = {16, 100, -16};
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, -1, 9, 0);
-  const stretch narrow = {4, 4, 0, 100, 1}, wide = {3, 5, 0, 100, 1};
+  const stretch narrow = {3.5, 4.5, 0, 100, 1}, wide = {3, 5, 0, 100, 1};
   (void)state;
   put(&t, 4, 3, low);
   assert_stretch(&t, narrow);
   put(&t, 4, 3, high);
   assert_stretch(&t, wide);
+}
+
+static void test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_way_to_the_next(void **state)
+{
+  static const double high = 100;
+  pneu_term t = flat(PNEU_TERM_FLOW, AT_X, 0, 20e-3, 0);
+  const double knot = 20e-3 / (t.n - 1);
+  const stretch first = {0, knot / 2, 0, 100, 1}, last = {20e-3 - knot / 2, 20e-3, 0, 100, 1};
+  (void)state;
+  put(&t, 0, 1, &high);
+  assert_stretch(&t, first);
+  t = flat(PNEU_TERM_FLOW, AT_X, 0, 20e-3, 0);
+  put(&t, t.n - 1, 1, &high);
+  assert_stretch(&t, last);
 }
 
 static void test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level(void **state)
@@ -168,7 +182,7 @@ static void test_lab_free_term_stretch__knots_that_no_log_has_reached__do_not_co
 {
   static const double found[] = {101, 99, 100, 130, 100, 98, 102}, line[] = {10, 30, 50, 70, 90, 110, 140};
   pneu_term low = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0), high = low, rising = low;
-  const stretch bump = {6, 6, 100, 30, 1}, late_bump = {14, 14, 100, 30, 1}, everywhere = {0, 12, 70, 70, 0};
+  const stretch bump = {5, 7, 100, 30, 1}, late_bump = {13, 15, 100, 30, 1}, everywhere = {0, 12, 70, 70, 0};
   (void)state;
   put(&low, 0, 7, found);
   put(&high, KNOTS - 7, 7, found);
@@ -312,6 +326,7 @@ int main(void)
       cmocka_unit_test(test_lab_free_term_equation__every_one__is_that_of_the_report),
       cmocka_unit_test(test_lab_free_term_stretch__bump__is_where_it_is),
       cmocka_unit_test(test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_its_peak_on),
+      cmocka_unit_test(test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_way_to_the_next),
       cmocka_unit_test(test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level),
       cmocka_unit_test(test_lab_free_term_stretch__ends_at_zero__have_the_level_zero),
       cmocka_unit_test(test_lab_free_term_stretch__straight_line__is_everywhere),
