@@ -1,13 +1,36 @@
 #include "judge.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows by which a run tells how it starts: the first tenth of those there are, and eight at least. */
+/* Rows until a channel has moved by a tenth of its range; 0: it does not. */
+static size_t rows_until_moved(const double *value, size_t n)
+{
+  double low = HUGE_VAL, high = -HUGE_VAL, first = (double)NAN;
+  size_t i;
+  for (i = 0; i < n; i++) {
+    first = isnan(first) ? value[i] : first;
+    low = fmin(low, value[i]); /* a gap is left out */
+    high = fmax(high, value[i]);
+  }
+  for (i = 0; i < n && !(fabs(value[i] - first) > 0.1 * (high - low)); i++)
+    ;
+  return i < n ? i + 1 : 0;
+}
+
+/* Rows by which a run tells how it starts: until all that is measured has moved, half of the rows at most; a tenth of
+ * them at least, and eight. */
 static size_t rows_at_start(const lab_run *x)
 {
-  const size_t tenth = x->n / 10, least = 8;
-  return tenth > least ? tenth : x->n < least ? x->n : least;
+  const size_t least = x->n / 10 > 8 ? x->n / 10 : 8;
+  size_t start = least < x->n ? least : x->n;
+  int c;
+  for (c = 0; c < x->n_channels; c++) {
+    const size_t moved = rows_until_moved(x->log->value[x->channel[c]] + x->first, x->n);
+    start = moved > start && moved <= x->n / 2 ? moved : start;
+  }
+  return start;
 }
 
 enum part { START, REST, WHOLE };

@@ -13,11 +13,11 @@ static lab_log seen;
 static lab_run run;
 static lab_error error;
 
-/* The log, its command after 0.4 s of rest, and its first stroke within the first tenth, of a rig with 1.2 times the
- * declared preload. */
-static void open_log(void)
+/* The log, its command after some rest, and its first stroke soon after that, of a rig with 1.2 times the declared
+ * preload. */
+static void open_log(double rest)
 {
-  static const double t_cmd[COMMANDS] = {0.402, 8.003, 14.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
+  const double t_cmd[COMMANDS] = {rest, 8.003, 14.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
   const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
   second_rig g = virtual_rig(5);
   const char *path = scratch_path("held.csv");
@@ -41,7 +41,7 @@ static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **
   lab_errors shared, own;
   size_t i;
   (void)state;
-  open_log();
+  open_log(0.402);
   assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
   rig.fit_per_log[0] = 1;
   assert_int_equal(lab_judge(&rig, &run, 1, &own, &error), LAB_OK);
@@ -53,10 +53,25 @@ static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **
   close_log();
 }
 
+/* A log that rests for a quarter begins to tell after that: until its stem has moved by a tenth. */
+static void test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved(void **state)
+{
+  lab_errors shared, own;
+  (void)state;
+  open_log(5.002);
+  assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
+  rig.fit_per_log[0] = 1;
+  assert_int_equal(lab_judge(&rig, &run, 1, &own, &error), LAB_OK);
+  assert_in_range(own.n, 2 * (ROWS - 125), 2 * (ROWS - 101));
+  assert_true(own.in_noise[LAB_CHANNEL_X] < 0.5 * shared.in_noise[LAB_CHANNEL_X]);
+  close_log();
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_judge__unseen_log__tells_its_own_value_by_its_start),
+      cmocka_unit_test(test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
