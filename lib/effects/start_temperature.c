@@ -1,7 +1,7 @@
-/* Gas that does not begin at the temperature it is taken to have: T = T_0 + b where a state of rest begins. Air that was
- * compressed shortly before is warmer than its wall, air that was let off is colder; pressure is as measured, so that
- * there is less or more air of it. A thermometer begins at what it was taken to show.
- * Size: 5 to 30 K in a tank that was charged or vented within the last seconds. */
+/* Gas that does not begin at the temperature it is taken to have: T = T_0 + b where a state of rest begins. Air that
+ * was compressed shortly before is warmer than its wall, air that was let off is colder; pressure is as measured, so
+ * that there is less or more air of it. A thermometer begins at what it was taken to show. Size: 5 to 30 K in a tank
+ * that was charged or vented within the last seconds. */
 #include "../internal.h"
 
 enum { EXCESS };
@@ -11,7 +11,8 @@ static const pneu_param_info params[] = {
 
 static int acts(const pneu_model *model, const pneu_real *param)
 {
-  return (model->law.gas != PNEU_GAS_ISOTHERMAL || model->thermal || model->exponent_rise > 0) && param[EXCESS] != 0;
+  return !model->law.pressure_input &&
+         (model->law.gas != PNEU_GAS_ISOTHERMAL || model->thermal || model->exponent_rise > 0) && param[EXCESS] != 0;
 }
 
 static void prepare(pneu_model *model, const pneu_real *param)

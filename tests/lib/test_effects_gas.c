@@ -389,7 +389,9 @@ static void footprint_start_temperature(void)
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   shut = fixture_input(&m, 0);
   s = fixture_rest(&m, 2e5, 0, &shut);
-  assert_close((double)s.T, Tw, 0, TOL(0, 1e-6)); /* it has no temperature of its own */
+  assert_close((double)s.T, Tw, 0, TOL(0, 1e-6));                      /* it has no temperature of its own */
+  m = fixture_model_roles(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 1, 0); /* nor where pressure drives it */
+  assert_close((double)m.start_excess, 0, 0, 0);
   if (pneu_effect_find("heat_transfer") < 0 || pneu_effect_find("temperature_lag") < 0)
     return;
   fixture_set(&p, "film_conductance", 5);

@@ -166,8 +166,10 @@ static int score_change(const lab_projection *p, int first, lab_score *score, la
 
 static void list_one(const lab_sides *c, int param, int shape, lab_scores *scores)
 {
-  const int j = lab_sides_find(&c->u, param);
+  const int j = lab_sides_find(&c->u, param), own = lab_unknowns_find(&c->u, param);
   int i;
+  if (own >= 0 && c->u.unknown[own].run != LAB_ALL_RUNS) /* what each log has for itself is no change */
+    return;
   if (param < 0 || scores->n == LAB_SCORES_MAX || (j >= 0 && c->u.unknown[j].spread == 0))
     return;
   for (i = 0; i < scores->n; i++)
@@ -195,8 +197,8 @@ static void list_effects(const lab_sides *c, lab_scores *scores)
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     const int first = pneu_effect_params(e, &count);
     const int off = is_off(&c->u, first, count);
-    if (!lab_score_can_be_missing(&c->u.rig, e))
-      continue;
+    if (!lab_score_can_be_missing(&c->u.rig, e) || strcmp(pneu_effect_at(e)->name, "start_temperature") == 0)
+      continue; /* how warm the gas of a log begins is no change of a rig */
     int shape = -1;
     pneu_param_info info;
     for (i = first + count - 1; i >= first; i--)

@@ -54,33 +54,30 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
   return lab_unknown_is_held(x) ? x->spread / u->misfit : x->spread;
 }
 
-/* Times its declared value that a stem's damping can be: one that is far beyond it stands in for a lag. */
-static const double most_damping = 10;
-
-/* Ten times the declared damping; infinite of all else, and where none is declared. */
-static double most_of(const lab_unknowns *u, int param)
+/* So many times the declared damping; infinite of all else, and where none is declared. */
+static double most_of(const lab_unknowns *u, int param, double times)
 {
   const int damps = param == PNEU_PARAM_damping || param == PNEU_PARAM_viscous_friction;
   const double declared = damps ? (double)*pneu_param_at((pneu_params *)&u->declared, param) : 0;
-  return declared > 0 ? most_damping * declared : (double)INFINITY;
+  return declared > 0 ? times * declared : (double)INFINITY;
 }
 
-int lab_unknowns_is_overdamped(const lab_unknowns *u)
+int lab_unknowns_is_overdamped(const lab_unknowns *u, double times)
 {
   int j, any = 0;
   for (j = 0; j < u->n; j++)
-    any |= u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].value > most_of(u, u->unknown[j].index);
+    any |= u->unknown[j].kind == LAB_UNKNOWN_PARAM && !(u->unknown[j].value < most_of(u, u->unknown[j].index, times));
   return any;
 }
 
-void lab_unknowns_limit_damping(lab_unknowns *u)
+void lab_unknowns_limit_damping(lab_unknowns *u, double times)
 {
   int j;
-  u->is_damping_limited = 1;
+  u->most_damping = times;
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM) {
       lab_unknown *x = &u->unknown[j];
-      x->upper = fmin(x->upper, most_of(u, x->index));
+      x->upper = fmin(x->upper, most_of(u, x->index, times));
       x->value = fmin(x->value, x->upper);
     }
   lab_unknowns_take(u);
@@ -94,8 +91,8 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
     return no_room(error);
   x->spread = 0;
   describe_param(x, param);
-  if (u->is_damping_limited)
-    x->upper = fmin(x->upper, most_of(u, param));
+  if (u->most_damping > 0)
+    x->upper = fmin(x->upper, most_of(u, param, u->most_damping));
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);
@@ -369,22 +366,23 @@ static int add_own(lab_unknowns *u, int first, lab_error *error)
   return LAB_OK;
 }
 
-/* Mean of what each log has for itself of a parameter, and the standard deviation of one more log about it; that is NaN
- * where there are not two. */
+/* Mean of what each log has for itself of a parameter.
+ * Out:     deviation  standard deviation of one more log about it; NaN: of fewer than three logs it says nothing */
 static double mean_of_logs(const lab_unknowns *u, int param, double *deviation)
 {
-  double sum = 0, square = 0;
+  double sum = 0, square = 0, first = 0, off;
   int j, n = 0;
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
     if (x->kind != LAB_UNKNOWN_PARAM || x->index != param || x->run == LAB_ALL_RUNS)
       continue;
-    n++;
-    sum += x->value;
-    square += x->value * x->value;
+    first = n++ ? first : x->value;
+    off = x->value - first;
+    sum += off;
+    square += off * off;
   }
-  *deviation = n > 1 ? sqrt(fmax(square - sum * sum / n, 0) / (n - 1) * (1 + 1. / n)) : (double)NAN;
-  return sum / n;
+  *deviation = n > 2 ? sqrt(fmax(square - sum * sum / n, 0) / (n - 1) * (1 + 1. / n)) : (double)NAN;
+  return first + sum / n;
 }
 
 lab_rig lab_unknowns_expected(const lab_unknowns *u)
@@ -396,10 +394,8 @@ lab_rig lab_unknowns_expected(const lab_unknowns *u)
     if (!rig.fit_per_log[j] || rig.fit[j] == LAB_PARAM_ORIFICE_AREA || rig.tolerance[rig.fit[j]] > 0)
       continue;
     mean = mean_of_logs(u, rig.fit[j], &deviation);
-    if (deviation > 0) {
-      *pneu_param_at(&rig.params, rig.fit[j]) = (pneu_real)mean;
-      rig.tolerance[rig.fit[j]] = deviation;
-    }
+    *pneu_param_at(&rig.params, rig.fit[j]) = (pneu_real)mean;
+    rig.tolerance[rig.fit[j]] = deviation;
   }
   return rig;
 }

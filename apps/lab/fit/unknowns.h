@@ -42,16 +42,16 @@ typedef struct lab_unknowns {
   pneu_params declared; /* as declared; orifice_area scales its areas */
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
-  double tol;    /* of the stepper; 0: as in response.h */
-  double misfit; /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
-  int is_damping_limited;
-  double until;     /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
-  size_t n_rows;    /* rows times channels, gaps among them */
-  size_t window;    /* rows of a window where the residuals are those of windowed.h; 0: row by row */
-  size_t n_values;  /* residuals of the data that are not of gaps */
-  size_t n_data, m; /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
-                       unknown */
-  double *slopes;   /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
+  double tol;          /* of the stepper; 0: as in response.h */
+  double misfit;       /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
+  double most_damping; /* times what is declared that a stem's damping may be; 0: any */
+  double until;        /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
+  size_t n_rows;       /* rows times channels, gaps among them */
+  size_t window;       /* rows of a window where the residuals are those of windowed.h; 0: row by row */
+  size_t n_values;     /* residuals of the data that are not of gaps */
+  size_t n_data, m;    /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
+                          unknown */
+  double *slopes;      /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
   char has_slope[LAB_FIT_MAX];         /* whether that of an unknown is there already, nearly */
   const struct lab_nuisance *nuisance; /* declared values that may vary unseen; NULL: none (nuisance.h) */
 } lab_unknowns;
@@ -64,7 +64,8 @@ void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_u
 int lab_unknowns_own(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);
 
 /* The rig as another log of it is expected: what each log had for itself (fit_per_log) is its mean over the logs
- * fitted, known to how far one log is from that, unless the rig file says how well it is known. */
+ * fitted, and where there are three or more known to how far one log is from that; what the rig file gives a tolerance
+ * stays as declared. */
 lab_rig lab_unknowns_expected(const lab_unknowns *u);
 
 /* Collect the unknowns of a rig's fit list and the switches of the experiments.
@@ -145,12 +146,12 @@ int lab_unknowns_find_onset(const lab_unknowns *u, int param);
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);
 
-/* Whether a damping is more than ten times what is declared. Little is known of a stem's damping, but as much as that
- * is a lag, or a stem that sticks. */
-int lab_unknowns_is_overdamped(const lab_unknowns *u);
+/* Whether a damping is so many times what is declared, or more. Little is known of a stem's damping, but as much as ten
+ * times that is a lag, or a stem that sticks. */
+int lab_unknowns_is_overdamped(const lab_unknowns *u, double times);
 
 /* Let none be more than that from now on, in what is added as well. */
-void lab_unknowns_limit_damping(lab_unknowns *u);
+void lab_unknowns_limit_damping(lab_unknowns *u, double times);
 
 /* Drop a parameter and set it to its neutral value; one that was held is held again. */
 void lab_unknowns_drop(lab_unknowns *u, int param);

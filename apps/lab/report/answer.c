@@ -334,29 +334,46 @@ typedef struct course {
   lab_search_result result;
 } course;
 
-/* Search; where a stem is damped far more than declared, once more with less, which is the answer if it explains as
- * much or more. */
+/* Whether a search with less damping says as much as the first: it explains the logs as well, seen as finely, or it is
+ * the better one where the first does not, and its damping is not at its end. */
+static int says_as_much(const lab_completion *c, const course *first)
+{
+  const lab_search_result *less = &c->result, *any = &first->result;
+  if (lab_unknowns_is_overdamped(&c->completed, c->declared.most_damping))
+    return 0;
+  if (!lab_search_explains(any))
+    return lab_search_is_better(less, any);
+  return lab_search_explains(less) && less->window == any->window && less->n_path > 0 && any->n_path > 0 &&
+         less->path[less->n_path - 1].bic < any->path[any->n_path - 1].bic + lab_constant(LAB_ALIKE_BIC);
+}
+
+/* Search; where a stem is damped far more than declared, once more with less, for half of the time that is left. */
 static int search_less_damped(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
-  course *more;
-  int status = search_with_noise(how, c, error);
-  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_overdamped(&c->completed))
+  const double times = lab_constant(LAB_MUCH_DAMPING), until = c->declared.until;
+  course *first;
+  int cut_short, status = search_with_noise(how, c, error);
+  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_overdamped(&c->completed, times))
     return status;
-  more = malloc(sizeof *more);
-  if (!more)
+  first = malloc(sizeof *first);
+  if (!first)
     return lab_fail_memory(error, "a search with less damping");
-  *more = (course){c->declared, c->completed, c->result};
-  lab_unknowns_limit_damping(&c->declared);
+  *first = (course){c->declared, c->completed, c->result};
+  lab_unknowns_limit_damping(&c->declared, times);
+  c->declared.until = until > 0 ? (lab_cpu_time() + until) / 2 : 0;
   status = lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error);
   c->completed = c->declared;
   if (status == LAB_OK)
-    status = search_with_noise(how, c, error);
-  if (status != LAB_OK || !lab_search_is_better(&c->result, &more->result)) {
-    c->declared = more->declared;
-    c->completed = more->completed;
-    c->result = more->result;
+    status = lab_search_run(&c->completed, how, &c->result, error);
+  cut_short = lab_cpu_is_spent(c->declared.until);
+  c->declared.until = until;
+  if (status != LAB_OK || !says_as_much(c, first)) {
+    c->declared = first->declared;
+    c->completed = first->completed;
+    c->result = first->result;
+    c->result.cut_short |= cut_short;
   }
-  free(more);
+  free(first);
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
@@ -372,6 +389,8 @@ static int search_apart(const lab_search_options *how, lab_completion *c, lab_er
   c->completed = c->declared;
   if (status == LAB_OK)
     status = search_less_damped(how, c, error);
+  if (status == LAB_OK && c->declared.most_damping > 0)
+    lab_unknowns_limit_damping(&apart->declared, c->declared.most_damping);
   if (status == LAB_OK)
     status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
   c->declared.until = c->completed.until = end;

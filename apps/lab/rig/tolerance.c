@@ -126,6 +126,8 @@ static int read_one(const config_setting_t *setting, const struct kind *k, lab_r
   int status;
   if (param < 0)
     return LAB_OK;
+  if (is_share(setting, k) && !(whole_of(k, rig) > 0))
+    return lab_config_expected(setting, "a quantity, because a share of 0 is 0", error);
   if (is_share(setting, k)) {
     status = lab_config_quantity(setting, "1", 0, INFINITY, &value, error);
     value *= whole_of(k, rig);

@@ -228,6 +228,7 @@ static int hand_over(const pneu_model *from, const pneu_model *to, const pneu_in
   if (pneu_state_rest(to, state->p, state->T, x, input, &next) != PNEU_OK)
     return lab_fail(error, LAB_NUMERIC, "no other model can go on from p = %.9g Pa, x = %.9g m", (double)state->p,
                     (double)state->x);
+  next.T = to->thermal ? state->T : next.T;
   for (effect = 0; effect < PNEU_EFFECT_COUNT; effect++) {
     const int before = place_of(from, effect), after = place_of(to, effect);
     for (i = 0; before >= 0 && after >= 0 && i < states_of[effect]; i++)

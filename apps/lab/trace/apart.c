@@ -30,6 +30,7 @@ static int fit_apart(const lab_unknowns *declared, int j, lab_unknowns *u, doubl
 {
   lab_rig rig = declared->rig;
   rig.fit_per_log[j] = 1;
+  rig.tolerance[rig.fit[j]] = (double)NAN; /* that of a value in "fit" is no prior */
   if (lab_unknowns_open(&rig, declared->run, declared->n_runs, u, error))
     return error->status;
   u->declared = declared->declared;

@@ -447,8 +447,8 @@ int lab_free_term_stretch(const pneu_term *term, double *from, double *to, doubl
       last = i;
     }
   beside = first >= 0 && first == last ? 0.5 : 0; /* one knot alone fades towards its neighbours */
-  *to = *from + knot * fmin(fmax(last, 0) + beside, term->n - 1);
-  *from += knot * fmax(first - beside, 0);
+  *to = *from + knot * fmin(fmax(last, 0) + beside, end - 1);
+  *from += knot * fmax(first - beside, begin);
   return last - first < (end - begin) / 2;
 }
 

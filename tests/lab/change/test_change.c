@@ -151,6 +151,30 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
   }
 }
 
+/* The zero of a sensor that each log has for itself is another every day. */
+static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
+{
+  static lab_rig rig;
+  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
+  const int zero = pneu_param_find("position_bias.position_bias");
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
+  lab_changes changes;
+  (void)state;
+  if (zero < 0)
+    skip();
+  then.position_bias = 3e-4;
+  now.position_bias = 15e-4;
+  declare(&rig);
+  rig.fit[rig.n_fit] = zero;
+  rig.fit_per_log[rig.n_fit++] = 1;
+  rig.tolerance[zero] = 3e-4;
+  write_log(&then, u_cmd[0], path[0]);
+  write_log(&now, u_cmd[1], path[1]);
+  changes = compare_logs(&rig, path);
+  assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
+  assert_int_equal(changes.n, 0);
+}
+
 static void test_lab_changes_find__leak__is_the_change(void **state)
 {
   second_rig then = virtual_rig(7), now = virtual_rig(8);
@@ -342,6 +366,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_changes_find__another_day__is_unchanged),
       cmocka_unit_test(test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged),
+      cmocka_unit_test(test_lab_changes_find__zero_of_each_log__is_no_change),
       cmocka_unit_test(test_lab_changes_find__leak__is_the_change),
       cmocka_unit_test(test_lab_changes_find__more_friction__is_the_change),
       cmocka_unit_test(test_lab_changes_find__softer_spring__is_the_change),

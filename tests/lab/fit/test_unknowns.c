@@ -187,7 +187,7 @@ static void test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_e
   close_all();
 }
 
-/* Of 3 and 6: 4.5, and sqrt(4.5 (1 + 1/2)) from that. */
+/* Of 3 and 6: 4.5. How far another may be from that two do not say: that of 3, 6 and 9 would be sqrt(9 (1 + 1/3)). */
 static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(void **state)
 {
   lab_rig next;
@@ -200,10 +200,13 @@ static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(vo
   u.unknown[1].value = 6;
   next = lab_unknowns_expected(&u);
   assert_close((double)next.params.dry_friction, 4.5, 0, 1e-6);
-  assert_close(next.tolerance[PNEU_PARAM_dry_friction], sqrt(4.5 * 1.5), 0, 1e-12);
+  assert_true(isnan(next.tolerance[PNEU_PARAM_dry_friction]));
   assert_true(isnan(next.tolerance[LAB_PARAM_ORIFICE_AREA]));
-  u.unknown[1].value = 3; /* alike: nothing says by how much another may differ */
-  assert_true(isnan(lab_unknowns_expected(&u).tolerance[PNEU_PARAM_dry_friction]));
+  u.unknown[u.n] = u.unknown[1];
+  u.unknown[u.n++].value = 9;
+  next = lab_unknowns_expected(&u);
+  assert_close((double)next.params.dry_friction, 6, 0, 1e-6);
+  assert_close(next.tolerance[PNEU_PARAM_dry_friction], sqrt(12), 0, 1e-12);
   close_all();
 }
 
@@ -219,18 +222,20 @@ static void test_lab_unknowns_limit_damping__far_more_than_declared__is_ten_time
   fit_list("damping", 0);
   open_empty();
   u.unknown[0].value = 9.9 * declared;
-  assert_int_equal(lab_unknowns_is_overdamped(&u), 0);
+  assert_int_equal(lab_unknowns_is_overdamped(&u, 10), 0);
   u.unknown[0].value = 26 * declared;
-  assert_int_equal(lab_unknowns_is_overdamped(&u), 1);
-  lab_unknowns_limit_damping(&u);
+  assert_int_equal(lab_unknowns_is_overdamped(&u, 10), 1);
+  lab_unknowns_limit_damping(&u, 10);
   assert_close(u.unknown[0].value, 10 * declared, 0, 1e-6);
   assert_close((double)u.rig.params.damping, 10 * declared, 0, 1e-6);
-  assert_int_equal(lab_unknowns_is_overdamped(&u), 0);
+  assert_int_equal(lab_unknowns_is_overdamped(&u, 10), 1); /* at its end, as good as beyond */
   assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_dry_friction, 1, &error), LAB_OK);
   assert_close(u.unknown[u.n - 1].upper, (double)lab_param_info(PNEU_PARAM_dry_friction).upper, 0, 0);
+  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_viscous_friction, 1, &error), LAB_OK);
+  assert_close(u.unknown[u.n - 1].upper, 10 * (double)rig.params.viscous_friction, 0, 1e-12);
   rig.params.damping = 0;
   open_empty();
-  lab_unknowns_limit_damping(&u);
+  lab_unknowns_limit_damping(&u, 10);
   assert_close(u.unknown[0].upper, upper, 0, 0);
   close_all();
 }

@@ -384,6 +384,34 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
   lab_response_free(&response);
 }
 
+/* Shut air that keeps its heat and began too warm: another model goes on from what it is, and adds no excess again. */
+static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **state)
+{
+  const double t_row[2] = {0, 2}, t[2] = {1.99, 3}, warm = 298.15 + 30;
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model before, after;
+  const pneu_model *const rows[2] = {&before, &after};
+  pneu_input input[2];
+  const lab_schedule schedule = {2, t_row, input};
+  pneu_state start;
+  const lab_simulation task = {.start = &start, .schedule = &schedule, .rows = rows, .t = t, .n = 2};
+  lab_response response;
+  lab_error error;
+  (void)state;
+  if (absent("start_temperature"))
+    skip();
+  fixture_set(&p, "start_excess", 30);
+  before = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  p.fill_area *= 2;
+  after = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  input[0] = input[1] = fixture_input(&before, 0);
+  start = fixture_rest(&before, 2e5, 0, &input[0]);
+  assert_int_equal(lab_response_run(&before, &task, &response, &error), LAB_OK);
+  assert_close(response.T[0], warm, 1e-6, 0);
+  assert_close(response.T[1], warm, 1e-6, 0);
+  lab_response_free(&response);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -398,6 +426,7 @@ int main(void)
       cmocka_unit_test(test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode),
       cmocka_unit_test(test_lab_response_run__cycles__go_by_the_time_of_the_schedule),
       cmocka_unit_test(test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke),
+      cmocka_unit_test(test_lab_response_run__air_that_began_warm__goes_on_as_it_is),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
