@@ -23,5 +23,5 @@ expect_words() {
   words=$2
   shift 2
   expect "$wanted" "$*" "$@"
-  [ -z "$words" ] || grep -qi -- "$words" "$folder/err" || complain "$*: does not say \"$words\": $(cat "$folder/err")"
+  [ -z "$words" ] || grep -q -- "$words" "$folder/err" || complain "$*: does not say \"$words\": $(cat "$folder/err")"
 }

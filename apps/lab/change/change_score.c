@@ -200,12 +200,11 @@ static void list_effects(const lab_sides *c, lab_scores *scores)
     if (!lab_score_can_be_missing(&c->u.rig, e) || strcmp(pneu_effect_at(e)->name, "start_temperature") == 0)
       continue; /* how warm the gas of a log begins is no change of a rig */
     int shape = -1;
-    pneu_param_info info;
     for (i = first + count - 1; i >= first; i--)
-      if (!pneu_param_describe(i, &info) && info.shape && off)
+      if (off && lab_param_info(i).shape)
         shape = i;
     for (i = first; i < first + count; i++)
-      if (!pneu_param_describe(i, &info) && !info.shape)
+      if (!lab_param_info(i).shape)
         list_one(c, i, shape, scores);
   }
 }

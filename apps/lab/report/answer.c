@@ -328,15 +328,9 @@ static int search_with_noise(const lab_search_options *how, lab_completion *c, l
   return lab_search_run(&c->completed, how, &c->result, error);
 }
 
-/* What a search has led from and to. */
-typedef struct course {
-  lab_unknowns declared, completed;
-  lab_search_result result;
-} course;
-
 /* Whether a search with less damping says as much as the first: it explains the logs as well, seen as finely, or it is
  * the better one where the first does not, and its damping is not at its end. */
-static int says_as_much(const lab_completion *c, const course *first)
+static int says_as_much(const lab_completion *c, const lab_completion *first)
 {
   const lab_search_result *less = &c->result, *any = &first->result;
   if (lab_unknowns_is_overdamped(&c->completed, c->declared.most_damping))
@@ -351,14 +345,14 @@ static int says_as_much(const lab_completion *c, const course *first)
 static int search_less_damped(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
   const double times = lab_constant(LAB_MUCH_DAMPING), until = c->declared.until;
-  course *first;
+  lab_completion *first;
   int cut_short, status = search_with_noise(how, c, error);
   if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_overdamped(&c->completed, times))
     return status;
   first = malloc(sizeof *first);
   if (!first)
     return lab_fail_memory(error, "a search with less damping");
-  *first = (course){c->declared, c->completed, c->result};
+  *first = *c;
   lab_unknowns_limit_damping(&c->declared, times);
   c->declared.until = until > 0 ? (lab_cpu_time() + until) / 2 : 0;
   status = lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error);
@@ -368,9 +362,7 @@ static int search_less_damped(const lab_search_options *how, lab_completion *c, 
   cut_short = lab_cpu_is_spent(c->declared.until);
   c->declared.until = until;
   if (status != LAB_OK || !says_as_much(c, first)) {
-    c->declared = first->declared;
-    c->completed = first->completed;
-    c->result = first->result;
+    *c = *first;
     c->result.cut_short |= cut_short;
   }
   free(first);
