@@ -11,7 +11,7 @@
 #include "../lab/base/text.h"
 #include "replicates.h"
 
-enum { PATH_BYTES = 1024, LOGS_MAX = 32 };
+enum { PATH_BYTES = 1024, LOGS_MAX = SETS_LOGS_MAX };
 
 static int check_set(const config_setting_t *set, lab_error *error)
 {
@@ -87,6 +87,48 @@ static int measure_repeat(sets_result *result, const char *data_dir, lab_error *
   return replicates_repeat(result->set, rig, data_dir, &result->repeat, error);
 }
 
+/* Whether rows of one log are held out, and not logs. */
+static int holds_out_rows(const config_setting_t *set)
+{
+  const char *last, *first = sets_log(set, 0);
+  int i;
+  for (i = 1; first && (last = sets_log(set, i)) != NULL; i++)
+    if (!strcmp(first, last))
+      return 1;
+  return 0;
+}
+
+static void name_log(const config_setting_t *set, const char *data_dir, int i, char path[PATH_BYTES])
+{
+  snprintf(path, PATH_BYTES, "%s/%s/%s", data_dir, sets_text(set, "folder"), sets_log(set, i));
+}
+
+/* Fit the completed model to each log by itself, and to the channel that was not fitted through its sensor. */
+static int fit_alone(sets_result *result, const char *data_dir, const char *out_dir, lab_error *error)
+{
+  static lab_rig model;
+  const config_setting_t *set = result->set;
+  const char *sensor = sets_text(set, "sensor");
+  char path[PATH_BYTES];
+  result->n_alone = result->sensor.n = 0;
+  if (result->state != SETS_DONE || holds_out_rows(set))
+    return LAB_OK;
+  snprintf(path, sizeof path, "%s/%s/model.cfg", out_dir, sets_text(set, "name"));
+  if (lab_rig_read(path, &model, error))
+    return error->status;
+  name_log(set, data_dir, 0, path);
+  if (*sensor && alone_fit_sensor(&model, path, sensor, sets_channel(sets_text(set, "check")), &result->sensor, error))
+    return error->status;
+  if (!sets_log(set, 1))
+    return LAB_OK;
+  for (; result->n_alone < LOGS_MAX && sets_log(set, result->n_alone); result->n_alone++) {
+    name_log(set, data_dir, result->n_alone, path);
+    if (alone_fit_log(&model, path, sets_channel(sets_text(set, "judged")), &result->alone[result->n_alone], error))
+      return error->status;
+  }
+  return LAB_OK;
+}
+
 const char *sets_data_folder(void)
 {
   const char *named = getenv("MEASURED");
@@ -106,7 +148,7 @@ int sets_run(const config_setting_t *list, const char *data_dir, const char *out
   for (i = 0; i < *n; i++) {
     result[i].set = config_setting_get_elem(list, (unsigned)i);
     result[i].state = run_set(result[i].set, data_dir, out_dir);
-    if (measure_repeat(&result[i], data_dir, error))
+    if (measure_repeat(&result[i], data_dir, error) || fit_alone(&result[i], data_dir, out_dir, error))
       return error->status;
   }
   return LAB_OK;

@@ -5,9 +5,10 @@
 
 #include <libconfig.h>
 
+#include "alone.h"
 #include "table.h"
 
-enum { SETS_MAX = 32 };
+enum { SETS_MAX = 32, SETS_LOGS_MAX = 32 };
 
 /* How a set went. */
 enum sets_state { SETS_ABSENT, SETS_FAILED, SETS_DONE };
@@ -16,6 +17,9 @@ typedef struct sets_result {
   const config_setting_t *set; /* its group in the file */
   int state;                   /* enum sets_state */
   double repeat;               /* what the bench repeats of the judged channel (replicates.h), SI; NaN: not known */
+  int n_alone;                 /* logs that were fitted by themselves: those fitted, then those held out; 0: none */
+  alone_fit alone[SETS_LOGS_MAX];
+  alone_fit sensor; /* the channel that was not fitted, through the set's `sensor`; n is 0 where there is none */
 } sets_result;
 
 /* Folder of the public data: the environment variable MEASURED, else ../shared/data. */
@@ -38,6 +42,9 @@ int sets_report(const sets_result *result, int n, const char *out_dir, lab_error
 
 /* A text of a set's group; "" if it has none. */
 const char *sets_text(const config_setting_t *set, const char *key);
+
+/* The log of a set at place i, those fitted first, then those held out.  Returns: NULL beyond the last */
+const char *sets_log(const config_setting_t *set, int i);
 
 /* The channel of a quantity ("pressure"): enum lab_channel; -1 if there is none. */
 int sets_channel(const char *quantity);

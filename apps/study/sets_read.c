@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../lab/base/config.h"
 #include "../lab/base/names.h"
 #include "../lab/base/whiteness.h"
 #include "../lab/log/channel.h"
@@ -14,6 +15,13 @@ const char *sets_text(const config_setting_t *set, const char *key)
   const char *text = "";
   config_setting_lookup_string(set, key, &text);
   return text;
+}
+
+const char *sets_log(const config_setting_t *set, int i)
+{
+  const config_setting_t *fit = lab_config_member(set, "fit"), *held = lab_config_member(set, "holdout");
+  const int n = config_setting_length(fit);
+  return i < n ? config_setting_get_string_elem(fit, i) : config_setting_get_string_elem(held, i - n);
 }
 
 int sets_channel(const char *quantity)

@@ -79,11 +79,13 @@ static model_error channel_error(const cJSON *errors, const char *channel, const
 
 /* A set with what its values are made from. */
 typedef struct story {
+  const sets_result *result;
   const config_setting_t *set;
   const char *out_dir;
   const cJSON *json; /* its report; NULL if it did not run */
   const char *channel, *unit;
   model_error before, after, held_before, held_after;
+  double scale;         /* of its unit over SI */
   double noise, repeat; /* in its unit; NaN: not known */
 } story;
 
@@ -147,18 +149,19 @@ static story story_of(const sets_result *result, const cJSON *json, const char *
 {
   const config_setting_t *set = result->set;
   const int channel = sets_channel(sets_text(set, "judged"));
-  double scale = (double)NAN, offset;
+  double offset;
   lab_error ignored;
-  story s = {.set = set, .out_dir = out_dir, .json = json, .channel = sets_text(set, "judged")};
+  story s = {.result = result, .set = set, .out_dir = out_dir, .json = json, .channel = sets_text(set, "judged")};
+  s.scale = (double)NAN;
   s.unit = sets_text(set, "unit");
   s.before = error_of(&s, at_keys(json, "error", "before", NULL));
   s.after = error_of(&s, at_keys(json, "error", "after", NULL));
   s.held_before = error_of(&s, at_keys(json, "error", "holdout", "before", NULL));
   s.held_after = error_of(&s, at_keys(json, "error", "holdout", "after", NULL));
   if (channel >= 0)
-    lab_unit_factor(lab_channels[channel].unit, s.unit, &scale, &offset, &ignored);
+    lab_unit_factor(lab_channels[channel].unit, s.unit, &s.scale, &offset, &ignored);
   s.noise = s.before.value / s.before.in_noise;
-  s.repeat = scale * result->repeat;
+  s.repeat = s.scale * result->repeat;
   return s;
 }
 
@@ -586,6 +589,36 @@ static int put_held(const story *s, cJSON *to, int *better)
   return n;
 }
 
+/* The values that a log determines, and how many it does not. */
+static void put_values(const alone_fit *fit, cJSON *item)
+{
+  cJSON *list = cJSON_AddArrayToObject(item, "values");
+  int i, n = fit->n;
+  for (i = 0; i < fit->n && i < ALONE_VALUES_MAX; i++) {
+    const alone_value *x = &fit->value[i];
+    if (!(x->half > 0 && x->half < fabs(x->value)))
+      continue;
+    lab_json_join(list, "; ", "%s %.3g +- %.2g", x->name, x->value, x->half);
+    n--;
+  }
+  if (n > 0)
+    lab_json_join(list, "; ", "%d not determined", n);
+}
+
+/* The channel that was not fitted, as its sensor may show it. */
+static void put_sensor(const story *s, cJSON *to)
+{
+  const alone_fit *sensor = &s->result->sensor;
+  const int channel = sets_channel(sets_text(s->set, "check"));
+  cJSON *item = sensor->n && channel >= 0 ? cJSON_AddObjectToObject(to, "through_sensor") : NULL;
+  double scale, offset;
+  lab_error ignored;
+  if (!item || lab_unit_factor(lab_channels[channel].unit, sets_text(s->set, "check_unit"), &scale, &offset, &ignored))
+    return;
+  put_digits(item, "left", scale * sensor->left);
+  put_values(sensor, item);
+}
+
 /* ---- What is counted over the sets ---- */
 
 typedef struct tally {
@@ -595,6 +628,7 @@ typedef struct tally {
   cJSON *not_lower;     /* sets whose error held out does not fall */
   cJSON *by_channel;    /* those that are judged by a channel that was not fitted */
   cJSON *raised;        /* those whose error held out was lower on the way */
+  cJSON *own;           /* those whose logs held out are explained by values of their own */
 } tally;
 
 /* The error on what took no part is that of the runs held out, or of the channel that was not fitted. */
@@ -619,6 +653,36 @@ static void count(const story *s, tally *t)
     lab_json_join(t->by_channel, "; ", "%s (%s)", title, check);
 }
 
+/* The completed model with values of each log, and how far it comes with these on the logs held out. */
+static void put_alone(const story *s, tally *t, cJSON *to)
+{
+  const sets_result *result = s->result;
+  const int fitted = config_setting_length(lab_config_member(s->set, "fit"));
+  cJSON *all = result->n_alone ? cJSON_AddObjectToObject(to, "alone") : NULL;
+  cJSON *list = cJSON_AddArrayToObject(all, "logs");
+  double squares = 0;
+  int i, explained = 1;
+  for (i = 0; i < result->n_alone; i++) {
+    const alone_fit *fit = &result->alone[i];
+    const model_error left = {s->scale * fit->left, s->scale * fit->left / s->noise};
+    cJSON *item = lab_json_append(list);
+    lab_json_put(item, "log", "%s", sets_log(s->set, i));
+    put_digits(item, "left in_noise", left.value, left.in_noise);
+    put_values(fit, item);
+    if (i < fitted)
+      continue;
+    squares += left.value * left.value / (result->n_alone - fitted);
+    explained &= is_explained(s, left);
+  }
+  if (result->n_alone <= fitted)
+    return;
+  put_digits(all, "held common", sqrt(squares), s->held_after.value);
+  lab_json_put(all, is_explained(s, s->held_after) ? "is_common" : explained ? "is_own" : "is_lacking", "yes");
+  if (!is_explained(s, s->held_after) && explained)
+    lab_json_join(t->own, "; ", "%s (%s to %s %s)", sets_text(s->set, "title"), digits(s->held_after.value),
+                  digits(sqrt(squares)), s->unit);
+}
+
 static void put_tally(const tally *t, int n, cJSON *page)
 {
   cJSON *list = cJSON_AddArrayToObject(page, "verdicts");
@@ -635,6 +699,7 @@ static void put_tally(const tally *t, int n, cJSON *page)
   put_list(page, "not_lower", "sets", t->not_lower);
   put_list(page, "by_channel", "sets", t->by_channel);
   put_list(page, "raised", "sets", t->raised);
+  put_list(page, "own", "sets", t->own);
 }
 
 /* ---- The report ---- */
@@ -656,6 +721,8 @@ static int put_ran(const story *s, tally *t, cJSON *to, lab_error *error)
   put_rival(s, to);
   put_best(s, to);
   put_parameters(s->json, to);
+  put_sensor(s, to);
+  put_alone(s, t, to);
   t->logs += put_held(s, to, &better);
   t->logs_lower += better;
   return put_given(s, &rig, to, error) ? error->status : put_residual(s, to, error);
@@ -664,7 +731,10 @@ static int put_ran(const story *s, tally *t, cJSON *to, lab_error *error)
 static int put_all(const sets_result *result, int n, const char *out_dir, cJSON *page, lab_error *error)
 {
   cJSON *list = cJSON_AddArrayToObject(page, "sets");
-  tally t = {.not_lower = cJSON_CreateArray(), .by_channel = cJSON_CreateArray(), .raised = cJSON_CreateArray()};
+  tally t = {.not_lower = cJSON_CreateArray(),
+             .by_channel = cJSON_CreateArray(),
+             .raised = cJSON_CreateArray(),
+             .own = cJSON_CreateArray()};
   int i, status = LAB_OK;
   for (i = 0; i < n && status == LAB_OK; i++) {
     cJSON *json = result[i].state == SETS_DONE ? json_of(out_dir, result[i].set) : NULL, *to = lab_json_append(list);

@@ -549,5 +549,6 @@ void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result)
   u->n = k;
   if (result)
     result->n = k;
+  lab_rig_drop_idle(&u->rig);
   lab_unknowns_count(u);
 }

@@ -415,6 +415,19 @@ static int check_effects_act(const lab_rig *rig, const pneu_model *model, lab_er
   return LAB_OK;
 }
 
+void lab_rig_drop_idle(lab_rig *rig)
+{
+  pneu_model model;
+  lab_error ignored;
+  int e, i, n;
+  if (lab_rig_model(rig, &model, &ignored))
+    return;
+  for (e = 0; e < PNEU_EFFECT_COUNT; e++)
+    for (i = pneu_effect_params(e, &n); n > 0 && !is_active(&model, e); i++, n--)
+      if (!lab_param_info(i).shape)
+        *pneu_param_at(&rig->params, i) = lab_param_info(i).neutral;
+}
+
 static int check_terms_act(const lab_rig *rig, const pneu_model *model, lab_error *error)
 {
   const int heats = model->thermal && rig->laws.gas != PNEU_GAS_POLYTROPIC;

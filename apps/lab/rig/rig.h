@@ -90,6 +90,10 @@ int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
  * Out:     now  without onsets */
 void lab_rig_at(const lab_rig *rig, double t, lab_rig *now);
 
+/* Set to neutral what does not act: a fit may end at a lag that is shorter than any that the model has, and a file with
+ * it would be refused. */
+void lab_rig_drop_idle(lab_rig *rig);
+
 /* Whether the rig file declares a positioner. */
 int lab_rig_has_positioner(const lab_rig *rig);
 

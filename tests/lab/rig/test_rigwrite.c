@@ -386,10 +386,28 @@ static void test_lab_rig_write__any_rig_that_is_read__is_read_again(void **state
   assert_true(accepted > RIGS / 4);
 }
 
+/* A fit may end at a lag that is shorter than any that the model has: a file with it is refused. */
+static void test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stays(void **state)
+{
+  const int idle = pneu_param_find("position_lag.position_time"), acts = pneu_param_find("pressure_bias.pressure_bias");
+  (void)state;
+  lab_rig_default(&rig);
+  *pneu_param_at(&rig.params, idle) = 1e-10;
+  *pneu_param_at(&rig.params, acts) = 30;
+  assert_int_equal(lab_rig_read(put_file("trace.cfg", put_model), &again, &error), LAB_DATA);
+  assert_contains(error.text, "position_time does nothing");
+  lab_rig_drop_idle(&rig);
+  if (lab_rig_read(put_file("no_trace.cfg", put_model), &again, &error))
+    fail_msg("%s", error.text);
+  assert_close(*pneu_param_at(&again.params, idle), 0, 0, 0);
+  assert_close(*pneu_param_at(&again.params, acts), 30, 0, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_rig_write__any_rig_that_is_read__is_read_again),
+      cmocka_unit_test(test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stays),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

@@ -1,0 +1,39 @@
+/* What a log says by itself: a model fitted to it alone. Where each log of a set is followed by values of its own and
+ * not by common ones, the model has the right form, and the bench was not the same from log to log; where it is not
+ * followed even so, the model lacks something.
+ * SPDX-License-Identifier: MIT */
+#ifndef STUDY_ALONE_H
+#define STUDY_ALONE_H
+
+#include "../lab/base/message.h"
+#include "../lab/rig/rig.h"
+
+enum { ALONE_VALUES_MAX = 16 };
+
+typedef struct alone_value {
+  char name[LAB_PARAM_NAME_TEXT];
+  double value; /* in the unit of its parameter */
+  double half;  /* of the 95 % interval; infinite where the log does not determine it, 0 at a bound */
+} alone_value;
+
+typedef struct alone_fit {
+  double left; /* root mean square of what the model leaves of the channel, SI; NaN where it cannot follow the log */
+  int n;       /* values that were fitted, the first ALONE_VALUES_MAX of them in `value` */
+  alone_value value[ALONE_VALUES_MAX];
+} alone_fit;
+
+/* Fit all that a model's file has in `fit` and `fit_per_log`, from its values, to one log.
+ * In:      rig      the model
+ *          log      path of it
+ *          channel  whose error is asked for: enum lab_channel
+ * Returns: LAB_OK; LAB_DATA for a log that does not fit the rig; LAB_WORLD. */
+int alone_fit_log(const lab_rig *rig, const char *log, int channel, alone_fit *fit, lab_error *error);
+
+/* Fit one parameter of a model to one channel of a log, all else as it is: what a sensor may do to it.
+ * In:      name     of the parameter ("temperature_lag.temperature_time")
+ *          channel  enum lab_channel; no other takes part
+ * Returns: as alone_fit_log; LAB_DATA for a parameter that does not exist. */
+int alone_fit_sensor(const lab_rig *rig, const char *log, const char *name, int channel, alone_fit *fit,
+                     lab_error *error);
+
+#endif
