@@ -1,6 +1,5 @@
-/* What a log says by itself: a model fitted to it alone. Where each log of a set is followed by values of its own and
- * not by common ones, the model has the right form, and the bench was not the same from log to log; where it is not
- * followed even so, the model lacks something.
+/* What a log says by itself: a model fitted to it alone. What that leaves shows within the log; what common values leave
+ * beyond it shows only between logs.
  * SPDX-License-Identifier: MIT */
 #ifndef STUDY_ALONE_H
 #define STUDY_ALONE_H
