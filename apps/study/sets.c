@@ -23,6 +23,10 @@ static int check_set(const config_setting_t *set, lab_error *error)
       return lab_config_fail(set, error, "expected the text %s", needed[i]);
   if (!lab_config_member(set, "fit") || !lab_config_member(set, "holdout"))
     return lab_config_fail(set, error, "expected the lists fit and holdout");
+  if (sets_channel(sets_text(set, "judged")) < 0)
+    return lab_config_fail(set, error, "judged: %s is no channel", sets_text(set, "judged"));
+  if (*sets_text(set, "sensor") && sets_channel(sets_text(set, "check")) < 0)
+    return lab_config_fail(set, error, "sensor needs a channel as check, found \"%s\"", sets_text(set, "check"));
   return LAB_OK;
 }
 
@@ -87,29 +91,32 @@ static int measure_repeat(sets_result *result, const char *data_dir, lab_error *
   return replicates_repeat(result->set, rig, data_dir, &result->repeat, error);
 }
 
-/* Whether rows of one log are held out, and not logs. */
-static int holds_out_rows(const config_setting_t *set)
-{
-  const char *last, *first = sets_log(set, 0);
-  int i;
-  for (i = 1; first && (last = sets_log(set, i)) != NULL; i++)
-    if (!strcmp(first, last))
-      return 1;
-  return 0;
-}
-
 static void name_log(const config_setting_t *set, const char *data_dir, int i, char path[PATH_BYTES])
 {
   snprintf(path, PATH_BYTES, "%s/%s/%s", data_dir, sets_text(set, "folder"), sets_log(set, i));
 }
 
-/* Fit the completed model to each log by itself, and to the channel that was not fitted through its sensor. */
+/* Whether rows of a log are held out, and not logs. */
+static int holds_out_rows(const config_setting_t *set)
+{
+  const int fitted = config_setting_length(lab_config_member(set, "fit"));
+  int i, k, any = 0;
+  for (i = fitted; sets_log(set, i); i++)
+    for (k = 0; k < fitted; k++)
+      any |= !strcmp(sets_log(set, i), sets_log(set, k));
+  return any;
+}
+
+/* Fit the completed model to each log by itself, and to the channel that was not fitted through its sensor. A log that
+ * cannot be read or followed so is one without a number. */
 static int fit_alone(sets_result *result, const char *data_dir, const char *out_dir, lab_error *error)
 {
   static lab_rig model;
   const config_setting_t *set = result->set;
   const char *sensor = sets_text(set, "sensor");
+  const int judged = sets_channel(sets_text(set, "judged")), check = sets_channel(sets_text(set, "check"));
   char path[PATH_BYTES];
+  int status = LAB_OK;
   result->n_alone = result->sensor.n = 0;
   if (result->state != SETS_DONE || holds_out_rows(set))
     return LAB_OK;
@@ -117,16 +124,14 @@ static int fit_alone(sets_result *result, const char *data_dir, const char *out_
   if (lab_rig_read(path, &model, error))
     return error->status;
   name_log(set, data_dir, 0, path);
-  if (*sensor && alone_fit_sensor(&model, path, sensor, sets_channel(sets_text(set, "check")), &result->sensor, error))
+  if (*sensor && alone_fit_sensor(&model, path, sensor, check, &result->sensor, error))
     return error->status;
-  if (!sets_log(set, 1))
-    return LAB_OK;
-  for (; result->n_alone < LOGS_MAX && sets_log(set, result->n_alone); result->n_alone++) {
+  for (; status != LAB_WORLD && sets_log(set, 1) && sets_log(set, result->n_alone) && result->n_alone < LOGS_MAX;
+       result->n_alone++) {
     name_log(set, data_dir, result->n_alone, path);
-    if (alone_fit_log(&model, path, sets_channel(sets_text(set, "judged")), &result->alone[result->n_alone], error))
-      return error->status;
+    status = alone_fit_log(&model, path, judged, &result->alone[result->n_alone], error);
   }
-  return LAB_OK;
+  return status == LAB_WORLD ? status : LAB_OK;
 }
 
 const char *sets_data_folder(void)

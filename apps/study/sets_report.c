@@ -589,20 +589,21 @@ static int put_held(const story *s, cJSON *to, int *better)
   return n;
 }
 
-/* The values that a log determines, and how many it does not. */
+/* The values that a log tells, and how many it does not. */
 static void put_values(const alone_fit *fit, cJSON *item)
 {
   cJSON *list = cJSON_AddArrayToObject(item, "values");
-  int i, n = fit->n;
-  for (i = 0; i < fit->n && i < ALONE_VALUES_MAX; i++) {
+  int i;
+  for (i = 0; i < fit->n; i++) {
     const alone_value *x = &fit->value[i];
-    if (!(x->half > 0 && x->half < fabs(x->value)))
-      continue;
-    lab_json_join(list, "; ", "%s %.3g +- %.2g", x->name, x->value, x->half);
-    n--;
+    const char *space = strcmp(x->unit, "1") ? " " : "", *unit = *space ? x->unit : "";
+    if (x->half > 0)
+      lab_json_join(list, "; ", "%s %.3g +- %.2g%s%s", x->name, x->value, x->half, space, unit);
+    else
+      lab_json_join(list, "; ", "%s %.3g%s%s, at a bound", x->name, x->value, space, unit);
   }
-  if (n > 0)
-    lab_json_join(list, "; ", "%d not determined", n);
+  if (fit->undetermined > 0)
+    lab_json_join(list, "; ", "%d not determined", fit->undetermined);
 }
 
 /* The channel that was not fitted, as its sensor may show it. */
@@ -653,34 +654,64 @@ static void count(const story *s, tally *t)
     lab_json_join(t->by_channel, "; ", "%s (%s)", title, check);
 }
 
+/* Root mean square over some logs: of common values, and of their own. */
+typedef struct over_logs {
+  double common, own;
+} over_logs;
+
+static over_logs over(const sets_result *result, int first, double scale)
+{
+  over_logs all = {0, 0};
+  double rows = 0;
+  int i;
+  for (i = first; i < result->n_alone; i++) {
+    const alone_fit *fit = &result->alone[i];
+    all.common += (double)fit->rows * fit->common * fit->common;
+    all.own += (double)fit->rows * fit->left * fit->left;
+    rows += (double)fit->rows;
+  }
+  all.common = scale * sqrt(all.common / rows);
+  all.own = scale * sqrt(all.own / rows);
+  return all;
+}
+
+/* Whether each log held out is explained by values of its own, and the logs are not by common ones. */
+static int shows_between_logs(const story *s, int first)
+{
+  int i, all = !is_explained(s, s->held_after);
+  for (i = first; i < s->result->n_alone; i++) {
+    const alone_fit *fit = &s->result->alone[i];
+    all &= is_explained(s, (model_error){s->scale * fit->left, fit->in_noise});
+  }
+  return all;
+}
+
 /* The completed model with values of each log, and how far it comes with these on the logs held out. */
 static void put_alone(const story *s, tally *t, cJSON *to)
 {
   const sets_result *result = s->result;
   const int fitted = config_setting_length(lab_config_member(s->set, "fit"));
+  const over_logs held = over(result, fitted, s->scale);
   cJSON *all = result->n_alone ? cJSON_AddObjectToObject(to, "alone") : NULL;
   cJSON *list = cJSON_AddArrayToObject(all, "logs");
-  double squares = 0;
-  int i, explained = 1;
+  int i;
   for (i = 0; i < result->n_alone; i++) {
     const alone_fit *fit = &result->alone[i];
-    const model_error left = {s->scale * fit->left, s->scale * fit->left / s->noise};
     cJSON *item = lab_json_append(list);
     lab_json_put(item, "log", "%s", sets_log(s->set, i));
-    put_digits(item, "left in_noise", left.value, left.in_noise);
+    put_digits(item, "common own in_noise", s->scale * fit->common, s->scale * fit->left, fit->in_noise);
     put_values(fit, item);
-    if (i < fitted)
-      continue;
-    squares += left.value * left.value / (result->n_alone - fitted);
-    explained &= is_explained(s, left);
   }
-  if (result->n_alone <= fitted)
+  if (isnan(held.own))
     return;
-  put_digits(all, "held common", sqrt(squares), s->held_after.value);
-  lab_json_put(all, is_explained(s, s->held_after) ? "is_common" : explained ? "is_own" : "is_lacking", "yes");
-  if (!is_explained(s, s->held_after) && explained)
-    lab_json_join(t->own, "; ", "%s (%s to %s %s)", sets_text(s->set, "title"), digits(s->held_after.value),
-                  digits(sqrt(squares)), s->unit);
+  put_digits(all, "held common", held.own, held.common);
+  if (!shows_between_logs(s, fitted)) {
+    lab_json_put(all, "is_within", "yes");
+    return;
+  }
+  lab_json_put(all, "is_between", "yes");
+  lab_json_join(t->own, "; ", "%s (%s to %s %s)", sets_text(s->set, "title"), digits(held.common), digits(held.own),
+                s->unit);
 }
 
 static void put_tally(const tally *t, int n, cJSON *page)

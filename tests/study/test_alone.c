@@ -10,14 +10,15 @@ static const double spacing = 0.05; /* [s] */
 static lab_error error;
 static lab_rig rig;
 
-/* A log of a rig with so many times the declared preload. */
-static const char *log_of(double preload)
+/* A log of a rig with so many times the declared preload, whose position is shown late by a time constant [s]. */
+static const char *log_of(double preload, double lag)
 {
   static const double t_cmd[COMMANDS] = {0.402, 8.003, 14.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
   const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
   second_rig g = virtual_rig(5);
   const char *path = scratch_path("alone.csv");
   g.spring_preload *= preload;
+  g.position_lag = lag;
   virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
   return path;
 }
@@ -35,13 +36,15 @@ static void test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_lef
   alone_fit fit;
   (void)state;
   declare();
-  if (alone_fit_log(&rig, log_of(1.2), LAB_CHANNEL_X, &fit, &error))
+  if (alone_fit_log(&rig, log_of(1.2, 0), LAB_CHANNEL_X, &fit, &error))
     fail_msg("%s", error.text);
   assert_int_equal(fit.n, 1);
   assert_string_equal(fit.value[0].name, "spring_preload");
   assert_true(fit.value[0].half > 0 && fit.value[0].half < 0.01 * truth);
   assert_close(fit.value[0].value, truth, fit.value[0].half, 0);
   assert_close(fit.left, 2e-5, 0, 0.1);
+  assert_close(fit.in_noise, 1, 0, 0.1);
+  assert_true(fit.common > 10 * fit.left);
 }
 
 static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state)
@@ -50,31 +53,39 @@ static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state
   (void)state;
   declare();
   rig.fit_per_log[0] = 1;
-  if (alone_fit_log(&rig, log_of(0.8), LAB_CHANNEL_X, &fit, &error))
+  if (alone_fit_log(&rig, log_of(0.8, 0), LAB_CHANNEL_X, &fit, &error))
     fail_msg("%s", error.text);
   assert_int_equal(fit.n, 1);
   assert_close(fit.value[0].value, 0.8 * 0.01, fit.value[0].half, 0);
+  assert_close(fit.common, fit.left, 0, 1e-3);
   assert_close(fit.left, 2e-5, 0, 0.1);
 }
 
-/* A sensor without a lag: none is found, nothing else is moved, and the other channel takes no part. */
-static void test_alone_fit_sensor__no_lag__is_none_however_wrong_the_rest(void **state)
+/* The preload is right, so that nothing but the lag is missing; the pressure, which it does not touch, takes no part.
+ */
+static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void **state)
 {
-  const double preload = 0.01;
-  alone_fit right, wrong;
+  static const double lag = 0.08;
+  alone_fit fit;
   (void)state;
   declare();
-  assert_int_equal(alone_fit_sensor(&rig, log_of(1), "position_lag.position_time", LAB_CHANNEL_X, &right, &error),
+  if (alone_fit_sensor(&rig, log_of(1, lag), "position_lag.position_time", LAB_CHANNEL_X, &fit, &error))
+    fail_msg("%s", error.text);
+  assert_int_equal(fit.n, 1);
+  assert_string_equal(fit.value[0].name, "position_lag.position_time");
+  assert_true(fit.value[0].half < 0.1 * lag);
+  assert_close(fit.value[0].value, lag, fit.value[0].half, 0);
+  assert_close(fit.left, 2e-5, 0, 0.1);
+}
+
+static void test_alone_fit_sensor__what_is_no_lag__is_not_made_one(void **state)
+{
+  alone_fit fit;
+  (void)state;
+  declare();
+  assert_int_equal(alone_fit_sensor(&rig, log_of(1.2, 0), "position_lag.position_time", LAB_CHANNEL_X, &fit, &error),
                    LAB_OK);
-  assert_int_equal(right.n, 1);
-  assert_string_equal(right.value[0].name, "position_lag.position_time");
-  assert_close(right.value[0].value, 0, 2e-3, 0);
-  assert_close(right.left, 2e-5, 0, 0.1);
-  rig.params.spring_preload = (pneu_real)(1.2 * preload);
-  assert_int_equal(alone_fit_sensor(&rig, log_of(1), "position_lag.position_time", LAB_CHANNEL_X, &wrong, &error),
-                   LAB_OK);
-  assert_int_equal(wrong.n, 1);
-  assert_true(wrong.left > 10 * right.left);
+  assert_true(fit.left > 10 * 2e-5);
 }
 
 static void test_alone_fit_sensor__unknown_parameter__is_refused(void **state)
@@ -82,7 +93,7 @@ static void test_alone_fit_sensor__unknown_parameter__is_refused(void **state)
   alone_fit fit;
   (void)state;
   declare();
-  assert_int_equal(alone_fit_sensor(&rig, log_of(1), "no_such", LAB_CHANNEL_X, &fit, &error), LAB_DATA);
+  assert_int_equal(alone_fit_sensor(&rig, log_of(1, 0), "no_such", LAB_CHANNEL_X, &fit, &error), LAB_DATA);
   assert_contains(error.text, "no_such");
 }
 
@@ -91,7 +102,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_left),
       cmocka_unit_test(test_alone_fit_log__value_of_each_log__is_found_as_well),
-      cmocka_unit_test(test_alone_fit_sensor__no_lag__is_none_however_wrong_the_rest),
+      cmocka_unit_test(test_alone_fit_sensor__position_that_lags__is_shown_through_it),
+      cmocka_unit_test(test_alone_fit_sensor__what_is_no_lag__is_not_made_one),
       cmocka_unit_test(test_alone_fit_sensor__unknown_parameter__is_refused),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

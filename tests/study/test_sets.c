@@ -309,7 +309,13 @@ static char *report_alone(double noises)
                             .state = SETS_DONE,
                             .repeat = (double)NAN,
                             .n_alone = 3};
-  result[0].alone[2] = (alone_fit){.left = noises * 1e-4, .n = 3, .value = {{"k", 2, 0.1}, {"m", 3, 4}, {"c", 0, 0}}};
+  result[0].alone[2] = (alone_fit){.common = 5e-4,
+                                   .left = noises * 1e-4,
+                                   .in_noise = noises,
+                                   .rows = 10,
+                                   .n = 2,
+                                   .undetermined = 1,
+                                   .value = {{"k", "N/m", 2, 0.1}, {"b", "1", 0, 0}}};
   if (sets_report(result, 1, scratch_path("."), &error))
     fail_msg("%s", error.text);
   config_destroy(&config);
@@ -320,10 +326,10 @@ static void test_sets_report__log_explained_by_its_own_values__differs_from_the_
 {
   char *text = report_alone(1.1);
   (void)state;
-  assert_contains(text, "| c.csv | 0.11 | 1.1 | k 2 +- 0.1; 2 not determined |");
-  assert_contains(text, "as closely as the bench repeats, 0.11 mm over all against 0.75 with");
+  assert_contains(text, "| c.csv | 0.5 | 0.11 | 1.1 | k 2 +- 0.1 N/m; b 0, at a bound; 1 not determined |");
+  assert_contains(text, "or the bench repeats, 0.11 mm over all of them against 0.5 with common ones");
   assert_contains(text, "what is missing shows only between the logs");
-  assert_contains(text, "shows only between logs, in 1: T one (0.75 to 0.11 mm).");
+  assert_contains(text, "shows only between logs, in 1: T one (0.5 to 0.11 mm).");
   free(text);
 }
 
@@ -331,9 +337,42 @@ static void test_sets_report__log_that_own_values_do_not_explain__lacks_somethin
 {
   char *text = report_alone(1.3);
   (void)state;
-  assert_contains(text, "With values of its own each, the logs held out leave 0.13 mm over all, against 0.75 with");
+  assert_contains(text, "With values of their own the logs held out leave 0.13 mm, with common ones 0.5: ");
   assert_null(strstr(text, "what is missing shows only between the logs"));
   free(text);
+}
+
+static void test_sets_report__channel_through_its_sensor__is_told(void **state)
+{
+  static sets_result result[1];
+  const char *set = "sets = ( " SET("one", "check = \"position\"; check_unit = \"cm\";") " );";
+  config_t config;
+  char *text;
+  (void)state;
+  write_report(undecided, "75e-5");
+  result[0] = (sets_result){.set = config_setting_get_elem(read_sets(&config, set), 0),
+                            .state = SETS_DONE,
+                            .repeat = (double)NAN,
+                            .sensor = {.left = 0.002, .n = 1, .value = {{"lag", "s", 3, 0.25}}}};
+  if (sets_report(result, 1, scratch_path("."), &error))
+    fail_msg("%s", error.text);
+  text = scratch_read(scratch_path("REPORT.md"));
+  assert_contains(text, "fitted to the position, the completed model leaves 0.2 cm of it: lag 3 +- 0.25 s (95 %");
+  free(text);
+  config_destroy(&config);
+}
+
+static void test_sets_run__sensor_of_no_channel__is_refused(void **state)
+{
+  sets_result result[SETS_MAX];
+  config_t config;
+  int n;
+  (void)state;
+  assert_int_equal(sets_run(read_sets(&config, "sets = ( " SET("one", "sensor = \"lag\";") " );"),
+                            scratch_path("nowhere"), scratch_path("out"), result, &n, &error),
+                   LAB_DATA);
+  assert_contains(error.text, "sensor needs a channel as check");
+  config_destroy(&config);
 }
 
 /* ---- Its parts ---- */
@@ -413,6 +452,8 @@ int main(void)
       cmocka_unit_test(test_sets_report__what_is_left__is_told_by_log),
       cmocka_unit_test(test_sets_report__log_explained_by_its_own_values__differs_from_the_others),
       cmocka_unit_test(test_sets_report__log_that_own_values_do_not_explain__lacks_something),
+      cmocka_unit_test(test_sets_report__channel_through_its_sensor__is_told),
+      cmocka_unit_test(test_sets_run__sensor_of_no_channel__is_refused),
       cmocka_unit_test(test_sets_report__check__is_a_row_without_noise),
       cmocka_unit_test(test_sets_report__sets_that_did_not_run__stay_in_the_table),
       cmocka_unit_test(test_sets_left__slow_wave__correlated_at_lag_1),

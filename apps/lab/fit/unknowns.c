@@ -550,5 +550,9 @@ void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result)
   if (result)
     result->n = k;
   lab_rig_drop_idle(&u->rig);
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].run == LAB_ALL_RUNS &&
+        u->unknown[j].index < PNEU_PARAM_COUNT)
+      u->unknown[j].value = (double)*pneu_param_at(&u->rig.params, u->unknown[j].index);
   lab_unknowns_count(u);
 }
