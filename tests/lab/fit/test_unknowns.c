@@ -292,6 +292,29 @@ static void test_lab_unknowns_hold__damping_and_viscous_friction__are_one(void *
   assert_int_equal(lab_unknowns_find(&u, PNEU_PARAM_viscous_friction), -1);
 }
 
+/* What was held stays in the model as it is; a lag that is too short to act, held or fitted, is none. */
+static void test_lab_unknowns_settle__lag_that_does_not_act__is_none(void **state)
+{
+  const int lag = pneu_param_find("position_lag.position_time"), late = pneu_param_find("pressure_lag.pressure_time");
+  int held;
+  (void)state;
+  open_empty();
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_add(&u, late, 1e-10, &error), LAB_OK); /* let go: it is no longer held */
+  held = lab_unknowns_find(&u, lag);
+  assert_true(held >= 0);
+  u.unknown[held].value = 1e-10;
+  u.unknown[lab_unknowns_find(&u, PNEU_PARAM_moving_mass)].value = 2.5;
+  lab_unknowns_take(&u);
+  assert_true(*pneu_param_at(&u.rig.params, lag) > 0);
+  lab_unknowns_settle(&u, NULL);
+  assert_close(*pneu_param_at(&u.rig.params, lag), 0, 0, 0);
+  assert_close(*pneu_param_at(&u.rig.params, late), 0, 0, 0);
+  assert_close(u.rig.params.moving_mass, 2.5, 1e-12, 0);
+  assert_true(lab_unknowns_find(&u, late) >= 0);
+  assert_close(u.unknown[lab_unknowns_find(&u, late)].value, 0, 0, 0);
+}
+
 /* An actuator larger by half in all that is fitted or held shows the same: the fit ends at the size that is declared.
  */
 static void test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared(void **state)
@@ -1240,6 +1263,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
       cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
       cmocka_unit_test(test_lab_unknowns_hold__damping_and_viscous_friction__are_one),
+      cmocka_unit_test(test_lab_unknowns_settle__lag_that_does_not_act__is_none),
       cmocka_unit_test(test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared),
       cmocka_unit_test(test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left),
       cmocka_unit_test(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone),
