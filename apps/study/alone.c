@@ -8,13 +8,21 @@
 #include "../lab/check/logs.h"
 #include "../lab/fit/errors.h"
 
+/* Half of a 95 % interval; 0 at a bound. */
+static double half_of(const lab_fit_result *spread, int j)
+{
+  return spread->state[j] == LAB_STATE_FREE           ? 0.5 * (spread->high[j] - spread->low[j])
+         : spread->state[j] == LAB_STATE_UNDETERMINED ? HUGE_VAL
+                                                      : 0;
+}
+
 /* What is written of the values: those that the log tells to less than their size, or than a change that matters. */
 static void take(const lab_unknowns *u, const lab_fit_result *spread, alone_fit *fit)
 {
   int j;
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    const double half = 1.96 * spread->deviation[j];
+    const double half = half_of(spread, j);
     alone_value *value = &fit->value[fit->n];
     if (x->kind != LAB_UNKNOWN_PARAM)
       continue;

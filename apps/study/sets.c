@@ -30,6 +30,11 @@ static int check_set(const config_setting_t *set, lab_error *error)
   return LAB_OK;
 }
 
+static void name_log(const config_setting_t *set, const char *data_dir, const char *log, char path[PATH_BYTES])
+{
+  snprintf(path, PATH_BYTES, "%s/%s/%s", data_dir, sets_text(set, "folder"), log);
+}
+
 /* Paths of a list of logs, one behind the other, `mark` in between.  Returns: 0 if one is not there. */
 static int list_logs(const config_setting_t *set, const char *list, const char *data_dir, char mark, char *text)
 {
@@ -37,8 +42,7 @@ static int list_logs(const config_setting_t *set, const char *list, const char *
   int i, there = 1;
   for (i = 0; i < config_setting_length(logs) && i < LOGS_MAX; i++) {
     char *path = text + strlen(text);
-    snprintf(path, PATH_BYTES - 1, "%s/%s/%s", data_dir, sets_text(set, "folder"),
-             config_setting_get_string_elem(logs, i));
+    name_log(set, data_dir, config_setting_get_string_elem(logs, i), path);
     there &= access(path, R_OK) == 0;
     path += strlen(path);
     path[0] = mark;
@@ -63,7 +67,7 @@ static int run(const char *const *words)
  */
 static int run_set(const config_setting_t *set, const char *data_dir, const char *out_dir)
 {
-  static char fit[LOGS_MAX * PATH_BYTES], held[LOGS_MAX * PATH_BYTES];
+  static char fit[LOGS_MAX * (PATH_BYTES + 1)], held[LOGS_MAX * (PATH_BYTES + 1)];
   char rig[PATH_BYTES], out[PATH_BYTES];
   const char *words[11 + LOGS_MAX] = {"./closeloop", "--quiet", "--figures", "--budget", "3600",
                                       "--out",       out,       "--holdout", held,       rig};
@@ -91,19 +95,12 @@ static int measure_repeat(sets_result *result, const char *data_dir, lab_error *
   return replicates_repeat(result->set, rig, data_dir, &result->repeat, error);
 }
 
-static void name_log(const config_setting_t *set, const char *data_dir, int i, char path[PATH_BYTES])
-{
-  snprintf(path, PATH_BYTES, "%s/%s/%s", data_dir, sets_text(set, "folder"), sets_log(set, i));
-}
-
 /* Whether rows of a log are held out, and not logs. */
 static int holds_out_rows(const config_setting_t *set)
 {
-  const int fitted = config_setting_length(lab_config_member(set, "fit"));
-  int i, k, any = 0;
-  for (i = fitted; sets_log(set, i); i++)
-    for (k = 0; k < fitted; k++)
-      any |= !strcmp(sets_log(set, i), sets_log(set, k));
+  int i, any = 0;
+  for (i = config_setting_length(lab_config_member(set, "fit")); sets_log(set, i); i++)
+    any |= sets_is_fitted(set, sets_log(set, i));
   return any;
 }
 
@@ -117,18 +114,19 @@ static int fit_alone(sets_result *result, const char *data_dir, const char *out_
   const int judged = sets_channel(sets_text(set, "judged")), check = sets_channel(sets_text(set, "check"));
   char path[PATH_BYTES];
   int status = LAB_OK;
-  result->n_alone = result->sensor.n = 0;
+  result->n_alone = 0;
+  result->sensor.left = 0;
   if (result->state != SETS_DONE || holds_out_rows(set))
     return LAB_OK;
   snprintf(path, sizeof path, "%s/%s/model.cfg", out_dir, sets_text(set, "name"));
   if (lab_rig_read(path, &model, error))
     return error->status;
-  name_log(set, data_dir, 0, path);
+  name_log(set, data_dir, sets_log(set, 0), path);
   if (*sensor && alone_fit_sensor(&model, path, sensor, check, &result->sensor, error))
     return error->status;
   for (; status != LAB_WORLD && sets_log(set, 1) && sets_log(set, result->n_alone) && result->n_alone < LOGS_MAX;
        result->n_alone++) {
-    name_log(set, data_dir, result->n_alone, path);
+    name_log(set, data_dir, sets_log(set, result->n_alone), path);
     status = alone_fit_log(&model, path, judged, &result->alone[result->n_alone], error);
   }
   return status == LAB_WORLD ? status : LAB_OK;

@@ -19,7 +19,7 @@ typedef struct sets_result {
   double repeat;               /* what the bench repeats of the judged channel (replicates.h), SI; NaN: not known */
   int n_alone;                 /* logs that were fitted by themselves: those fitted, then those held out; 0: none */
   alone_fit alone[SETS_LOGS_MAX];
-  alone_fit sensor; /* the channel that was not fitted, through the set's `sensor`; n is 0 where there is none */
+  alone_fit sensor; /* the channel that was not fitted, through the set's `sensor`; left is 0 where there is none */
 } sets_result;
 
 /* Folder of the public data: the environment variable MEASURED, else ../shared/data. */
@@ -45,6 +45,9 @@ const char *sets_text(const config_setting_t *set, const char *key);
 
 /* The log of a set at place i, those fitted first, then those held out.  Returns: NULL beyond the last */
 const char *sets_log(const config_setting_t *set, int i);
+
+/* Whether a log of that name is fitted, whatever of it is held out. */
+int sets_is_fitted(const config_setting_t *set, const char *log);
 
 /* The channel of a quantity ("pressure"): enum lab_channel; -1 if there is none. */
 int sets_channel(const char *quantity);

@@ -24,6 +24,15 @@ const char *sets_log(const config_setting_t *set, int i)
   return i < n ? config_setting_get_string_elem(fit, i) : config_setting_get_string_elem(held, i - n);
 }
 
+int sets_is_fitted(const config_setting_t *set, const char *log)
+{
+  const int fitted = config_setting_length(lab_config_member(set, "fit"));
+  int i, any = 0;
+  for (i = 0; i < fitted; i++)
+    any |= !strcmp(sets_log(set, i), log);
+  return any;
+}
+
 int sets_channel(const char *quantity)
 {
   return lab_name_index(quantity, &lab_channels->quantity, LAB_CHANNEL_COUNT, sizeof *lab_channels);

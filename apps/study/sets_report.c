@@ -197,16 +197,6 @@ static void put_errors(const story *s, cJSON *to)
 
 /* ---- What was asked ---- */
 
-static int is_fitted(const config_setting_t *set, const char *log)
-{
-  const config_setting_t *logs = lab_config_member(set, "fit");
-  int i;
-  for (i = 0; i < config_setting_length(logs); i++)
-    if (!strcmp(config_setting_get_string_elem(logs, i), log))
-      return 1;
-  return 0;
-}
-
 static void put_logs(const config_setting_t *set, const char *key, const char *also_fitted, cJSON *to)
 {
   const config_setting_t *logs = lab_config_member(set, key);
@@ -214,7 +204,7 @@ static void put_logs(const config_setting_t *set, const char *key, const char *a
   int i;
   for (i = 0; i < config_setting_length(logs); i++) {
     const char *log = config_setting_get_string_elem(logs, i);
-    lab_json_join(list, ", ", "%s%s", log, is_fitted(set, log) ? also_fitted : "");
+    lab_json_join(list, ", ", "%s%s", log, sets_is_fitted(set, log) ? also_fitted : "");
   }
   put_list(to, key, "logs", list);
 }
@@ -534,7 +524,7 @@ static int put_channel(const config_setting_t *set, const table *residual, const
       continue;
     item = lab_json_append(list);
     if (is_log)
-      lab_json_put(item, "run", "%s", config_setting_get_string_elem(logs, run - 1));
+      lab_json_put(item, "run", "%s", sets_log(set, run - 1));
     else
       lab_json_put(item, "run", "run %d", run);
     lab_json_put(item, "channel", "%s [%s]", quantity, unit);
@@ -611,7 +601,7 @@ static void put_sensor(const story *s, cJSON *to)
 {
   const alone_fit *sensor = &s->result->sensor;
   const int channel = sets_channel(sets_text(s->set, "check"));
-  cJSON *item = sensor->n && channel >= 0 ? cJSON_AddObjectToObject(to, "through_sensor") : NULL;
+  cJSON *item = sensor->left > 0 ? cJSON_AddObjectToObject(to, "through_sensor") : NULL;
   double scale, offset;
   lab_error ignored;
   if (!item || lab_unit_factor(lab_channels[channel].unit, sets_text(s->set, "check_unit"), &scale, &offset, &ignored))

@@ -23,7 +23,6 @@ static const char *log_of(double preload, double lag)
   return path;
 }
 
-/* Rig file and log are read as closeloop reads them. */
 static void declare(void)
 {
   virtual_declare(&rig);
@@ -61,8 +60,7 @@ static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state
   assert_close(fit.left, 2e-5, 0, 0.1);
 }
 
-/* The preload is right, so that nothing but the lag is missing; the pressure, which it does not touch, takes no part.
- */
+/* The preload is right, so that nothing but the lag is missing. */
 static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void **state)
 {
   static const double lag = 0.08;

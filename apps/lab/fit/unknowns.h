@@ -93,7 +93,7 @@ void lab_unknowns_let_go(lab_unknowns *u, int j);
 /* Whether an unknown is a declared value that was held and let go. */
 int lab_unknown_is_let_go(const lab_unknown *x);
 
-/* Hold no longer: what was held stays in the model as it is.
+/* Hold no longer: what was held stays in the model as it is, but for what does not act there (lab_rig_drop_idle).
  * In/out:  result  intervals of the unknowns, from which it is taken out; NULL: none */
 void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result);
 
