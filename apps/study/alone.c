@@ -8,10 +8,10 @@
 #include "../lab/check/logs.h"
 #include "../lab/fit/errors.h"
 
-/* Half of a 95 % interval; 0 at a bound. */
-static double half_of(const lab_fit_result *spread, int j)
+/* Half of a 95 % interval, by the side that no bound cuts; 0 at a bound. */
+static double half_of(const lab_fit_result *spread, int j, double value)
 {
-  return spread->state[j] == LAB_STATE_FREE           ? 0.5 * (spread->high[j] - spread->low[j])
+  return spread->state[j] == LAB_STATE_FREE           ? fmax(spread->high[j] - value, value - spread->low[j])
          : spread->state[j] == LAB_STATE_UNDETERMINED ? HUGE_VAL
                                                       : 0;
 }
@@ -22,7 +22,7 @@ static void take(const lab_unknowns *u, const lab_fit_result *spread, alone_fit 
   int j;
   for (j = 0; j < u->n; j++) {
     const lab_unknown *x = &u->unknown[j];
-    const double half = half_of(spread, j);
+    const double half = half_of(spread, j, x->value);
     alone_value *value = &fit->value[fit->n];
     if (x->kind != LAB_UNKNOWN_PARAM)
       continue;
