@@ -247,6 +247,8 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
   int j = lab_unknowns_find(u, param);
   if (j >= 0 && u->unknown[j].tolerance > 0) {
     u->unknown[j].spread = u->unknown[j].tolerance;
+    u->unknown[j].value = u->unknown[j].prior;
+    *pneu_param_at(&u->rig.params, param) = (pneu_real)u->unknown[j].prior;
     return;
   }
   if (j >= 0)

@@ -178,6 +178,7 @@ int lab_unknowns_find_slopes(lab_unknowns *u, lab_error *error)
   if (!u->slopes)
     return LAB_OK;
   pose(u, &p);
+  p.problem.until = u->until;
   r = malloc((u->m + 1) * sizeof *r);
   status = r ? lab_unknowns_residuals(u, p.theta, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)

@@ -249,6 +249,23 @@ lab_found *lab_candidate_add_found(lab_candidate *c)
   return found;
 }
 
+int lab_candidate_add_effect(lab_candidate *c, const lab_score *score, double size, lab_error *error)
+{
+  const pneu_param_info info = lab_param_info(score->param);
+  lab_found *found;
+  if (lab_unknowns_add(&c->u, score->param, (double)info.neutral + size, error) ||
+      (score->shape >= 0 && lab_unknowns_add(&c->u, score->shape, score->shape_value, error)))
+    return error->status;
+  lab_unknowns_take(&c->u);
+  found = lab_candidate_add_found(c);
+  found->effect = score->effect;
+  found->param = score->param;
+  found->shape = score->shape;
+  found->statistic = score->statistic;
+  found->p_value = score->p_value;
+  return LAB_OK;
+}
+
 int lab_candidate_is_alike_but(const lab_candidate *a, int which_a, const lab_candidate *b, int which_b)
 {
   int i, k, all = a->n_found == b->n_found;

@@ -85,6 +85,10 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error);
 /* One more addition, to be filled in.  Returns: its place. */
 lab_found *lab_candidate_add_found(lab_candidate *c);
 
+/* Add an effect that was scored, its parameter `size` away from neutral; not fitted.
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_candidate_add_effect(lab_candidate *c, const lab_score *score, double size, lab_error *error);
+
 /* Whether two candidates have the same, whatever was added first, beside one addition of each; -1: beside nothing. */
 int lab_candidate_is_alike_but(const lab_candidate *a, int which_a, const lab_candidate *b, int which_b);
 

@@ -93,20 +93,8 @@ static void begin_refit(const lab_candidate *base, const lab_score *score, enum 
                         lab_error *all)
 {
   lab_error ignored;
-  lab_found *found;
-  const pneu_param_info info = lab_param_info(score->param);
-  if (lab_unknowns_add(&c->u, score->param, (double)info.neutral + size_at(score, start), &ignored) ||
-      (score->shape >= 0 && lab_unknowns_add(&c->u, score->shape, score->shape_value, &ignored)))
-    return; /* no room */
-  lab_unknowns_take(&c->u);
-  if (!lab_refit_begin(base, lab_count(LAB_FIRST_STEPS), c, all))
-    return;
-  found = lab_candidate_add_found(c);
-  found->effect = score->effect;
-  found->param = score->param;
-  found->shape = score->shape;
-  found->statistic = score->statistic;
-  found->p_value = score->p_value;
+  if (lab_candidate_add_effect(c, score, size_at(score, start), &ignored) == LAB_OK)
+    lab_refit_begin(base, lab_count(LAB_FIRST_STEPS), c, all);
 }
 
 /* Those of the first n whose statistic is not below a share of the best. */

@@ -62,10 +62,22 @@ int lab_rounds_may_begin(const lab_unknowns *u, const lab_search_options *option
   return options->may_begin && u->n_runs == 1 && u->window == 0 && u->rig.n_onsets == 0;
 }
 
+static lab_facts facts_of_best(const lab_candidate *best)
+{
+  lab_facts f = {0};
+  int i;
+  f.best = best->quality;
+  f.n_found = best->n_found;
+  f.n_terms = best->u.rig.n_terms;
+  for (i = 0; i < best->n_found; i++)
+    f.found_term |= best->found[i].term >= 0;
+  return f;
+}
+
 static lab_facts facts_of(const lab_rounds *s)
 {
   const lab_candidate *best = &s->beam[0];
-  lab_facts f = {0};
+  lab_facts f = facts_of_best(best);
   int i;
   f.round = s->round;
   f.coarse = best->u.window > 0;
@@ -75,11 +87,6 @@ static lab_facts facts_of(const lab_rounds *s)
   f.declared = s->declared.quality;
   if (s->within)
     f.within = *s->within;
-  f.best = best->quality;
-  f.n_found = best->n_found;
-  f.n_terms = best->u.rig.n_terms;
-  for (i = 0; i < best->n_found; i++)
-    f.found_term |= best->found[i].term >= 0;
   f.can_begin = lab_rounds_may_begin(&best->u, s->options);
   f.onset = s->onset.quality;
   f.free_term = s->free_term.quality;
@@ -94,6 +101,12 @@ static lab_facts facts_of(const lab_rounds *s)
   f.effect = s->best_effect;
   f.term = s->n_terms > 0 ? s->term[0].statistic : 0;
   return f;
+}
+
+int lab_rounds_verdict(const lab_candidate *best)
+{
+  const lab_facts f = facts_of_best(best);
+  return lab_decide_verdict(&f);
 }
 
 static int act(lab_rounds *s, int action, lab_error *error)
@@ -278,7 +291,6 @@ static int end_early(lab_rounds *s, lab_error *error)
 /* The best model, fitted with all that varies. */
 static int end_with(lab_rounds *s, lab_finding *f, lab_error *error)
 {
-  lab_facts facts;
   if (lab_rounds_unfold(s, error))
     return error->status;
   if (!lab_cpu_is_spent(f->declared.u.until) && lab_candidate_place_again(&s->beam[0], error))
@@ -286,9 +298,8 @@ static int end_with(lab_rounds *s, lab_finding *f, lab_error *error)
   if (take_instruments(s, error))
     return error->status;
   lab_candidate_drop_neutral(&s->beam[0]);
-  facts = facts_of(s);
   f->best = s->beam[0];
-  f->result.verdict = lab_decide_verdict(&facts);
+  f->result.verdict = lab_rounds_verdict(&f->best);
   return LAB_OK;
 }
 

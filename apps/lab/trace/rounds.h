@@ -19,6 +19,12 @@ typedef struct lab_finding {
 /* Whether something may begin within the logs: they are one run, seen row by row, of which nothing begins yet. */
 int lab_rounds_may_begin(const lab_unknowns *u, const lab_search_options *options);
 
+/* Note a model that was tried. */
+void lab_rounds_note_step(lab_search_result *result, const lab_candidate *c);
+
+/* What is concluded from the model that a search ends with.  Returns: enum lab_verdict */
+int lab_rounds_verdict(const lab_candidate *best);
+
 /* Note a model that the search goes on from; the one noted last as it is now, with all its values fitted. */
 void lab_rounds_note_way(lab_search_result *result, const lab_candidate *c);
 void lab_rounds_note_values(lab_search_result *result, const lab_unknowns *u);

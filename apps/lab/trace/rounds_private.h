@@ -39,9 +39,6 @@ typedef struct lab_rounds {
 /* Tell who waits what is done. */
 void lab_rounds_progress(const lab_rounds *s, const char *what);
 
-/* A model that was tried. */
-void lab_rounds_note_step(lab_search_result *result, const lab_candidate *c);
-
 /* A free term that is significant, but not worth adding. */
 void lab_rounds_note_small(lab_search_result *result, const pneu_term *term);
 

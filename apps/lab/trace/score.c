@@ -40,6 +40,15 @@ static void orthonormalise(lab_projection *p, int columns)
   }
 }
 
+/* The slope in an unknown, as it is known or anew. */
+static int slope_of(lab_unknowns *u, const double *theta, const double *r, int j, double *column, lab_error *error)
+{
+  if (!u->slopes || !u->has_slope[j])
+    return lab_unknowns_slope(u, theta, r, j, column, error);
+  memcpy(column, u->slopes + (size_t)j * u->m, u->m * sizeof *column);
+  return LAB_OK;
+}
+
 /* With the slopes of the first n unknowns. */
 static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error)
 {
@@ -61,7 +70,7 @@ static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error
   for (j = 0; j < n; j++) {
     lab_error mine;
     double *column = p->basis + (size_t)j * p->m;
-    const int at = lab_cpu_is_spent(u->until) ? LAB_NUMERIC : lab_unknowns_slope(u, theta, p->r, j, column, &mine);
+    const int at = lab_cpu_is_spent(u->until) ? LAB_NUMERIC : slope_of(u, theta, p->r, j, column, &mine);
     if (at == LAB_NUMERIC)
       memset(column, 0, p->m * sizeof *column);
     else if (at != LAB_OK) {

@@ -23,7 +23,7 @@ typedef struct lab_projection {
 } lab_projection;
 
 /* Residual and slopes of a fitted model.
- * In:      u  fitted; used until the projection is closed
+ * In:      u  fitted, or near; with slopes that it keeps, if any; used until the projection is closed
  * Out:     p  to be closed, also after an error
  * Returns: LAB_OK; LAB_NUMERIC, also when the time of u is spent; LAB_WORLD. */
 int lab_projection_open(lab_unknowns *u, lab_projection *p, lab_error *error);

@@ -12,6 +12,7 @@
 #include "../fit/outliers.h"
 #include "carry.h"
 #include "early.h"
+#include "rivals.h"
 #include "rounds.h"
 
 /* Whether a search has explained the logs. */
@@ -395,6 +396,21 @@ static int take_out_what_harms(lab_finding *f, lab_error *error)
   return status;
 }
 
+/* Put each effect to the test against those that may stand in its place. */
+static int try_rivals(lab_finding *f, lab_error *error)
+{
+  int changed, status;
+  if (f->best.n_found == 0 || lab_is_plainly_off(&f->best.quality))
+    return LAB_OK;
+  status = lab_rivals_try(&f->best, &changed, error);
+  if (status == LAB_OK && changed) {
+    lab_rounds_note_step(&f->result, &f->best);
+    lab_rounds_note_way(&f->result, &f->best);
+    f->result.verdict = lab_rounds_verdict(&f->best);
+  }
+  return status;
+}
+
 /* Whether what was found can as well be nothing: its interval reaches the value that has no effect. */
 static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, const lab_found *found)
 {
@@ -483,6 +499,8 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     status = search_coarsely(u, options, f, &done, error);
   if (status == LAB_OK && !done)
     status = search_tolerantly(u, options, f, error);
+  if (status == LAB_OK && !done)
+    status = try_rivals(f, error);
   if (status == LAB_OK && !done)
     status = take_out_what_harms(f, error);
   if (status == LAB_OK)

@@ -1,0 +1,176 @@
+#include "rivals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "../base/clock.h"
+#include "refit_private.h"
+
+enum { MOST = LAB_LEADERS_MAX };
+
+/* Those that stand for one effect: the first is the model that has it, last of what was found. */
+typedef struct field {
+  lab_candidate of[1 + MOST];
+  int n;
+  lab_unknowns base; /* the final model with its slopes, with which all others begin */
+} field;
+
+/* The model with one of what was found put last. */
+static void put_last(lab_candidate *c, int which)
+{
+  const lab_found last = c->found[which];
+  int k;
+  for (k = which; k + 1 < c->n_found; k++)
+    c->found[k] = c->found[k + 1];
+  c->found[c->n_found - 1] = last;
+}
+
+/* What scores nearly as high as the best in a model from which an effect was taken out.
+ * Out:     leader  room for LAB_LEADERS_MAX
+ * Returns: how many; -1: see error */
+static int find_leaders(const field *f, const lab_candidate *without, const lab_found *taken_out, lab_score *leader,
+                        lab_error *error)
+{
+  lab_unknowns u = without->u;
+  lab_projection p = {0};
+  lab_scores scores = {0};
+  int i, n = 0, status = lab_unknowns_keep_slopes(&u, error);
+  if (status == LAB_OK) {
+    lab_unknowns_begin_with(&u, &f->base);
+    status = lab_projection_open(&u, &p, error);
+  }
+  if (status == LAB_OK)
+    status = lab_score_effects(&p, &scores, error);
+  lab_projection_close(&p);
+  lab_unknowns_forget_slopes(&u);
+  for (i = 0; status == LAB_OK && i < scores.n && n < lab_count(LAB_RIVALS); i++)
+    if (scores.of[i].effect != taken_out->effect &&
+        scores.of[i].statistic >= lab_constant(LAB_RIVAL_SHARE) * scores.of[0].statistic)
+      leader[n++] = scores.of[i];
+  return status == LAB_WORLD ? -1 : n;
+}
+
+/* An effect in the place of what was found last: briefly, and to the end if it comes near.
+ * In/out:  c  the model without it */
+static void fit_rival(const field *f, const lab_score *score, lab_candidate *c, lab_error *all)
+{
+  const double bar = f->of[0].quality.bic + lab_constant(LAB_RIVAL_NEAR);
+  lab_error error;
+  if (lab_candidate_add_effect(c, score, score->size, &error) != LAB_OK)
+    return;
+  if (lab_unknowns_keep_slopes(&c->u, &error))
+    lab_fail_together(all, &error);
+  lab_unknowns_begin_with(&c->u, &f->base);
+  lab_refit_one(c, lab_count(LAB_BRIEF_STEPS), all);
+  if (c->quality.fitted && c->quality.bic < bar)
+    lab_refit_one(c, LAB_ROUNDS_ALL, all);
+  lab_unknowns_forget_slopes(&c->u);
+}
+
+/* All that may stand in the place of what was found last.  Returns: LAB_OK, LAB_WORLD */
+static int line_up(field *f, lab_error *error)
+{
+  lab_score leader[MOST];
+  lab_candidate *without = &f->of[1];
+  int i, n;
+  *without = f->of[0];
+  without->quality.fitted = 0;
+  lab_candidate_drop(without, without->n_found - 1);
+  n = find_leaders(f, without, &f->of[0].found[f->of[0].n_found - 1], leader, error);
+  if (n < 0)
+    return error->status;
+  f->n = 1 + n;
+  for (i = 1; i < n; i++)
+    f->of[1 + i] = *without;
+  error->status = LAB_OK;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    fit_rival(f, &leader[i], &f->of[1 + i], error);
+  return error->status;
+}
+
+/* What of chi-square the last of what was found explains.  Returns: LAB_OK, LAB_WORLD */
+static int explain(lab_candidate *c, lab_error *error)
+{
+  lab_candidate *without = malloc(sizeof *without);
+  int status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
+  if (status == LAB_OK)
+    status = lab_candidate_leave_out(c, c->n_found - 1, without, error);
+  if (status == LAB_OK && without->quality.fitted)
+    lab_candidate_explain(c, without->quality.chi2);
+  free(without);
+  return status;
+}
+
+static int was_tried(const field *f, int effect)
+{
+  int i, any = 0;
+  for (i = 0; i < f->n; i++)
+    any |= f->of[i].found[f->of[i].n_found - 1].effect == effect;
+  return any;
+}
+
+/* Note which rivals are as good as the best; what was as good before and was not tried is so still. */
+static void note_alike(field *f, const lab_found *before)
+{
+  lab_found *found = &f->of[0].found[f->of[0].n_found - 1];
+  int i;
+  lab_candidate_note_alike(&f->of[0], f->of[0].n_found - 1, f->of + 1, f->n - 1);
+  for (i = 0; found->effect == before->effect && i < before->n_alike && found->n_alike < LAB_LEADERS_MAX; i++)
+    if (!was_tried(f, before->alike[i])) {
+      found->alike_params[found->n_alike] = before->alike_params[i];
+      found->alike[found->n_alike++] = before->alike[i];
+    }
+}
+
+/* Put one effect to the test.  Out: changed */
+static int try_one(lab_candidate *c, int which, field *f, int *changed, lab_error *error)
+{
+  const lab_found before = c->found[which];
+  int status;
+  f->of[0] = *c;
+  put_last(&f->of[0], which);
+  status = line_up(f, error);
+  if (status != LAB_OK)
+    return status;
+  qsort(f->of, (size_t)f->n, sizeof *f->of, lab_candidate_by_bic);
+  while (f->n > 1 && !f->of[f->n - 1].quality.fitted)
+    f->n--;
+  note_alike(f, &before);
+  *changed = f->of[0].found[c->n_found - 1].effect != before.effect;
+  *c = f->of[0];
+  return *changed ? explain(c, error) : LAB_OK;
+}
+
+/* Whether an effect can have rivals: a free term is what is left when none has a name for it, and what begins was
+ * chosen among all that may begin then. */
+static int has_rivals(const lab_candidate *c, const lab_found *found)
+{
+  return found->effect >= 0 && lab_unknowns_find_onset(&c->u, found->param) < 0;
+}
+
+int lab_rivals_try(lab_candidate *c, int *changed, lab_error *error)
+{
+  field *f = malloc(sizeof *f);
+  int k, status = f ? LAB_OK : lab_fail_memory(error, "rivals");
+  *changed = 0;
+  if (f) {
+    f->base = c->u;
+    status = lab_unknowns_keep_slopes(&f->base, error);
+    if (status == LAB_OK)
+      status = lab_unknowns_find_slopes(&f->base, error);
+  }
+  for (k = c->n_found; status == LAB_OK && k > 0 && !lab_cpu_is_spent(c->u.until); k--) {
+    int now = 0;
+    /* each goes to the end of what was found, so that the first is the next */
+    if (has_rivals(c, &c->found[0]))
+      status = try_one(c, 0, f, &now, error);
+    else
+      put_last(c, 0);
+    *changed |= now;
+  }
+  if (f)
+    lab_unknowns_forget_slopes(&f->base);
+  free(f);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
