@@ -7,7 +7,7 @@
 /* ---- Constants ---- */
 
 /* Those that are sizes of arrays as well. */
-enum { LAB_EFFECTS_MAX = 3, LAB_LEADERS_MAX = 7, LAB_BEAM_WIDTH = 2 };
+enum { LAB_EFFECTS_MAX = 3, LAB_LEADERS_MAX = 7, LAB_BEAM_WIDTH = 2, LAB_RIVALS_MAX = 4 };
 
 enum lab_constant {
 #define X(name, value, meaning, source) LAB_##name,

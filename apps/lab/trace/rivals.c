@@ -2,31 +2,28 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/clock.h"
 #include "refit_private.h"
 
-enum { MOST = LAB_LEADERS_MAX };
-
 /* Those that stand for one effect: the first is the model that has it, last of what was found. */
 typedef struct field {
-  lab_candidate of[1 + MOST];
+  lab_candidate of[1 + LAB_RIVALS_MAX];
   int n;
   lab_unknowns base; /* the final model with its slopes, with which all others begin */
 } field;
 
-/* The model with one of what was found put last. */
-static void put_last(lab_candidate *c, int which)
+/* Put what was found first last. */
+static void put_first_last(lab_candidate *c)
 {
-  const lab_found last = c->found[which];
-  int k;
-  for (k = which; k + 1 < c->n_found; k++)
-    c->found[k] = c->found[k + 1];
-  c->found[c->n_found - 1] = last;
+  const lab_found first = c->found[0];
+  memmove(c->found, c->found + 1, (size_t)(c->n_found - 1) * sizeof *c->found);
+  c->found[c->n_found - 1] = first;
 }
 
 /* What scores nearly as high as the best in a model from which an effect was taken out.
- * Out:     leader  room for LAB_LEADERS_MAX
+ * Out:     leader  room for LAB_RIVALS_MAX
  * Returns: how many; -1: see error */
 static int find_leaders(const field *f, const lab_candidate *without, const lab_found *taken_out, lab_score *leader,
                         lab_error *error)
@@ -43,7 +40,7 @@ static int find_leaders(const field *f, const lab_candidate *without, const lab_
     status = lab_score_effects(&p, &scores, error);
   lab_projection_close(&p);
   lab_unknowns_forget_slopes(&u);
-  for (i = 0; status == LAB_OK && i < scores.n && n < lab_count(LAB_RIVALS); i++)
+  for (i = 0; status == LAB_OK && i < scores.n && n < LAB_RIVALS_MAX; i++)
     if (scores.of[i].effect != taken_out->effect &&
         scores.of[i].statistic >= lab_constant(LAB_RIVAL_SHARE) * scores.of[0].statistic)
       leader[n++] = scores.of[i];
@@ -70,7 +67,7 @@ static void fit_rival(const field *f, const lab_score *score, lab_candidate *c, 
 /* All that may stand in the place of what was found last.  Returns: LAB_OK, LAB_WORLD */
 static int line_up(field *f, lab_error *error)
 {
-  lab_score leader[MOST];
+  lab_score leader[LAB_RIVALS_MAX];
   lab_candidate *without = &f->of[1];
   int i, n;
   *without = f->of[0];
@@ -123,13 +120,12 @@ static void note_alike(field *f, const lab_found *before)
     }
 }
 
-/* Put one effect to the test.  Out: changed */
-static int try_one(lab_candidate *c, int which, field *f, int *changed, lab_error *error)
+/* Put what was found last to the test.  Out: changed */
+static int try_last(lab_candidate *c, field *f, int *changed, lab_error *error)
 {
-  const lab_found before = c->found[which];
+  const lab_found before = c->found[c->n_found - 1];
   int status;
   f->of[0] = *c;
-  put_last(&f->of[0], which);
   status = line_up(f, error);
   if (status != LAB_OK)
     return status;
@@ -162,11 +158,9 @@ int lab_rivals_try(lab_candidate *c, int *changed, lab_error *error)
   }
   for (k = c->n_found; status == LAB_OK && k > 0 && !lab_cpu_is_spent(c->u.until); k--) {
     int now = 0;
-    /* each goes to the end of what was found, so that the first is the next */
-    if (has_rivals(c, &c->found[0]))
-      status = try_one(c, 0, f, &now, error);
-    else
-      put_last(c, 0);
+    put_first_last(c); /* in the end they are in their order again */
+    if (has_rivals(c, &c->found[c->n_found - 1]))
+      status = try_last(c, f, &now, error);
     *changed |= now;
   }
   if (f)
