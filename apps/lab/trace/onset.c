@@ -96,6 +96,8 @@ static int open_trial(const lab_unknowns *u, int change, trial_row *f, lab_error
   int j;
   f->t = x->log->value[LAB_CHANNEL_TIME] + x->first;
   f->u = *u;
+  if (change != u->n - 1)
+    f->u.slopes = NULL; /* which are in the order that the unknowns had */
   f->u.unknown[change] = u->unknown[u->n - 1];
   f->u.unknown[u->n - 1] = u->unknown[change];
   for (j = 0; j < u->n; j++)
