@@ -1,46 +1,15 @@
-/* apps/lab/trace/candidate: values that are held, and let go */
+/* apps/lab/trace/candidate: values that are held, let go, and held again */
 #include <math.h>
 
-#include "../../check.h"
-#include "../../scratch.h"
-#include "../../virtual.h"
+#include "held.h"
 
-#include "../../../apps/lab/trace/candidate.h"
-#include "../../../apps/lab/trace/decide.h"
-
-static const double end = 14, spacing = 0.01; /* [s] */
-
-static lab_rig rig;
-static lab_log log_read;
-static lab_run run;
-static lab_candidate c;
-
-/* The declared model within its tolerances, fitted to a log of a rig. */
-static void hold(const second_rig *truth)
-{
-  const second_course course = {.t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS};
-  lab_error error = {0, ""};
-  virtual_write(truth, &course, end, spacing, scratch_path("log.csv"));
-  virtual_declare(&rig);
-  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log_read, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);
-  assert_int_equal(lab_candidate_hold(&c, &error), LAB_OK);
-  assert_true(c.quality.fitted);
-}
-
-static void close_log(void)
-{
-  lab_run_close(&run);
-  lab_log_free(&log_read);
-}
+static held_log h;
 
 static int count_let_go(void)
 {
   int j, n = 0;
-  for (j = 0; j < c.u.n; j++)
-    n += lab_unknown_is_let_go(&c.u.unknown[j]);
+  for (j = 0; j < h.c.u.n; j++)
+    n += lab_unknown_is_let_go(&h.c.u.unknown[j]);
   return n;
 }
 
@@ -52,18 +21,18 @@ static void test_lab_candidate_let_go__one_value_far_off__is_found_without_its_p
   lab_error error = {0, ""};
   int j;
   (void)state;
-  hold(&truth);
-  j = lab_unknowns_find(&c.u, PNEU_PARAM_supply_pressure);
-  held = c.u.unknown[j].value;
-  before = c.quality.bic;
-  assert_int_equal(lab_candidate_let_go(&c, &error), LAB_OK);
+  held_open(&h, &truth);
+  j = lab_unknowns_find(&h.c.u, PNEU_PARAM_supply_pressure);
+  held = h.c.u.unknown[j].value;
+  before = h.c.quality.bic;
+  assert_int_equal(lab_candidate_let_go(&h.c, &error), LAB_OK);
   assert_int_equal(count_let_go(), 1);
-  assert_true(lab_unknown_is_let_go(&c.u.unknown[j]));
-  assert_true(c.quality.bic < before - 10); /* the prior had cost 25 */
-  assert_true(fabs(c.u.unknown[j].value - true_supply) < fabs(held - true_supply));
-  assert_close(c.u.unknown[j].value, true_supply, 0, 5e-3);
-  assert_close(c.quality.strain, 5, 0, 0.05); /* it is still told as so far off */
-  close_log();
+  assert_true(lab_unknown_is_let_go(&h.c.u.unknown[j]));
+  assert_true(h.c.quality.bic < before - 10); /* the prior had cost 25 */
+  assert_true(fabs(h.c.u.unknown[j].value - true_supply) < fabs(held - true_supply));
+  assert_close(h.c.u.unknown[j].value, true_supply, 0, 5e-3);
+  assert_close(h.c.quality.strain, 5, 0, 0.05); /* it is still told as so far off */
+  held_close(&h);
 }
 
 static void test_lab_candidate_let_go__as_declared__keeps_all(void **state)
@@ -71,10 +40,29 @@ static void test_lab_candidate_let_go__as_declared__keeps_all(void **state)
   const second_rig truth = virtual_rig(11);
   lab_error error = {0, ""};
   (void)state;
-  hold(&truth);
-  assert_int_equal(lab_candidate_let_go(&c, &error), LAB_OK);
+  held_open(&h, &truth);
+  assert_int_equal(lab_candidate_let_go(&h.c, &error), LAB_OK);
   assert_int_equal(count_let_go(), 0);
-  close_log();
+  held_close(&h);
+}
+
+/* An instrument that is taken out of what was found is as well known as before. */
+static void test_lab_candidate_drop__gain_of_a_sensor__is_held_again(void **state)
+{
+  second_rig truth = virtual_rig(13);
+  const lab_unknown *x;
+  (void)state;
+  truth.position_gain = -0.02;
+  held_open(&h, &truth);
+  held_add(&h, "position_gain.position_gain", truth.position_gain);
+  x = &h.c.u.unknown[lab_unknowns_find(&h.c.u, pneu_param_find("position_gain.position_gain"))];
+  assert_false(lab_unknown_is_held(x));
+  assert_true(x->value < -1e-3);
+  lab_candidate_drop(&h.c, 0);
+  assert_true(lab_unknown_is_held(x));
+  assert_close(x->value, 0, 0, 0);
+  assert_close(*pneu_param_at(&h.c.u.rig.params, x->index), 0, 0, 0);
+  held_close(&h);
 }
 
 int main(void)
@@ -82,6 +70,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_candidate_let_go__one_value_far_off__is_found_without_its_prior),
       cmocka_unit_test(test_lab_candidate_let_go__as_declared__keeps_all),
+      cmocka_unit_test(test_lab_candidate_drop__gain_of_a_sensor__is_held_again),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

@@ -1,0 +1,51 @@
+/* A log of a virtual rig, and its declared model within its tolerances.
+ * SPDX-License-Identifier: MIT */
+#ifndef TESTS_HELD_H
+#define TESTS_HELD_H
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../virtual.h"
+
+#include "../../../apps/lab/trace/candidate.h"
+
+typedef struct held_log {
+  lab_rig rig;
+  lab_log log;
+  lab_run run;
+  lab_candidate c;
+} held_log;
+
+/* Record 14 s of a rig, and fit its declared model, the orifices unknown.  Out: h  to be closed */
+static inline void held_open(held_log *h, const second_rig *truth)
+{
+  const second_course course = {.t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS};
+  lab_error error = {0, ""};
+  memset(h, 0, sizeof *h);
+  virtual_write(truth, &course, 14, 0.01, scratch_path("log.csv"));
+  virtual_declare(&h->rig);
+  h->rig.fit[h->rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  assert_int_equal(lab_log_read(scratch_path("log.csv"), &h->rig.log, 101325, &h->log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&h->rig, &h->log, 0, &h->run, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&h->rig, &h->run, 1, &h->c.u, &error), LAB_OK);
+  assert_int_equal(lab_candidate_hold(&h->c, &error), LAB_OK);
+  assert_true(h->c.quality.fitted);
+}
+
+/* Add an effect at some size, and fit again. */
+static inline void held_add(held_log *h, const char *param, double size)
+{
+  const int index = pneu_param_find(param);
+  const lab_score score = {.effect = pneu_effect_of(index), .param = index, .shape = -1};
+  lab_error error = {0, ""};
+  assert_int_equal(lab_candidate_add_effect(&h->c, &score, size, &error), LAB_OK);
+  assert_int_equal(lab_candidate_fit(&h->c, LAB_ROUNDS_ALL, &error), LAB_OK);
+}
+
+static inline void held_close(held_log *h)
+{
+  lab_run_close(&h->run);
+  lab_log_free(&h->log);
+}
+
+#endif
