@@ -15,26 +15,29 @@
 #endif
 
 #ifdef PNEU_SINGLE
-#define PNEU_C(literal)     literal##f
-#define PNEU_M(function)    function##f
-#define PNEU_EPS            PNEU_C(1.1920929e-7)
-#define PNEU_EVENT_TIME     PNEU_C(1e-6)
-#define PNEU_FORCE_NOISE    PNEU_C(7.6e-6)
-#define PNEU_FORCE_RESOLVED PNEU_C(1e-4)
-#define PNEU_ON_STOP        PNEU_C(0.02)
+#define PNEU_C(literal)        literal##f
+#define PNEU_M(function)       function##f
+#define PNEU_EPS               PNEU_C(1.1920929e-7)
+#define PNEU_EVENT_TIME        PNEU_C(1e-6)
+#define PNEU_FORCE_NOISE       PNEU_C(7.6e-6)
+#define PNEU_FORCE_RESOLVED    PNEU_C(1e-4)
+#define PNEU_VELOCITY_RESOLVED PNEU_C(1e-6)
+#define PNEU_ON_STOP           PNEU_C(0.02)
 #else
-#define PNEU_C(literal)     literal
-#define PNEU_M(function)    function
-#define PNEU_EPS            2.220446049250313e-16
-#define PNEU_EVENT_TIME     1e-9
-#define PNEU_FORCE_NOISE    1.5e-14
-#define PNEU_FORCE_RESOLVED 1e-7
-#define PNEU_ON_STOP        1
+#define PNEU_C(literal)        literal
+#define PNEU_M(function)       function
+#define PNEU_EPS               2.220446049250313e-16
+#define PNEU_EVENT_TIME        1e-9
+#define PNEU_FORCE_NOISE       1.5e-14
+#define PNEU_FORCE_RESOLVED    1e-7
+#define PNEU_VELOCITY_RESOLVED 1e-10
+#define PNEU_ON_STOP           1
 #endif
 
 /* PNEU_EVENT_TIME [s]: exactness of an event. Shares of the largest force: PNEU_FORCE_NOISE, rounding, which break-away
  * asks for beyond friction; PNEU_FORCE_RESOLVED, below which a stem that has just come to rest stays there, lest it
- * chatter where it stops in equilibrium. PNEU_ON_STOP, share of stroke over the compliance of a stop that yields which
+ * chatter where it stops in equilibrium. PNEU_VELOCITY_RESOLVED, share of full scale at which a stem on bristles turns
+ * round: without it, it would do so for ever where it comes to rest. PNEU_ON_STOP, share of stroke over the compliance of a stop that yields which
  * counts as such a force: enough for the rounding of the position; all of it would, in single, hold a stem by 2 kN. */
 
 /* The record of each effect of the catalogue, in lib/effects/, and its sentence, a symbol of its own that a linker
@@ -72,6 +75,7 @@ struct pneu_terms {
   const pneu_model *model;
   const pneu_input *input;
   pneu_real p, T, x, v;                /* p [Pa] abs */
+  pneu_real sense;                     /* [1] of motion: 1 up, -1 down, 0 neither */
   pneu_real time;                      /* [s] by the model's clock, 0 without one */
   pneu_real volume, area, swept_area;  /* [m3], [m2] that pressure acts on, [m2] dV/dx */
   pneu_real asked, opening;            /* [1] by the command, before any dynamics of the transducer; [1] */

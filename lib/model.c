@@ -116,6 +116,7 @@ static void derive_scales(pneu_model *model)
   model->scale[1] = model->p.ambient_temperature;
   model->scale[2] = model->p.stroke > 0 ? model->p.stroke : 1;
   model->scale[3] = model->scale[2] * 100; /* velocity settles in about 10 ms */
+  model->velocity_resolved = model->bristle ? PNEU_VELOCITY_RESOLVED * model->scale[3] : 0;
 }
 
 static int bad_law(const pneu_laws *law)
@@ -161,4 +162,6 @@ void pneu_options_default(pneu_options *options)
 #endif
   options->h_max = 0;
   options->max_steps = 100000;
+  options->pace = NULL;
+  options->n_pace = 0;
 }

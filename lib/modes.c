@@ -18,15 +18,11 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
   const int i_x = model->n_gas, i_v = model->n_gas + 1;
   switch (state->mode) {
   case PNEU_MODE_UP:
-    g[0] = -y[i_v];
+    g[0] = -y[i_v] - model->velocity_resolved;
     g[1] = y[i_x] - model->upper_stop;
     return 2;
   case PNEU_MODE_DOWN:
-    g[0] = y[i_v];
-    g[1] = model->lower_stop - y[i_x];
-    return 2;
-  case PNEU_MODE_FREE:
-    g[0] = y[i_x] - model->upper_stop;
+    g[0] = y[i_v] - model->velocity_resolved;
     g[1] = model->lower_stop - y[i_x];
     return 2;
   case PNEU_MODE_DRIVEN:
@@ -48,11 +44,11 @@ static int rest_mode(const pneu_model *model, pneu_real x, pneu_real force, pneu
 {
   const int up = force > level, down = force < -level;
   if (x <= model->lower_stop)
-    return up ? (model->bristle ? PNEU_MODE_FREE : PNEU_MODE_UP) : PNEU_MODE_LOWER;
+    return up ? PNEU_MODE_UP : PNEU_MODE_LOWER;
   if (x >= model->upper_stop)
-    return down ? (model->bristle ? PNEU_MODE_FREE : PNEU_MODE_DOWN) : PNEU_MODE_UPPER;
+    return down ? PNEU_MODE_DOWN : PNEU_MODE_UPPER;
   if (model->bristle)
-    return PNEU_MODE_FREE;
+    return force < 0 ? PNEU_MODE_DOWN : PNEU_MODE_UP;
   return up ? PNEU_MODE_UP : down ? PNEU_MODE_DOWN : PNEU_MODE_STUCK;
 }
 
@@ -68,7 +64,7 @@ void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *s
   if (state->v != 0) {
     const int up = state->v > 0;
     if (up ? state->x < model->upper_stop : state->x > model->lower_stop) {
-      state->mode = model->bristle ? PNEU_MODE_FREE : up ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+      state->mode = up ? PNEU_MODE_UP : PNEU_MODE_DOWN;
       return;
     }
     state->v = 0; /* it has hit the stop */
@@ -100,16 +96,17 @@ void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pn
   const int mode = state->mode;
   if (mode == PNEU_MODE_LOWER || mode == PNEU_MODE_STUCK || mode == PNEU_MODE_UPPER) {
     const int up = which == 0 && mode != PNEU_MODE_UPPER;
-    state->mode = model->bristle ? PNEU_MODE_FREE : up ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+    state->mode = up ? PNEU_MODE_UP : PNEU_MODE_DOWN;
     return;
   }
-  if (mode == PNEU_MODE_FREE || which == 1) { /* a stop */
-    const int upper = mode == PNEU_MODE_UP || (mode == PNEU_MODE_FREE && which == 0);
-    state->x = upper ? model->upper_stop : model->lower_stop;
+  if (which == 0 && model->bristle) { /* the bristles turn it round */
+    state->mode = mode == PNEU_MODE_UP ? PNEU_MODE_DOWN : PNEU_MODE_UP;
+    return;
   }
   state->v = 0;
-  if (mode == PNEU_MODE_FREE || which == 1)
+  if (which == 1) { /* a stop */
+    state->x = mode == PNEU_MODE_UP ? model->upper_stop : model->lower_stop;
     pneu_settle(model, input, state);
-  else
+  } else
     come_to_rest(model, input, state);
 }

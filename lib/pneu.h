@@ -100,7 +100,6 @@ extern "C" {
   X(UP,         "sliding up",   "v > 0") \
   X(DOWN,       "sliding down", "v < 0") \
   X(UPPER,      "upper stop",   "at rest on the upper stop") \
-  X(FREE,       "free",         "between the stops with bristle friction (no stick mode)") \
   X(DRIVEN,     "driven",       "position is an input") \
   X(FIXED,      "fixed",        "no stem: a vessel")
 
@@ -368,9 +367,10 @@ struct pneu_model {
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */
   pneu_real force_noise;               /* [N] rounding of the balance of forces; break-away asks for more */
   pneu_real force_resolved;            /* [N] by which a stem that has just stopped must be pushed to go on */
+  pneu_real velocity_resolved;         /* [m/s] against its mode at which a stem on bristles turns round; 0: it sticks */
   pneu_real scale[4];                  /* full scale of pressure [Pa], T [K], x [m], v [m/s], for error control */
   int thermal;                         /* gas temperature is a state */
-  int bristle;                         /* friction has its own state: no stick mode */
+  int bristle;                         /* friction has its own state: the stem turns round and never sticks */
   int n_extra;                         /* states of active effects, and the clock */
   int n_gas;                           /* states before x in the packed vector: p, [T], effects */
   int n_active;
@@ -411,10 +411,22 @@ typedef struct pneu_shown {
   pneu_real force;       /* [N] where position is an input: pneu_output.holding_force; else 0 */
 } pneu_shown;
 
+/* One step of a run, for other runs to follow. */
+typedef struct pneu_paced_step {
+  pneu_real h; /* [s] > 0 */
+  int event;   /* not 0: an event ended it */
+} pneu_paced_step;
+
 typedef struct pneu_options {
   pneu_real tol;   /* local error in units of stroke, full pressure and so on (pneu_scales); 1e-10..1e-2 */
   pneu_real h_max; /* [s] longest step; 0 or less: none */
   int max_steps;   /* per run, > 0 */
+  /* The steps of a run that hardly differs, which this one is to take as well: their errors then cancel in the
+   * difference of the two. Events keep their own time. A step that would err by more than 30 tol is shortened; behind
+   * the last step, and from a step that ended on an event there and not here to the next event, lengths are chosen as
+   * usual. */
+  const pneu_paced_step *pace;
+  int n_pace; /* 0: none */
 } pneu_options;
 
 typedef struct pneu_stats {
@@ -588,8 +600,8 @@ enum {
 
 /* Event functions of the state's mode: an event happens where g rises through 0.
  * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
- *             velocity [m/s] against the mode's and distance beyond the stop [m] while sliding; with bristles
- *             distance beyond the upper and the lower stop
+ *             velocity [m/s] against the mode's, with bristles beyond what is resolved, and distance beyond the stop
+ *             [m] while sliding
  * Returns: their number; 0 driven, for a vessel, and at rest where the state is not physical. */
 int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                 pneu_real *g);

@@ -6,7 +6,7 @@
 
 int pneu_dimension(const pneu_model *model, int mode)
 {
-  static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 2, 1, 0};
+  static const unsigned char stem_entries[PNEU_MODE_COUNT] = {0, 0, 2, 2, 0, 1, 0};
   return model->n_gas + stem_entries[mode];
 }
 
@@ -41,6 +41,13 @@ void pneu_unpack(const pneu_model *model, const pneu_real *y, pneu_state *state)
     state->v = y[at + 1];
 }
 
+/* Direction of motion: that of the mode while the stem slides, so that it does not change within a step. */
+static pneu_real sense_of(int mode, pneu_real v)
+{
+  const int up = mode == PNEU_MODE_UP || (mode != PNEU_MODE_DOWN && v > 0);
+  return up ? PNEU_C(1.0) : mode == PNEU_MODE_DOWN || v < 0 ? PNEU_C(-1.0) : PNEU_C(0.0);
+}
+
 static void begin(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *t)
 {
@@ -52,6 +59,7 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->T = model->thermal ? y[1] : p->ambient_temperature;
   t->x = n > i_x ? y[i_x] : state->x;
   t->v = n > i_x + 1 ? y[i_x + 1] : state->mode == PNEU_MODE_DRIVEN ? input->position_rate : 0;
+  t->sense = sense_of(state->mode, t->v);
   t->time = model->clock >= 0 ? y[1 + model->thermal + model->clock] : 0;
   t->area = p->area * (1 - model->area_slope * t->x);
   t->swept_area = t->area * p->swept_ratio;
@@ -139,7 +147,7 @@ void pneu_rates(const pneu_terms *t, int mode, pneu_real *dydt)
   if (n > i_x)
     dydt[i_x] = t->v;
   if (n > i_x + 1)
-    dydt[i_x + 1] = pneu_stem_acceleration(t, mode);
+    dydt[i_x + 1] = pneu_stem_acceleration(t);
 }
 
 int pneu_rhs(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,

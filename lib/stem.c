@@ -10,23 +10,17 @@ void pneu_stem_force(pneu_terms *t)
   t->friction = p->dry_friction;
 }
 
-static pneu_real direction(int mode)
-{
-  return mode == PNEU_MODE_UP ? PNEU_C(1.0) : mode == PNEU_MODE_DOWN ? PNEU_C(-1.0) : PNEU_C(0.0);
-}
-
-pneu_real pneu_stem_acceleration(const pneu_terms *t, int mode)
+pneu_real pneu_stem_acceleration(const pneu_terms *t)
 {
   /* M x'' = force - c v - F sgn(v); the print has sgn(x) in [B, Eqs. 2-3] */
-  const pneu_real dry = t->model->bristle ? t->bristle_force : direction(mode) * t->friction;
+  const pneu_real dry = t->model->bristle ? t->bristle_force : t->sense * t->friction;
   return (t->force - t->model->viscous * t->v - dry) / t->model->p.moving_mass;
 }
 
 pneu_real pneu_stem_holding(const pneu_terms *t)
 {
   /* what the balance of forces leaves at the present velocity; at rest dry friction may take any part of it */
-  const pneu_real sense = t->v > 0 ? PNEU_C(1.0) : t->v < 0 ? PNEU_C(-1.0) : PNEU_C(0.0);
-  const pneu_real dry = t->model->bristle ? t->bristle_force : sense * t->friction;
+  const pneu_real dry = t->model->bristle ? t->bristle_force : t->sense * t->friction;
   return t->force + t->input->force - t->model->viscous * t->v - dry;
 }
 

@@ -10,6 +10,6 @@ void pneu_stem_force(pneu_terms *t);
 pneu_real pneu_stem_holding(const pneu_terms *t);
 
 /* [m/s2] */
-pneu_real pneu_stem_acceleration(const pneu_terms *t, int mode);
+pneu_real pneu_stem_acceleration(const pneu_terms *t);
 
 #endif

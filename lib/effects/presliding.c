@@ -14,7 +14,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 {
   const pneu_real F = t->model->p.dry_friction;
   const pneu_real ratio = t->friction > 0 ? F / t->friction : 1;
-  const pneu_real slip = t->v - PNEU_M(fabs)(t->v) * state[0] * ratio;
+  const pneu_real slip = t->v - t->sense * t->v * state[0] * ratio;
   rate[0] = slip / param[LENGTH];
   t->bristle_force = F * state[0] + param[BRISTLE_DAMPING] * slip;
 }

@@ -278,7 +278,7 @@ static pneu_real own_slope(const pneu_model *m, int e, pneu_real z, pneu_real st
   pneu_real y[PNEU_STATE_MAX], f0[PNEU_STATE_MAX], f1[PNEU_STATE_MAX], jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
   const int at = 1 + m->thermal + m->state_of[e];
   s.v = (pneu_real)0.003;
-  s.mode = m->bristle ? PNEU_MODE_FREE : PNEU_MODE_UP;
+  s.mode = PNEU_MODE_UP;
   s.extra[m->state_of[e]] = z;
   pneu_pack(m, &s, y);
   assert_int_equal(pneu_rhs(m, &s, &input, y, f0), PNEU_OK);

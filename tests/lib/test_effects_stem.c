@@ -145,7 +145,7 @@ static void check_bristle(double v, double z)
   s = fixture_rest(&m, 2e5, 0.012, &input);
   s.v = (pneu_real)v;
   s.extra[0] = (pneu_real)z;
-  s.mode = PNEU_MODE_FREE;
+  s.mode = v < 0 ? PNEU_MODE_DOWN : PNEU_MODE_UP;
   assert_int_equal(pneu_pack(&m, &s, y), 4);
   assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
   check_note("v = %g, z = %g", v, z);
@@ -224,10 +224,71 @@ static void footprint_presliding(void)
   input.pressure_rate = 600;
   s = fixture_rest(&m, 0, 0.01, &input);
   fixture_run(&m, &s, &input, 10, TOL(1e-9, 1e-5), NULL);
-  assert_int_equal(s.mode, PNEU_MODE_FREE);
+  assert_int_equal(s.mode, PNEU_MODE_UP);
   assert_close((double)s.x - 0.01, -d * log(1 - 6000 * 0.04 / 480), 0, TOL(0.01, 0.05));
   fixture_run(&m, &s, &input, 15, TOL(1e-9, 1e-5), NULL);
   assert_true((double)s.x > 0.0105);
+}
+
+/* A stem on bristles that has come to rest turns round a few times and then takes few steps, however stiff they are:
+ * friction that holds it is a stiff spring on one side of v = 0 and hardly any on the other. */
+static void test_presliding__at_rest__takes_few_steps(void **state)
+{
+  static const double length[] = {4e-7, 2e-5, 2e-4};
+  int i;
+  (void)state;
+  if (pneu_effect_find("presliding") < 0)
+    skip();
+  for (i = 0; i < COUNT(length); i++) {
+    pneu_params p = fixture_params(FIXTURE_R1_400);
+    pneu_options options;
+    pneu_workspace work;
+    pneu_model m;
+    pneu_input input;
+    pneu_state s;
+    fixture_set(&p, "presliding_length", length[i]);
+    m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+    input = fixture_input(&m, 1);
+    s = fixture_rest(&m, 1.5e5, 0.003, &input);
+    fixture_run(&m, &s, &input, 2, TOL(1e-6, 1e-4), NULL);
+    assert_true((double)s.x > 0.005 && (double)s.v > 0);
+    input = fixture_input(&m, 0);
+    memset(&work, 0, sizeof work);
+    pneu_options_default(&options);
+    options.tol = (pneu_real)TOL(1e-5, 1e-4);
+    assert_int_equal(pneu_run(&m, &s, &input, 20, &options, NULL, &work), PNEU_OK);
+    check_note("length %g: %ld steps, %ld refused", length[i], work.stats.steps, work.stats.rejected);
+    assert_between((double)work.stats.steps, 10, 400);
+    assert_between((double)work.stats.rejected, 0, 100);
+    assert_between(fabs((double)s.v), 0, 1e-5);
+  }
+}
+
+/* It turns round where it moves against its direction by what is resolved, and keeps its velocity. */
+static void test_pneu_switch__bristles__turns_round(void **state)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  (void)state;
+  if (pneu_effect_find("presliding") < 0)
+    skip();
+  fixture_set(&p, "presliding_length", 2e-5);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 2e5, 0.012, &input);
+  s.mode = PNEU_MODE_UP;
+  s.v = -2 * m.velocity_resolved;
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
+  assert_close(g[0], m.velocity_resolved, 0, 1e-6);
+  pneu_switch(&m, &input, 0, &s);
+  assert_int_equal(s.mode, PNEU_MODE_DOWN);
+  assert_true(s.v == -2 * m.velocity_resolved);
+  assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
+  assert_true(g[0] < 0);
 }
 
 /* ---- spring ---- */
@@ -506,6 +567,8 @@ int main(void)
       cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
       cmocka_unit_test(test_presliding__no_friction__bristles_bend_all_the_way),
       cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
+      cmocka_unit_test(test_presliding__at_rest__takes_few_steps),
+      cmocka_unit_test(test_pneu_switch__bristles__turns_round),
       cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
       cmocka_unit_test(test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops),
       cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),

@@ -830,7 +830,7 @@ static void ringing_bristles(pneu_model *m, pneu_input *input, pneu_state *start
   *start = fixture_rest(m, 166346.854, 0.00477860332, input);
   start->v = (pneu_real)0.010797631;
   start->extra[0] = (pneu_real)1.0944130044739289;
-  start->mode = PNEU_MODE_FREE;
+  start->mode = PNEU_MODE_UP;
 }
 
 static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void **state)

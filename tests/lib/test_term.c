@@ -318,6 +318,7 @@ static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void 
   add(&m, &term, 1);
   s = fixture_rest(&m, 2e5, 0.011, &input);
   s.v = (pneu_real)0.01;
+  s.mode = PNEU_MODE_UP;
   s.extra[0] = (pneu_real)(720.0 / 480);
   pneu_pack(&m, &s, y);
   assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);

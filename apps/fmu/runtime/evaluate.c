@@ -112,16 +112,13 @@ static int is_choked(const fmu_instance *i)
   return pneu_observe(&i->model, &state, &input, &out) == PNEU_OK ? out.choked : i->m.choked;
 }
 
-/* What event function k measures decides its margin: forces at rest, else speed and then travel; with a bristle travel
- * alone. */
+/* What event function k measures decides its margin: forces at rest, else speed and then travel. */
 static double margin(const fmu_instance *i, int k)
 {
   switch (i->m.state.mode) {
   case PNEU_MODE_UP:
   case PNEU_MODE_DOWN:
     return k == 0 ? SPEED_MARGIN * i->model.scale[3] : TRAVEL_MARGIN * i->model.scale[2];
-  case PNEU_MODE_FREE:
-    return TRAVEL_MARGIN * i->model.scale[2];
   default:
     return i->model.force_noise;
   }

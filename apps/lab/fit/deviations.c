@@ -177,7 +177,8 @@ static void follow(const lab_unknowns *u, const lab_fit_result *fit, int j, lab_
 
 /* Make the interval of unknown j wider until the parabola rises no more than chi-square does on the way to the declared
  * value; where the time is spent the others are not fitted there.
- * In:      least  chi-square of the fit, followed as closely as fits do, and not as intervals do */
+ * In:      u      with slopes that it keeps
+ *          least  chi-square of the fit, followed as closely as fits do, and not as intervals do */
 static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less, lab_fit_result *fit, lab_error *error)
 {
   enum { STEPS = 3 };
@@ -185,11 +186,18 @@ static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less,
   const double off = declared_of(u, x) - x->value, expected = off * off / fit->covariance[j][j];
   unsigned char only[LAB_FIT_MAX] = {0};
   double chi2, wider;
+  int status;
   only[j] = 1;
   leave_out(u, only, less);
   follow(u, fit, j, less);
-  if (lab_unknowns_fit(less, STEPS, &chi2, error))
-    return error->status;
+  status = lab_unknowns_keep_slopes(less, error);
+  if (status == LAB_OK) {
+    lab_unknowns_begin_with(less, u);
+    status = lab_unknowns_fit(less, STEPS, &chi2, error);
+  }
+  lab_unknowns_forget_slopes(less);
+  if (status != LAB_OK)
+    return status;
   wider = sqrt(expected / fmax((chi2 - least) / fmax(fit->reduced_chi2, 1), 1));
   if (wider > 1) {
     fit->low[j] = fmax(x->value - wider * (x->value - fit->low[j]), x->lower);
@@ -198,18 +206,36 @@ static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less,
   return LAB_OK;
 }
 
+/* Whether the interval of an unknown leaves out its declared value. */
+static int leaves_out(const lab_unknowns *u, const lab_fit_result *fit, int j, int compared)
+{
+  const lab_unknown *x = &u->unknown[j];
+  return x->kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
+         is_told(x, fit, j, declared_of(u, x), compared);
+}
+
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
 {
   const int compared = count_compared(&u->rig, u);
-  lab_unknowns *less = malloc(sizeof *less);
+  struct {
+    lab_unknowns all, less;
+  } *of = malloc(sizeof *of);
   double least;
-  int j, status = less ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
-  const int n = status == LAB_OK ? u->n : 0;
-  for (j = 0; j < n && status != LAB_WORLD; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
-        is_told(&u->unknown[j], fit, j, declared_of(u, &u->unknown[j]), compared))
-      status = widen(u, j, least, less, fit, error);
-  free(less);
+  int j, found = 0, status = of ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
+  if (!of)
+    return status;
+  of->all = *u;
+  of->all.slopes = NULL;
+  for (j = 0; j < u->n && status != LAB_WORLD; j++) {
+    if (!leaves_out(u, fit, j, compared))
+      continue;
+    if (!found++ && (status = lab_unknowns_keep_slopes(&of->all, error)) == LAB_OK)
+      status = lab_unknowns_find_slopes(&of->all, error);
+    if (status != LAB_WORLD)
+      status = widen(&of->all, j, least, &of->less, fit, error);
+  }
+  lab_unknowns_forget_slopes(&of->all);
+  free(of);
   return status == LAB_WORLD ? status : LAB_OK;
 }
 

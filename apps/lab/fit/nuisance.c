@@ -26,20 +26,20 @@ static void add_column(lab_nuisance *h, const lab_unknown *x, double reach, cons
 }
 
 /* Slopes of all that has a prior; 0 where one cannot be simulated. */
-static int find_slopes(const lab_unknowns *u, double *r, double *slopes, lab_error *error)
+static int find_slopes(lab_unknowns *u, double *r, double *slopes, lab_error *error)
 {
   double theta[LAB_FIT_MAX];
   int j, status = LAB_OK;
   for (j = 0; j < u->n; j++)
     theta[j] = u->unknown[j].value;
-  if (lab_unknowns_residuals((void *)u, theta, r, error))
+  if (lab_unknowns_take_pace(u, theta, r, error))
     return error->status;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < u->n; j++) {
     lab_error mine;
     double *slope = slopes + (size_t)j * u->m;
     const int at =
-        lab_unknown_is_known(&u->unknown[j]) ? lab_unknowns_slope((void *)u, theta, r, j, slope, &mine) : (int)LAB_OK;
+        lab_unknown_is_known(&u->unknown[j]) ? lab_unknowns_slope(u, theta, r, j, slope, &mine) : (int)LAB_OK;
     if (at == LAB_NUMERIC)
       memset(slope, 0, u->m * sizeof *slope);
     else if (at != LAB_OK) {
@@ -47,6 +47,7 @@ static int find_slopes(const lab_unknowns *u, double *r, double *slopes, lab_err
       *error = mine, status = at;
     }
   }
+  lab_unknowns_drop_pace(u);
   return status;
 }
 

@@ -92,10 +92,10 @@ static int central_slope(void *context, const double *theta, const double *r, in
     return lab_fail_memory(error, "a slope");
   memcpy(at, theta, (size_t)u->n * sizeof *at);
   at[j] = theta[j] - step;
-  status = lab_unknowns_residuals(context, at, below, error);
+  status = lab_unknowns_residuals_of(u, at, -1, below, error);
   at[j] = theta[j] + step;
   if (status == LAB_OK)
-    status = lab_unknowns_residuals(context, at, column, error);
+    status = lab_unknowns_residuals_of(u, at, -1, column, error);
   for (i = 0; status == LAB_OK && i < u->m; i++)
     column[i] = (column[i] - below[i]) / (2 * step);
   free(below);
@@ -112,6 +112,16 @@ static int residuals_to_fit(void *context, const double *theta, double *r, lab_e
   if (lab_unknowns_residuals(context, theta, r, error))
     return is_start ? error->status : avoided(error);
   return LAB_OK;
+}
+
+/* The steps at theta are those of all slopes there. */
+static int begin_slopes(void *context, const double *theta, lab_error *error)
+{
+  lab_unknowns *u = context;
+  double *r = malloc((u->m + 1) * sizeof *r);
+  const int status = r ? lab_unknowns_take_pace(u, theta, r, error) : lab_fail_memory(error, "residuals");
+  free(r);
+  return status;
 }
 
 /* The problem that the unknowns pose, and its memory. */
@@ -144,6 +154,7 @@ static void pose(lab_unknowns *u, posed *p)
                                  .context = u,
                                  .residuals = residuals_to_fit,
                                  .slope = lab_unknowns_slope,
+                                 .begin_slopes = begin_slopes,
                                  .together = lab_instants_slopes,
                                  .slopes = u->slopes,
                                  .is_known = u->slopes && any_slope(u) ? u->has_slope : NULL,
@@ -183,6 +194,7 @@ int lab_unknowns_find_slopes(lab_unknowns *u, lab_error *error)
   status = r ? lab_unknowns_residuals(u, p.theta, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
     status = lab_fit_slopes(&p.problem, p.theta, r, u->slopes, error);
+  lab_unknowns_drop_pace(u);
   memset(u->has_slope, status == LAB_OK, (size_t)u->n);
   free(r);
   return status;
@@ -289,14 +301,18 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
   double own;
   posed p;
-  int j;
+  int j, status;
   chi2 = chi2 ? chi2 : &own;
   pose(u, &p);
   p.problem.steps = steps;
   p.problem.is_brief = steps != LAB_ROUNDS_ALL;
   p.problem.until = u->until;
-  if (lab_fit(&p.problem, p.theta, chi2, error) || fit_size(u, &p, chi2, error))
-    return error->status;
+  status = lab_fit(&p.problem, p.theta, chi2, error);
+  if (status == LAB_OK)
+    status = fit_size(u, &p, chi2, error);
+  lab_unknowns_drop_pace(u);
+  if (status != LAB_OK)
+    return status;
   for (j = 0; j < u->n; j++)
     u->unknown[j].value = p.theta[j];
   memset(u->has_slope, u->slopes != NULL, (size_t)u->n);
@@ -317,12 +333,16 @@ int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *e
   p.problem.until = 0; /* they belong to the answer */
   if (in_time) {
     p.problem.slope = central_slope;
+    p.problem.begin_slopes = NULL; /* their own steps: a kink that one passes elsewhere would count thirtyfold */
     u->tol = fmin(u->tol, exact);
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
     u->tol = tol;
   }
-  if (status != LAB_NUMERIC)
-    return status;
-  p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
-  return lab_fit_spread(&p.problem, param, p.theta, result, error);
+  if (status == LAB_NUMERIC) {
+    p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
+    p.problem.begin_slopes = begin_slopes;
+    status = lab_fit_spread(&p.problem, param, p.theta, result, error);
+  }
+  lab_unknowns_drop_pace(u);
+  return status;
 }

@@ -114,7 +114,8 @@ static void apply_from(const lab_unknowns *u, const double *theta, int e, double
 }
 
 /* Predictions of one experiment. */
-static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r, lab_error *error)
+static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace, double *r,
+                   lab_error *error)
 {
   const lab_run *x = &u->run[e];
   const double begin = x->log->value[LAB_CHANNEL_TIME][x->first];
@@ -136,7 +137,7 @@ static int predict(const lab_unknowns *u, const lab_rig *model, const double *th
     if (u->nuisance->of[j].run == e)
       early_of(&u->nuisance->of[j], u->nuisance->of[j].value, x, early);
   if (status == LAB_OK)
-    status = lab_run_predict_episodes(x, episode, n, early, u->tol, r, error);
+    status = lab_run_predict_episodes(x, episode, n, early, u->tol, pace, r, error);
   free(early);
   free(rig);
   return status;
@@ -152,19 +153,19 @@ void lab_unknowns_weigh(const lab_unknowns *u, int e, double *r)
 }
 
 /* Errors of one run over noise, row by row. */
-static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
-                     lab_error *error)
+static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace,
+                     double *r, lab_error *error)
 {
-  if (predict(u, model, theta, e, r, error))
+  if (predict(u, model, theta, e, pace, r, error))
     return error->status;
   weigh(&u->run[e], r);
   return LAB_OK;
 }
 
-static int residuals_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
-                        lab_error *error)
+static int residuals_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace,
+                        double *r, lab_error *error)
 {
-  if (errors_of(u, model, theta, e, r, error))
+  if (errors_of(u, model, theta, e, pace, r, error))
     return error->status;
   lab_unknowns_weigh(u, e, r);
   return LAB_OK;
@@ -176,7 +177,7 @@ static int coarse_residuals_of(const lab_unknowns *u, const lab_rig *model, cons
 {
   const lab_run *x = &u->run[e];
   double *predicted = malloc((x->n * (size_t)x->n_channels + 1) * sizeof *predicted);
-  int c, status = predicted ? predict(u, model, theta, e, predicted, error) : lab_fail_memory(error, "a response");
+  int c, status = predicted ? predict(u, model, theta, e, NULL, predicted, error) : lab_fail_memory(error, "a response");
   for (c = 0; c < x->n_channels && status == LAB_OK; c++) {
     lab_windowed_residuals(x->log->value[x->channel[c]] + x->first, predicted + (size_t)c * x->n, x->n, u->window,
                            x->sigma[c], r);
@@ -224,14 +225,15 @@ void lab_unknowns_count(lab_unknowns *u)
 }
 
 /* Residuals of the runs that have unknown `which`, or of all for -1; those of other runs are left as they are. */
-static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, double *r,
-                        lab_error *error)
+static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, lab_pace *pace,
+                        double *r, lab_error *error)
 {
   double *all = r;
   int e, j;
   for (e = 0; e < u->n_runs; r += residuals_in(u, e), e++)
     if ((which < 0 || is_of(&u->unknown[which], e)) &&
-        (u->window ? coarse_residuals_of(u, model, theta, e, r, error) : residuals_of(u, model, theta, e, r, error)))
+        (u->window ? coarse_residuals_of(u, model, theta, e, r, error)
+                   : residuals_of(u, model, theta, e, pace ? &pace[e] : NULL, r, error)))
       return error->status;
   if (u->nuisance)
     lab_nuisance_apply(u->nuisance, all);
@@ -250,11 +252,38 @@ static void present(const lab_unknowns *u, double *theta)
     theta[j] = u->unknown[j].value;
 }
 
-int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
+static int residuals_by(const lab_unknowns *u, const double *theta, int which, lab_pace *pace, double *r,
+                        lab_error *error)
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return residuals_at(u, &model, theta, u->nuisance ? -1 : which, r, error);
+  return residuals_at(u, &model, theta, u->nuisance ? -1 : which, pace, r, error);
+}
+
+int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
+{
+  return residuals_by(u, theta, which, u->pace, r, error);
+}
+
+void lab_unknowns_drop_pace(lab_unknowns *u)
+{
+  int e;
+  for (e = 0; u->pace && e < u->n_runs; e++)
+    lab_pace_close(&u->pace[e]);
+  free(u->pace);
+  u->pace = NULL;
+}
+
+int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, double *r, lab_error *error)
+{
+  int status;
+  lab_unknowns_drop_pace(u);
+  if (!u->window && !(u->pace = calloc((size_t)u->n_runs, sizeof *u->pace)))
+    return lab_fail_memory(error, "the steps of runs");
+  status = residuals_by(u, theta, -1, u->pace, r, error);
+  if (status != LAB_OK)
+    lab_unknowns_drop_pace(u);
+  return status;
 }
 
 void lab_unknowns_take(lab_unknowns *u)
@@ -278,14 +307,14 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
   double now[LAB_FIT_MAX];
   if (!theta)
     present(u, now);
-  return lab_unknowns_residuals_of(u, theta ? theta : now, -1, r, error);
+  return residuals_by(u, theta ? theta : now, -1, NULL, r, error);
 }
 
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
   present(u, now);
-  return residuals_at(u, rig, now, -1, r, error);
+  return residuals_at(u, rig, now, -1, u->pace, r, error);
 }
 
 int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error)
@@ -313,7 +342,7 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
   int e;
   present(u, now);
   for (e = 0; e < u->n_runs; r += u->run[e].n * (size_t)u->run[e].n_channels, e++)
-    if (errors_of(u, &u->rig, now, e, r, error))
+    if (errors_of(u, &u->rig, now, e, NULL, r, error))
       return error->status;
   return LAB_OK;
 }
@@ -322,7 +351,7 @@ int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int e, do
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return errors_of(u, &model, theta, e, r, error);
+  return errors_of(u, &model, theta, e, u->pace ? &u->pace[e] : NULL, r, error);
 }
 
 void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column)

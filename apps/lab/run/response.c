@@ -146,18 +146,6 @@ static void recorder_close(recorder *r)
   free(r->row);
 }
 
-static int sample_step(void *context, const pneu_step_view *view)
-{
-  lab_sampler *sampler = context;
-  pneu_state at;
-  double due;
-  while ((due = lab_sampler_due(sampler)) <= view->t + view->h) {
-    pneu_dense(view, (due - view->t) / view->h, &at);
-    lab_sampler_take(sampler, &at);
-  }
-  return 0;
-}
-
 /* A simulation under way, by one of the two integrators. */
 typedef struct engine {
   const pneu_model *model;
@@ -165,13 +153,41 @@ typedef struct engine {
   double t_end;
   double tol;
   lab_cvode *cvode; /* NULL: the stepper */
+  lab_sampler *sampler;
+  lab_pace *taken;          /* the pace that is taken up, NULL: none */
+  const lab_pace *followed; /* the pace that is followed, NULL: none */
+  size_t row, rows;         /* of the schedule */
   pneu_workspace work;
 } engine;
 
-static int stretch(engine *e, pneu_state *state, double duration, lab_sampler *sampler, lab_error *error)
+static int sample_step(void *context, const pneu_step_view *view)
+{
+  const engine *e = context;
+  pneu_state at;
+  double due;
+  while ((due = lab_sampler_due(e->sampler)) <= view->t + view->h) {
+    pneu_dense(view, (due - view->t) / view->h, &at);
+    lab_sampler_take(e->sampler, &at);
+  }
+  if (e->taken)
+    lab_pace_step(e->taken, (double)view->h);
+  return 0;
+}
+
+static int mark_event(void *context, pneu_real t, const pneu_state *state, int before)
+{
+  const engine *e = context;
+  (void)t, (void)state, (void)before;
+  if (e->taken)
+    lab_pace_event(e->taken);
+  return 0;
+}
+
+static int stretch(engine *e, pneu_state *state, double duration, lab_error *error)
 {
   const int max_steps = e->task->options.max_steps;
-  pneu_observer observer = {sample_step, NULL, sampler};
+  pneu_observer observer = {sample_step, mark_event, e};
+  lab_sampler *sampler = e->sampler;
   pneu_options options;
   int status;
   if (e->cvode) {
@@ -182,8 +198,12 @@ static int stretch(engine *e, pneu_state *state, double duration, lab_sampler *s
   options.tol = e->tol;
   if (max_steps > 0)
     options.max_steps = max_steps;
-  status = pneu_run(e->model, state, sampler->input, duration, &options, sampler->next < sampler->n ? &observer : NULL,
-                    &e->work);
+  if (e->taken)
+    lab_pace_row(e->taken);
+  if (e->followed)
+    lab_pace_follow(e->followed, e->row, e->rows, &options);
+  status = pneu_run(e->model, state, sampler->input, duration, &options,
+                    e->taken || sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC,
@@ -238,16 +258,16 @@ static int hand_over(const pneu_model *from, const pneu_model *to, const pneu_in
     next.extra[to->clock] = state->extra[from->clock];
   if (state->v != 0 && state->x > to->lower_stop && state->x < to->upper_stop) {
     next.v = state->v;
-    next.mode = to->bristle ? PNEU_MODE_FREE : state->v > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+    next.mode = state->v > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
   }
   *state = next;
   return LAB_OK;
 }
 
 /* Under one row of a schedule, to a time. */
-static int run_row(engine *e, pneu_input *input, double from, double to, pneu_state *state, lab_sampler *sampler,
-                   lab_error *error)
+static int run_row(engine *e, pneu_input *input, double from, double to, pneu_state *state, lab_error *error)
 {
+  lab_sampler *sampler = e->sampler;
   pneu_delay acts; /* the schedule has the delay */
   pneu_delay_begin(&acts, NULL, 0, input->u);
   input->delay = &acts;
@@ -256,21 +276,23 @@ static int run_row(engine *e, pneu_input *input, double from, double to, pneu_st
   pneu_settle(e->model, input, state);
   while (lab_sampler_due(sampler) <= 0)
     lab_sampler_take(sampler, state);
-  if (stretch(e, state, to - from, sampler, error))
+  if (stretch(e, state, to - from, error))
     return error->status;
   while (sampler->next < sampler->n)
     lab_sampler_take(sampler, state); /* the end, missed by rounding */
   return LAB_OK;
 }
 
-static int run_rows(engine *e, const lab_late *late, double t_end, lab_sampler *sampler, lab_error *error)
+static int run_rows(engine *e, const lab_late *late, double t_end, lab_error *error)
 {
+  lab_sampler *sampler = e->sampler;
   const lab_schedule *schedule = &late->schedule;
   const pneu_model *model = e->model = late->rows[0];
   pneu_state state = *e->task->start;
   const size_t n = sampler->n;
   size_t i;
   int status = LAB_OK;
+  e->rows = schedule->n;
   if (model->clock >= 0)
     state.extra[model->clock] = (pneu_real)schedule->t[0];
   for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
@@ -280,18 +302,19 @@ static int run_rows(engine *e, const lab_late *late, double t_end, lab_sampler *
     if (late->rows[i] != e->model)
       status = hand_over(e->model, late->rows[i], &input, &state, error);
     e->model = late->rows[i];
+    e->row = i;
     if (status == LAB_OK)
-      status = run_row(e, &input, schedule->t[i], to, &state, sampler, error);
+      status = run_row(e, &input, schedule->t[i], to, &state, error);
   }
-  return status;
+  return status == LAB_OK && e->taken ? lab_pace_end(e->taken, error) : status;
 }
 
-static int run_schedule(engine *e, double t_end, lab_sampler *sampler, lab_error *error)
+static int run_schedule(engine *e, double t_end, lab_error *error)
 {
   lab_late late;
   int status = lab_late_open(e->task, e->model, &late, error);
   if (status == LAB_OK)
-    status = run_rows(e, &late, t_end, sampler, error);
+    status = run_rows(e, &late, t_end, error);
   lab_late_close(&late);
   return status;
 }
@@ -308,8 +331,9 @@ static int run_sampled(engine *e, lab_response *response, lab_error *error)
     sampler.t = r.t;
     sampler.n = r.row ? 2 * response->n : response->n;
   }
+  e->sampler = &sampler;
   if (status == LAB_OK)
-    status = run_schedule(e, fmax(e->t_end, e->t_end - skew), &sampler, error);
+    status = run_schedule(e, fmax(e->t_end, e->t_end - skew), error);
   if (status == LAB_OK && response && response->u)
     record_commands(e->task->schedule, response);
   recorder_close(&r);
@@ -321,6 +345,10 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
   const lab_response_options *o = &task->options;
   engine e = {.model = model, .task = task, .t_end = task->t_end, .tol = o->tol};
   int status;
+  if (task->pace && task->pace->is_set)
+    e.followed = task->pace;
+  else
+    e.taken = task->pace;
   if (e.t_end == 0 && task->n > 0)
     e.t_end = task->t[task->n - 1];
   if (e.tol == 0)

@@ -7,6 +7,7 @@
 
 #include "../../../lib/pneu.h"
 #include "../base/message.h"
+#include "pace.h"
 
 /* Inputs over time: row i acts from t[i] to t[i+1], its command with its slope; the last one to the end. */
 typedef struct lab_schedule {
@@ -54,6 +55,7 @@ typedef struct lab_simulation {
   size_t n;
   double t_end; /* [s]; 0: the last sample */
   lab_response_options options;
+  lab_pace *pace;    /* taken up by the first run that has it, followed by those after it; NULL: none */
   pneu_stats *stats; /* written if not NULL */
 } lab_simulation;
 

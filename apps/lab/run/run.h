@@ -6,6 +6,7 @@
 #include "../base/colour.h"
 #include "../log/log.h"
 #include "../rig/rig.h"
+#include "pace.h"
 #include "staging.h"
 
 typedef struct lab_run {
@@ -46,9 +47,10 @@ int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, d
 enum { LAB_EPISODES_MAX = 9 };
 
 /* The same where the model changes on the way.
- * In:      episode  n >= 1 of them, in the order of time; the first acts from the beginning, whatever its time */
+ * In:      episode  n >= 1 of them, in the order of time; the first acts from the beginning, whatever its time
+ *          pace     of the run, as of lab_simulation */
 int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
-                             double *y, lab_error *error);
+                             lab_pace *pace, double *y, lab_error *error);
 
 /* Errors of channel c over its noise, as they count: weighed, and without the memory of the noise.
  * In/out:  v  n values */

@@ -87,7 +87,7 @@ typedef struct trial_row {
 static int residuals_from(trial_row *f, double from, double *r, lab_error *error)
 {
   set_from(&f->u, f->u.n - 1, from);
-  return lab_unknowns_residuals_of(&f->u, f->theta, -1, r, error);
+  return lab_unknowns_residuals(&f->u, f->theta, r, error);
 }
 
 static int open_trial(const lab_unknowns *u, int change, trial_row *f, lab_error *error)

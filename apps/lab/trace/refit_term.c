@@ -1,4 +1,5 @@
 /* Refits of free terms. */
+#include "../base/array.h"
 #include "refit_private.h"
 
 #include <math.h>
@@ -53,15 +54,47 @@ static void resample(const pneu_term *from, double level, pneu_term *to)
   to->value[0] = to->value[to->n - 1] = 0;
 }
 
-/* A free term that acts on a short stretch only: knots there, close together, and none elsewhere. */
+/* Chi-square of a model with another free term in its place; infinite where it fails. */
+static double chi2_with(const lab_candidate *c, const pneu_term *term, double *r)
+{
+  lab_rig rig = c->u.rig;
+  lab_error ignored;
+  rig.term[c->found[c->n_found - 1].term] = *term;
+  return lab_unknowns_residuals_with(&c->u, &rig, r, &ignored) == LAB_OK ? lab_dot(r, r, c->u.m) : INFINITY;
+}
+
+/* Give knots at the ends the value of their neighbour as long as the log hardly tells the difference: where it hardly
+ * ever is, a fit leaves them anywhere.  In/out: term  of c, which stays as it is */
+static void trim(const lab_candidate *c, pneu_term *term, double *r)
+{
+  static const double told = 4; /* of chi-square */
+  const double most = chi2_with(c, term, r) + told;
+  const int n = term->n;
+  int side, k, i;
+  for (side = 0; side < 2; side++)
+    for (k = 1; k < n; k++) {
+      pneu_term flat = *term;
+      for (i = 0; i < k; i++)
+        flat.value[side ? n - 1 - i : i] = term->value[side ? n - 1 - k : k];
+      if (!(chi2_with(c, &flat, r) < most))
+        break;
+      *term = flat;
+    }
+}
+
+/* A free term that acts on a short stretch only: knots there, close together, and none elsewhere. It is taken unless it
+ * is plainly worse. */
 static void refine(lab_candidate *c, lab_candidate *fine, lab_error *all)
 {
   const lab_found *found = &c->found[c->n_found - 1];
-  const pneu_term coarse = c->u.rig.term[found->term];
+  pneu_term coarse = c->u.rig.term[found->term];
   const double margin = lab_constant(LAB_TERM_MARGIN) * (double)(coarse.to - coarse.from) / (coarse.n - 1);
-  double from, to, level, peak;
+  double from, to, level, peak, *r = malloc((c->u.m + 1) * sizeof *r);
   pneu_term term = coarse;
   lab_error error;
+  if (r && coarse.argument != PNEU_TERM_OVER_CYCLE)
+    trim(c, &coarse, r);
+  free(r);
   if (!lab_free_term_stretch(&coarse, &from, &to, &level, &peak))
     return;
   *fine = *c;
@@ -73,7 +106,8 @@ static void refine(lab_candidate *c, lab_candidate *fine, lab_error *all)
   resample(&coarse, level, &term);
   if (lab_unknowns_add_term(&fine->u, &term, found->scale, 1, &error))
     lab_fail_together(all, &error);
-  else if (lab_refit_one(fine, LAB_ROUNDS_ALL, all) == LAB_OK && fine->quality.bic < c->quality.bic)
+  else if (lab_refit_one(fine, LAB_ROUNDS_ALL, all) == LAB_OK &&
+           fine->quality.bic < c->quality.bic + lab_constant(LAB_ALIKE_BIC))
     *c = *fine;
 }
 

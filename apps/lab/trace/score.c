@@ -64,7 +64,7 @@ static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error
     return lab_fail_memory(error, "a projection");
   for (j = 0; j < u->n; j++)
     theta[j] = u->unknown[j].value;
-  if (lab_unknowns_residuals(u, theta, p->r, error))
+  if (lab_unknowns_take_pace(u, theta, p->r, error))
     return error->status;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < n; j++) {
@@ -98,6 +98,8 @@ int lab_projection_open_rest(lab_unknowns *u, lab_projection *p, lab_error *erro
 
 void lab_projection_close(lab_projection *p)
 {
+  if (p->u)
+    lab_unknowns_drop_pace(p->u);
   free(p->r);
   free(p->basis);
   memset(p, 0, sizeof *p);
