@@ -13,10 +13,10 @@ static const double instant_step = 0.15; /* the same of an instant, which dry fr
 static const double coarse_step = 0.05;  /* the same where slips come and go on shorter ones */
 static const double held_step = 0.25;    /* of what is held, over its tolerance: it moves little else */
 
-/* Of a central difference, over what matters or over a spread, and the tolerance of the stepper for it: where only a
- * prior tells values apart (area, spring, orifices and volume may all be larger) their slopes have to cancel, and one
+/* Of the steps for an interval, over what matters or over a spread, and the tolerance of the stepper for them: where
+ * only a prior tells values apart (area, spring, orifices and volume may all be larger) their slopes have to cancel, and one
  * row that a stop or a breakaway passes by within the step seems to tell them apart. */
-static const double central_step = 1e-6, known_step = 5e-5, exact = 1e-10;
+static const double close_step = 1e-5, known_step = 5e-4, exact = 1e-10;
 
 double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j)
 {
@@ -77,28 +77,14 @@ int lab_unknowns_slope(void *context, const double *theta, const double *r, int 
   return status;
 }
 
-/* The same by a central difference, where there is room on both sides and the model can be followed there. */
-static int central_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
+/* The same with a step so small that it passes no kink, where the model can be followed that closely. */
+static int close_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error)
 {
   const lab_unknowns *u = context;
   const lab_unknown *x = &u->unknown[j];
-  const double step = lab_unknown_is_known(x) ? known_step * x->spread : central_step * (x->scale > 0 ? x->scale : 1);
-  double at[LAB_FIT_MAX], *below;
-  size_t i;
-  int status;
-  if (u->window || theta[j] + step > x->upper || theta[j] - step < x->lower)
-    return lab_unknowns_slope(context, theta, r, j, column, error);
-  if (!(below = malloc(u->m * sizeof *below)))
-    return lab_fail_memory(error, "a slope");
-  memcpy(at, theta, (size_t)u->n * sizeof *at);
-  at[j] = theta[j] - step;
-  status = lab_unknowns_residuals_of(u, at, -1, below, error);
-  at[j] = theta[j] + step;
-  if (status == LAB_OK)
-    status = lab_unknowns_residuals_of(u, at, -1, column, error);
-  for (i = 0; status == LAB_OK && i < u->m; i++)
-    column[i] = (column[i] - below[i]) / (2 * step);
-  free(below);
+  const double size = lab_unknown_is_known(x) ? known_step * x->spread : close_step * (x->scale > 0 ? x->scale : 1);
+  const double step = theta[j] + size > x->upper ? -size : size;
+  const int status = u->window ? (int)LAB_NUMERIC : lab_unknowns_difference(u, theta, r, j, step, column, error);
   return status == LAB_NUMERIC ? lab_unknowns_slope(context, theta, r, j, column, error) : status;
 }
 
@@ -332,7 +318,7 @@ int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *e
     param[j] = (lab_fit_param){u->unknown[j].name, u->unknown[j].scale, lab_unknown_is_held(&u->unknown[j])};
   p.problem.until = 0; /* they belong to the answer */
   if (in_time) {
-    p.problem.slope = central_slope;
+    p.problem.slope = close_slope;
     p.problem.begin_slopes = NULL; /* their own steps: a kink that one passes elsewhere would count thirtyfold */
     u->tol = fmin(u->tol, exact);
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);

@@ -120,21 +120,19 @@ static size_t go_further(const size_t between[2], size_t rows, size_t n)
  * In/out:  c        the declared model with its values held; then fitted to that
  * Out:     between  rows between which the run leaves the model; from 0: there is no such beginning; from the end of
  *                   the run to beyond: it does not
- *          plain    whether that is beyond doubt
  * Returns: LAB_OK, LAB_WORLD */
-static int find_beginning(lab_candidate *c, size_t between[2], int *plain, lab_error *error)
+static int find_beginning(lab_candidate *c, size_t between[2], lab_error *error)
 {
   const size_t n = c->u.run->n;
   lab_candidate *next = malloc(sizeof *next);
   size_t length = n / SHORTEST, rows = 0;
   int i, status = next ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
-  between[0] = *plain = 0;
+  between[0] = 0;
   between[1] = n + 1;
   for (i = 0; status == LAB_OK && i < LOOKS && between[1] > between[0] + n / CLOSE + 1; i++) {
     *next = *c;
     status = (between[1] > n && between[0] > 0 ? fit_beginning_again : fit_beginning)(next, length, error);
     between[!lab_is_noise(&next->quality)] = length;
-    *plain |= lab_is_plainly_off(&next->quality);
     if (status != LAB_OK || between[0] == 0)
       break;
     if (between[0] == length) {
@@ -242,20 +240,16 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
   const size_t n = within->u.run->n;
   lab_candidate *c = malloc(sizeof *c);
   size_t between[2] = {0, 0};
-  int plain = 0, status = c ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
+  int status = c ? lab_candidate_fit_held(within, error) : lab_fail_memory(error, "the beginning of a run");
   onset->quality.fitted = 0;
-  if (status == LAB_OK) {
+  if (status == LAB_OK && lab_is_plainly_off(&within->quality)) {
     *c = *within;
     lab_unknowns_undo_fit(&c->u);
-    status = find_beginning(c, between, &plain, error);
-  }
-  if (status == LAB_OK && between[0] > 0 && between[0] < n && !plain) {
-    status = lab_candidate_fit_held(within, error);
-    plain = lab_is_plainly_off(&within->quality);
+    status = find_beginning(c, between, error);
   }
   if (status == LAB_OK && between[0] == n)
     *within = *c;
-  else if (status == LAB_OK && between[0] > 0 && plain)
+  else if (status == LAB_OK && between[0] > 0)
     status = fit_onset(c, between, alpha, onset, begins, error);
   onset->quality.fitted &= status == LAB_OK && lab_is_noise(&onset->quality) && begins_later(onset);
   free(c);

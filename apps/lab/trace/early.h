@@ -9,11 +9,10 @@
 
 #include "refit.h"
 
-/* Fit ever longer beginnings of the only run. If one that leaves only noise ends before the run does, look for what
- * begins there, and fit the whole run with it.
+/* Fit the only run; where that is plainly off, ever longer beginnings of it. If one that leaves only noise ends before
+ * the run does, look for what begins there, and fit the whole run with it.
  * In:      alpha   chance of naming anything when nothing begins
  * In/out:  within  the declared model with what is held among its unknowns, seen row by row; fitted to the whole run
- *                  where that leaves only noise, else as it was
  * Out:     onset   with what begins, fitted where that leaves only noise
  *          begins  scores of what may begin, about the values of the beginning
  * Returns: LAB_OK, LAB_WORLD. */
