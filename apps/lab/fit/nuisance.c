@@ -32,7 +32,7 @@ static int find_slopes(lab_unknowns *u, double *r, double *slopes, lab_error *er
   int j, status = LAB_OK;
   for (j = 0; j < u->n; j++)
     theta[j] = u->unknown[j].value;
-  if (lab_unknowns_take_pace(u, theta, r, error))
+  if (lab_unknowns_residuals(u, theta, r, error) || lab_unknowns_take_pace(u, theta, error))
     return error->status;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < u->n; j++) {

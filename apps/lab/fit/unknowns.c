@@ -445,7 +445,7 @@ int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_un
 {
   int j, e;
   lab_unknowns_none(rig, run, n_runs, u);
-  u->tol = 1e-5;
+  u->tol = 1e-6;
   for (j = 0; j < rig->n_fit; j++)
     if (rig->fit_per_log[j] ? add_per_log(u, rig, rig->fit[j], 0, error)
                             : lab_unknowns_add(u, rig->fit[j], lab_param_value(rig, rig->fit[j]), error))

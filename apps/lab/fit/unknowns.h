@@ -44,6 +44,7 @@ typedef struct lab_unknowns {
   lab_unknown unknown[LAB_FIT_MAX];
   double tol;          /* of the stepper; 0: as in response.h */
   lab_pace *pace;      /* n_runs: what runs for slopes follow; NULL: they choose their own steps */
+  double *paced;       /* m: residuals where the slopes are taken, by these steps */
   double misfit;       /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
   double most_damping; /* times what is declared that a stem's damping may be; 0: any */
   double until;        /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
@@ -179,21 +180,35 @@ void lab_unknowns_undo_fit(lab_unknowns *u);
  * Out:     r        m values */
 int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_error *error);
 
-/* The same of the runs that have unknown `which`; -1: of all. They follow u->pace.
+/* The same of the runs that have unknown `which`; -1: of all.
  * In/out:  r       those of other runs stay */
 int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error);
 
-/* The same, and have the runs for slopes at theta take the steps of these from now on; and no longer.
- * Returns: as lab_unknowns_residuals; where it fails there is no pace. */
-int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, double *r, lab_error *error);
+/* Have the runs for slopes at theta all take the same steps from now on; and no longer. Where these cannot be had each
+ * chooses its own, and so it does seen coarsely.  Returns: LAB_OK, LAB_WORLD */
+int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, lab_error *error);
 void lab_unknowns_drop_pace(lab_unknowns *u);
+
+/* What other values than those where the pace was taken change in the residuals of the runs that have unknown `which`;
+ * by its steps where they can be taken.
+ * In:      theta   n values
+ *          r       residuals of the place without a pace, m values
+ * Out:     change  m values; 0 of other runs */
+int lab_unknowns_change(const lab_unknowns *u, const double *theta, int which, const double *r, double *change,
+                        lab_error *error);
 
 /* Their sum of squares at the present values; 0 where they are not to be had.  Returns: as lab_unknowns_residuals. */
 int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error);
 
-/* Those of all with another model, for the unknowns as they are. They follow u->pace.
+/* Those of all with another model, for the unknowns as they are.
  * In:      rig  in the place of the model; what each experiment has for itself still applies */
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error);
+
+/* What another model changes in them, of all; by the steps of u->pace where it can take them.
+ * In:      r       residuals of the model as it is
+ * Out:     change  u->m values */
+int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const double *r, double *change,
+                             lab_error *error);
 
 /* See the experiments coarsely from now on, in windows of so many rows; 0: row by row. */
 void lab_unknowns_view(lab_unknowns *u, size_t window);

@@ -39,11 +39,10 @@ int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const do
   size_t i;
   memcpy(at, theta, (size_t)u->n * sizeof *at);
   at[j] = theta[j] + step;
-  memcpy(column, r, u->m * sizeof *column);
-  if (lab_unknowns_residuals_of(u, at, j, column, error))
+  if (lab_unknowns_change(u, at, j, r, column, error))
     return avoided(error);
   for (i = 0; i < u->m; i++)
-    column[i] = (column[i] - r[i]) / (at[j] - theta[j]);
+    column[i] /= at[j] - theta[j];
   return LAB_OK;
 }
 
@@ -103,11 +102,7 @@ static int residuals_to_fit(void *context, const double *theta, double *r, lab_e
 /* The steps at theta are those of all slopes there. */
 static int begin_slopes(void *context, const double *theta, lab_error *error)
 {
-  lab_unknowns *u = context;
-  double *r = malloc((u->m + 1) * sizeof *r);
-  const int status = r ? lab_unknowns_take_pace(u, theta, r, error) : lab_fail_memory(error, "residuals");
-  free(r);
-  return status;
+  return lab_unknowns_take_pace(context, theta, error);
 }
 
 /* The problem that the unknowns pose, and its memory. */

@@ -8,6 +8,8 @@
 #include "windowed.h"
 #include "nuisance.h"
 
+static const double slope_tol = 1e-5; /* of the stepper, where runs for slopes take the same steps */
+
 /* Add to what all runs have, within the bounds. */
 static void apply_change(const lab_unknown *x, double value, lab_rig *rig)
 {
@@ -262,7 +264,7 @@ static int residuals_by(const lab_unknowns *u, const double *theta, int which, l
 
 int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
 {
-  return residuals_by(u, theta, which, u->pace, r, error);
+  return residuals_by(u, theta, which, NULL, r, error);
 }
 
 void lab_unknowns_drop_pace(lab_unknowns *u)
@@ -271,19 +273,57 @@ void lab_unknowns_drop_pace(lab_unknowns *u)
   for (e = 0; u->pace && e < u->n_runs; e++)
     lab_pace_close(&u->pace[e]);
   free(u->pace);
+  free(u->paced);
   u->pace = NULL;
+  u->paced = NULL;
 }
 
-int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, double *r, lab_error *error)
+int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, lab_error *error)
 {
-  int status;
+  int e, status;
   lab_unknowns_drop_pace(u);
-  if (!u->window && !(u->pace = calloc((size_t)u->n_runs, sizeof *u->pace)))
-    return lab_fail_memory(error, "the steps of runs");
-  status = residuals_by(u, theta, -1, u->pace, r, error);
+  if (u->window)
+    return LAB_OK;
+  u->pace = calloc((size_t)u->n_runs, sizeof *u->pace);
+  u->paced = malloc((u->m + 1) * sizeof *u->paced);
+  for (e = 0; u->pace && e < u->n_runs; e++)
+    u->pace[e].tol = fmax(u->tol, slope_tol);
+  status = u->pace && u->paced ? residuals_by(u, theta, -1, u->pace, u->paced, error)
+                               : lab_fail_memory(error, "the steps of runs");
   if (status != LAB_OK)
     lab_unknowns_drop_pace(u);
-  return status;
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* Residuals of a model less those of the base, in which the runs that stay have no part. */
+static int less_base(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, lab_pace *pace,
+                     const double *base, double *change, lab_error *error)
+{
+  size_t i;
+  memcpy(change, base, u->m * sizeof *change);
+  if (residuals_at(u, model, theta, u->nuisance ? -1 : which, pace, change, error))
+    return error->status;
+  for (i = 0; i < u->m; i++)
+    change[i] -= base[i];
+  return LAB_OK;
+}
+
+/* The same by the steps of the pace, if there is one and the model can take them. */
+static int change_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, const double *r,
+                     double *change, lab_error *error)
+{
+  int status = LAB_NUMERIC;
+  if (u->pace)
+    status = less_base(u, model, theta, which, u->pace, u->paced, change, error);
+  return status == LAB_NUMERIC ? less_base(u, model, theta, which, NULL, r, change, error) : status;
+}
+
+int lab_unknowns_change(const lab_unknowns *u, const double *theta, int which, const double *r, double *change,
+                        lab_error *error)
+{
+  lab_rig model = u->rig;
+  lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
+  return change_of(u, &model, theta, which, r, change, error);
 }
 
 void lab_unknowns_take(lab_unknowns *u)
@@ -314,7 +354,15 @@ int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, doubl
 {
   double now[LAB_FIT_MAX];
   present(u, now);
-  return residuals_at(u, rig, now, -1, u->pace, r, error);
+  return residuals_at(u, rig, now, -1, NULL, r, error);
+}
+
+int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const double *r, double *change,
+                             lab_error *error)
+{
+  double now[LAB_FIT_MAX];
+  present(u, now);
+  return change_of(u, rig, now, -1, r, change, error);
 }
 
 int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error)
@@ -351,7 +399,7 @@ int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int e, do
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return errors_of(u, &model, theta, e, u->pace ? &u->pace[e] : NULL, r, error);
+  return errors_of(u, &model, theta, e, NULL, r, error);
 }
 
 void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column)

@@ -50,10 +50,8 @@ int lab_pace_end(lab_pace *pace, lab_error *error)
   return LAB_OK;
 }
 
-void lab_pace_follow(const lab_pace *pace, size_t i, size_t rows, pneu_options *options)
+void lab_pace_follow(const lab_pace *pace, size_t i, pneu_options *options)
 {
-  if (rows != pace->rows)
-    return;
   options->pace = pace->step + pace->first[i];
   options->n_pace = (int)(pace->first[i + 1] - pace->first[i]);
 }

@@ -14,6 +14,7 @@ typedef struct lab_pace {
   size_t *first; /* step of each row of the schedule, and behind the last */
   size_t n, rows;
   size_t step_room, row_room;
+  double tol; /* of the stepper, for the run that sets it and for those that follow */
   int is_set; /* not 0: by a whole run */
   int lacks_memory;
 } lab_pace;
@@ -28,8 +29,8 @@ void lab_pace_event(lab_pace *pace);
 /* The run ends, and may be followed.  Returns: LAB_OK, LAB_WORLD */
 int lab_pace_end(lab_pace *pace, lab_error *error);
 
-/* Have a run follow in row i of so many, if the pace has as many. */
-void lab_pace_follow(const lab_pace *pace, size_t i, size_t rows, pneu_options *options);
+/* Have a run follow in row i of its schedule. */
+void lab_pace_follow(const lab_pace *pace, size_t i, pneu_options *options);
 
 /* Let go of its memory: it is as at first, all 0. */
 void lab_pace_close(lab_pace *pace);

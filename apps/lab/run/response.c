@@ -156,7 +156,7 @@ typedef struct engine {
   lab_sampler *sampler;
   lab_pace *taken;          /* the pace that is taken up, NULL: none */
   const lab_pace *followed; /* the pace that is followed, NULL: none */
-  size_t row, rows;         /* of the schedule */
+  size_t row;               /* of the schedule */
   pneu_workspace work;
 } engine;
 
@@ -201,7 +201,7 @@ static int stretch(engine *e, pneu_state *state, double duration, lab_error *err
   if (e->taken)
     lab_pace_row(e->taken);
   if (e->followed)
-    lab_pace_follow(e->followed, e->row, e->rows, &options);
+    lab_pace_follow(e->followed, e->row, &options);
   status = pneu_run(e->model, state, sampler->input, duration, &options,
                     e->taken || sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)
@@ -292,7 +292,9 @@ static int run_rows(engine *e, const lab_late *late, double t_end, lab_error *er
   const size_t n = sampler->n;
   size_t i;
   int status = LAB_OK;
-  e->rows = schedule->n;
+  if (e->followed && e->followed->rows != schedule->n)
+    return lab_fail(error, LAB_NUMERIC, "a run of %zu stretches cannot follow one of %zu", schedule->n,
+                    e->followed->rows);
   if (model->clock >= 0)
     state.extra[model->clock] = (pneu_real)schedule->t[0];
   for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
@@ -351,6 +353,8 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
     e.taken = task->pace;
   if (e.t_end == 0 && task->n > 0)
     e.t_end = task->t[task->n - 1];
+  if (task->pace)
+    e.tol = task->pace->tol;
   if (e.tol == 0)
     e.tol = usual_tol;
   if (response && trace_allocate(response, task->n, o->shown_only, error))

@@ -60,7 +60,7 @@ static double chi2_with(const lab_candidate *c, const pneu_term *term, double *r
   lab_rig rig = c->u.rig;
   lab_error ignored;
   rig.term[c->found[c->n_found - 1].term] = *term;
-  return lab_unknowns_residuals_with(&c->u, &rig, r, &ignored) == LAB_OK ? lab_dot(r, r, c->u.m) : INFINITY;
+  return lab_unknowns_residuals_with(&c->u, &rig, r, &ignored) == LAB_OK ? lab_dot(r, r, c->u.m) : HUGE_VAL;
 }
 
 /* Give knots at the ends the value of their neighbour as long as the log hardly tells the difference: where it hardly

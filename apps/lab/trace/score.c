@@ -64,7 +64,7 @@ static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error
     return lab_fail_memory(error, "a projection");
   for (j = 0; j < u->n; j++)
     theta[j] = u->unknown[j].value;
-  if (lab_unknowns_take_pace(u, theta, p->r, error))
+  if (lab_unknowns_residuals(u, theta, p->r, error) || lab_unknowns_take_pace(u, theta, error))
     return error->status;
 #pragma omp parallel for schedule(dynamic)
   for (j = 0; j < n; j++) {
@@ -107,14 +107,9 @@ void lab_projection_close(lab_projection *p)
 
 int lab_projection_slope(const lab_projection *p, const lab_rig *model, double *slope, lab_error *error)
 {
-  size_t i;
   if (lab_cpu_is_spent(p->u->until))
     return fail_spent(error);
-  if (lab_unknowns_residuals_with(p->u, model, slope, error))
-    return error->status;
-  for (i = 0; i < p->m; i++)
-    slope[i] -= p->r[i];
-  return LAB_OK;
+  return lab_unknowns_change_with(p->u, model, p->r, slope, error);
 }
 
 /* ---- Scores of effects ---- */
