@@ -37,8 +37,9 @@
 /* PNEU_EVENT_TIME [s]: exactness of an event. Shares of the largest force: PNEU_FORCE_NOISE, rounding, which break-away
  * asks for beyond friction; PNEU_FORCE_RESOLVED, below which a stem that has just come to rest stays there, lest it
  * chatter where it stops in equilibrium. PNEU_VELOCITY_RESOLVED, share of full scale at which a stem on bristles turns
- * round: without it, it would do so for ever where it comes to rest. PNEU_ON_STOP, share of stroke over the compliance of a stop that yields which
- * counts as such a force: enough for the rounding of the position; all of it would, in single, hold a stem by 2 kN. */
+ * round: without it, it would do so for ever where it comes to rest. PNEU_ON_STOP, share of stroke over the compliance
+ * of a stop that yields which counts as such a force: enough for the rounding of the position; all of it would, in
+ * single, hold a stem by 2 kN. */
 
 /* The record of each effect of the catalogue, in lib/effects/, and its sentence, a symbol of its own that a linker
  * leaves out where nothing asks for it (-fdata-sections and --gc-sections, or -flto). */

@@ -53,6 +53,13 @@ static int is_masked(const pneu_model *model, const pneu_state *state, pneu_real
   return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved;
 }
 
+/* A stem on bristles turns round if it does at the end of the step: dense output of what is stiff may swing over zero
+ * on the way. */
+static int may_swing(const pneu_model *model, const pneu_state *state, int which, pneu_real theta)
+{
+  return model->bristle && which == 0 && theta < 1 && (state->mode == PNEU_MODE_UP || state->mode == PNEU_MODE_DOWN);
+}
+
 /* By how much an entry may leave the line from start to end of the step: theta (1 - theta) <= 1/4, with room for
  * rounding. */
 static pneu_real bulge(const pneu_workspace *work, int l)
@@ -94,7 +101,7 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
     count = pneu_events(model, state, input, y, g);
     for (i = 0; i < count; i++) {
       pneu_real at;
-      if (!(g[i] > 0) || is_masked(model, state, g[i]))
+      if (!(g[i] > 0) || is_masked(model, state, g[i]) || may_swing(model, state, i, theta))
         continue;
       at = dense_root(model, state, input, work, i, theta, g[i]);
       if (at < first) {

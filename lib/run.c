@@ -9,7 +9,7 @@ enum { EVENTS_AT_ONE_TIME = 16 };
 #define PNEU_STEP_TOL   PNEU_C(1e-4)
 #define PNEU_COARSE_TOL PNEU_C(1e-3)
 #define PNEU_HELD_TOL   PNEU_C(1e-2)
-#define PNEU_AIM        PNEU_C(0.6) /* share of it that the next part aims at, lest every other be refused */
+#define PNEU_AIM        PNEU_C(0.6)  /* share of it that the next part aims at, lest every other be refused */
 #define PNEU_PACE_TOL   PNEU_C(30.0) /* times the tolerance that a step of another run may err by */
 
 /* One run in progress. */

@@ -904,7 +904,7 @@ static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_
     if (status == PNEU_E_STEP_COUNT)
       assert_memory_equal(&s, &before, sizeof s);
     else
-      assert_int_equal(status, PNEU_HELD);
+      assert_true(status == PNEU_OK || status == PNEU_HELD);
     held += status == PNEU_HELD;
     assert_between(s.p, -6e3, (double)input.supply_pressure + 6e3);
   }

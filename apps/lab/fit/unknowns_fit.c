@@ -14,8 +14,8 @@ static const double coarse_step = 0.05;  /* the same where slips come and go on 
 static const double held_step = 0.25;    /* of what is held, over its tolerance: it moves little else */
 
 /* Of the steps for an interval, over what matters or over a spread, and the tolerance of the stepper for them: where
- * only a prior tells values apart (area, spring, orifices and volume may all be larger) their slopes have to cancel, and one
- * row that a stop or a breakaway passes by within the step seems to tell them apart. */
+ * only a prior tells values apart (area, spring, orifices and volume may all be larger) their slopes have to cancel,
+ * and one row that a stop or a breakaway passes by within the step seems to tell them apart. */
 static const double close_step = 1e-5, known_step = 5e-4, exact = 1e-10;
 
 double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j)

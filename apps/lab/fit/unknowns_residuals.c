@@ -155,8 +155,8 @@ void lab_unknowns_weigh(const lab_unknowns *u, int e, double *r)
 }
 
 /* Errors of one run over noise, row by row. */
-static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace,
-                     double *r, lab_error *error)
+static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace, double *r,
+                     lab_error *error)
 {
   if (predict(u, model, theta, e, pace, r, error))
     return error->status;
@@ -179,7 +179,8 @@ static int coarse_residuals_of(const lab_unknowns *u, const lab_rig *model, cons
 {
   const lab_run *x = &u->run[e];
   double *predicted = malloc((x->n * (size_t)x->n_channels + 1) * sizeof *predicted);
-  int c, status = predicted ? predict(u, model, theta, e, NULL, predicted, error) : lab_fail_memory(error, "a response");
+  int c,
+      status = predicted ? predict(u, model, theta, e, NULL, predicted, error) : lab_fail_memory(error, "a response");
   for (c = 0; c < x->n_channels && status == LAB_OK; c++) {
     lab_windowed_residuals(x->log->value[x->channel[c]] + x->first, predicted + (size_t)c * x->n, x->n, u->window,
                            x->sigma[c], r);

@@ -1,6 +1,5 @@
-/* The pace of a run: the steps that it took, for runs of nearly the same model to follow, so that their difference shows
- * the models and not the steps.
- * SPDX-License-Identifier: MIT */
+/* The pace of a run: the steps that it took, for runs of nearly the same model to follow, so that their difference
+ * shows the models and not the steps. SPDX-License-Identifier: MIT */
 #ifndef LAB_PACE_H
 #define LAB_PACE_H
 

@@ -62,7 +62,8 @@ typedef struct lab_simulation {
 /* Run a model. Commands act model->command_delay after they are given, but for the first, which has been acting;
  * positions are those of model->position_skew before. The model's clock, where it has one, begins at schedule->t[0].
  * Out:     trace  allocated; free with lab_response_free; NULL: only statistics are wanted
- * Returns: LAB_OK, LAB_NUMERIC (named, with time and state; also where a pace has another number of rows), LAB_WORLD. */
+ * Returns: LAB_OK, LAB_NUMERIC (named, with time and state; also where a pace has another number of rows), LAB_WORLD.
+ */
 int lab_response_run(const pneu_model *model, const lab_simulation *simulation, lab_response *response,
                      lab_error *error);
 
