@@ -840,11 +840,13 @@ static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void 
   pneu_input input;
   pneu_state s, small;
   pneu_workspace work;
+  int status;
   (void)state;
   clear(&work);
   ringing_bristles(&m, &input, &s);
   small = in_small_steps(&m, &s, &input, dt);
-  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)dt, &work), PNEU_ORDER == 5 ? PNEU_OK : PNEU_HELD);
+  status = pneu_step(&m, &s, &input, (pneu_real)dt, &work);
+  assert_true(status == PNEU_OK || (PNEU_ORDER == 4 && status == PNEU_HELD));
   assert_close(s.p, small.p, PNEU_ORDER == 5 ? 100 : 5000, 0);
   assert_close(s.x, small.x, PNEU_ORDER == 5 ? 1e-6 : 2e-5, 0);
 }
