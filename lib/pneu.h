@@ -97,8 +97,8 @@ extern "C" {
 #define PNEU_MODE_LIST(X) \
   X(LOWER,      "lower stop",   "at rest on the lower stop") \
   X(STUCK,      "stuck",        "at rest between the stops, held by friction") \
-  X(UP,         "sliding up",   "v > 0") \
-  X(DOWN,       "sliding down", "v < 0") \
+  X(UP,         "sliding up",   "v > 0; on bristles, which never stick, at rest too") \
+  X(DOWN,       "sliding down", "v < 0; on bristles at rest too") \
   X(UPPER,      "upper stop",   "at rest on the upper stop") \
   X(DRIVEN,     "driven",       "position is an input") \
   X(FIXED,      "fixed",        "no stem: a vessel")

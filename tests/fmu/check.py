@@ -258,6 +258,13 @@ class Instance:
 # ---- Checks ----
 
 
+def on_bristles(mode, reference):
+    """Where a stem rests on bristles, which never stick: whether it slides up or down is rounding there."""
+    up, down = 2, 3
+    rests = np.abs(np.gradient(reference[:, 2], reference[:, 0])) < 1e-6
+    return rests & np.isin(mode, (up, down)) & np.isin(reference[:, 4], (up, down))
+
+
 def check_agreement():
     cases = [
         (f"{actuator} {gas} {flow}", model(f"{actuator}-{gas}-{flow}", actuator, gas, flow))
@@ -284,7 +291,7 @@ def check_agreement():
                 error = deviation(result, reference, stroke_of(fmu))
                 warmth = np.abs(result["shown_temperature"] / reference[:, 3] - 1).max()
                 check(f"{what}: temperature", warmth <= WANTED_WARMTH, f"{warmth:.1e} of itself")
-                wrong = np.count_nonzero(result["mode"] != reference[:, 4])
+                wrong = np.count_nonzero((result["mode"] != reference[:, 4]) & ~on_bristles(result["mode"], reference))
                 check(f"{what}: modes", wrong <= 2, f"{wrong} of {len(reference)} rows differ")
                 if name == "stick and slip" and kind == "ModelExchange":
                     # each slip begins where the last one ended: errors grow a thousandfold, those of CVODE without an FMU too
