@@ -808,8 +808,8 @@ static pneu_state in_small_steps(const pneu_model *m, const pneu_state *start, c
 }
 
 /* Bristles that ring three times in a step; the last parts once took whatever they got: 1.9 MPa and a stem on its stop.
- */
-static void ringing_bristles(pneu_model *m, pneu_input *input, pneu_state *start)
+ * In:  damping  [N.s/m] of the bristles */
+static void ringing_bristles(double damping, pneu_model *m, pneu_input *input, pneu_state *start)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_set(&p, "area", 0.046891507631670368);
@@ -824,6 +824,7 @@ static void ringing_bristles(pneu_model *m, pneu_input *input, pneu_state *start
   fixture_set(&p, "vent_area", 2.8685408230161615e-06);
   fixture_set(&p, "friction_slope", 0.70143117698989554);
   fixture_set(&p, "presliding_length", 1.3773338795291014e-05);
+  fixture_set(&p, "bristle_damping", damping);
   *m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   *input = fixture_input(m, 1);
   input->force = (pneu_real)1832.72922;
@@ -843,28 +844,28 @@ static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void 
   int status;
   (void)state;
   clear(&work);
-  ringing_bristles(&m, &input, &s);
+  ringing_bristles(1e3, &m, &input, &s);
   small = in_small_steps(&m, &s, &input, dt);
   status = pneu_step(&m, &s, &input, (pneu_real)dt, &work);
-  assert_true(status == PNEU_OK || (PNEU_ORDER == 4 && status == PNEU_HELD));
-  assert_close(s.p, small.p, PNEU_ORDER == 5 ? 100 : 5000, 0);
-  assert_close(s.x, small.x, PNEU_ORDER == 5 ? 1e-6 : 2e-5, 0);
+  assert_int_equal(status, PNEU_ORDER == 5 || status != PNEU_HELD ? PNEU_OK : PNEU_HELD); /* as rounding has it */
+  assert_close(s.p, small.p, status == PNEU_OK ? 100 : 5000, 0);
+  assert_close(s.x, small.x, status == PNEU_OK ? 1e-6 : 2e-5, 0);
 }
 
 /* Ten times as long, it cannot be followed: it says so, and the gas obeys supply, ambient and orifice. */
 static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **state)
 {
-  const double dt = 0.02;
+  const double dt = 0.04;
   pneu_model m;
   pneu_input input;
   pneu_state s;
   pneu_workspace work;
   pneu_flow inflow;
   double mass;
-  int i, status, held = 0;
+  int i;
   (void)state;
   clear(&work);
-  ringing_bristles(&m, &input, &s);
+  ringing_bristles(0, &m, &input, &s);
   for (i = 0; i < 100; i++) {
     const pneu_real supply = input.supply_pressure + m.p.ambient_pressure;
     input.u = i % 2 ? -1 : 1;
@@ -873,30 +874,27 @@ static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **s
     pneu_orifice(&m, PNEU_FLOW_CHOKED, i % 2 ? m.p.vent_area : m.p.fill_area, supply, m.p.ambient_temperature, 1,
                  &inflow);
     check_note("step %d", i);
-    status = pneu_step(&m, &s, &input, (pneu_real)dt, &work);
-    assert_true(status == PNEU_OK || status == PNEU_HELD); /* rounding decides */
-    held += status == PNEU_HELD;
+    assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)dt, &work), PNEU_HELD);
     assert_true(state_is_usable(&m, &s));
-    assert_true(s.v == 0 || status == PNEU_OK);
+    assert_true(s.v == 0);
     assert_between(s.p, -1e3, (double)input.supply_pressure + 1e3);
     assert_close((double)pneu_mass(&m, &s), mass, 1.001 * (double)inflow.q * dt, 0);
     assert_true(i % 2 ? (double)pneu_mass(&m, &s) < mass : (double)pneu_mass(&m, &s) > mass);
   }
-  assert_true(held > 50);
 }
 
-/* Nor does the gas of a held stem leave its bounds through orifices nine times as wide: where its parts do not do, it
- * says so. Taken as they come, they end at 545 kPa, and in single precision at 2 MPa. */
+/* Nor does the gas of a held stem leave its bounds through orifices nine times as wide: where its parts do not do, as
+ * in most of the longer steps, it says so. */
 static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_so(void **state)
 {
   pneu_model m;
   pneu_input input;
   pneu_state s, before;
   pneu_workspace work;
-  int i, ended = 0;
+  int i, held = 0, refused = 0;
   (void)state;
   clear(&work);
-  ringing_bristles(&m, &input, &s);
+  ringing_bristles(0, &m, &input, &s);
   m.p.fill_area *= 9;
   m.p.vent_area *= 9;
   for (i = 0; i < 100; i++) {
@@ -904,16 +902,18 @@ static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_
     input.u = i % 2 ? -1 : 1;
     s.v = (pneu_real)(i % 3 ? 0.02 : -0.02);
     before = s;
-    status = pneu_step(&m, &s, &input, (pneu_real)0.08, &work);
+    status = pneu_step(&m, &s, &input, (pneu_real)(i / 2 % 2 ? 0.08 : 0.06), &work);
     check_note("step %d: status %d", i, status);
     if (status == PNEU_E_STEP_COUNT)
       assert_memory_equal(&s, &before, sizeof s);
     else
-      assert_true(status == PNEU_OK || status == PNEU_HELD);
-    ended += status >= 0;
+      assert_int_equal(status, PNEU_HELD);
+    held += status == PNEU_HELD;
+    refused += status == PNEU_E_STEP_COUNT;
     assert_between(s.p, -6e3, (double)input.supply_pressure + 6e3);
   }
-  assert_true(ended > 0); /* 25, in single precision 5; rounding decides */
+  check_note("%d held, %d refused", held, refused);
+  assert_true(held > 3 && refused > 3);
 }
 
 /* Stribeck friction lets a stem go that is soon caught again; in single precision the step that was to end where it is

@@ -217,25 +217,27 @@ static int leaves_out(const lab_unknowns *u, const lab_fit_result *fit, int j, i
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
 {
   const int compared = count_compared(&u->rig, u);
-  struct {
-    lab_unknowns all, less;
-  } *of = malloc(sizeof *of);
+  lab_unknowns *all, *less;
   double least;
-  int j, found = 0, status = of ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
-  if (!of)
-    return status;
-  of->all = *u;
-  of->all.slopes = NULL;
-  for (j = 0; j < u->n && status != LAB_WORLD; j++) {
-    if (!leaves_out(u, fit, j, compared))
-      continue;
-    if (!found++ && (status = lab_unknowns_keep_slopes(&of->all, error)) == LAB_OK)
-      status = lab_unknowns_find_slopes(&of->all, error);
-    if (status != LAB_WORLD)
-      status = widen(&of->all, j, least, &of->less, fit, error);
+  int j = 0, status;
+  while (j < u->n && !leaves_out(u, fit, j, compared))
+    j++;
+  if (j == u->n)
+    return LAB_OK;
+  all = malloc(sizeof *all);
+  less = malloc(sizeof *less);
+  status = all && less ? lab_unknowns_chi2(u, &least, error) : lab_fail_memory(error, "a fit");
+  if (status == LAB_OK) {
+    *all = *u;
+    if (lab_unknowns_keep_slopes(all, error) || lab_unknowns_find_slopes(all, error))
+      status = error->status;
+    for (; j < u->n && status != LAB_WORLD; j++)
+      if (leaves_out(u, fit, j, compared))
+        status = widen(all, j, least, less, fit, error);
+    lab_unknowns_forget_slopes(all);
   }
-  lab_unknowns_forget_slopes(&of->all);
-  free(of);
+  free(all);
+  free(less);
   return status == LAB_WORLD ? status : LAB_OK;
 }
 

@@ -48,11 +48,13 @@ static int other_slopes(const lab_fit_problem *p, const char *is_known, const do
                         lab_error *error)
 {
   char done[N] = {0};
-  int j, status = p->begin_slopes ? p->begin_slopes(p->context, theta, error) : LAB_OK;
+  int j, status = LAB_OK;
   if (is_known)
     memcpy(done, is_known, (size_t)p->n);
-  else if (p->together && status == LAB_OK)
+  else if (p->together)
     status = p->together(p->context, theta, J, done, error);
+  if ((status == LAB_OK || status == LAB_NUMERIC) && p->begin_slopes && memchr(done, 0, (size_t)p->n))
+    status = p->begin_slopes(p->context, theta, error);
   if (status != LAB_OK && status != LAB_NUMERIC)
     return status;
   status = LAB_OK;

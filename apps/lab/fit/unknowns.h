@@ -185,8 +185,10 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
 int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error);
 
 /* Have the runs for slopes at theta all take the same steps from now on; and no longer. Where these cannot be had each
- * chooses its own, and so it does seen coarsely.  Returns: LAB_OK, LAB_WORLD */
-int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, lab_error *error);
+ * chooses its own, and so it does seen coarsely.
+ * In/out:  context  lab_unknowns *
+ * Returns: LAB_OK, LAB_WORLD */
+int lab_unknowns_take_pace(void *context, const double *theta, lab_error *error);
 void lab_unknowns_drop_pace(lab_unknowns *u);
 
 /* What other values than those where the pace was taken change in the residuals of the runs that have unknown `which`;

@@ -99,12 +99,6 @@ static int residuals_to_fit(void *context, const double *theta, double *r, lab_e
   return LAB_OK;
 }
 
-/* The steps at theta are those of all slopes there. */
-static int begin_slopes(void *context, const double *theta, lab_error *error)
-{
-  return lab_unknowns_take_pace(context, theta, error);
-}
-
 /* The problem that the unknowns pose, and its memory. */
 typedef struct posed {
   double theta[LAB_FIT_MAX], lower[LAB_FIT_MAX], upper[LAB_FIT_MAX];
@@ -135,7 +129,7 @@ static void pose(lab_unknowns *u, posed *p)
                                  .context = u,
                                  .residuals = residuals_to_fit,
                                  .slope = lab_unknowns_slope,
-                                 .begin_slopes = begin_slopes,
+                                 .begin_slopes = lab_unknowns_take_pace,
                                  .together = lab_instants_slopes,
                                  .slopes = u->slopes,
                                  .is_known = u->slopes && any_slope(u) ? u->has_slope : NULL,
@@ -321,7 +315,7 @@ int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *e
   }
   if (status == LAB_NUMERIC) {
     p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
-    p.problem.begin_slopes = begin_slopes;
+    p.problem.begin_slopes = lab_unknowns_take_pace;
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
   }
   lab_unknowns_drop_pace(u);

@@ -279,8 +279,9 @@ void lab_unknowns_drop_pace(lab_unknowns *u)
   u->paced = NULL;
 }
 
-int lab_unknowns_take_pace(lab_unknowns *u, const double *theta, lab_error *error)
+int lab_unknowns_take_pace(void *context, const double *theta, lab_error *error)
 {
+  lab_unknowns *u = context;
   int e, status;
   lab_unknowns_drop_pace(u);
   if (u->window)

@@ -232,7 +232,6 @@ static int open_scan(const lab_projection *p, size_t from, size_t to, scan *s, l
   const size_t columns = (size_t)(p->n_basis + (p->u->nuisance ? p->u->nuisance->n : 0)) + 1;
   s->p = p;
   s->open = *p->u;
-  s->open.pace = NULL;
   s->run = p->u->run[0];
   s->run.drift = NULL;
   s->open.run = &s->run;
