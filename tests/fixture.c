@@ -36,6 +36,15 @@ void fixture_set(pneu_params *p, const char *name, double value)
   *pneu_param_at(p, i) = (pneu_real)value;
 }
 
+pneu_model fixture_quick(int gas, const char *name, double value)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  p.fill_area = p.vent_area = (pneu_real)4e-6;
+  if (name)
+    fixture_set(&p, name, value);
+  return fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+}
+
 pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input)
 {
   pneu_model model;

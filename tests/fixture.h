@@ -48,6 +48,9 @@ void fixture_set(pneu_params *p, const char *name, double value);
 pneu_model fixture_model(const pneu_params *p, int gas, int flow);
 pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input);
 
+/* The R1-400 with quick orifices of 4 mm2, choked, and one parameter set; name NULL: none. */
+pneu_model fixture_quick(int gas, const char *name, double value);
+
 pneu_input fixture_input(const pneu_model *model, double u);
 
 /* At rest at ambient temperature. */

@@ -67,7 +67,7 @@ static double chi2_with(const lab_candidate *c, const pneu_term *term, double *r
  * ever is, a fit leaves them anywhere.  In/out: term  of c, which stays as it is */
 static void trim(const lab_candidate *c, pneu_term *term, double *r)
 {
-  static const double told = 4; /* of chi-square */
+  static const double told = 4; /* of chi-square: chosen by judgement */
   const double most = chi2_with(c, term, r) + told;
   const int n = term->n;
   int side, k, i;

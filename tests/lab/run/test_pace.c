@@ -7,15 +7,6 @@ enum { SAMPLES = 601, ROWS = 3 };
 static const double dt = 0.01, t_end = 6;
 static const double row_t[ROWS] = {0, 0.2, 3}, row_u[ROWS] = {0, 1, -1};
 
-static pneu_model model_with(const char *name, double value)
-{
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  p.fill_area = p.vent_area = (pneu_real)4e-6;
-  if (name)
-    fixture_set(&p, name, value);
-  return fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-}
-
 /* Position at the samples of the first `rows` rows.  Out: stats  may be NULL */
 static int try_to_respond(const pneu_model *m, size_t rows, double tol, lab_pace *pace, double *x, pneu_stats *stats)
 {
@@ -56,7 +47,7 @@ static void respond(const pneu_model *m, size_t rows, double tol, lab_pace *pace
 static void test_lab_pace__same_model__is_the_same_run_without_refusals(void **state)
 {
   static double first[SAMPLES], again[SAMPLES];
-  const pneu_model m = model_with(NULL, 0);
+  const pneu_model m = fixture_quick(PNEU_GAS_ENERGY, NULL, 0);
   lab_pace pace = {0};
   pneu_stats of_first, of_again;
   int i;
@@ -82,8 +73,9 @@ static double slope_error(const char *name, double value, double step, lab_pace 
 {
   static double base[SAMPLES], there[SAMPLES], below[SAMPLES], above[SAMPLES];
   const double rough = 1e-4, exact = 1e-10;
-  const pneu_model m = model_with(name, value), up = model_with(name, value + step),
-                   down = model_with(name, value - step);
+  const pneu_model m = fixture_quick(PNEU_GAS_ENERGY, name, value),
+                   up = fixture_quick(PNEU_GAS_ENERGY, name, value + step),
+                   down = fixture_quick(PNEU_GAS_ENERGY, name, value - step);
   double worst = 0, largest = 0;
   int i;
   respond(&m, ROWS, rough, pace, base, NULL);
@@ -124,7 +116,7 @@ static void test_lab_pace__rough_steps__slope_is_exact(void **state)
 static void test_lab_pace__another_schedule__is_refused(void **state)
 {
   static double x[SAMPLES];
-  const pneu_model m = model_with(NULL, 0);
+  const pneu_model m = fixture_quick(PNEU_GAS_ENERGY, NULL, 0);
   lab_pace pace = {0};
   (void)state;
   respond(&m, ROWS, 1e-6, &pace, x, NULL);
@@ -136,7 +128,8 @@ static void test_lab_pace__another_schedule__is_refused(void **state)
 static void test_lab_pace__far_model__is_still_followed_closely(void **state)
 {
   static double still[SAMPLES], paced[SAMPLES], exact[SAMPLES];
-  const pneu_model rigid = model_with("dry_friction", 2e4), m = model_with(NULL, 0);
+  const pneu_model rigid = fixture_quick(PNEU_GAS_ENERGY, "dry_friction", 2e4),
+                   m = fixture_quick(PNEU_GAS_ENERGY, NULL, 0);
   lab_pace pace = {0};
   int i;
   (void)state;

@@ -12,15 +12,6 @@ static const double row_t[ROWS] = {0, 0.2, 0.7, 1.1, 1.13, 2.0};
 static const double row_u[ROWS] = {0, 1, 1, -1, 0.5, 0};
 static const double row_supply[ROWS] = {4e5, 4e5, 3.5e5, 3.5e5, 4.5e5, 4.5e5};
 
-static pneu_model model_with(const char *name, double value)
-{
-  pneu_params p = fixture_params(FIXTURE_R1_400);
-  p.fill_area = p.vent_area = (pneu_real)4e-6;
-  if (name)
-    fixture_set(&p, name, value);
-  return fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-}
-
 static int absent(const char *effect)
 {
   return pneu_effect_find(effect) < 0;
@@ -81,7 +72,8 @@ static void assert_same(const double *a, const double *b, double tol, const char
  * written out by hand. */
 static void check_delay(double delay, size_t n, const double *t, const int (*row)[2])
 {
-  const pneu_model late = model_with("dead_time", delay), prompt = model_with(NULL, 0);
+  const pneu_model late = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", delay),
+                   prompt = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   pneu_input input[2 * ROWS];
   lab_response a, b;
   size_t i;
@@ -179,14 +171,14 @@ static void check_ramp(const pneu_model *m)
 
 static void test_lab_response_run__ramp__is_a_staircase_of_small_steps(void **state)
 {
-  const pneu_model m = model_with(NULL, 0);
+  const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   (void)state;
   check_ramp(&m);
 }
 
 static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
 {
-  const pneu_model m = model_with("dead_time", 0.37);
+  const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.37);
   (void)state;
   if (absent("dead_time"))
     skip();
@@ -196,7 +188,8 @@ static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
 /* Position as it was `skew` ago; before the start, as at the start; a younger one from beyond the end of the log. */
 static void check_skew(double skew, int integrator)
 {
-  const pneu_model skewed = model_with("channel_skew", skew), plain = model_with(NULL, 0);
+  const pneu_model skewed = fixture_quick(PNEU_GAS_ISOTHERMAL, "channel_skew", skew),
+                   plain = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   lab_response a = respond_to_rows(&skewed, 0, integrator), now = respond_to_rows(&plain, 0, integrator);
   lab_response b = respond_to_rows(&plain, skew, integrator);
   int i;
@@ -233,8 +226,8 @@ static void test_lab_response_run__negative_skew__looks_beyond_the_end(void **st
   (void)state;
   if (absent("channel_skew"))
     skip();
-  skewed = model_with("channel_skew", -ahead);
-  plain = model_with(NULL, 0);
+  skewed = fixture_quick(PNEU_GAS_ISOTHERMAL, "channel_skew", -ahead);
+  plain = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   skewed.p.fill_area = plain.p.fill_area = (pneu_real)4e-7; /* still rising at the end */
   input = fixture_input(&plain, 1);
   a = respond(&skewed, 1, &t0, &input, 0, LAB_STEPPER);
@@ -259,7 +252,7 @@ static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
   (void)state;
   if (absent("dead_time") || absent("channel_skew"))
     skip();
-  m = model_with("dead_time", 0.1);
+  m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.1);
   m.position_skew = (pneu_real)0.1;
   input[0] = fixture_input(&m, 0);
   input[1] = fixture_input(&m, 1);
@@ -294,7 +287,7 @@ static void test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode(voi
 {
   const pneu_term term[] = {cycle(PNEU_TERM_FORCE, 0.31, 700), cycle(PNEU_TERM_SUPPLY, 0.9, 4e4),
                             cycle(PNEU_TERM_FLOW, 0.2, 5e-4), cycle(PNEU_TERM_FRICTION, 1.3, 200)};
-  const pneu_model plain = model_with(NULL, 0);
+  const pneu_model plain = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   lab_response without = respond_to_rows(&plain, 0, LAB_STEPPER);
   int k, i;
   (void)state;
@@ -322,7 +315,7 @@ static void check_own_time(double skew, int integrator)
 {
   static const double t_row[] = {5.3, 6.1, 7.4};
   const pneu_term term[] = {cycle(PNEU_TERM_SHOWN_PRESSURE, 0.77, 1e3), cycle(PNEU_TERM_SHOWN_POSITION, 0.9, 1e-3)};
-  pneu_model m = model_with(NULL, 0);
+  pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   double t[28];
   pneu_input input[3];
   lab_schedule schedule = {3, t_row, input};
@@ -366,7 +359,8 @@ static void test_lab_response_run__cycles__go_by_the_time_of_the_schedule(void *
 /* The stem has sunk into a stop that yields; from the second row on the stop is rigid. */
 static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke(void **state)
 {
-  const pneu_model yields = model_with("stop_compliance.stop_compliance", 1e-8), rigid = model_with(NULL, 0);
+  const pneu_model yields = fixture_quick(PNEU_GAS_ISOTHERMAL, "stop_compliance.stop_compliance", 1e-8),
+                   rigid = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   const pneu_model *const rows[2] = {&yields, &rigid};
   const double t_row[2] = {0, 2}, t[2] = {1.99, 3};
   const pneu_input input[2] = {input_of(&yields, 1, 0), input_of(&yields, 1, 0)};
