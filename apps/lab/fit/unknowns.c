@@ -49,9 +49,16 @@ int lab_unknown_is_held(const lab_unknown *x)
   return x->tolerance > 0 && x->spread > 0;
 }
 
+int lab_unknown_differs(const lab_unknown *x)
+{
+  return x->kind == LAB_UNKNOWN_PARAM && x->run != LAB_ALL_RUNS && x->spread > 0;
+}
+
 double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
 {
-  return lab_unknown_is_held(x) ? x->spread / u->misfit : x->spread;
+  return lab_unknown_is_held(x)   ? x->spread / u->misfit
+         : lab_unknown_differs(x) ? x->spread / u->own_misfit
+                                  : x->spread;
 }
 
 /* So many times the declared damping; infinite of all else, and where none is declared. */
@@ -435,7 +442,7 @@ void lab_unknowns_none(const lab_rig *rig, const lab_run *run, int n_runs, lab_u
   u->n_runs = n_runs;
   u->rig = *rig;
   u->declared = rig->params;
-  u->misfit = 1;
+  u->misfit = u->own_misfit = 1;
   for (e = 0; e < n_runs; e++)
     u->n_rows += run[e].n * (size_t)run[e].n_channels;
   lab_unknowns_view(u, 0);

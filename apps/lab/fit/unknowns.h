@@ -46,6 +46,7 @@ typedef struct lab_unknowns {
   lab_pace *pace;      /* n_runs: what runs for slopes follow; NULL: they choose their own steps */
   double *paced;       /* m: residuals where the slopes are taken, by these steps */
   double misfit;       /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
+  double own_misfit;   /* the same for what each log has for itself */
   double most_damping; /* times what is declared that a stem's damping may be; 0: any */
   double until;        /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
   size_t n_rows;       /* rows times channels, gaps among them */
@@ -82,6 +83,12 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error);
 /* Take the misfit for what the present model leaves: beside an error of 60 times the noise, a value that is 100
  * tolerances off would weigh nothing.  Returns: as lab_unknowns_residuals. */
 int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error);
+
+/* The same for what each log has for itself.  Returns: as lab_unknowns_residuals. */
+int lab_unknowns_weigh_own(lab_unknowns *u, lab_error *error);
+
+/* Whether each log has it for itself, and it is known to a tolerance. */
+int lab_unknown_differs(const lab_unknown *x);
 
 /* How far what is known of an unknown lets it vary: its spread, less where the model leaves more than noise. */
 double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x);

@@ -272,12 +272,10 @@ static int fit_size(const lab_unknowns *u, posed *p, double *chi2, lab_error *er
   return lab_fit(&p->problem, p->theta, chi2, error);
 }
 
-int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
+static int fit_as_weighed(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
-  double own;
   posed p;
   int j, status;
-  chi2 = chi2 ? chi2 : &own;
   pose(u, &p);
   p.problem.steps = steps;
   p.problem.is_brief = steps != LAB_ROUNDS_ALL;
@@ -293,6 +291,21 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
   memset(u->has_slope, u->slopes != NULL, (size_t)u->n);
   lab_unknowns_apply(u, p.theta, LAB_ALL_RUNS, &u->rig);
   return LAB_OK;
+}
+
+int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
+{
+  static const double less = 0.7;
+  double before, own;
+  int status = lab_unknowns_weigh_own(u, error);
+  do {
+    before = u->own_misfit;
+    if (status == LAB_OK)
+      status = fit_as_weighed(u, steps, chi2 ? chi2 : &own, error);
+    if (status == LAB_OK)
+      status = lab_unknowns_weigh_own(u, error);
+  } while (status == LAB_OK && u->own_misfit < less * before);
+  return status;
 }
 
 int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error)

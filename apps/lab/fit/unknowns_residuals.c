@@ -376,14 +376,31 @@ int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error)
   return status;
 }
 
-int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error)
+/* Times the noise that the present model leaves; 1 or more. */
+static int measure_misfit(lab_unknowns *u, double *misfit, lab_error *error)
 {
-  double *r = malloc((u->m + 1) * sizeof *r);
-  int status = r ? lab_unknowns_residuals(u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  double *r;
+  int status;
+  lab_unknowns_count(u);
+  r = malloc((u->m + 1) * sizeof *r);
+  status = r ? lab_unknowns_residuals(u, NULL, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
-    u->misfit = fmax(1, sqrt(lab_dot(r, r, u->n_data) / fmax((double)u->n_values, 1)));
+    *misfit = fmax(1, sqrt(lab_dot(r, r, u->n_data) / fmax((double)u->n_values, 1)));
   free(r);
   return status;
+}
+
+int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error)
+{
+  return measure_misfit(u, &u->misfit, error);
+}
+
+int lab_unknowns_weigh_own(lab_unknowns *u, lab_error *error)
+{
+  int j, any = 0;
+  for (j = 0; j < u->n; j++)
+    any |= lab_unknown_differs(&u->unknown[j]);
+  return any ? measure_misfit(u, &u->own_misfit, error) : LAB_OK;
 }
 
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
