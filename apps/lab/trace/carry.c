@@ -72,7 +72,7 @@ int lab_carry_over(const lab_candidate *c, double *sum, lab_error *error)
   return status;
 }
 
-static int is_asked(const lab_candidate *c)
+int lab_carry_is_asked(const lab_candidate *c)
 {
   return c->u.n_runs >= lab_count(LAB_CARRY_RUNS) && c->u.window == 0 && !lab_is_noise(&c->quality);
 }
@@ -100,7 +100,7 @@ int lab_carry_prune(lab_candidate *c, int *any, lab_error *error)
   double sum = INFINITY;
   int i, status = LAB_OK;
   *any = 0;
-  if (c->n_found == 0 || !is_asked(c) || lab_cpu_is_spent(c->u.until))
+  if (c->n_found == 0 || !lab_carry_is_asked(c) || lab_cpu_is_spent(c->u.until))
     return LAB_OK;
   status = lab_carry_over(c, &sum, error);
   for (i = c->n_found - 1; i >= 0 && status == LAB_OK && !lab_cpu_is_spent(c->u.until); i--)

@@ -6,6 +6,9 @@
 
 #include "candidate.h"
 
+/* Whether models are to be compared by that: there are three runs or more (CARRY_RUNS), and more than noise is left. */
+int lab_carry_is_asked(const lab_candidate *c);
+
 /* Error of a model on each run when it is fitted to the others (leave-one-out cross-validation: Stone 1974, J. R. Stat.
  * Soc. B 36:111). Of a run left out only what it has for itself is fitted: its start, the instants of its commands, its
  * own value of what differs from log to log. Each fit takes a few steps from that to all runs. In:      c    fitted,
@@ -13,8 +16,8 @@
  * one cannot be followed Returns: LAB_OK, LAB_WORLD. */
 int lab_carry_over(const lab_candidate *c, double *sum, lab_error *error);
 
-/* Take out again, last first, each effect without which that error is smaller. There have to be three runs or more
- * (CARRY_RUNS), more than noise left, and time: it ends when that is spent.
+/* Take out again, last first, each effect without which that error is smaller, where that is asked, until the time is
+ * spent.
  * In/out:  c    fitted
  * Out:     any  whether one was taken out
  * Returns: LAB_OK, LAB_WORLD. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/clock.h"
+#include "carry.h"
 #include "refit_private.h"
 
 /* Those that stand for one effect: the first is the model that has it, last of what was found. */
@@ -51,7 +52,9 @@ static int find_leaders(const field *f, const lab_candidate *without, const lab_
  * In/out:  c  the model without it */
 static void fit_rival(const field *f, const lab_score *score, lab_candidate *c, lab_error *all)
 {
-  const double bar = f->of[0].quality.bic + lab_constant(LAB_RIVAL_NEAR);
+  const lab_quality *best = &f->of[0].quality;
+  const double near = best->bic + lab_constant(LAB_RIVAL_NEAR), far = lab_constant(LAB_RIVAL) * best->chi2;
+  const double bar = lab_carry_is_asked(&f->of[0]) ? fmax(near, far) : near;
   lab_error error;
   if (lab_candidate_add_effect(c, score, score->size, &error) != LAB_OK)
     return;
@@ -120,11 +123,26 @@ static void note_alike(field *f, const lab_found *before)
     }
 }
 
+/* Which of those that come near carries over best to runs that are left out.  Returns: LAB_OK, LAB_WORLD */
+static int find_what_carries(const field *f, int *best, lab_error *error)
+{
+  const double bar = lab_constant(LAB_RIVAL) * f->of[0].quality.chi2;
+  double least = INFINITY, sum;
+  int i, status = LAB_OK;
+  *best = 0;
+  for (i = 0; i < f->n && f->of[i].quality.chi2 < bar && status == LAB_OK && !lab_cpu_is_spent(f->base.until); i++) {
+    status = lab_carry_over(&f->of[i], &sum, error);
+    *best = sum < least ? i : *best;
+    least = fmin(least, sum);
+  }
+  return status;
+}
+
 /* Put what was found last to the test.  Out: changed */
 static int try_last(lab_candidate *c, field *f, int *changed, lab_error *error)
 {
   const lab_found before = c->found[c->n_found - 1];
-  int status;
+  int status, best = 0;
   f->of[0] = *c;
   status = line_up(f, error);
   if (status != LAB_OK)
@@ -133,8 +151,10 @@ static int try_last(lab_candidate *c, field *f, int *changed, lab_error *error)
   while (f->n > 1 && !f->of[f->n - 1].quality.fitted)
     f->n--;
   note_alike(f, &before);
-  *changed = f->of[0].found[c->n_found - 1].effect != before.effect;
-  *c = f->of[0];
+  if (lab_carry_is_asked(c) && find_what_carries(f, &best, error))
+    return error->status;
+  *changed = f->of[best].found[c->n_found - 1].effect != before.effect;
+  *c = f->of[best];
   return *changed ? explain(c, error) : LAB_OK;
 }
 

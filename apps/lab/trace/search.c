@@ -400,7 +400,7 @@ static int take_out_what_harms(lab_finding *f, lab_error *error)
 static int try_rivals(lab_finding *f, lab_error *error)
 {
   int changed, status;
-  if (f->best.n_found == 0 || lab_is_plainly_off(&f->best.quality))
+  if (f->best.n_found == 0 || (lab_is_plainly_off(&f->best.quality) && !lab_carry_is_asked(&f->best)))
     return LAB_OK;
   status = lab_rivals_try(&f->best, &changed, error);
   if (status == LAB_OK && changed) {
