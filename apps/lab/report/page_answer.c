@@ -193,20 +193,19 @@ static void put_why(const lab_sources *t, cJSON *page)
                  name_of(r->scores.of[0].effect), LAB_NUMBER(r->scores.of[0].statistic, 3),
                  LAB_NUMBER(lab_chi2_threshold(r->level), 3));
   for (i = 0; i < r->n_listed; i++)
-    lab_json_say(reasons,
-                 "The effect %s shows, but too little to be worth adding: it would lower the error by less than --min-gain.",
-                 name_of(r->listed[i]));
+    lab_json_say(
+        reasons,
+        "The effect %s shows, but too little to be worth adding: it would lower the error by less than --min-gain.",
+        name_of(r->listed[i]));
   if (r->has_small)
-    lab_json_say(
-        reasons,
-        "A free term that acts like %s (%s) shows, but too little to be worth adding: it would lower "
-        "the error by less than --min-gain.",
-        lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
-  if (r->verdict == LAB_VERDICT_UNDECIDED)
-    lab_json_say(
-        reasons,
-        "The residual is not noise, and nothing that was tried explains it. The figures below show when and "
-        "where it arises.");
+    lab_json_say(reasons,
+                 "A free term that acts like %s (%s) shows, but too little to be worth adding: it would lower "
+                 "the error by less than --min-gain.",
+                 lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
+  if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r))
+    lab_json_say(reasons,
+                 "The residual is not noise, and nothing that was tried explains it. The figures below show when and "
+                 "where it arises.");
 }
 
 /* ---- What is missing, and how large it is ---- */
@@ -354,6 +353,8 @@ static void say_undecided(const lab_sources *t, cJSON *list)
       p = fmin(p, left[c].whiteness.p_value);
   if (lab_report_doubt(t->report))
     lab_json_say(list, "No effect is named, because the log and the rig file contradict each other.");
+  else if (lab_report_is_unfinished(r))
+    lab_json_say(list, "The residual may be noise, but the search was ended before everything was tried.");
   else if (lab_residual_stats_coloured(left) > 0)
     lab_json_say(
         list, "Something is missing: the residual is not white, p-value %s. Which effect it is, the log does not tell.",

@@ -116,6 +116,9 @@ int lab_report_count_told(const lab_report *report);
 /* "the spring is 35 % soft since 22.8 s".  Out: text */
 void lab_report_deviation(const lab_report *report, const lab_deviation *d, char text[LAB_SENTENCE_TEXT]);
 
+/* Whether what is left may be noise, and only the time was spent before everything was tried. */
+int lab_report_is_unfinished(const lab_search_result *r);
+
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);

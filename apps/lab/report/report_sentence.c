@@ -382,6 +382,12 @@ static const char *nothing(const lab_report *report, int deviates)
              : "Nothing is missing.";
 }
 
+int lab_report_is_unfinished(const lab_search_result *r)
+{
+  const double in_noise = lab_report_in_noise(&r->after);
+  return r->verdict == LAB_VERDICT_UNDECIDED && r->cut_short && in_noise * in_noise < lab_constant(LAB_NOISE_DOUBTFUL);
+}
+
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
   const lab_search_result *r = report->result;
@@ -399,7 +405,9 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     return;
   }
   ADD(text, deviates ? ". " : "");
-  if (r->verdict == LAB_VERDICT_UNDECIDED)
+  if (lab_report_is_unfinished(r))
+    ADD(text, "Whether anything%s is missing, the search had no time to say.", deviates ? " else" : "");
+  else if (r->verdict == LAB_VERDICT_UNDECIDED)
     ADD(text, "Something%s is missing, but the log does not say what.", deviates ? " else" : "");
   else
     add_found(text, report);
@@ -414,7 +422,8 @@ static void add_undecided(char *text, const lab_search_result *r)
   const int n = r->n_found;
   int i;
   if (n == 0) {
-    ADD(text, "The residual is %.2f times the noise, and nothing that was tried explains it.", after);
+    ADD(text, "The residual is %.2f times the noise%s.", after,
+        lab_report_is_unfinished(r) ? "" : ", and nothing that was tried explains it");
     return;
   }
   ADD(text, "With the best candidate%s, ", n > 1 ? "s" : "");
@@ -424,14 +433,14 @@ static void add_undecided(char *text, const lab_search_result *r)
         : i + 1 < n ? ", "
                     : " and ",
         r->found[i].effect >= 0 ? pneu_effect_at(r->found[i].effect)->name : "a free term");
-  ADD(text, ", the error falls from %.2f to %.2f times the noise, but what is left is not noise.", before, after);
+  ADD(text, ", the error falls from %.2f to %.2f times the noise%s.", before, after,
+      lab_report_is_unfinished(r) ? "" : ", but what is left is not noise");
 }
 
 static void add_small(char *text, const lab_search_result *r)
 {
   const int more = r->n_listed + r->has_small - 1;
-  ADD(text, " Too small to be worth adding: %s",
-      r->n_listed ? pneu_effect_at(r->listed[0])->name : "a free term");
+  ADD(text, " Too small to be worth adding: %s", r->n_listed ? pneu_effect_at(r->listed[0])->name : "a free term");
   ADD(text, more > 0 ? " and %d more." : ".", more);
 }
 

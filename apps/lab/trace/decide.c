@@ -180,13 +180,6 @@ static int wants_a_term(const lab_facts *f)
   return leaves_more_than_noise(f) && !f->free_term.fitted && (f->round > 0 || lab_is_poor(&f->declared, &f->best));
 }
 
-static int a_term_is_enough(const lab_facts *f)
-{
-  return leaves_more_than_noise(f) &&
-         (is_as_small_as_noise(&f->free_term) ||
-          (f->n_found > 1 && convinces(&f->free_term, &f->best, lab_constant(LAB_TERM_COMPELLING))));
-}
-
 static int a_term_is_better(const lab_facts *f)
 {
   return leaves_more_than_noise(f) &&
@@ -236,12 +229,11 @@ const lab_rule lab_rules[] = {
      "and TERM_ALONE times the best score is below its excess.",
      no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
-     a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
-     LAB_DO_FIT_SCORED_TERM},
+     a_term_stands_out, "Refit the declared model with the best one.", LAB_DO_FIT_SCORED_TERM},
     {LAB_PHASE_SCORED, "Values as declared: that leaves more than noise, but less than TERM_COMPELLING of the excess.",
      a_term_needs_tolerances, "End: the search goes on from values within their tolerances.", LAB_DO_END},
-    {LAB_PHASE_SCORED, "Values within their tolerances: the same.", a_term_is_held,
-     "Fit it with all its values; if that leaves only noise, refit no effect.", LAB_DO_UNFOLD_TERM},
+    {LAB_PHASE_SCORED, "Values within their tolerances: the same.", a_term_is_held, "Fit it with all its values.",
+     LAB_DO_UNFOLD_TERM},
 
     {LAB_PHASE_LED,
      "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader, and "
@@ -277,10 +269,6 @@ const lab_rule lab_rules[] = {
      "More than noise is left, no free term was refitted yet, and it was not the first round or the best model is poor "
      "(MUCH).",
      wants_a_term, "Refit the declared model with the best free term, if its score passes.", LAB_DO_FIT_TERM},
-    {LAB_PHASE_ROUND,
-     "More than noise is left. The declared model with a free term leaves a chi-square as small as noise does; or it "
-     "has a lower BIC than two effects and leaves less than TERM_COMPELLING of their excess.",
-     a_term_is_enough, "No more rounds.", LAB_DO_END_ROUNDS},
 
     {LAB_PHASE_END,
      "More than noise is left. The declared model with a free term has a lower BIC and leaves only noise, or less than "
@@ -316,6 +304,11 @@ int lab_decide_verdict(const lab_facts *f)
   while (lab_rules[i].phase != LAB_PHASE_VERDICT || !lab_rules[i].holds(f))
     i++;
   return lab_rules[i].action;
+}
+
+int lab_needs_the_whole_search(int verdict)
+{
+  return verdict == LAB_VERDICT_NONE || verdict == LAB_VERDICT_UNLISTED;
 }
 
 int lab_values_stand_in(int verdict, double reduced_chi2)

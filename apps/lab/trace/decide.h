@@ -91,7 +91,6 @@ enum lab_rule_action {
   LAB_DO_REMOVE_NEEDLESS,
   LAB_DO_EXCHANGE,
   LAB_DO_FIT_TERM,
-  LAB_DO_END_ROUNDS,
   LAB_DO_TAKE_TERM,
   LAB_DO_FIT_TERM_BESIDE,
   LAB_DO_ADD_TERM
@@ -132,6 +131,9 @@ extern const int lab_rule_count;
 
 /* The verdict on the best model.  Returns: enum lab_verdict */
 int lab_decide_verdict(const lab_facts *f);
+
+/* Whether a verdict holds only once everything was tried: that nothing is missing, or nothing that has a name. */
+int lab_needs_the_whole_search(int verdict);
 
 /* Whether deviations stand in for what is not known: an undecided model leaves NOISE_DOUBTFUL or more. Where it leaves
  * less, they are nearly what they would be beside what is missing.

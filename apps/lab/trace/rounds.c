@@ -147,9 +147,6 @@ static int act(lab_rounds *s, int action, lab_error *error)
   case LAB_DO_TAKE_TERM:
     lab_rounds_take_term(s);
     break;
-  case LAB_DO_END_ROUNDS:
-    s->rounds_over = 1;
-    break;
   case LAB_DO_END:
     s->over = 1;
     break;
@@ -184,7 +181,7 @@ static int needs_tolerances(const lab_rounds *s)
 
 static int search_all(lab_rounds *s, lab_error *error)
 {
-  for (s->round = 0, s->added = 1; s->added && !s->rounds_over && !s->is_final && has_room(s); s->round++) {
+  for (s->round = 0, s->added = 1; s->added && !s->is_final && has_room(s); s->round++) {
     double chi2;
     if (lab_rounds_advance(s, error))
       return error->status;

@@ -20,7 +20,7 @@ typedef struct lab_rounds {
   int n_beam;
   lab_candidate pool[LAB_BEAM_WIDTH * LAB_REFIT_MAX]; /* extensions of them */
   int n_pool;
-  int round, added, rounds_over, over;
+  int round, added, over;
   int is_final;                     /* the time is spent, and the best model fitted with all its values */
   int has_begun;                    /* something that begins was taken up in this round */
   int has_extended;                 /* pool[0] is the best extension of the best candidate */

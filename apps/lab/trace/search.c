@@ -419,17 +419,18 @@ static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, con
   return j >= 0 && fit->low[j] <= nothing && nothing <= fit->high[j];
 }
 
-/* Take out one effect that can as well be nothing, if only noise is left without it: a switch that comes a row sooner
- * by accident lowers chi-square as much as a small effect does.
+/* Take out one effect that can as well be nothing, if without it only noise is left and BIC is hardly higher: a switch
+ * that comes a row sooner by accident lowers chi-square as much as a small effect does.
  * In/out:  f  with its intervals */
 static int take_out_accident(lab_finding *f, int *any, lab_error *error)
 {
+  const double bar = f->best.quality.bic + lab_constant(LAB_ALIKE_BIC);
   lab_candidate *without = malloc(sizeof *without);
   int i, out = -1, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
   for (i = f->best.n_found - 1; status == LAB_OK && out < 0 && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
-      out = status == LAB_OK && lab_is_noise(&without->quality) ? i : -1;
+      out = status == LAB_OK && lab_is_noise(&without->quality) && without->quality.bic < bar ? i : -1;
     }
   *any = out >= 0;
   if (*any) {
@@ -466,6 +467,8 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   memcpy(result->found, f->best.found, sizeof result->found);
   memcpy(result->begin, f->best.begin, sizeof result->begin);
   result->cut_short = lab_cpu_is_spent(u->until);
+  if (result->cut_short && lab_needs_the_whole_search(result->verdict))
+    result->verdict = LAB_VERDICT_UNDECIDED;
   if (status == LAB_OK)
     status = lab_deviations_widen(u, &result->fit, error);
   if (status == LAB_OK)

@@ -2,6 +2,7 @@
 #include <ctype.h>
 
 #include "../../check.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/report/report.h"
 
@@ -162,6 +163,24 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
   assert_string_equal(sentence_of(&report), "Undecided: The log is short.");
 }
 
+/* A search that was ended does not say that something is missing where only noise is left, and says so where more is.
+ */
+static void test_lab_report_sentence__search_that_was_ended__claims_nothing(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_UNDECIDED, 1);
+  (void)state;
+  result.cut_short = 1;
+  assert_string_equal(
+      sentence_of(&report),
+      "Whether anything is missing, the search had no time to say. With the best candidate, dead_time, "
+      "the error falls from 3.00 to 1.00 times the noise. The search was ended by --budget: this is the "
+      "best answer so far.");
+  result.n_found = 0;
+  assert_contains(sentence_of(&report), "time to say. The residual is 1.00 times the noise. The search was ended");
+  result.after.chi2 = 2.3;
+  assert_contains(sentence_of(&report), "Something is missing, but the log does not say what. The residual is 1.52");
+}
+
 static void test_lab_report_headline__deviations__come_first_in_the_same_line(void **state)
 {
   lab_report report = answer(LAB_VERDICT_NONE, 0);
@@ -280,6 +299,7 @@ int main(void)
       cmocka_unit_test(test_lab_effect_sentence__sizes__by_hand),
       cmocka_unit_test(test_lab_effect_sentence__share_of_nothing__is_left_out),
       cmocka_unit_test(test_lab_report_sentence__verdicts__what_is_missing_then_the_error),
+      cmocka_unit_test(test_lab_report_sentence__search_that_was_ended__claims_nothing),
       cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
       cmocka_unit_test(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance),
       cmocka_unit_test(test_inspect_def__each_line__is_of_an_effect),

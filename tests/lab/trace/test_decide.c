@@ -255,25 +255,6 @@ static void test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
 }
 
-static void test_rules__free_term__ends_the_rounds_where_it_leaves_a_tenth(void **state)
-{
-  lab_facts f = two_effects();
-  (void)state;
-  f.best = quality(5200, 5220);
-  f.free_term = quality(699, 700);
-  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
-  f.free_term.chi2 = 701;
-  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
-  f.free_term.chi2 = 699;
-  f.n_found = 1;
-  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
-  f.free_term.chi2 = 300; /* noise */
-  assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
-  f.free_term.chi2 = 2 * f.free_term.values; /* white, and larger */
-  f.free_term.white = 1;
-  assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END_ROUNDS, &f));
-}
-
 static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(void **state)
 {
   lab_facts f = two_effects();
@@ -340,6 +321,15 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_string_equal(lab_verdict_text(LAB_VERDICT_NONE), "none");
 }
 
+/* A name can be found before everything was tried; that there is nothing to be found cannot. */
+static void test_lab_needs_the_whole_search__a_name__does_not(void **state)
+{
+  (void)state;
+  assert_true(lab_needs_the_whole_search(LAB_VERDICT_NONE));
+  assert_true(lab_needs_the_whole_search(LAB_VERDICT_UNLISTED));
+  assert_false(lab_needs_the_whole_search(LAB_VERDICT_EFFECT));
+}
+
 static void test_lab_values_stand_in__undecided_by_more_than_noise__they_do(void **state)
 {
   (void)state;
@@ -365,8 +355,8 @@ int main(void)
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),
+      cmocka_unit_test(test_lab_needs_the_whole_search__a_name__does_not),
       cmocka_unit_test(test_lab_values_stand_in__undecided_by_more_than_noise__they_do),
-      cmocka_unit_test(test_rules__free_term__ends_the_rounds_where_it_leaves_a_tenth),
       cmocka_unit_test(test_rules__free_term__replaces_one_effect_by_half_and_two_by_less),
       cmocka_unit_test(test_rules__free_term_beside__needs_room_and_something_left),
       cmocka_unit_test(test_lab_decide_verdict__each_outcome__has_its_verdict),
