@@ -271,7 +271,8 @@ int lab_unknowns_difference(const lab_unknowns *u, const double *theta, const do
 /* The same with a small step, into the side where there is room. */
 int lab_unknowns_slope(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
 
-/* Fit from the present values and take up what is found.
+/* Fit from the present values and take up what is found. What each log has for itself is weighed by what is left, and
+ * once more while that falls.
  * In:      steps  downhill, at most; LAB_ROUNDS_ALL: as usual
  * Out:     chi2   may be NULL
  * Returns: as lab_fit. */

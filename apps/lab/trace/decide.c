@@ -76,6 +76,11 @@ int lab_onset_convinces(const lab_quality *with, const lab_quality *without)
   return convinces(with, without, lab_constant(LAB_ONSET_CONVINCING));
 }
 
+int lab_may_be_accident(const lab_quality *with, const lab_quality *without)
+{
+  return lab_is_noise(without) && without->bic < with->bic + lab_constant(LAB_ALIKE_BIC);
+}
+
 /* ---- Rules ---- */
 
 /* Whether declared values within their tolerances explain much of what the values as declared leave. */

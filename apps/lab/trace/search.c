@@ -424,13 +424,12 @@ static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, con
  * In/out:  f  with its intervals */
 static int take_out_accident(lab_finding *f, int *any, lab_error *error)
 {
-  const double bar = f->best.quality.bic + lab_constant(LAB_ALIKE_BIC);
   lab_candidate *without = malloc(sizeof *without);
   int i, out = -1, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
   for (i = f->best.n_found - 1; status == LAB_OK && out < 0 && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
-      out = status == LAB_OK && lab_is_noise(&without->quality) && without->quality.bic < bar ? i : -1;
+      out = status == LAB_OK && lab_may_be_accident(&f->best.quality, &without->quality) ? i : -1;
     }
   *any = out >= 0;
   if (*any) {
