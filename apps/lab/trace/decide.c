@@ -76,11 +76,6 @@ int lab_onset_convinces(const lab_quality *with, const lab_quality *without)
   return convinces(with, without, lab_constant(LAB_ONSET_CONVINCING));
 }
 
-int lab_may_be_accident(const lab_quality *with, const lab_quality *without)
-{
-  return lab_is_noise(without) && without->bic < with->bic + lab_constant(LAB_ALIKE_BIC);
-}
-
 /* ---- Rules ---- */
 
 /* Whether declared values within their tolerances explain much of what the values as declared leave. */
@@ -234,11 +229,12 @@ const lab_rule lab_rules[] = {
      "and TERM_ALONE times the best score is below its excess.",
      no_effect_explains_it, "Score the free terms at once.", LAB_DO_SCORE_TERMS},
     {LAB_PHASE_SCORED, "A free term scores above TERM_MOSTLY of the excess and TERM_ALONE times the best effect.",
-     a_term_stands_out, "Refit the declared model with the best one.", LAB_DO_FIT_SCORED_TERM},
+     a_term_stands_out, "Refit the declared model with the best one; if that leaves only noise, refit no effect.",
+     LAB_DO_FIT_SCORED_TERM},
     {LAB_PHASE_SCORED, "Values as declared: that leaves more than noise, but less than TERM_COMPELLING of the excess.",
      a_term_needs_tolerances, "End: the search goes on from values within their tolerances.", LAB_DO_END},
-    {LAB_PHASE_SCORED, "Values within their tolerances: the same.", a_term_is_held, "Fit it with all its values.",
-     LAB_DO_UNFOLD_TERM},
+    {LAB_PHASE_SCORED, "Values within their tolerances: the same.", a_term_is_held,
+     "Fit it with all its values; if that leaves only noise, refit no effect.", LAB_DO_UNFOLD_TERM},
 
     {LAB_PHASE_LED,
      "Values as declared: the declared model within its tolerances has a lower BIC than every refit of a leader, and "

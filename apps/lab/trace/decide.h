@@ -59,10 +59,6 @@ int lab_is_poor(const lab_quality *declared, const lab_quality *q);
 /* Whether a model in which something begins is to be preferred to one without. */
 int lab_onset_convinces(const lab_quality *with, const lab_quality *without);
 
-/* Whether an effect whose interval reaches nothing may be an accident: only noise is left without it, and BIC is hardly
- * higher. */
-int lab_may_be_accident(const lab_quality *with, const lab_quality *without);
-
 /* ---- Rules ---- */
 
 /* What was concluded. */

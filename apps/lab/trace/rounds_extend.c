@@ -94,7 +94,7 @@ static int extend_scored(lab_rounds *s, const lab_candidate *base, const lab_pro
   }
   if (status != LAB_OK || s->has_begun)
     return status;
-  if (!s->over)
+  if (!s->over && (base->n_found > 0 || !lab_is_noise(&s->free_term.quality)))
     status = refit_scored(s, base, &scores, level, &n, error);
   if (status != LAB_OK || s->has_begun)
     return status;

@@ -419,8 +419,8 @@ static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, con
   return j >= 0 && fit->low[j] <= nothing && nothing <= fit->high[j];
 }
 
-/* Take out one effect that can as well be nothing, if without it only noise is left and BIC is hardly higher: a switch
- * that comes a row sooner by accident lowers chi-square as much as a small effect does.
+/* Take out one effect that can as well be nothing, if only noise is left without it: a switch that comes a row sooner
+ * by accident lowers chi-square as much as a small effect does.
  * In/out:  f  with its intervals */
 static int take_out_accident(lab_finding *f, int *any, lab_error *error)
 {
@@ -429,7 +429,7 @@ static int take_out_accident(lab_finding *f, int *any, lab_error *error)
   for (i = f->best.n_found - 1; status == LAB_OK && out < 0 && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
-      out = status == LAB_OK && lab_may_be_accident(&f->best.quality, &without->quality) ? i : -1;
+      out = status == LAB_OK && lab_is_noise(&without->quality) ? i : -1;
     }
   *any = out >= 0;
   if (*any) {

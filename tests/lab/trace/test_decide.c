@@ -321,20 +321,6 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_string_equal(lab_verdict_text(LAB_VERDICT_NONE), "none");
 }
 
-/* Of 200 values a chi-square up to 320 is noise, six standard deviations. BIC may be higher by 9.2, odds of a hundred
- * to one. */
-static void test_lab_may_be_accident__bic_hardly_higher__it_may(void **state)
-{
-  const lab_quality with = quality(300, 310);
-  lab_quality without = quality(310, 319.1);
-  (void)state;
-  assert_true(lab_may_be_accident(&with, &without));
-  without.bic = 319.3;
-  assert_false(lab_may_be_accident(&with, &without));
-  without = quality(900, 319.1);
-  assert_false(lab_may_be_accident(&with, &without));
-}
-
 /* A name can be found before everything was tried; that there is nothing to be found cannot. */
 static void test_lab_needs_the_whole_search__a_name__does_not(void **state)
 {
@@ -369,7 +355,6 @@ int main(void)
       cmocka_unit_test(test_rules__extension__is_added_by_bic),
       cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
       cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),
-      cmocka_unit_test(test_lab_may_be_accident__bic_hardly_higher__it_may),
       cmocka_unit_test(test_lab_needs_the_whole_search__a_name__does_not),
       cmocka_unit_test(test_lab_values_stand_in__undecided_by_more_than_noise__they_do),
       cmocka_unit_test(test_rules__free_term__replaces_one_effect_by_half_and_two_by_less),
