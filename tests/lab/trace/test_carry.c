@@ -102,20 +102,16 @@ static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(v
   close_logs(LOGS);
 }
 
-/* Where more than noise is left, a lower BIC is no reason: that of a laminar leak is lower, by 8, and it does not carry
- * over. */
-static void test_lab_rivals_try__three_logs__takes_what_carries_over(void **state)
+/* Where more than noise is left, a lower BIC is no reason: that of a laminar leak is lower, by 73, and it carries over
+ * worse, by 9 %. */
+static void test_lab_rivals_try__three_logs__keeps_what_carries_over(void **state)
 {
-  double before, after;
   int changed;
   (void)state;
-  open_logs((const int[LOGS]){0, 1, 0}, LOGS);
-  assert_int_equal(lab_carry_over(&c, &before, &error), LAB_OK);
+  open_logs((const int[LOGS]){0, 1, 1}, LOGS);
   assert_int_equal(lab_rivals_try(&c, &changed, &error), LAB_OK);
-  assert_true(changed);
-  assert_string_equal(pneu_effect_at(c.found[0].effect)->name, "porous_leak");
-  assert_int_equal(lab_carry_over(&c, &after, &error), LAB_OK);
-  assert_true(after < before / 4);
+  assert_false(changed);
+  assert_string_equal(pneu_effect_at(c.found[0].effect)->name, "chamber_leak");
   close_logs(LOGS);
 }
 
@@ -126,7 +122,7 @@ int main(void)
       cmocka_unit_test(test_lab_carry_prune__leak_of_one_log__is_taken_out),
       cmocka_unit_test(test_lab_carry_prune__two_logs__are_not_asked),
       cmocka_unit_test(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do),
-      cmocka_unit_test(test_lab_rivals_try__three_logs__takes_what_carries_over),
+      cmocka_unit_test(test_lab_rivals_try__three_logs__keeps_what_carries_over),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
