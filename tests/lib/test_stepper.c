@@ -852,7 +852,7 @@ static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void 
   assert_close(s.x, small.x, status == PNEU_OK ? 1e-6 : 2e-5, 0);
 }
 
-/* Ten times as long, it cannot be followed: it says so, and the gas obeys supply, ambient and orifice. */
+/* Twenty times as long, it cannot be followed: it says so, and the gas obeys supply, ambient and orifice. */
 static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **state)
 {
   const double dt = 0.04;

@@ -87,6 +87,9 @@ int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error);
 /* The same for what each log has for itself.  Returns: as lab_unknowns_residuals. */
 int lab_unknowns_weigh_own(lab_unknowns *u, lab_error *error);
 
+/* Whether the misfit has fallen so much that it is to be taken once more, and fitted again. */
+int lab_misfit_has_fallen(double before, double now);
+
 /* Whether each log has it for itself, and it is known to a tolerance. */
 int lab_unknown_differs(const lab_unknown *x);
 

@@ -295,7 +295,6 @@ static int fit_as_weighed(lab_unknowns *u, int steps, double *chi2, lab_error *e
 
 int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
-  static const double less = 0.7;
   double before, own;
   int status = lab_unknowns_weigh_own(u, error);
   do {
@@ -304,7 +303,7 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
       status = fit_as_weighed(u, steps, chi2 ? chi2 : &own, error);
     if (status == LAB_OK)
       status = lab_unknowns_weigh_own(u, error);
-  } while (status == LAB_OK && u->own_misfit < less * before);
+  } while (status == LAB_OK && lab_misfit_has_fallen(before, u->own_misfit));
   return status;
 }
 

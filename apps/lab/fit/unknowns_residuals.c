@@ -390,6 +390,12 @@ static int measure_misfit(lab_unknowns *u, double *misfit, lab_error *error)
   return status;
 }
 
+int lab_misfit_has_fallen(double before, double now)
+{
+  static const double less = 0.7; /* chosen by judgement */
+  return now < less * before;
+}
+
 int lab_unknowns_weigh_held(lab_unknowns *u, lab_error *error)
 {
   return measure_misfit(u, &u->misfit, error);

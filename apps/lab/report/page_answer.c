@@ -202,7 +202,9 @@ static void put_why(const lab_sources *t, cJSON *page)
                  "A free term that acts like %s (%s) shows, but too little to be worth adding: it would lower "
                  "the error by less than --min-gain.",
                  lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
-  if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r))
+  if (lab_report_is_unfinished(r))
+    lab_json_say(reasons, "The search was ended by --budget before everything was tried.");
+  else if (r->verdict == LAB_VERDICT_UNDECIDED)
     lab_json_say(reasons,
                  "The residual is not noise, and nothing that was tried explains it. The figures below show when and "
                  "where it arises.");
@@ -335,7 +337,7 @@ static void say_left(const lab_sources *t, cJSON *list)
     lab_json_say(list, "The residual is not white on %d of %d channels.", coloured, t->figures->table.n_channels);
   else if (!lab_residual_stats_white(left))
     lab_json_say(list, "There are too few values to tell whether the residual is white.");
-  else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_doubt(t->report))
+  else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_doubt(t->report) && !lab_report_is_unfinished(r))
     lab_json_say(list, "The residual is white on every channel, but its size differs from the declared noise.");
   else
     lab_json_say(list, "The residual is white on every channel.");

@@ -73,7 +73,6 @@ int lab_candidate_by_bic(const void *x, const void *y)
 
 int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
 {
-  static const double less = 0.7;
   double before;
   int status = lab_unknowns_weigh_held(&c->u, error);
   c->quality.fitted = 0;
@@ -82,7 +81,7 @@ int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
   before = c->u.misfit;
   if (status == LAB_OK)
     status = lab_unknowns_weigh_held(&c->u, error);
-  if (status == LAB_OK && c->u.misfit < less * before)
+  if (status == LAB_OK && lab_misfit_has_fallen(before, c->u.misfit))
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
