@@ -37,6 +37,15 @@ static int is_filter(const blind_recorded *r, const blind_found *f)
   return (same(f->effect, "pressure_lag") && r->filter[0] > 0) || (same(f->effect, "position_lag") && r->filter[1] > 0);
 }
 
+/* An error of an instrument is as well told among the deviations: its declared value is 0, and the ratio infinite. */
+static int is_deviation(const blind_answer *a, const char *effect, double size)
+{
+  int k, any = 0;
+  for (k = 0; k < a->n_deviations; k++)
+    any |= same(a->deviation[k].parameter, effect) && a->deviation[k].ratio * size > 0;
+  return any;
+}
+
 typedef struct tally {
   int right, filter, false_names; /* findings */
   int open;                       /* visible effects that nothing was said of */
@@ -54,7 +63,8 @@ static tally tally_of(const blind_recorded *r, const blind_visible *v, const bli
     if (k < a->n_found)
       taken[k] = 1;
     n.right += k < a->n_found;
-    n.open += k == a->n_found && is_visible(v, i) && !blind_is_small(a, e);
+    n.open += k == a->n_found && is_visible(v, i) && !blind_is_small(a, e) &&
+              !is_deviation(a, e->name, t->missing[i].size);
   }
   for (k = 0; k < a->n_found; k++) {
     n.filter += !taken[k] && is_filter(r, &a->found[k]);

@@ -147,6 +147,21 @@ static void test_blind_score_recorded__listed_as_small__is_not_overlooked(void *
   assert_string_equal(record.class, "right");
 }
 
+static void test_blind_score_recorded__instrument_among_the_deviations__is_not_overlooked(void **state)
+{
+  blind_recorded r = trial_with("position_bias");
+  (void)state;
+  r.t.missing[0].size = -2.6e-5;
+  visible.effect[0] = over(9);
+  set_answer("none", "", "");
+  say("position_bias", (double)INFINITY, 0);
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_string_equal(record.class, "overlooked");
+  answer.deviation[0].ratio = -(double)INFINITY;
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_string_equal(record.class, "right");
+}
+
 /* A filter may be called a lag where there is one, and does not stand for what is missing. */
 static void test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm(void **state)
 {
@@ -374,6 +389,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_blind_score_recorded__each_kind_of_answer__has_its_class),
       cmocka_unit_test(test_blind_score_recorded__listed_as_small__is_not_overlooked),
+      cmocka_unit_test(test_blind_score_recorded__instrument_among_the_deviations__is_not_overlooked),
       cmocka_unit_test(test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm),
       cmocka_unit_test(test_blind_score_recorded__deviation__is_found_by_name_and_direction),
       cmocka_unit_test(test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_its_width),

@@ -14,9 +14,16 @@ const char *lab_condition_text(int condition)
   return words[condition];
 }
 
+static const double one_in_twenty = 0.05;
+
 static int is_value(int param)
 {
   return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
+}
+
+static int param_of(const lab_unknowns *u, const lab_unknown *x)
+{
+  return x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param : x->index;
 }
 
 /* Whether unknown j is a declared value, and not a part of what was added; of two in a row the later one. */
@@ -25,7 +32,7 @@ static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
   const lab_unknown *x = &u->unknown[j];
   int i, fitted = 0;
   if (x->kind == LAB_UNKNOWN_ONSET)
-    return is_value(u->rig.onset[x->index].param);
+    return is_value(param_of(u, x));
   if (is_value(x->index) && lab_unknowns_find_onset(u, x->index) >= 0)
     return 0;
   for (i = 0; i < rig->n_fit; i++)
@@ -34,22 +41,41 @@ static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
          (fitted || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));
 }
 
-/* How many values are compared. */
-static int count_compared(const lab_rig *rig, const lab_unknowns *u)
+static double declared_of(const lab_unknowns *u, const lab_unknown *x)
 {
-  int j, n = 0;
-  for (j = 0; j < u->n; j++)
-    n += is_declared(rig, u, j);
-  return n;
+  const int param = param_of(u, x);
+  return param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&u->declared, param);
 }
 
-/* Whether a log tells a value from the declared one, of so many that are compared: one interval of 95 % in twenty
- * leaves out the truth, so these are wider. */
-static int is_told(const lab_unknown *x, const lab_fit_result *fit, int j, double declared, int compared)
+/* The p-value of unknown j being as declared, by the side of its interval that the declared value is on. */
+static double chance(const lab_unknowns *u, const lab_fit_result *fit, int j)
 {
-  const double half = declared < x->value ? x->value - fit->low[j] : fit->high[j] - x->value;
-  const double wider = sqrt(lab_chi2_threshold(0.05 / compared) / lab_chi2_threshold(0.05));
-  return fit->state[j] != LAB_STATE_UNDETERMINED && fabs(x->value - declared) > wider * half;
+  const lab_unknown *x = &u->unknown[j];
+  const double off = x->value - declared_of(u, x), half = off > 0 ? x->value - fit->low[j] : fit->high[j] - x->value;
+  if (fit->state[j] == LAB_STATE_UNDETERMINED || !(off != 0))
+    return 1;
+  return lab_chi2_tail(off * off / (half * half) * lab_chi2_threshold(one_in_twenty), 1);
+}
+
+static int first_smaller(const void *a, const void *b)
+{
+  const double *x = a, *y = b;
+  return (*x > *y) - (*x < *y);
+}
+
+/* The p-value up to which a log tells a value from the declared one: of those told one in twenty is as declared
+ * (Benjamini and Hochberg 1995), where all are, any is told once in twenty. */
+static double told_up_to(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit)
+{
+  double p[LAB_FIT_MAX];
+  int j, n = 0, k;
+  for (j = 0; j < u->n; j++)
+    if (is_declared(rig, u, j))
+      p[n++] = chance(u, fit, j);
+  qsort(p, (size_t)n, sizeof *p, first_smaller);
+  for (k = n; k > 0 && p[k - 1] > one_in_twenty * k / n; k--)
+    ;
+  return k > 0 ? p[k - 1] : -1;
 }
 
 /* What a later value is over: the areas before, if these were fitted; else 1. */
@@ -65,7 +91,7 @@ static double earlier_factor(const lab_unknowns *u, const lab_unknown *x)
 static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d)
 {
   const lab_unknown *x = &u->unknown[j];
-  const int param = d->param = x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param : x->index;
+  const int param = d->param = param_of(u, x);
   const double tolerance = x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, param);
   const double unit = earlier_factor(u, x);
   d->declared = lab_param_value(rig, param);
@@ -113,7 +139,7 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
                         lab_error *error)
 {
   ranked *found = calloc((size_t)u->n + 1, sizeof *found);
-  const int compared = count_compared(rig, u);
+  const double limit = told_up_to(rig, u, fit);
   int j, n = 0;
   if (!found)
     return lab_fail_memory(error, "deviations");
@@ -125,7 +151,7 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
     all->condition = all->condition == LAB_CONDITION_DEVIATES ? all->condition : (int)LAB_CONDITION_AS_DECLARED;
     found[n].size = compare(rig, u, fit, j, d);
     found[n].rank = rank_of(&u->unknown[j], d);
-    if (!is_told(&u->unknown[j], fit, j, d->declared, compared))
+    if (chance(u, fit, j) > limit)
       continue;
     if (d->beyond)
       all->condition = LAB_CONDITION_DEVIATES;
@@ -139,11 +165,6 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
 }
 
 /* ---- Without some unknowns ---- */
-
-static double declared_of(const lab_unknowns *u, const lab_unknown *x)
-{
-  return x->index == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&u->declared, x->index);
-}
 
 /* The unknowns with these at their declared values, and not to be fitted.  Returns: how many these are */
 static int leave_out(const lab_unknowns *u, const unsigned char *as_declared, lab_unknowns *less)
@@ -207,20 +228,18 @@ static int widen(const lab_unknowns *u, int j, double least, lab_unknowns *less,
 }
 
 /* Whether the interval of an unknown leaves out its declared value. */
-static int leaves_out(const lab_unknowns *u, const lab_fit_result *fit, int j, int compared)
+static int leaves_out(const lab_unknowns *u, const lab_fit_result *fit, int j)
 {
-  const lab_unknown *x = &u->unknown[j];
-  return x->kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
-         is_told(x, fit, j, declared_of(u, x), compared);
+  return u->unknown[j].kind == LAB_UNKNOWN_PARAM && is_declared(&u->rig, u, j) && fit->covariance[j][j] > 0 &&
+         chance(u, fit, j) <= told_up_to(&u->rig, u, fit);
 }
 
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error)
 {
-  const int compared = count_compared(&u->rig, u);
   lab_unknowns *all, *less;
   double least;
   int j = 0, status;
-  while (j < u->n && !leaves_out(u, fit, j, compared))
+  while (j < u->n && !leaves_out(u, fit, j))
     j++;
   if (j == u->n)
     return LAB_OK;
@@ -232,7 +251,7 @@ int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *
     if (lab_unknowns_keep_slopes(all, error) || lab_unknowns_find_slopes(all, error))
       status = error->status;
     for (; j < u->n && status != LAB_WORLD; j++)
-      if (leaves_out(u, fit, j, compared))
+      if (leaves_out(u, fit, j))
         status = widen(all, j, least, less, fit, error);
     lab_unknowns_forget_slopes(all);
   }
@@ -246,10 +265,10 @@ int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *
 /* Which unknowns are held, and as declared as far as the log tells. */
 static void find_as_declared(const lab_unknowns *u, const lab_fit_result *fit, unsigned char is[LAB_FIT_MAX])
 {
-  const int compared = count_compared(&u->rig, u);
+  const double limit = told_up_to(&u->rig, u, fit);
   int j;
   for (j = 0; j < u->n; j++)
-    is[j] = lab_unknown_is_held(&u->unknown[j]) && !is_told(&u->unknown[j], fit, j, u->unknown[j].prior, compared);
+    is[j] = lab_unknown_is_held(&u->unknown[j]) && chance(u, fit, j) > limit;
 }
 
 /* The values of fewer unknowns, and the declared ones, for all of them. */

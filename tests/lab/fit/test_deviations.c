@@ -1,4 +1,4 @@
-/* What a fit says of declared values: in which order it is told. */
+/* What a fit says of declared values: which are told, and in which order. */
 #include "../../fixture.h"
 
 #include "../../../apps/lab/fit/deviations.h"
@@ -50,10 +50,47 @@ static void test_lab_deviations_find__begins_within_the_log__is_told_first(void 
   assert_int_equal(all.condition, LAB_CONDITION_DEVIATES);
 }
 
+/* A value so many deviations off what is declared. */
+static void put_off(lab_rig *rig, lab_unknowns *u, lab_fit_result *fit, int param, double deviations)
+{
+  const double value = (double)*pneu_param_at(&rig->params, param) * 1.1, half = value / 11 * 1.96 / deviations;
+  rig->fit[rig->n_fit++] = param;
+  put(u, fit, LAB_UNKNOWN_PARAM, param, value, 0);
+  fit->low[u->n - 1] = value - half;
+  fit->high[u->n - 1] = value + half;
+}
+
+/* p is 2e-4, 0.016 and 0.037; of four values the limits are 0.0125, 0.025 and 0.0375 where one, two and three are told
+ * (Benjamini and Hochberg 1995), so that the third goes with the first two and is not told beside one. */
+static void test_lab_deviations_find__several_are_off__small_ones_are_told_with_them(void **state)
+{
+  static const double off[][4] = {{3.7, 2.4, 2.09, 0.3}, {3.7, 0.3, 2.09, 0.3}, {2.4, 0.3, 0.3, 0.3}};
+  static const int params[] = {PNEU_PARAM_spring_rate, PNEU_PARAM_dry_friction, PNEU_PARAM_spring_preload,
+                               PNEU_PARAM_dead_volume},
+                   told[] = {3, 1, 0};
+  size_t k, i;
+  (void)state;
+  for (k = 0; k < sizeof off / sizeof off[0]; k++) {
+    static const lab_unknowns none;
+    static lab_unknowns u;
+    static lab_fit_result fit;
+    static lab_deviations all;
+    static lab_rig rig;
+    u = none;
+    lab_rig_default(&rig);
+    u.declared = rig.params;
+    for (i = 0; i < 4; i++)
+      put_off(&rig, &u, &fit, params[i], off[k][i]);
+    assert_int_equal(lab_deviations_find(&rig, &u, &fit, &all, &error), LAB_OK);
+    assert_int_equal(all.n, told[k]);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_deviations_find__begins_within_the_log__is_told_first),
+      cmocka_unit_test(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
