@@ -63,8 +63,8 @@ static tally tally_of(const blind_recorded *r, const blind_visible *v, const bli
     if (k < a->n_found)
       taken[k] = 1;
     n.right += k < a->n_found;
-    n.open += k == a->n_found && is_visible(v, i) && !blind_is_small(a, e) &&
-              !is_deviation(a, e->name, t->missing[i].size);
+    n.open +=
+        k == a->n_found && is_visible(v, i) && !blind_is_small(a, e) && !is_deviation(a, e->name, t->missing[i].size);
   }
   for (k = 0; k < a->n_found; k++) {
     n.filter += !taken[k] && is_filter(r, &a->found[k]);

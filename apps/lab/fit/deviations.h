@@ -37,9 +37,9 @@ typedef struct lab_deviations {
   lab_deviation of[LAB_DEVIATIONS_MAX];
 } lab_deviations;
 
-/* What a fit says of the declared values: those whose interval leaves out what was declared, of which one in twenty is as
- * declared all the same (Benjamini and Hochberg 1995), and whether one of them is beyond its tolerance. Of a value that
- * is another from some time on, the later one counts.
+/* What a fit says of the declared values: those whose interval leaves out what was declared, of which one in twenty is
+ * as declared all the same (Benjamini and Hochberg 1995), and whether one of them is beyond its tolerance. Of a value
+ * that is another from some time on, the later one counts.
  * In:      rig  as declared
  *          u    fitted, with what is held
  *          fit  its intervals

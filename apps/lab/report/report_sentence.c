@@ -551,6 +551,10 @@ void lab_report_limits(const lab_report *report, cJSON *list)
   int i;
   for (i = 0; report->limitations && i < report->limitations->n; i++)
     lab_json_say(list, "%s", report->limitations->text[i]);
+  if (report->result->preview > 0)
+    lab_json_say(list,
+                 "Effects were scored by the first %.3g s; what was found there was then fitted to the whole log.",
+                 report->result->preview);
   if (report->result->cut_short)
     lab_json_say(list, "The search was ended by --budget: with more time it may find something else.");
   add_widening(report->result, list);

@@ -2,9 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "../base/array.h"
+#include "../fit/beginning.h"
 #include "../fit/drift.h"
 #include "../fit/nuisance.h"
 
@@ -16,38 +16,18 @@ enum {
 
 /* ---- The beginning of a run ---- */
 
-static int open_beginning(const lab_run *x, size_t n, lab_run *part, lab_error *error)
-{
-  int c;
-  *part = *x;
-  part->n = n;
-  part->drift = NULL;
-  part->weight = malloc((size_t)x->n_channels * n * sizeof *part->weight);
-  if (!part->weight)
-    return lab_fail_memory(error, "the beginning of a run");
-  for (c = 0; c < x->n_channels; c++)
-    memcpy(part->weight + (size_t)c * n, x->weight + (size_t)c * x->n, n * sizeof *part->weight);
-  return x->drift ? lab_drift_open(part, error) : LAB_OK;
-}
-
-static void close_beginning(lab_run *part)
-{
-  free(part->weight);
-  free(part->drift);
-}
-
 /* Fit the first n rows.  In/out: c  as a model of the whole run  Returns: LAB_OK, LAB_WORLD */
 static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
 {
   const lab_run *whole = c->u.run;
   lab_run part;
-  int status = open_beginning(whole, n, &part, error);
+  int status = lab_beginning_open(whole, n, &part, error);
   if (status == LAB_OK) {
     c->u.run = &part;
     lab_unknowns_view(&c->u, 0);
     status = lab_candidate_fit_held(c, error);
   }
-  close_beginning(&part);
+  lab_beginning_close(&part);
   c->u.run = whole;
   lab_unknowns_view(&c->u, 0);
   return status;
@@ -145,6 +125,20 @@ static int find_beginning(lab_candidate *c, size_t between[2], lab_error *error)
   return status;
 }
 
+/* Where the run leaves a model of its first `known` rows, without more fits.
+ * Out:     between  as of find_beginning
+ * Returns: LAB_OK, LAB_WORLD */
+static int find_end(const lab_candidate *c, size_t known, size_t between[2], lab_error *error)
+{
+  const size_t n = c->u.run->n, close = n / CLOSE;
+  size_t rows;
+  if (follow(c, known, &rows, error))
+    return error->status;
+  between[0] = rows >= n ? 0 : rows > known + close ? rows - close : known;
+  between[1] = rows + close < n ? rows + close : n;
+  return LAB_OK;
+}
+
 /* ---- What begins ---- */
 
 /* Keep the values that all runs share as they are; what a run has for itself, the instants of its commands, still
@@ -235,17 +229,24 @@ static int begins_later(const lab_candidate *onset)
   return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][x->first];
 }
 
-int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, lab_error *error)
+int lab_early_fit(lab_candidate *within, size_t known, double alpha, lab_candidate *onset, lab_onset_scores *begins,
+                  lab_error *error)
 {
   const size_t n = within->u.run->n;
   lab_candidate *c = malloc(sizeof *c);
   size_t between[2] = {0, 0};
-  int status = c ? lab_candidate_fit_held(within, error) : lab_fail_memory(error, "the beginning of a run");
+  int status = c ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
   onset->quality.fitted = 0;
-  if (status == LAB_OK && lab_is_plainly_off(&within->quality)) {
+  if (status == LAB_OK) {
     *c = *within;
-    lab_unknowns_undo_fit(&c->u);
-    status = find_beginning(c, between, error);
+    status = lab_candidate_fit_held(within, error);
+  }
+  if (status == LAB_OK && lab_is_plainly_off(&within->quality)) {
+    if (known == 0) {
+      *c = *within;
+      lab_unknowns_undo_fit(&c->u);
+    }
+    status = known > 0 ? find_end(c, known, between, error) : find_beginning(c, between, error);
   }
   if (status == LAB_OK && between[0] == n)
     *within = *c;

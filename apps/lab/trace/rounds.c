@@ -200,17 +200,6 @@ static int search_all(lab_rounds *s, lab_error *error)
   return lab_rounds_follow(s, LAB_PHASE_END, error);
 }
 
-/* What begins, without what was found beside it: that has to be found again. */
-static int keep_onset(lab_candidate *c, double until, lab_error *error)
-{
-  int i = c->n_found;
-  while (i-- > 0)
-    if (c->found[i].term >= 0 || lab_unknowns_find_onset(&c->u, c->found[i].param) < 0)
-      lab_candidate_drop(c, i);
-  c->u.until = until;
-  return lab_candidate_hold(c, error);
-}
-
 /* From the declared model, fitted. */
 static int begin(lab_rounds *s, lab_error *error)
 {
@@ -225,25 +214,26 @@ static int begin(lab_rounds *s, lab_error *error)
   return LAB_OK;
 }
 
-/* What begins is known already, but for what else may begin then. The declared model is far from the logs. */
+/* Something is known to be missing; of what begins, other things may begin then. The declared model is far from it. */
 static int go_on_from(lab_rounds *s, const lab_candidate *begun, const lab_onset_scores *begins, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
+  int status;
   lab_rounds_note_way(s->result, &s->declared);
   lab_rounds_note_step(s->result, &s->declared);
   s->declared.quality.fitted = 0;
   s->n_beam = 1;
   *best = *begun;
   s->begins = *begins;
-  if (keep_onset(best, s->declared.u.until, error))
-    return error->status;
+  best->u.until = s->declared.u.until;
   if (!best->quality.fitted)
     return lab_fail(error, LAB_NUMERIC, "what begins cannot be followed within tolerances");
   if (best->n_found > 0)
     lab_candidate_explain(best, s->declared.quality.chi2);
   lab_rounds_note_step(s->result, best);
   lab_rounds_note_way(s->result, best);
-  return lab_rounds_linearise_again(s, error) ? error->status : lab_rounds_try_instead(s, error);
+  status = lab_rounds_linearise_again(s, error);
+  return status == LAB_OK && lab_candidate_begins(best) ? lab_rounds_try_instead(s, error) : status;
 }
 
 /* Whether tolerances alone were found to be better than anything that could be added. */

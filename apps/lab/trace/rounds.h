@@ -30,7 +30,8 @@ void lab_rounds_note_way(lab_search_result *result, const lab_candidate *c);
 void lab_rounds_note_values(lab_search_result *result, const lab_unknowns *u);
 
 /* The search from a declared model, in the view that its unknowns have.
- * In:      begun    from the declared model with what begins, fitted, as its best; NULL: from the declared model
+ * In:      begun    from the declared model with what is known to be missing, fitted, as its best; NULL: from the
+ *                   declared model
  *          within   the same with its values within tolerances, which the search is to beat; may be NULL
  * In/out:  f        declared: fitted or not; fitted once more, which finds the end of a valley. With `begun` it is
  *                   fitted already and stays as it is

@@ -71,6 +71,25 @@ static int refit_scored(lab_rounds *s, const lab_candidate *base, const lab_scor
   return lab_rounds_has_held(s) ? lab_unfold_best(&s->unfolding, c + led, *n - led, error) : LAB_OK;
 }
 
+/* Whether what scores best can take off as much as an addition must (lab_rounds_measure_gain). */
+static int may_be_added(const lab_rounds *s, const lab_candidate *base, const lab_score *best)
+{
+  const double of_channel = base->quality.values / base->u.run[0].n_channels;
+  const double gain = (1 - pow(1 - s->options->min_gain, 2)) * of_channel;
+  return !lab_is_noise(&base->quality) || lab_is_strained(&base->quality) ||
+         best->statistic >= fmin(gain, lab_constant(LAB_PLAIN_BIC));
+}
+
+/* Significant, but not worth adding, by scores alone. */
+static void list_scored(lab_search_result *r, const lab_scores *scores, double level)
+{
+  const double alike = scores->of[0].statistic - lab_constant(LAB_ALIKE_BIC);
+  int i;
+  for (i = 0; i < scores->n && scores->of[i].p_value < level && scores->of[i].statistic > alike; i++)
+    if (r->n_listed < LAB_SCORES_MAX)
+      r->listed[r->n_listed++] = scores->of[i].effect;
+}
+
 /* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
 static int extend_scored(lab_rounds *s, const lab_candidate *base, const lab_projection *p, double start,
                          lab_error *error)
@@ -94,7 +113,9 @@ static int extend_scored(lab_rounds *s, const lab_candidate *base, const lab_pro
   }
   if (status != LAB_OK || s->has_begun)
     return status;
-  if (!s->over && (base->n_found > 0 || !lab_is_noise(&s->free_term.quality)))
+  if (!s->over && !may_be_added(s, base, &scores.of[0]))
+    list_scored(r, &scores, level);
+  else if (!s->over && (base->n_found > 0 || !lab_is_noise(&s->free_term.quality)))
     status = refit_scored(s, base, &scores, level, &n, error);
   if (status != LAB_OK || s->has_begun)
     return status;

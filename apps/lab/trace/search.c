@@ -1,5 +1,5 @@
-/* Which searches are made: seen coarsely, from the declared values as they stand, from values within tolerances, and
- * without the values that stand alone; and which of their answers is given. */
+/* Which searches are made: seen coarsely, of a beginning, of the whole, and without the values that stand alone; and
+ * which of their answers is given. */
 #include "search.h"
 
 #include <math.h>
@@ -11,261 +11,9 @@
 #include "../fit/nuisance.h"
 #include "../fit/outliers.h"
 #include "carry.h"
-#include "early.h"
+#include "contest.h"
+#include "preview.h"
 #include "rivals.h"
-#include "rounds.h"
-
-/* Whether a search has explained the logs. */
-static int explains(const lab_finding *f)
-{
-  return (f->best.n_found > 0 || lab_candidate_begins(&f->best)) && lab_is_noise(&f->best.quality);
-}
-
-/* When the first of two searches ends, so that most of the time is left to the other: no rig is just as declared. */
-static double share_of_time(double until)
-{
-  static const double share = 0.35;
-  const double now = lab_cpu_time();
-  return until > 0 ? now + share * (until - now) : 0;
-}
-
-/* The search from the declared values as they stand; what it finds is then fitted with tolerances. */
-static int search_exactly(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
-                          lab_finding *f, lab_error *error)
-{
-  f->declared.u = *u;
-  f->declared.u.until = share_of_time(u->until);
-  if (lab_rounds_run(f, NULL, within, options, error))
-    return error->status;
-  if (!explains(f))
-    return LAB_OK;
-  f->best.u.until = u->until;
-  f->gain = f->best.quality.chi2;
-  if (lab_unknowns_hold(&f->best.u, error) || lab_candidate_fit(&f->best, LAB_ROUNDS_ALL, error))
-    return error->status;
-  f->gain -= f->best.quality.chi2;
-  return LAB_OK;
-}
-
-/* How many things were found: what begins, and effects that act throughout. */
-static int count_causes(const lab_candidate *c)
-{
-  int i, n = 0;
-  for (i = 0; i < c->u.rig.n_onsets; i++)
-    n += c->begin[i].known != 0;
-  for (i = 0; i < c->n_found; i++)
-    n += lab_unknowns_find_onset(&c->u, c->found[i].param) < 0;
-  return n;
-}
-
-static int has_held(const lab_unknowns *u)
-{
-  int j, any = 0;
-  for (j = 0; j < u->n; j++)
-    any |= lab_unknown_is_held(&u->unknown[j]);
-  return any;
-}
-
-/* Whether a search that explains the logs by what acts or begins needs no deviations beside. Of two such things one may
- * stand for these.
- * In:      tolerant  the declared model within its tolerances */
-static int is_enough(const lab_finding *f, const lab_unknowns *tolerant)
-{
-  const int explained = f->result.verdict == LAB_VERDICT_EFFECT ||
-                        (f->result.verdict == LAB_VERDICT_NONE && lab_candidate_begins(&f->best));
-  return explained && f->gain < lab_constant(LAB_DEVIATIONS_GAIN) &&
-         (count_causes(&f->best) < 2 || !has_held(tolerant));
-}
-
-/* Whether of two searches that explain nothing the first is to be told for its candidates. */
-static int comes_nearer(const lab_finding *exact, const lab_finding *tolerant)
-{
-  return exact->best.quality.fitted && exact->result.verdict == LAB_VERDICT_UNDECIDED &&
-         tolerant->result.verdict == LAB_VERDICT_UNDECIDED && exact->best.quality.bic < tolerant->best.quality.bic;
-}
-
-/* Whether effects beside values as declared are to be told, where there is an answer with deviations: one that names
- * less is the simpler one, and gives way only to odds; one that needs values far beyond their tolerances has odds
- * against it. */
-static int is_better(const lab_finding *exact, const lab_finding *tolerant)
-{
-  const lab_quality *of_exact = &exact->best.quality, *of_tolerant = &tolerant->best.quality;
-  const double odds = lab_is_strained(of_tolerant) && !lab_is_strained(of_exact) ? -lab_constant(LAB_ALIKE_BIC)
-                      : tolerant->best.n_found < exact->best.n_found && lab_is_noise(of_tolerant)
-                          ? lab_constant(LAB_ALIKE_BIC)
-                          : 0;
-  return of_exact->bic + odds < of_tolerant->bic;
-}
-
-/* Whether something that begins is to be told and not what acts throughout, which may show late and is simpler. */
-static int is_plainly_later(const lab_finding *early, const lab_finding *throughout)
-{
-  const double odds = lab_candidate_begins(&throughout->best) ? 0 : lab_constant(LAB_ALIKE_BIC);
-  return early->best.quality.bic + odds < throughout->best.quality.bic;
-}
-
-/* When to stop where there is an answer already: after four times as long again, and a second; never where time does
- * not count, so that an answer is the same each time. */
-static double enough(double until, double start)
-{
-  const double now = lab_cpu_time();
-  return until > 0 ? fmin(until, now + 4 * (now - start) + 1) : 0;
-}
-
-/* What a search from exact values says begins, with values within their tolerances.
- * In:      tolerant  the declared model with these, without anything that begins
- * In/out:  c         fitted
- * Out:     begins    whether it convinces
- * Returns: LAB_OK, LAB_WORLD */
-static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *begins, lab_error *error)
-{
-  int status;
-  *begins = 0;
-  if (!lab_candidate_begins(c) || lab_cpu_is_spent(c->u.until))
-    return LAB_OK;
-  status = lab_candidate_hold(c, error);
-  if (status == LAB_OK)
-    status = lab_candidate_place_again(c, error);
-  *begins = status == LAB_OK && lab_onset_convinces(&c->quality, tolerant);
-  return status == LAB_WORLD ? status : LAB_OK;
-}
-
-/* The declared model within its tolerances, or what begins within the logs where that explains them.
- * In:      u       the declared model, fitted
- * In/out:  begun   with the errors of the declared model; then what begins
- * Out:     within  with what is held, fitted; where something begins as u
- *          begins  whether anything does
- * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD */
-static int fit_within(const lab_unknowns *u, const lab_search_options *options, lab_candidate *within,
-                      lab_finding *begun, int *begins, lab_error *error)
-{
-  static const double most = 0.8; /* of the time: if nothing begins the rest has to do */
-  const double now = lab_cpu_time();
-  const lab_errors *declared = &begun->result.before;
-  const lab_quality left = {.fitted = 1, .chi2 = declared->chi2, .values = (double)declared->n};
-  int status;
-  within->u = *u;
-  within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
-  *begins = within->quality.fitted = 0;
-  status = lab_unknowns_hold(&within->u, error);
-  if (status == LAB_OK && lab_is_plainly_off(&left) && lab_rounds_may_begin(&within->u, options)) {
-    status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
-    begun->best.u.until = u->until;
-    *begins = status == LAB_OK && begun->best.quality.fitted;
-  }
-  within->u.until = u->until;
-  if (*begins) {
-    within->u = *u;
-    return lab_candidate_fit(within, 1, error);
-  }
-  if (status == LAB_OK && !within->quality.fitted)
-    status = lab_candidate_fit_held(within, error);
-  return status == LAB_OK ? lab_candidate_let_go(within, error) : status;
-}
-
-/* A search holds what varies unseen to straight lines. If the declared model, fitted without them, is the better one
- * after all, it was only these that asked for more. */
-static void forget_what_was_in_vain(lab_finding *f)
-{
-  if (f->best.n_found == 0 || !f->declared.quality.fitted || !(f->best.quality.bic > f->declared.quality.bic))
-    return;
-  f->best = f->declared;
-  f->result.n_path = 1;
-  f->result.verdict = lab_is_noise(&f->best.quality) ? LAB_VERDICT_NONE : LAB_VERDICT_UNDECIDED;
-}
-
-/* When a search ends [s]: what follows it takes about as long as the first fit with tolerances, and a quarter of the
- * search's time is kept for that already (for_search in answer.c).
- * In:      start  [s] when that fit began */
-static double before_the_end(double until, double start)
-{
-  static const double kept = 0.25;
-  return until > 0 ? until - fmax(lab_cpu_time() - start - kept * (until - start), 0) : 0;
-}
-
-/* The search from values exactly as declared and that from values within their tolerances, side by side. */
-typedef struct contest {
-  lab_finding exact, early; /* early: what begins where the run leaves the model that explains its beginning */
-  int is_exact;             /* whether `exact` is the answer so far */
-  int begins;               /* whether something was found to begin */
-  double start, until;      /* [s] of CPU time */
-} contest;
-
-/* What is found beside values exactly as declared, and whether that explains the logs.
- * In:      u        the declared model, fitted
- * In/out:  tolerant it within its tolerances, fitted */
-static int search_beside(const lab_unknowns *u, const lab_search_options *options, contest *c, lab_finding *tolerant,
-                         lab_error *error)
-{
-  lab_candidate *within = &tolerant->best;
-  int status = search_exactly(u, c->begins ? &c->early.best.quality : &within->quality, options, &c->exact, error);
-  c->is_exact = status == LAB_OK && explains(&c->exact) && !(c->begins && is_plainly_later(&c->early, &c->exact));
-  if (c->begins && c->is_exact) {
-    c->begins = 0;
-    within->u.until = u->until;
-    status = lab_candidate_hold(within, error);
-    within->u.until = c->until;
-    tolerant->declared = *within;
-  } else if (c->begins && status != LAB_WORLD) {
-    c->exact = c->early;
-    status = LAB_OK;
-  } else if (status == LAB_OK && !c->is_exact)
-    status = tolerate_onset(&c->exact.best, &within->quality, &c->begins, error);
-  return status;
-}
-
-/* The rounds from values within their tolerances, and whether their answer is the better one. */
-static int search_within(const lab_search_options *options, contest *c, lab_finding *tolerant, lab_error *error)
-{
-  const int begins = c->begins || (c->is_exact && lab_candidate_begins(&c->exact.best));
-  int status;
-  if (c->is_exact)
-    tolerant->declared.u.until = enough(c->until, c->start);
-  status = lab_rounds_run(tolerant, begins ? &c->exact : NULL, NULL, options, error);
-  if (status == LAB_OK)
-    forget_what_was_in_vain(tolerant);
-  if (status == LAB_NUMERIC)
-    c->is_exact = c->exact.result.n_path > 0 && c->exact.best.quality.fitted;
-  else if (c->is_exact)
-    c->is_exact = status != LAB_OK || is_better(&c->exact, tolerant);
-  else
-    c->is_exact = status == LAB_OK && comes_nearer(&c->exact, tolerant);
-  return status;
-}
-
-/* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
- * something may be missing from a rig that is as declared: if one cause explains them and needs no deviations beside,
- * none are looked for; else the better model of the two searches is the answer.
- * In:      u      the declared model, fitted
- * In/out:  whole  with the errors of that; then what is taken for the answer */
-static int search_tolerantly(const lab_unknowns *u, const lab_search_options *options, lab_finding *whole,
-                             lab_error *error)
-{
-  contest *c = malloc(sizeof *c);
-  lab_candidate *within = &whole->best;
-  int status;
-  if (!c)
-    return lab_fail_memory(error, "the search");
-  c->exact = c->early = *whole;
-  c->is_exact = c->begins = 0;
-  c->start = lab_cpu_time();
-  whole->exact = u;
-  status = fit_within(u, options, within, &c->early, &c->begins, error);
-  c->until = before_the_end(u->until, c->start);
-  within->u.until = c->until;
-  whole->declared = *within;
-  if (status == LAB_OK && (c->begins || !lab_is_noise(&within->quality) || lab_is_strained(&within->quality)))
-    status = search_beside(u, options, c, whole, error);
-  if (status != LAB_WORLD && !(c->is_exact && is_enough(&c->exact, &whole->declared.u)))
-    status = search_within(options, c, whole, error);
-  if (c->is_exact) {
-    *whole = c->exact;
-    status = LAB_OK;
-  }
-  whole->best.u.until = c->until;
-  free(c);
-  return status;
-}
 
 /* Whether something that acts on the stem or its air was found: an error of a sensor makes no stem stick and slip. */
 static int has_found_cause(const lab_candidate *c)
@@ -332,6 +80,15 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   }
   free(coarse);
   return status;
+}
+
+/* A long run by its beginning first. */
+static int search_row_by_row(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, lab_error *error)
+{
+  int done = 0, status = LAB_OK;
+  if (lab_preview_is_asked(u))
+    status = lab_preview_search(u, options, f, &done, error);
+  return status == LAB_OK && !done ? lab_contest_run(u, 0, options, f, error) : status;
 }
 
 void lab_search_options_default(lab_search_options *options)
@@ -500,7 +257,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   if (status == LAB_OK)
     status = search_coarsely(u, options, f, &done, error);
   if (status == LAB_OK && !done)
-    status = search_tolerantly(u, options, f, error);
+    status = search_row_by_row(u, options, f, error);
   if (status == LAB_OK && !done)
     status = try_rivals(f, error);
   if (status == LAB_OK && !done)

@@ -49,6 +49,7 @@ typedef struct lab_search_result {
   lab_fit_result fit;                         /* of the final model */
   lab_scores scores;                          /* of effects, on the declared model: what was tried */
   double score_s;                             /* [s] that these took */
+  double preview;                             /* [s] of the run by which they are; 0: by all of it (preview.h) */
   int n_own, own[LAB_OWN_MAX];                /* parameters of which each log was given a value (apart.h) */
   int n_listed;                               /* effects that are significant but gain less than min_gain */
   int listed[LAB_SCORES_MAX];

@@ -1,0 +1,17 @@
+/* The search from declared values that are known to tolerances. Where these do not explain the logs by themselves,
+ * something may be missing from a rig that is as declared: if one cause explains them and needs no deviations beside,
+ * none are looked for; else the better model of the two searches is the answer.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_CONTEST_H
+#define LAB_CONTEST_H
+
+#include "rounds.h"
+
+/* In:      u         the declared model, fitted
+ *          is_brief  not 0: if tolerances alone leave only noise, look for nothing else
+ * In/out:  f         with the errors of that; then what is taken for the answer
+ * Returns: as lab_rounds_run. */
+int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_options *options, lab_finding *f,
+                    lab_error *error);
+
+#endif

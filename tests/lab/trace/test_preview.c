@@ -1,0 +1,141 @@
+/* What the beginning of a log of the independent rig says of the whole. */
+#include <math.h>
+
+#include "../../check.h"
+#include "../../scratch.h"
+#include "../../virtual.h"
+
+#include "../../../apps/lab/trace/preview.h"
+
+enum { ROWS = 1401 };
+
+static lab_rig rig;
+static lab_log log_read;
+static lab_run run;
+static lab_unknowns u;
+static lab_finding found, before;
+
+/* Search 14 s of a rig that is another from some time on by its first 4.9 s.  Returns: whether that was enough */
+static int preview(const second_rig *first, const second_rig *later, double change)
+{
+  const second_course course = {
+      .t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS, .later = later, .change = change};
+  static const lab_finding none;
+  lab_search_options options;
+  lab_error error = {0, ""};
+  int done;
+  virtual_write(first, &course, 14, 0.01, scratch_path("log.csv"));
+  virtual_declare(&rig);
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  rig.fit[rig.n_fit++] = pneu_param_find("spring_rate");
+  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log_read, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  lab_search_options_default(&options);
+  found = none;
+  assert_int_equal(lab_search_measure(&u, LAB_STAGE_BEFORE, &found.result, &error), LAB_OK);
+  before = found;
+  assert_int_equal(lab_preview_search(&u, &options, &found, &done, &error), LAB_OK);
+  return done;
+}
+
+static void close_log(void)
+{
+  lab_run_close(&run);
+  lab_log_free(&log_read);
+}
+
+/* The answer is one of the whole run, and as close to it as noise lets it. */
+static void assert_whole(void)
+{
+  assert_ptr_equal(found.best.u.run, &run);
+  assert_int_equal((int)found.best.quality.values, 2 * ROWS);
+  assert_true(lab_is_noise(&found.best.quality));
+}
+
+static void test_lab_preview_search__leak__is_that_of_the_whole_run(void **state)
+{
+  second_rig g = virtual_rig(5);
+  (void)state;
+  g.leak_area = 2e-8;
+  assert_true(preview(&g, NULL, 0));
+  assert_whole();
+  assert_int_equal(found.result.verdict, LAB_VERDICT_EFFECT);
+  assert_string_equal(pneu_effect_at(found.best.found[0].effect)->name, "chamber_leak");
+  assert_close(*pneu_param_at(&found.best.u.rig.params, pneu_param_find("leak_area")), 2e-8, 0, 0.05);
+  assert_close(found.result.preview, 4.89, 0, 1e-6);
+  assert_int_equal(found.result.n_path, 2);
+  assert_true(found.result.path[0].chi2 > 10 * found.result.path[1].chi2);
+  close_log();
+}
+
+static void test_lab_preview_search__nothing_is_missing__finds_nothing(void **state)
+{
+  const second_rig g = virtual_rig(6);
+  (void)state;
+  assert_true(preview(&g, NULL, 0));
+  assert_whole();
+  assert_int_equal(found.result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(found.best.n_found, 0);
+  assert_true(found.result.preview == 0 && found.result.scores.n > 0);
+  assert_int_equal(found.result.n_path, 1);
+  close_log();
+}
+
+/* After what was seen of it. */
+static void test_lab_preview_search__spring_that_breaks_later__says_when(void **state)
+{
+  const second_rig first = virtual_rig(7);
+  second_rig later = first;
+  (void)state;
+  later.spring_rate *= 0.7;
+  assert_true(preview(&first, &later, 8.57));
+  assert_whole();
+  assert_int_equal(found.best.u.rig.n_onsets, 1);
+  assert_int_equal(found.best.u.rig.onset[0].param, pneu_param_find("spring_rate"));
+  assert_between(8.57, found.best.begin[0].low, found.best.begin[0].high);
+  close_log();
+}
+
+/* Three at once, where one is looked for. */
+static void test_lab_preview_search__what_comes_later_is_not_found__leaves_all_as_it_was(void **state)
+{
+  const second_rig first = virtual_rig(8);
+  second_rig later = first;
+  (void)state;
+  later.spring_rate *= 0.7;
+  later.leak_area = 5e-8;
+  later.dry_friction *= 2;
+  assert_false(preview(&first, &later, 8.57));
+  assert_memory_equal(&found, &before, sizeof found);
+  close_log();
+}
+
+static void test_lab_preview_is_asked__short_or_several_or_coarse__no(void **state)
+{
+  lab_run of_rows = {.n = 3000};
+  lab_unknowns of_run = {.run = &of_rows, .n_runs = 1};
+  (void)state;
+  assert_true(lab_preview_is_asked(&of_run));
+  of_rows.n = 2999;
+  assert_false(lab_preview_is_asked(&of_run));
+  of_rows.n = 3000;
+  of_run.n_runs = 2;
+  assert_false(lab_preview_is_asked(&of_run));
+  of_run.n_runs = 1;
+  of_run.window = 50;
+  assert_false(lab_preview_is_asked(&of_run));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_preview_search__leak__is_that_of_the_whole_run),
+      cmocka_unit_test(test_lab_preview_search__nothing_is_missing__finds_nothing),
+      cmocka_unit_test(test_lab_preview_search__spring_that_breaks_later__says_when),
+      cmocka_unit_test(test_lab_preview_search__what_comes_later_is_not_found__leaves_all_as_it_was),
+      cmocka_unit_test(test_lab_preview_is_asked__short_or_several_or_coarse__no),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
