@@ -296,6 +296,14 @@ static void test_lab_search_run__leak__is_named_and_sized(void **state)
   assert_close(result.path[1].errors.chi2, result.after.chi2, 0, 0);
 }
 
+static int is_listed(const lab_search_result *result, const char *name)
+{
+  int i, any = 0;
+  for (i = 0; i < result->n_listed; i++)
+    any |= !strcmp(pneu_effect_at(result->listed[i])->name, name);
+  return any;
+}
+
 /* What takes less off the error than is asked for is listed, or added where that is plain and leaves white noise; least
  * of all is an error that falls because commands that are held to straight lines are let go. */
 static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **state)
@@ -315,6 +323,8 @@ static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **s
     assert_int_equal(result.verdict, plain[i] ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE);
     assert_int_equal(result.n_found, plain[i]);
     assert_int_equal(result.n_listed > 0, !plain[i]);
+    assert_int_equal(result.n_steps == 1, !plain[i]); /* no refit of what its score says is small */
+    assert_int_equal(is_listed(&result, "chamber_leak"), !plain[i]);
   }
   min_gain = 0.02;
 }
