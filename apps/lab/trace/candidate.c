@@ -225,6 +225,24 @@ int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
   return *any && status == LAB_OK ? lab_candidate_fit(c, LAB_ROUNDS_ALL, error) : status;
 }
 
+int lab_candidate_drop_needless(lab_candidate *c, int n, lab_error *error)
+{
+  lab_candidate *without = malloc(sizeof *without);
+  int i, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
+  for (i = 0; status == LAB_OK && c->n_found > 1 && i < n; i++) {
+    if (c->found[i].term >= 0)
+      continue;
+    status = lab_candidate_leave_out(c, i, without, error);
+    if (status == LAB_OK && without->quality.fitted && without->quality.bic <= c->quality.bic) {
+      *c = *without;
+      i = -1;
+      n--;
+    }
+  }
+  free(without);
+  return status;
+}
+
 int lab_candidate_is_white(const lab_candidate *c, int *white, lab_error *error)
 {
   lab_residual_stats left[LAB_CHANNEL_COUNT];

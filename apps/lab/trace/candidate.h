@@ -106,6 +106,10 @@ void lab_candidate_drop_neutral(lab_candidate *c);
 /* Without one of what was found, fitted again, or not fitted where no fit is found.  Returns: LAB_OK, LAB_WORLD. */
 int lab_candidate_leave_out(const lab_candidate *c, int which, lab_candidate *without, lab_error *error);
 
+/* Drop each effect among the first n of what was found without which BIC is no higher; one is left.
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_candidate_drop_needless(lab_candidate *c, int n, lab_error *error);
+
 /* Whether it leaves white noise on every channel; never where it is seen coarsely.  Returns: as lab_unknowns_residuals
  */
 int lab_candidate_is_white(const lab_candidate *c, int *white, lab_error *error);

@@ -248,12 +248,12 @@ static int is_explained(const contest *c, const lab_candidate *within)
   return !c->begins && lab_is_noise(&within->quality) && !lab_is_strained(&within->quality);
 }
 
-/* Both searches, as far as they are needed. */
-static int search_both(const lab_unknowns *u, const lab_search_options *options, contest *c, lab_finding *tolerant,
-                       lab_error *error)
+/* Both searches, as far as they are needed.
+ * In:      status  of the fit within tolerances: where there is none, only the second is made */
+static int search_both(const lab_unknowns *u, const lab_search_options *options, contest *c, int status,
+                       lab_finding *tolerant, lab_error *error)
 {
-  int status = LAB_OK;
-  if (!is_explained(c, &tolerant->best))
+  if (status == LAB_OK && !is_explained(c, &tolerant->best))
     status = search_beside(u, options, c, tolerant, error);
   if (status != LAB_WORLD && !(c->is_exact && is_enough(&c->exact, &tolerant->declared.u)))
     status = search_within(options, c, tolerant, error);
@@ -281,8 +281,8 @@ int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_option
   f->declared = f->best;
   if (status == LAB_OK && is_brief && is_explained(c, &f->best))
     f->result.verdict = LAB_VERDICT_NONE;
-  else if (status == LAB_OK)
-    status = search_both(u, options, c, f, error);
+  else
+    status = search_both(u, options, c, status, f, error);
   f->best.u.until = c->until;
   free(c);
   return status;

@@ -6,6 +6,7 @@
 #include "../fit/beginning.h"
 #include "contest.h"
 #include "early.h"
+#include "rivals.h"
 
 int lab_preview_is_asked(const lab_unknowns *u)
 {
@@ -21,7 +22,7 @@ static int search_first(const lab_unknowns *u, size_t n, const lab_search_option
 {
   const double now = lab_cpu_time();
   lab_unknowns *first = malloc(sizeof *first);
-  lab_run part;
+  lab_run part = {0};
   int status = first ? lab_beginning_open(u->run, n, &part, error) : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *first = *u;
@@ -32,8 +33,8 @@ static int search_first(const lab_unknowns *u, size_t n, const lab_search_option
     if (status == LAB_OK)
       status = lab_contest_run(first, 1, options, f, error);
     *cut_short = lab_cpu_is_spent(first->until);
-    lab_beginning_close(&part);
   }
+  lab_beginning_close(&part);
   free(first);
   return status;
 }
@@ -91,7 +92,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
 {
   const size_t n = (size_t)(lab_constant(LAB_PREVIEW_SHARE) * (double)u->run->n);
   lab_finding *first = malloc(sizeof *first), *whole = malloc(sizeof *whole);
-  int cut_short = 0, status = first && whole ? LAB_OK : lab_fail_memory(error, "the search");
+  int changed, cut_short = 0, status = first && whole ? LAB_OK : lab_fail_memory(error, "the search");
   *done = 0;
   if (status == LAB_OK) {
     *first = *whole = *f;
@@ -101,6 +102,10 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     status = fit_whole(u, n, options, first, &whole->best, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
     if (*done)
+      status = lab_candidate_drop_needless(&first->best, first->best.n_found, error);
+    if (*done && status == LAB_OK && first->best.n_found > 0)
+      status = lab_rivals_try(&first->best, &changed, error);
+    if (*done && status == LAB_OK)
       status = go_on(u, n, options, first, whole, error);
     *done &= status == LAB_OK;
     if (*done)

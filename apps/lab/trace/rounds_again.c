@@ -5,18 +5,7 @@
 
 int lab_rounds_remove_needless(lab_rounds *s, lab_error *error)
 {
-  lab_candidate *best = &s->beam[0], *without = &s->without;
-  int i, status = LAB_OK;
-  for (i = 0; status == LAB_OK && best->n_found > 1 && i < best->n_found - 1; i++) {
-    if (best->found[i].term >= 0)
-      continue;
-    status = lab_candidate_leave_out(best, i, without, error);
-    if (status == LAB_OK && without->quality.fitted && without->quality.bic <= best->quality.bic) {
-      *best = *without;
-      i = -1;
-    }
-  }
-  return status;
+  return lab_candidate_drop_needless(&s->beam[0], s->beam[0].n_found - 1, error);
 }
 
 /* Take the best extension in place of the best candidate.  Out: other  whether it has something else */
