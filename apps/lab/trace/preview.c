@@ -65,6 +65,13 @@ static int fit_whole(const lab_unknowns *u, size_t n, const lab_search_options *
   return status;
 }
 
+/* What the whole run does not ask for goes, and each effect is put against those that may stand in its place. */
+static int put_to_test(lab_candidate *c, lab_error *error)
+{
+  int changed, status = lab_candidate_drop_needless(c, c->n_found, error);
+  return status == LAB_OK && c->n_found > 0 ? lab_rivals_try(c, &changed, error) : status;
+}
+
 /* The search of the whole run from there.
  * In:      n      first rows, of which `first` is
  * Out:     whole  room, then what was found */
@@ -92,7 +99,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
 {
   const size_t n = (size_t)(lab_constant(LAB_PREVIEW_SHARE) * (double)u->run->n);
   lab_finding *first = malloc(sizeof *first), *whole = malloc(sizeof *whole);
-  int changed, cut_short = 0, status = first && whole ? LAB_OK : lab_fail_memory(error, "the search");
+  int cut_short = 0, status = first && whole ? LAB_OK : lab_fail_memory(error, "the search");
   *done = 0;
   if (status == LAB_OK) {
     *first = *whole = *f;
@@ -102,9 +109,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     status = fit_whole(u, n, options, first, &whole->best, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
     if (*done)
-      status = lab_candidate_drop_needless(&first->best, first->best.n_found, error);
-    if (*done && status == LAB_OK && first->best.n_found > 0)
-      status = lab_rivals_try(&first->best, &changed, error);
+      status = put_to_test(&first->best, error);
     if (*done && status == LAB_OK)
       status = go_on(u, n, options, first, whole, error);
     *done &= status == LAB_OK;
