@@ -142,7 +142,7 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   *begins = within->quality.fitted = 0;
   status = lab_unknowns_hold(&within->u, error);
   if (status == LAB_OK && lab_is_plainly_off(&left) && lab_rounds_may_begin(&within->u, options)) {
-    status = lab_early_fit(within, 0, options->alpha, &begun->best, &begun->begins, error);
+    status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
     begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
   }

@@ -5,7 +5,6 @@
 
 #include "../base/array.h"
 #include "../fit/beginning.h"
-#include "../fit/drift.h"
 #include "../fit/nuisance.h"
 
 enum {
@@ -125,20 +124,6 @@ static int find_beginning(lab_candidate *c, size_t between[2], lab_error *error)
   return status;
 }
 
-/* Where the run leaves a model of its first `known` rows, without more fits.
- * Out:     between  as of find_beginning
- * Returns: LAB_OK, LAB_WORLD */
-static int find_end(const lab_candidate *c, size_t known, size_t between[2], lab_error *error)
-{
-  const size_t n = c->u.run->n, close = n / CLOSE;
-  size_t rows;
-  if (follow(c, known, &rows, error))
-    return error->status;
-  between[0] = rows >= n ? 0 : rows > known + close ? rows - close : known;
-  between[1] = rows + close < n ? rows + close : n;
-  return LAB_OK;
-}
-
 /* ---- What begins ---- */
 
 /* Keep the values that all runs share as they are; what a run has for itself, the instants of its commands, still
@@ -229,24 +214,17 @@ static int begins_later(const lab_candidate *onset)
   return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][x->first];
 }
 
-int lab_early_fit(lab_candidate *within, size_t known, double alpha, lab_candidate *onset, lab_onset_scores *begins,
-                  lab_error *error)
+int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, lab_error *error)
 {
   const size_t n = within->u.run->n;
   lab_candidate *c = malloc(sizeof *c);
   size_t between[2] = {0, 0};
-  int status = c ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
+  int status = c ? lab_candidate_fit_held(within, error) : lab_fail_memory(error, "the beginning of a run");
   onset->quality.fitted = 0;
-  if (status == LAB_OK) {
-    *c = *within;
-    status = lab_candidate_fit_held(within, error);
-  }
   if (status == LAB_OK && lab_is_plainly_off(&within->quality)) {
-    if (known == 0) {
-      *c = *within;
-      lab_unknowns_undo_fit(&c->u);
-    }
-    status = known > 0 ? find_end(c, known, between, error) : find_beginning(c, between, error);
+    *c = *within;
+    lab_unknowns_undo_fit(&c->u);
+    status = find_beginning(c, between, error);
   }
   if (status == LAB_OK && between[0] == n)
     *within = *c;

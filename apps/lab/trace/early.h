@@ -11,13 +11,12 @@
 
 /* Fit the only run; where that is plainly off, ever longer beginnings of it. If one that leaves only noise ends before
  * the run does, look for what begins there, and fit the whole run with it.
- * In:      known   first rows that `within` explains already, with what was found for them; 0: none
- *          alpha   chance of naming anything when nothing begins
- * In/out:  within  the model with what is held among its unknowns, seen row by row; fitted to the whole run
+ * In:      alpha   chance of naming anything when nothing begins
+ * In/out:  within  the declared model with what is held among its unknowns, seen row by row; fitted to the whole run
  * Out:     onset   with what begins, fitted where that leaves only noise
  *          begins  scores of what may begin, about the values of the beginning
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_early_fit(lab_candidate *within, size_t known, double alpha, lab_candidate *onset, lab_onset_scores *begins,
+int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins,
                   lab_error *error);
 
 #endif

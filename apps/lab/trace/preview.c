@@ -5,7 +5,6 @@
 #include "../base/clock.h"
 #include "../fit/beginning.h"
 #include "contest.h"
-#include "early.h"
 #include "rivals.h"
 
 int lab_preview_is_asked(const lab_unknowns *u)
@@ -45,24 +44,6 @@ static void widen(const lab_unknowns *u, lab_candidate *c)
   c->u.run = u->run;
   c->u.until = u->until;
   lab_unknowns_view(&c->u, 0);
-}
-
-/* Fit what was found for the first n rows to all of them, with what begins after these.
- * In/out:  first
- * Out:     onset  room */
-static int fit_whole(const lab_unknowns *u, size_t n, const lab_search_options *options, lab_finding *first,
-                     lab_candidate *onset, lab_error *error)
-{
-  int status;
-  widen(u, &first->best);
-  if (!lab_rounds_may_begin(&first->best.u, options))
-    return lab_candidate_fit_held(&first->best, error);
-  status = lab_early_fit(&first->best, n, options->alpha, onset, &first->begins, error);
-  if (status == LAB_OK && onset->quality.fitted) {
-    first->best = *onset;
-    first->best.u.until = u->until;
-  }
-  return status;
 }
 
 /* What the whole run does not ask for goes, and each effect is put against those that may stand in its place. */
@@ -106,7 +87,8 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     status = search_first(u, n, options, first, &cut_short, error);
   }
   if (status == LAB_OK && (first->result.verdict != LAB_VERDICT_UNDECIDED || cut_short)) {
-    status = fit_whole(u, n, options, first, &whole->best, error);
+    widen(u, &first->best);
+    status = lab_candidate_fit_held(&first->best, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
     if (*done)
       status = put_to_test(&first->best, error);

@@ -173,7 +173,7 @@ static void fit_early(const second_rig *first, const second_rig *later, double c
   within.u = u;
   within.n_found = within.quality.fitted = 0;
   assert_int_equal(lab_unknowns_hold(&within.u, &error), LAB_OK);
-  assert_int_equal(lab_early_fit(&within, 0, 0.01, &onset, &begins, &error), LAB_OK);
+  assert_int_equal(lab_early_fit(&within, 0.01, &onset, &begins, &error), LAB_OK);
 }
 
 static void test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model(void **state)
