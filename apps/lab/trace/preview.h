@@ -1,7 +1,8 @@
 /* A preview: the search of the beginning of a long run.
  *
  * A search takes as many simulations of a long log as of a short one. What is missing mostly shows in the first third
- * as well, and the values that this is found with are near those of the whole run. SPDX-License-Identifier: MIT */
+ * as well, and the values that this is found with are near those of the whole run.
+ * SPDX-License-Identifier: MIT */
 #ifndef LAB_PREVIEW_H
 #define LAB_PREVIEW_H
 
@@ -13,7 +14,7 @@ int lab_preview_is_asked(const lab_unknowns *u);
 /* Search the beginning, fit what is found to the whole run, and go on from there.
  * In:      u     the declared model, fitted
  * In/out:  f     with the errors of that; if done, what was found
- * Out:     done  whether only noise is left, or the time is spent
+ * Out:     done  whether that leaves only noise, or the time of the beginning was spent; else f is as it was
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_preview_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                        lab_error *error);

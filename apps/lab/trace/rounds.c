@@ -214,7 +214,7 @@ static int begin(lab_rounds *s, lab_error *error)
   return LAB_OK;
 }
 
-/* Something is known to be missing; of what begins, other things may begin then. The declared model is far from it. */
+/* What is missing is known, or a part of it. Where something begins, it may be another thing that begins then. */
 static int go_on_from(lab_rounds *s, const lab_candidate *begun, const lab_onset_scores *begins, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
@@ -227,7 +227,7 @@ static int go_on_from(lab_rounds *s, const lab_candidate *begun, const lab_onset
   s->begins = *begins;
   best->u.until = s->declared.u.until;
   if (!best->quality.fitted)
-    return lab_fail(error, LAB_NUMERIC, "what begins cannot be followed within tolerances");
+    return lab_fail(error, LAB_NUMERIC, "what is known to be missing cannot be fitted within tolerances");
   if (best->n_found > 0)
     lab_candidate_explain(best, s->declared.quality.chi2);
   lab_rounds_note_step(s->result, best);

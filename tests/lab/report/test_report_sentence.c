@@ -181,6 +181,21 @@ static void test_lab_report_sentence__search_that_was_ended__claims_nothing(void
   assert_contains(sentence_of(&report), "Something is missing, but the log does not say what. The residual is 1.52");
 }
 
+static void test_lab_report_limits__effects_scored_by_a_beginning__says_so(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_EFFECT, 1);
+  cJSON *list = cJSON_CreateArray();
+  (void)state;
+  lab_report_limits(&report, list);
+  assert_int_equal(cJSON_GetArraySize(list), 0);
+  result.preview = 27.46;
+  lab_report_limits(&report, list);
+  assert_int_equal(cJSON_GetArraySize(list), 1);
+  assert_string_equal(cJSON_GetArrayItem(list, 0)->valuestring,
+                      "Effects were scored by the first 27.5 s; what was found there was then fitted to the whole log.");
+  cJSON_Delete(list);
+}
+
 static void test_lab_report_headline__deviations__come_first_in_the_same_line(void **state)
 {
   lab_report report = answer(LAB_VERDICT_NONE, 0);
@@ -300,6 +315,7 @@ int main(void)
       cmocka_unit_test(test_lab_effect_sentence__share_of_nothing__is_left_out),
       cmocka_unit_test(test_lab_report_sentence__verdicts__what_is_missing_then_the_error),
       cmocka_unit_test(test_lab_report_sentence__search_that_was_ended__claims_nothing),
+      cmocka_unit_test(test_lab_report_limits__effects_scored_by_a_beginning__says_so),
       cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
       cmocka_unit_test(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance),
       cmocka_unit_test(test_inspect_def__each_line__is_of_an_effect),
