@@ -178,6 +178,14 @@ int lab_found_is_of_sensor(const lab_found *found)
   return found->effect >= 0 && lab_param_is_of_sensor(found->param);
 }
 
+int lab_candidate_has_cause(const lab_candidate *c)
+{
+  int i, any = 0;
+  for (i = 0; i < c->n_found; i++)
+    any |= c->found[i].effect >= 0 && !lab_found_is_of_sensor(&c->found[i]);
+  return any;
+}
+
 int lab_candidate_begins(const lab_candidate *c)
 {
   const int n = c->u.rig.n_onsets;

@@ -69,6 +69,9 @@ int lab_candidate_by_bic(const void *x, const void *y);
 /* Whether something found is an error of a sensor. */
 int lab_found_is_of_sensor(const lab_found *found);
 
+/* Whether something was found that acts on the stem or its air: an error of a sensor makes no stem stick and slip. */
+int lab_candidate_has_cause(const lab_candidate *c);
+
 /* Whether something was found that begins. */
 int lab_candidate_begins(const lab_candidate *c);
 

@@ -77,13 +77,11 @@ static int comes_nearer(const lab_finding *exact, const lab_finding *tolerant)
          tolerant->result.verdict == LAB_VERDICT_UNDECIDED && exact->best.quality.bic < tolerant->best.quality.bic;
 }
 
-/* Whether effects beside values as declared are to be told, where there is an answer with deviations: one that names
- * less is the simpler one, and gives way only to odds; one that needs values far beyond their tolerances has odds
- * against it. */
-static int is_better(const lab_finding *exact, const lab_finding *tolerant)
+int lab_contest_is_better(const lab_finding *exact, const lab_finding *tolerant)
 {
   const lab_quality *of_exact = &exact->best.quality, *of_tolerant = &tolerant->best.quality;
-  const double odds = lab_is_strained(of_tolerant) && !lab_is_strained(of_exact) ? -lab_constant(LAB_ALIKE_BIC)
+  const int strains = lab_is_strained(of_tolerant) && !lab_is_strained(of_exact);
+  const double odds = strains && lab_candidate_has_cause(&exact->best) ? -lab_constant(LAB_ALIKE_BIC)
                       : tolerant->best.n_found < exact->best.n_found && lab_is_noise(of_tolerant)
                           ? lab_constant(LAB_ALIKE_BIC)
                           : 0;
@@ -236,7 +234,7 @@ static int search_within(const lab_search_options *options, contest *c, lab_find
   if (status == LAB_NUMERIC)
     c->is_exact = c->exact.result.n_path > 0 && c->exact.best.quality.fitted;
   else if (c->is_exact)
-    c->is_exact = status != LAB_OK || is_better(&c->exact, tolerant);
+    c->is_exact = status != LAB_OK || lab_contest_is_better(&c->exact, tolerant);
   else
     c->is_exact = status == LAB_OK && comes_nearer(&c->exact, tolerant);
   return status;

@@ -14,4 +14,9 @@
 int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_options *options, lab_finding *f,
                     lab_error *error);
 
+/* Whether effects beside values as declared are to be told, where there is an answer with deviations: one that names
+ * less is the simpler one, and gives way only to odds; one that needs values far beyond their tolerances has odds
+ * against it, but not beside a sensor that is itself beyond what sensors are. */
+int lab_contest_is_better(const lab_finding *exact, const lab_finding *tolerant);
+
 #endif

@@ -15,15 +15,6 @@
 #include "preview.h"
 #include "rivals.h"
 
-/* Whether something that acts on the stem or its air was found: an error of a sensor makes no stem stick and slip. */
-static int has_found_cause(const lab_candidate *c)
-{
-  int i, any = 0;
-  for (i = 0; i < c->n_found; i++)
-    any |= c->found[i].effect >= 0 && !lab_found_is_of_sensor(&c->found[i]);
-  return any;
-}
-
 /* Whether declared values within tolerances leave only noise, row by row: a valve that is worn or set otherwise is far
  * from its declared model, but need not stick and slip. */
 static int try_tolerances(const lab_unknowns *u, lab_candidate *within, int *enough, lab_error *error)
@@ -72,7 +63,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
     status = lab_rounds_run(coarse, NULL, NULL, options, error);
-    *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && has_found_cause(&coarse->best);
+    *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && lab_candidate_has_cause(&coarse->best);
   }
   if (*done) {
     status = see_row_by_row(coarse, error);

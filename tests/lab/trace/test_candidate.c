@@ -58,6 +58,7 @@ static void test_lab_candidate_drop__gain_of_a_sensor__is_held_again(void **stat
   x = &h.c.u.unknown[lab_unknowns_find(&h.c.u, pneu_param_find("position_gain.position_gain"))];
   assert_false(lab_unknown_is_held(x));
   assert_true(x->value < -1e-3);
+  assert_false(lab_candidate_has_cause(&h.c));
   lab_candidate_drop(&h.c, 0);
   assert_true(lab_unknown_is_held(x));
   assert_close(x->value, 0, 0, 0);
