@@ -184,6 +184,8 @@ static int was_there(const lab_sides *c, const extension *x, lab_error *all)
   if (both && !x->is_course && pneu_effect_of(x->param) >= 0 && lab_unknowns_find(&c->u, x->param) < 0) {
     *both = c->u;
     if (!lab_unknowns_add(both, x->param, x->u.unknown[lab_sides_find(&x->u, x->param)].value, &error) &&
+        (x->shape < 0 ||
+         !lab_unknowns_add(both, x->shape, x->u.unknown[lab_unknowns_find(&x->u, x->shape)].value, &error)) &&
         !lab_sides_settle(both, &chi2, &error))
       there = chi2 < x->chi2 + lab_constant(LAB_ALIKE_BIC);
   }

@@ -101,7 +101,13 @@ static int score_since(tried *t, const lab_trial *trial, size_t row, double *slo
   return tests;
 }
 
-/* Score every shape throughout the new log, if that is wanted, and the first from some rows of it on.
+static void set_shape(tried *t, lab_trial *trial, int shape, double value)
+{
+  trial->shape_value = value;
+  *pneu_param_at(&t->u.rig.params, shape) = (pneu_real)value;
+}
+
+/* Score every shape throughout the new log, if that is wanted, and the best, else the first, from some rows of it on.
  * In:      within  whether to do so
  * In/out:  parts   number of slopes that were judged there
  * Returns: that of those throughout */
@@ -119,10 +125,12 @@ static int score_shapes(tried *t, lab_trial *trial, int throughout, int within, 
   }
   for (k = 0; k < shapes; k++) {
     if (score->shape >= 0)
-      *pneu_param_at(&t->u.rig.params, score->shape) = (pneu_real)(trial->shape_value = lab_score_shape(score, k));
+      set_shape(t, trial, score->shape, lab_score_shape(score, k));
     if (throughout)
       tests += lab_score_try(t->p, trial, score, slope, all);
   }
+  if (score->shape >= 0)
+    set_shape(t, trial, score->shape, score->shape_value > 0 ? score->shape_value : lab_score_shape(score, 0));
   for (k = 1; k < LAB_ONSET_PLACES && within; k++)
     *parts += score_since(t, trial, t->u.run[t->u.n_runs - 1].n * (size_t)k / LAB_ONSET_PLACES, slope, score, all);
   free(slope);

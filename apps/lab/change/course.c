@@ -99,7 +99,7 @@ static double choose(const follower *f, option *best, lab_error *error)
   const int n_steps = f->u.n - f->first, n = n_steps * PLACES * 2 * LEVELS;
   size_t rows;
   double least = HUGE_VAL;
-  int i;
+  int i, at = n; /* of equal ones the first, whichever thread is faster */
   times_of(f, &rows);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
@@ -107,8 +107,9 @@ static double choose(const follower *f, option *best, lab_error *error)
                 rows * (size_t)(i / (2 * LEVELS) % PLACES) / PLACES, -f->supply * (i % LEVELS) / (LEVELS - 1)};
     const double chi2 = o.row > 0 || o.late ? chi2_with(f, &o, error) : HUGE_VAL;
 #pragma omp critical
-    if (chi2 < least) {
+    if (chi2 < least || (chi2 == least && i < at)) {
       least = chi2;
+      at = i;
       *best = o;
     }
   }

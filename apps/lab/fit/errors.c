@@ -6,7 +6,7 @@
 
 #include "drift.h"
 
-static void clear_errors(lab_errors *errors)
+void lab_errors_none(lab_errors *errors)
 {
   int c;
   memset(errors, 0, sizeof *errors);
@@ -49,7 +49,7 @@ static int sum_up(const lab_unknowns *u, int (*of)(const lab_unknowns *, double 
 {
   double *r = malloc((u->n_rows + u->m + 1) * sizeof *r);
   int c, status;
-  clear_errors(errors);
+  lab_errors_none(errors);
   if (!r)
     return lab_fail_memory(error, "residuals");
   status = of(u, r, error);
@@ -67,14 +67,4 @@ int lab_loop_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
 int lab_errors_without_drift(const lab_unknowns *u, lab_errors *errors, lab_error *error)
 {
   return sum_up(u, lab_drift_errors, errors, error);
-}
-
-static int as_fitted(const lab_unknowns *u, double *r, lab_error *error)
-{
-  return lab_unknowns_residuals((void *)u, NULL, r, error);
-}
-
-int lab_fitted_errors(const lab_unknowns *u, lab_errors *errors, lab_error *error)
-{
-  return sum_up(u, as_fitted, errors, error);
 }

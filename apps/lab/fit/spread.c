@@ -107,7 +107,7 @@ static void decompose(spectrum *s, size_t m)
 
 static void undetermined(lab_fit_result *result, const char *format, ...) LAB_PRINTF(2, 3);
 
-/* Put a sentence into result->remark; cut where it is full. */
+/* Put a clause into result->undetermined; cut where it is full. */
 static void undetermined(lab_fit_result *result, const char *format, ...)
 {
   size_t used = strlen(result->undetermined);

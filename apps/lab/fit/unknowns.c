@@ -61,32 +61,48 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
                                   : x->spread;
 }
 
-/* So many times the declared damping; infinite of all else, and where none is declared. */
-static double most_of(const lab_unknowns *u, int param, double times)
+/* So many tolerances about the declared value; no ends where there is none. */
+static void find_ends(const lab_unknowns *u, int param, double tolerances, double *lower, double *upper)
 {
-  const int damps = param == PNEU_PARAM_damping || param == PNEU_PARAM_viscous_friction;
-  const double declared = damps ? (double)*pneu_param_at((pneu_params *)&u->declared, param) : 0;
-  return declared > 0 ? times * declared : (double)INFINITY;
+  const int is_value = param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
+  lab_rig declared = u->rig;
+  double value, room;
+  declared.params = u->declared;
+  value = lab_param_value(&declared, param);
+  room = is_value ? tolerances * lab_tolerance(&declared, param) : 0;
+  *lower = room > 0 ? value - room : -(double)INFINITY;
+  *upper = room > 0 ? value + room : (double)INFINITY;
 }
 
-int lab_unknowns_is_overdamped(const lab_unknowns *u, double times)
+int lab_unknowns_is_far(const lab_unknowns *u, double tolerances)
 {
+  double lower, upper;
   int j, any = 0;
   for (j = 0; j < u->n; j++)
-    any |= u->unknown[j].kind == LAB_UNKNOWN_PARAM && !(u->unknown[j].value < most_of(u, u->unknown[j].index, times));
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM) {
+      find_ends(u, u->unknown[j].index, tolerances, &lower, &upper);
+      any |= u->unknown[j].value <= lower || u->unknown[j].value >= upper;
+    }
   return any;
 }
 
-void lab_unknowns_limit_damping(lab_unknowns *u, double times)
+/* The bounds of an unknown, by what its value may be at most. */
+static void limit(const lab_unknowns *u, lab_unknown *x)
+{
+  double lower, upper;
+  find_ends(u, x->index, u->most_off, &lower, &upper);
+  x->lower = fmax(x->lower, lower);
+  x->upper = fmin(x->upper, upper);
+  x->value = fmin(fmax(x->value, x->lower), x->upper);
+}
+
+void lab_unknowns_stay_near(lab_unknowns *u, double tolerances)
 {
   int j;
-  u->most_damping = times;
+  u->most_off = tolerances;
   for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM) {
-      lab_unknown *x = &u->unknown[j];
-      x->upper = fmin(x->upper, most_of(u, x->index, times));
-      x->value = fmin(x->value, x->upper);
-    }
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM)
+      limit(u, &u->unknown[j]);
   lab_unknowns_take(u);
 }
 
@@ -98,8 +114,8 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
     return no_room(error);
   x->spread = 0;
   describe_param(x, param);
-  if (u->most_damping > 0)
-    x->upper = fmin(x->upper, most_of(u, param, u->most_damping));
+  if (u->most_off > 0)
+    limit(u, x);
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
   if (param < PNEU_PARAM_BASE_COUNT && x->value != 0)
     x->scale = fabs(x->value);
@@ -253,8 +269,8 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
   const pneu_param_info info = lab_param_info(param);
   int j = lab_unknowns_find(u, param);
   if (j >= 0 && u->unknown[j].tolerance > 0) {
-    u->unknown[j].spread = u->unknown[j].tolerance;
-    u->unknown[j].value = u->unknown[j].prior;
+    u->unknown[j].spread = u->unknown[j].scale = u->unknown[j].tolerance;
+    u->unknown[j].value = u->unknown[j].first = u->unknown[j].prior;
     *pneu_param_at(&u->rig.params, param) = (pneu_real)u->unknown[j].prior;
     return;
   }

@@ -42,19 +42,19 @@ typedef struct lab_unknowns {
   pneu_params declared; /* as declared; orifice_area scales its areas */
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
-  double tol;          /* of the stepper; 0: as in response.h */
-  lab_pace *pace;      /* n_runs: what runs for slopes follow; NULL: they choose their own steps */
-  double *paced;       /* m: residuals where the slopes are taken, by these steps */
-  double misfit;       /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
-  double own_misfit;   /* the same for what each log has for itself */
-  double most_damping; /* times what is declared that a stem's damping may be; 0: any */
-  double until;        /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
-  size_t n_rows;       /* rows times channels, gaps among them */
-  size_t window;       /* rows of a window where the residuals are those of windowed.h; 0: row by row */
-  size_t n_values;     /* residuals of the data that are not of gaps */
-  size_t n_data, m;    /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
-                          unknown */
-  double *slopes;      /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
+  double tol;        /* of the stepper; 0: as in response.h */
+  lab_pace *pace;    /* n_runs: what runs for slopes follow; NULL: they choose their own steps */
+  double *paced;     /* m: residuals where the slopes are taken, by these steps */
+  double misfit;     /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
+  double own_misfit; /* the same for what each log has for itself */
+  double most_off;   /* tolerances that a fit may take a value off its sheet; 0: any */
+  double until;      /* [s] of CPU time, after which a fit ends where it is; 0: there is no end */
+  size_t n_rows;     /* rows times channels, gaps among them */
+  size_t window;     /* rows of a window where the residuals are those of windowed.h; 0: row by row */
+  size_t n_values;   /* residuals of the data that are not of gaps */
+  size_t n_data, m;  /* residuals of the data; all residuals: those, one for each value of `nuisance`, and for each
+                        unknown */
+  double *slopes;    /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
   char has_slope[LAB_FIT_MAX];         /* whether that of an unknown is there already, nearly */
   const struct lab_nuisance *nuisance; /* declared values that may vary unseen; NULL: none (nuisance.h) */
 } lab_unknowns;
@@ -158,12 +158,13 @@ int lab_unknowns_find_onset(const lab_unknowns *u, int param);
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);
 
-/* Whether a damping is so many times what is declared, or more. Little is known of a stem's damping, but as much as ten
- * times that is a lag, or a stem that sticks. */
-int lab_unknowns_is_overdamped(const lab_unknowns *u, double times);
+/* Whether a value of the rig is so many tolerances off its declared one, or more. What is fitted may be off by much,
+ * but one that runs away stands in for what is missing: a damping of 20 times its sheet for a lag or a stem that
+ * sticks. */
+int lab_unknowns_is_far(const lab_unknowns *u, double tolerances);
 
-/* Let none be more than that from now on, in what is added as well. */
-void lab_unknowns_limit_damping(lab_unknowns *u, double times);
+/* Let none be further off from now on, what is added neither. */
+void lab_unknowns_stay_near(lab_unknowns *u, double tolerances);
 
 /* Drop a parameter and set it to its neutral value; one that was held is held again. */
 void lab_unknowns_drop(lab_unknowns *u, int param);

@@ -81,9 +81,13 @@ static int judge_each(lab_answer *a, const lab_rig *before, const lab_rig *after
 {
   lab_logs *held = &a->held;
   int i, first = 0;
-  for (i = 0; i < a->now.result.n_path; i++)
-    if (lab_judge(&a->now.result.path[i].rig, held->run, held->n, &a->report.holdout_path[i], error))
-      return error->status;
+  for (i = 0; i < a->now.result.n_path; i++) {
+    const int status = lab_judge(&a->now.result.path[i].rig, held->run, held->n, &a->report.holdout_path[i], error);
+    if (status == LAB_NUMERIC)
+      lab_errors_none(&a->report.holdout_path[i]);
+    else if (status != LAB_OK)
+      return status;
+  }
   for (i = 0; i < held->n_logs; i++) {
     lab_holdout_log *log = &a->report.held[i];
     int n = 0;
@@ -328,32 +332,33 @@ static int search_with_noise(const lab_search_options *how, lab_completion *c, l
   return lab_search_run(&c->completed, how, &c->result, error);
 }
 
-/* Whether a search with less damping says as much as the first: it explains the logs as well, seen as finely, or it is
- * the better one where the first does not, and its damping is not at its end. */
+/* Whether a search near the sheet says as much as the first: it explains the logs as well, seen as finely, or it is the
+ * better one where the first does not, and none of its values is at its end. */
 static int says_as_much(const lab_completion *c, const lab_completion *first)
 {
-  const lab_search_result *less = &c->result, *any = &first->result;
-  if (lab_unknowns_is_overdamped(&c->completed, c->declared.most_damping))
+  const lab_search_result *near = &c->result, *any = &first->result;
+  if (lab_unknowns_is_far(&c->completed, c->declared.most_off))
     return 0;
   if (!lab_search_explains(any))
-    return lab_search_is_better(less, any);
-  return lab_search_explains(less) && less->window == any->window && less->n_path > 0 && any->n_path > 0 &&
-         less->path[less->n_path - 1].bic < any->path[any->n_path - 1].bic + lab_constant(LAB_ALIKE_BIC);
+    return lab_search_is_better(near, any);
+  return lab_search_explains(near) && near->window == any->window && near->n_path > 0 && any->n_path > 0 &&
+         near->path[near->n_path - 1].bic < any->path[any->n_path - 1].bic + lab_constant(LAB_ALIKE_BIC);
 }
 
-/* Search; where a stem is damped far more than declared, once more with less, for half of the time that is left. */
-static int search_less_damped(const lab_search_options *how, lab_completion *c, lab_error *error)
+/* Search; where a value ends far from its sheet, once more with all of them near it, for half of the time that is left.
+ */
+static int search_near_sheet(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
-  const double times = lab_constant(LAB_MUCH_DAMPING), until = c->declared.until;
+  const double tolerances = lab_constant(LAB_FAR_OFF), until = c->declared.until;
   lab_completion *first;
   int cut_short, status = search_with_noise(how, c, error);
-  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_overdamped(&c->completed, times))
+  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_far(&c->completed, tolerances))
     return status;
   first = malloc(sizeof *first);
   if (!first)
-    return lab_fail_memory(error, "a search with less damping");
+    return lab_fail_memory(error, "a search near the sheet");
   *first = *c;
-  lab_unknowns_limit_damping(&c->declared, times);
+  lab_unknowns_stay_near(&c->declared, tolerances);
   c->declared.until = until > 0 ? (lab_cpu_time() + until) / 2 : 0;
   status = lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error);
   c->completed = c->declared;
@@ -380,9 +385,9 @@ static int search_apart(const lab_search_options *how, lab_completion *c, lab_er
     c->declared.until = now + (end - now) / 2;
   c->completed = c->declared;
   if (status == LAB_OK)
-    status = search_less_damped(how, c, error);
-  if (status == LAB_OK && c->declared.most_damping > 0)
-    lab_unknowns_limit_damping(&apart->declared, c->declared.most_damping);
+    status = search_near_sheet(how, c, error);
+  if (status == LAB_OK && c->declared.most_off > 0)
+    lab_unknowns_stay_near(&apart->declared, c->declared.most_off);
   if (status == LAB_OK)
     status = lab_search_without_outliers(how, &c->logs, &c->declared, &c->completed, &c->result, error);
   c->declared.until = c->completed.until = end;

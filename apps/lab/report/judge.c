@@ -40,12 +40,12 @@ static void weigh(const lab_run *run, int n, const double *kept, enum part part)
 {
   size_t i;
   int e, c;
-  for (e = 0; e < n; e++)
+  for (e = 0; e < n; e++) {
+    const size_t start = rows_at_start(&run[e]);
     for (c = 0; c < run[e].n_channels; c++, kept += run[e].n)
-      for (i = 0; i < run[e].n; i++) {
-        const enum part of = i < rows_at_start(&run[e]) ? START : REST;
-        run[e].weight[(size_t)c * run[e].n + i] = part == WHOLE || part == of ? kept[i] : 0;
-      }
+      for (i = 0; i < run[e].n; i++)
+        run[e].weight[(size_t)c * run[e].n + i] = part == WHOLE || part == (i < start ? START : REST) ? kept[i] : 0;
+  }
 }
 
 static void keep_weights(const lab_run *run, int n, double *kept)

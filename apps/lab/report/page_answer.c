@@ -480,7 +480,7 @@ static void put_rough(const lab_sources *t, cJSON *list)
 static void put_invisible(const lab_scores *scores, cJSON *list)
 {
   unsigned char tried[PNEU_EFFECT_COUNT + 1] = {0}, visible[PNEU_EFFECT_COUNT + 1] = {0};
-  char names[512] = "";
+  char names[PNEU_EFFECT_COUNT * 32 + 1] = "";
   int i;
   for (i = 0; i < scores->n; i++) {
     tried[scores->of[i].effect] = 1;

@@ -184,21 +184,36 @@ cJSON *lab_page_put_size(const lab_sources *t, int param, cJSON *list)
   return item;
 }
 
+/* The same unknown as it was before anything was added: of the same log, or else what all logs shared.
+ * Returns: NULL: it was none */
+static const lab_unknown *before_of(const lab_unknowns *before, const lab_unknown *x)
+{
+  const lab_unknown *shared = NULL;
+  int i;
+  for (i = 0; i < before->n; i++) {
+    const lab_unknown *y = &before->unknown[i];
+    if (y->kind != x->kind || y->index != x->index || y->term != x->term)
+      continue;
+    if (y->run == x->run)
+      return y;
+    shared = y->run == LAB_ALL_RUNS ? y : shared;
+  }
+  return shared;
+}
+
 static void put_parameter(const lab_sources *t, int j, cJSON *list)
 {
-  const lab_unknowns *before = t->report->declared; /* as they were before anything was added */
   const lab_unknown *x = &t->report->completed->unknown[j];
   const lab_format shown = lab_format_as(x->unit);
   pneu_params declared = t->report->rig->params;
   pneu_param_info info = {0};
+  const lab_unknown *before = before_of(t->report->declared, x);
   cJSON *item = lab_json_append(list);
-  int i;
   lab_json_put(item, "name", "%s", x->name);
   lab_json_put(item, "unit", "%s", *shown.unit ? shown.unit : "1");
   put_number(item, "value", shown.scale * x->value, digits_of(t, j));
-  for (i = 0; i < before->n; i++)
-    if (before->unknown[i].kind == x->kind && before->unknown[i].index == x->index)
-      put_number(item, "before", shown.scale * before->unknown[i].value, digits_of(t, j));
+  if (before)
+    put_number(item, "before", shown.scale * before->value, digits_of(t, j));
   put_interval(t, j, item);
   if (x->kind != LAB_UNKNOWN_PARAM)
     return;

@@ -105,9 +105,6 @@ double lab_report_chance(const lab_report *report, const lab_found *found);
  * it; NaN where there was none, or none row by row. */
 double lab_report_refit_explains(const lab_search_result *result, const lab_score *score);
 
-/* The first line: what deviates from the declared values, and what is missing, in the words of a person, with the names
- * of effects in brackets; the second: what that does to the error, "" where the log cannot carry an answer; and both.
- */
 /* Whether a deviation is told in the headline: it is beyond its tolerance, or began within the log; and how many are.
  */
 int lab_report_is_told(const lab_report *report, const lab_deviation *d);

@@ -493,8 +493,8 @@ void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 
 /* The next clause of the remark of a fit that is of use to a reader: not one on instants of the command, which have no
  * name.
- * In/out:  remark  moves on
- * Out:     clause  where it begins
+ * In/out:  limitation  moves on
+ * Out:     clause      where it begins
  * Returns: its length, 0 at the end */
 static int next_clause(const char **limitation, const char **clause)
 {

@@ -108,7 +108,8 @@ static void follow_on(const lab_apart *apart, const lab_search_result *shared, l
   own->n_own = apart->n;
   memcpy(own->own, apart->param, sizeof own->own);
   memcpy(own->left[LAB_STAGE_BEFORE], shared->left[LAB_STAGE_BEFORE], sizeof own->left[LAB_STAGE_BEFORE]);
-  own->n_path -= own->n_path == LAB_SEARCH_PATH;
+  if (own->n_path == LAB_SEARCH_PATH) /* the last is the one that the search ends with */
+    own->path[LAB_SEARCH_PATH - 2] = own->path[--own->n_path];
   memmove(own->path + 1, own->path, (size_t)own->n_path++ * sizeof *own->path);
   own->path[0] = shared->path[0];
   snprintf(own->path[1].name, sizeof own->path[1].name, "values of each log");

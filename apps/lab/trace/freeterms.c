@@ -30,7 +30,7 @@ static const place places[] = {
 static const place cyclic[] = {{PNEU_TERM_SUPPLY, PNEU_TERM_OVER_CYCLE, 2}, {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2}};
 enum { PLACES = sizeof places / sizeof *places, CYCLIC = sizeof cyclic / sizeof *cyclic };
 
-/* Largest pressure, and 98 % of the speeds, that the logs show. */
+/* Largest pressure and speed that the logs show. */
 static void ranges(const lab_unknowns *u, double *pressure, double *speed)
 {
   const double stroke = (double)u->rig.params.stroke;

@@ -33,7 +33,7 @@ double lab_free_term_p_value(const pneu_term *term, double statistic, int degree
 
 /* Peaks of the periodograms of all channels, each over all logs; the highest over its surroundings first. Phases of the
  * logs do not count.
- * In:      r       errors over noise, as from lab_unknowns_errors
+ * In:      r       errors over noise, run by run and channel by channel; residuals as they are fitted
  * Out:     period  [s] LAB_PERIODS_MAX at most
  *          n       their number
  * Returns: LAB_OK, LAB_WORLD. */

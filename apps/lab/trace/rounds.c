@@ -27,9 +27,9 @@ void lab_rounds_note_way(lab_search_result *result, const lab_candidate *c)
 {
   lab_error ignored;
   lab_unknowns u = c->u;
-  lab_path_model *way = result->n_path < LAB_SEARCH_PATH ? &result->path[result->n_path++] : NULL;
-  if (!way)
-    return;
+  lab_path_model *way;
+  result->n_path -= result->n_path == LAB_SEARCH_PATH; /* the last is the one that the search ends with */
+  way = &result->path[result->n_path++];
   lab_candidate_name(c, way->name, sizeof way->name);
   way->chi2 = c->quality.chi2;
   way->bic = c->quality.bic;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "../base/array.h"
 #include "../base/clock.h"
 #include "../rig/tolerance.h"
 
@@ -86,8 +87,7 @@ static void list_scored(lab_search_result *r, const lab_scores *scores, double l
   const double alike = scores->of[0].statistic - lab_constant(LAB_ALIKE_BIC);
   int i;
   for (i = 0; i < scores->n && scores->of[i].p_value < level && scores->of[i].statistic > alike; i++)
-    if (r->n_listed < LAB_SCORES_MAX)
-      r->listed[r->n_listed++] = scores->of[i].effect;
+    lab_search_list_small(r, scores->of[i].effect);
 }
 
 /* Extend a candidate by every effect that its residual speaks for; the extensions join the pool. */
@@ -139,20 +139,35 @@ int lab_rounds_extend(lab_rounds *s, const lab_candidate *base, lab_error *error
   return status;
 }
 
-/* The share by which the best extension lowers the error of some channel, what varies unseen taken out of it; where the
- * log is seen coarsely, of all channels together. */
+/* Sums of squares of the residuals of each channel as they are fitted: whitened, and without what held values may
+ * explain.  Returns: as lab_unknowns_residuals */
+static int sum_channels(const lab_unknowns *u, double sum[LAB_CHANNEL_COUNT], lab_error *error)
+{
+  double *all = malloc((u->m + 1) * sizeof *all), *r = all;
+  int e, c, status = all ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    sum[c] = 0;
+  for (e = 0; status == LAB_OK && e < u->n_runs; e++)
+    for (c = 0; c < u->run[e].n_channels; c++, r += u->run[e].n)
+      sum[u->run[e].channel[c]] += lab_dot(r, r, u->run[e].n);
+  free(all);
+  return status;
+}
+
+/* The share by which the best extension lowers the error of some channel; where the log is seen coarsely, of all
+ * channels together. */
 static int gain_of(const lab_candidate *a, const lab_candidate *b, double *gain, lab_error *error)
 {
-  lab_errors before, after;
+  double before[LAB_CHANNEL_COUNT], after[LAB_CHANNEL_COUNT];
   int c;
   *gain = 1 - sqrt(b->quality.chi2 / a->quality.chi2);
   if (a->u.window > 0)
     return LAB_OK;
-  if (lab_fitted_errors(&a->u, &before, error) || lab_fitted_errors(&b->u, &after, error))
+  if (sum_channels(&a->u, before, error) || sum_channels(&b->u, after, error))
     return error->status;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    if (before.rmse[c] > 0)
-      *gain = fmax(*gain, 1 - after.rmse[c] / before.rmse[c]);
+    if (before[c] > 0)
+      *gain = fmax(*gain, 1 - sqrt(after[c] / before[c]));
   return LAB_OK;
 }
 
@@ -190,9 +205,9 @@ static void list_small(lab_rounds *s)
   lab_search_result *r = s->result;
   const lab_found *found = &s->pool[0].found[s->pool[0].n_found - 1];
   int i;
-  r->listed[r->n_listed++] = found->effect;
-  for (i = 0; i < found->n_alike && r->n_listed < LAB_SCORES_MAX; i++)
-    r->listed[r->n_listed++] = found->alike[i];
+  lab_search_list_small(r, found->effect);
+  for (i = 0; i < found->n_alike; i++)
+    lab_search_list_small(r, found->alike[i]);
 }
 
 int lab_rounds_add_effect(lab_rounds *s, lab_error *error)
@@ -237,7 +252,8 @@ int lab_rounds_advance(lab_rounds *s, lab_error *error)
   s->added = s->n_pool = s->has_begun = 0;
   s->unfolding.best.quality.fitted = 0;
   for (i = 0; status == LAB_OK && i < s->n_beam; i++)
-    if (i == 0 || (!s->has_begun && !is_settled(s) && s->beam[i].quality.chi2 < reach))
+    if (i == 0 || (!s->has_begun && !is_settled(s) && s->beam[i].quality.chi2 < reach &&
+                   s->beam[i].n_found < s->options->max_effects))
       status = lab_rounds_extend(s, &s->beam[i], error);
   s->added = s->has_begun;
   if (status != LAB_OK || s->has_begun || s->over)

@@ -91,6 +91,15 @@ void lab_search_options_default(lab_search_options *options)
   options->may_begin = 1;
 }
 
+void lab_search_list_small(lab_search_result *result, int effect)
+{
+  int i = 0;
+  while (i < result->n_listed && result->listed[i] != effect)
+    i++;
+  if (i == result->n_listed && i < LAB_SCORES_MAX)
+    result->listed[result->n_listed++] = effect;
+}
+
 int lab_search_explains(const lab_search_result *result)
 {
   return result->verdict == LAB_VERDICT_NONE || result->verdict == LAB_VERDICT_EFFECT;
@@ -181,8 +190,7 @@ static int take_out_accident(lab_finding *f, int *any, lab_error *error)
     }
   *any = out >= 0;
   if (*any) {
-    if (f->result.n_listed < LAB_SCORES_MAX)
-      f->result.listed[f->result.n_listed++] = f->best.found[out].effect;
+    lab_search_list_small(&f->result, f->best.found[out].effect);
     f->best = *without;
     f->result.verdict = f->best.n_found > 0 ? f->result.verdict : LAB_VERDICT_NONE;
     lab_rounds_note_way(&f->result, &f->best);

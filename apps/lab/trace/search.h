@@ -90,6 +90,9 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
  * Returns: LAB_OK, LAB_NUMERIC, LAB_WORLD. */
 int lab_search_measure(const lab_unknowns *u, enum lab_stage stage, lab_search_result *result, lab_error *error);
 
+/* List an effect as significant but too small, once. */
+void lab_search_list_small(lab_search_result *result, int effect);
+
 /* Whether a search explains the logs: by declared values alone, or by effects that have a name. */
 int lab_search_explains(const lab_search_result *result);
 

@@ -211,8 +211,9 @@ static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(vo
   close_all();
 }
 
-/* Ten times as declared is the most, also of what is added later; of what is declared as none there is no such end. */
-static void test_lab_unknowns_limit_damping__far_more_than_declared__is_ten_times(void **state)
+/* Ten tolerances of 50 % are the most, also of what is added later; of what is declared as none there is no such end.
+ */
+static void test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off(void **state)
 {
   const double upper = (double)lab_param_info(PNEU_PARAM_damping).upper;
   double declared;
@@ -222,22 +223,38 @@ static void test_lab_unknowns_limit_damping__far_more_than_declared__is_ten_time
   assert_true(declared > 0);
   fit_list("damping", 0);
   open_empty();
-  u.unknown[0].value = 9.9 * declared;
-  assert_int_equal(lab_unknowns_is_overdamped(&u, 10), 0);
+  u.unknown[0].value = 5.9 * declared;
+  assert_int_equal(lab_unknowns_is_far(&u, 10), 0);
   u.unknown[0].value = 26 * declared;
-  assert_int_equal(lab_unknowns_is_overdamped(&u, 10), 1);
-  lab_unknowns_limit_damping(&u, 10);
-  assert_close(u.unknown[0].value, 10 * declared, 0, 1e-6);
-  assert_close((double)u.rig.params.damping, 10 * declared, 0, 1e-6);
-  assert_int_equal(lab_unknowns_is_overdamped(&u, 10), 1); /* at its end, as good as beyond */
-  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_dry_friction, 1, &error), LAB_OK);
-  assert_close(u.unknown[u.n - 1].upper, (double)lab_param_info(PNEU_PARAM_dry_friction).upper, 0, 0);
-  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_viscous_friction, 1, &error), LAB_OK);
-  assert_close(u.unknown[u.n - 1].upper, 10 * (double)rig.params.viscous_friction, 0, 1e-12);
+  assert_int_equal(lab_unknowns_is_far(&u, 10), 1);
+  lab_unknowns_stay_near(&u, 10);
+  assert_close(u.unknown[0].value, 6 * declared, 0, 1e-6);
+  assert_close((double)u.rig.params.damping, 6 * declared, 0, 1e-6);
+  assert_int_equal(lab_unknowns_is_far(&u, 10), 1); /* at its end, as good as beyond */
+  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_spring_rate, 1, &error), LAB_OK);
+  assert_close(u.unknown[u.n - 1].upper, 2 * (double)rig.params.spring_rate, 0, 1e-12);
+  assert_int_equal(lab_unknowns_add(&u, LAB_PARAM_ORIFICE_AREA, 4, &error), LAB_OK);
+  assert_close(u.unknown[u.n - 1].value, 3, 0, 1e-12);
   rig.params.damping = 0;
   open_empty();
-  lab_unknowns_limit_damping(&u, 10);
+  lab_unknowns_stay_near(&u, 10);
   assert_close(u.unknown[0].upper, upper, 0, 0);
+  close_all();
+}
+
+/* A value that runs away towards nothing is as far off. */
+static void test_lab_unknowns_is_far__a_tenth_of_an_area__is_far(void **state)
+{
+  (void)state;
+  declare();
+  fit_list("area", 0);
+  open_empty();
+  u.unknown[0].value = 0.81 * (double)rig.params.area;
+  assert_int_equal(lab_unknowns_is_far(&u, 10), 0);
+  u.unknown[0].value = 0.1 * (double)rig.params.area;
+  assert_int_equal(lab_unknowns_is_far(&u, 10), 1);
+  lab_unknowns_stay_near(&u, 10);
+  assert_close(u.unknown[0].value, 0.8 * (double)rig.params.area, 0, 1e-12);
   close_all();
 }
 
@@ -1293,7 +1310,8 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
       cmocka_unit_test(test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run),
       cmocka_unit_test(test_lab_unknowns_expected__own_values__are_their_mean_and_spread),
-      cmocka_unit_test(test_lab_unknowns_limit_damping__far_more_than_declared__is_ten_times),
+      cmocka_unit_test(test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off),
+      cmocka_unit_test(test_lab_unknowns_is_far__a_tenth_of_an_area__is_far),
       cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
       cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
       cmocka_unit_test(test_lab_unknowns_hold__damping_and_viscous_friction__are_one),
