@@ -155,11 +155,28 @@ static double balanced_pressure(const pneu_model *model, const pneu_input *input
   return balance(model, x, input);
 }
 
-/* Pressure at a start that shows none: what the stem says; without a stem, the supply while the transducer fills. */
+/* Pressure at rest at a set position: what holds the stem there; none or the supply beyond the positioner's cut-offs.
+ */
+static double pressure_at_set(const pneu_model *model, const pneu_input *input)
+{
+  const double x = fmin(fmax((double)input->u, 0), 1) * (double)model->p.stroke;
+  const double p = fmin(fmax(balance(model, x, input), 0), (double)input->supply_pressure);
+  pneu_state state;
+  pneu_output out;
+  if (pneu_state_rest(model, (pneu_real)p, model->p.ambient_temperature, (pneu_real)x, input, &state) != PNEU_OK ||
+      pneu_observe(model, &state, input, &out) != PNEU_OK || !(out.opening != 0))
+    return p;
+  return out.opening < 0 ? 0 : (double)input->supply_pressure;
+}
+
+/* Pressure at a start that shows none: what the stem says; without a stem, the set position of one that is positioned,
+ * else the supply while the transducer fills. */
 static double unseen_pressure(const pneu_model *model, const pneu_input *input, double x)
 {
   if (!isnan(x))
     return balanced_pressure(model, input, x);
+  if (input->set_position && !(model->p.proportional_band > 0))
+    return pressure_at_set(model, input);
   return input->u > 0 ? (double)input->supply_pressure : 0;
 }
 

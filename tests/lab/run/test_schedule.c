@@ -12,6 +12,7 @@ static lab_error error;
 static lab_rig rig;
 static pneu_model model;
 static double load; /* [N] force on the stem at a start */
+static int is_set;  /* whether the command is a set position then */
 
 /* The default rig, R1-400: spring 400 kN/m compressed 10 mm, area 400 cm^2, dry friction 480 N. */
 static int fresh_rig(void **state)
@@ -19,6 +20,7 @@ static int fresh_rig(void **state)
   (void)state;
   lab_rig_default(&rig);
   load = 0;
+  is_set = 0;
   return lab_rig_model(&rig, &model, &error);
 }
 
@@ -303,6 +305,7 @@ static pneu_state start_of(const char *text, double u)
   pneu_input_default(&model, &input);
   input.u = (pneu_real)u;
   input.force = (pneu_real)load;
+  input.set_position = is_set;
   if (lab_run_initial_state(&model, &input, &log, 0, &start, &error))
     fail_msg("%s", error.text);
   lab_log_free(&log);
@@ -387,6 +390,24 @@ static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_close(start_of("t [s],u [1],p [kPa]\n0,1,\n1,-1,350\n", 1).p, 4e5, 0, 0);
   assert_close(start_of("t [s],u [1],p [kPa]\n0,0,\n1,1,150\n", 0).p, 0, 0, 0);
+}
+
+/* A log of the set position alone: at rest there, or fully vented or filled beyond a cut-off. */
+static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests(void **state)
+{
+  const char *text = "t [s],sp [%]\n0,0\n1,50\n";
+  const int gain = pneu_param_find("positioner.gain"), low = pneu_param_find("positioner.cutoff_low");
+  (void)state;
+  if (gain < 0)
+    skip();
+  *pneu_param_at(&rig.params, gain) = 20;
+  *pneu_param_at(&rig.params, low) = (pneu_real)0.01;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  is_set = 1;
+  assert_close(start_of(text, 0.3).x, 0.3 * (double)rig.params.stroke, 1e-9, 0);
+  assert_close(start_of(text, 0.3).p, 4e5 * (0.01 + 0.006) / 0.04, 1e-3, 0);
+  assert_true(start_of(text, 0.005).p == 0 && start_of(text, 0.005).x == 0);
+  assert_true(start_of(text, 0).p == 0 && start_of(text, 0).x == 0);
 }
 
 /* A sensor that swings by 2 kPa every 10 s: the log begins at its highest, a quarter of a cycle after a zero of time.
@@ -625,6 +646,7 @@ int main(void)
       CASE(test_lab_run_initial_state__curve_with_halves_alike__is_no_level),
       CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position),
       CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills),
+      CASE(test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests),
       CASE(test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log),
       CASE(test_lab_run_initial_state__down_and_near_ambient__is_vented),
       CASE(test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it),
