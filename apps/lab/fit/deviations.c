@@ -47,12 +47,28 @@ static double declared_of(const lab_unknowns *u, const lab_unknown *x)
   return param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at((pneu_params *)&u->declared, param);
 }
 
+/* Whether unknown j is a lag of the only sensor, of half a row at most: a logger that writes each change of the command
+ * with the row at which it is made looks like that beside one whose commands change anywhere between two rows. */
+static int is_of_the_logger(const lab_unknowns *u, int j)
+{
+  const lab_unknown *x = &u->unknown[j];
+  double row = 0;
+  int i;
+  if (x->kind != LAB_UNKNOWN_PARAM || !lab_param_is_of_sensor(x->index) || strcmp(x->unit, "s") != 0 ||
+      u->n_runs == 0 || u->run->n_channels > 1)
+    return 0;
+  for (i = 0; i < u->n; i++)
+    if (u->unknown[i].kind == LAB_UNKNOWN_INSTANT && u->unknown[i].index != LAB_ALL_INSTANTS)
+      row = fmax(row, u->unknown[i].upper - u->unknown[i].lower);
+  return fabs(x->value) < row / 2;
+}
+
 /* The p-value of unknown j being as declared, by the side of its interval that the declared value is on. */
 static double chance(const lab_unknowns *u, const lab_fit_result *fit, int j)
 {
   const lab_unknown *x = &u->unknown[j];
   const double off = x->value - declared_of(u, x), half = off > 0 ? x->value - fit->low[j] : fit->high[j] - x->value;
-  if (fit->state[j] == LAB_STATE_UNDETERMINED || !(off != 0))
+  if (fit->state[j] == LAB_STATE_UNDETERMINED || !(off != 0) || is_of_the_logger(u, j))
     return 1;
   return lab_chi2_tail(off * off / (half * half) * lab_chi2_threshold(one_in_twenty), 1);
 }

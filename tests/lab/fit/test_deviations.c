@@ -50,6 +50,38 @@ static void test_lab_deviations_find__begins_within_the_log__is_told_first(void 
   assert_int_equal(all.condition, LAB_CONDITION_DEVIATES);
 }
 
+/* Rows of 30 ms, whose changes of the command are somewhere between two of them. */
+static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void **state)
+{
+  static const double lag_of[] = {0.0149, 0.0151};
+  const int lag = pneu_param_find("pressure_lag.pressure_time");
+  int k, channels;
+  (void)state;
+  if (lag < 0)
+    skip();
+  for (k = 0; k < 4; k++) {
+    static lab_unknowns u;
+    static lab_fit_result fit;
+    static lab_deviations all;
+    static lab_rig rig;
+    lab_run run = {0};
+    channels = run.n_channels = 1 + k / 2;
+    lab_rig_default(&rig);
+    rig.fit[rig.n_fit++] = lag;
+    u.n = 0;
+    u.rig = rig;
+    u.declared = rig.params;
+    u.run = &run;
+    u.n_runs = 1;
+    put(&u, &fit, LAB_UNKNOWN_PARAM, lag, lag_of[k % 2], 0);
+    snprintf(u.unknown[0].unit, sizeof u.unknown[0].unit, "s");
+    put(&u, &fit, LAB_UNKNOWN_INSTANT, 0, 0, 0);
+    u.unknown[1].upper = 0.03;
+    assert_int_equal(lab_deviations_find(&rig, &u, &fit, &all, &error), LAB_OK);
+    assert_int_equal(all.n, channels > 1 || k % 2);
+  }
+}
+
 /* A value so many deviations off what is declared. */
 static void put_off(lab_rig *rig, lab_unknowns *u, lab_fit_result *fit, int param, double deviations)
 {
@@ -90,6 +122,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_deviations_find__begins_within_the_log__is_told_first),
+      cmocka_unit_test(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger),
       cmocka_unit_test(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
