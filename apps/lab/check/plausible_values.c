@@ -166,19 +166,22 @@ static double scale_of(const lab_log_view *s, int c)
 
 int lab_check_dead(const lab_log_view *s, lab_check_result *f)
 {
+  static const double hardly = 0.01; /* of the stroke or the supply: what is rounded coarsely still changes */
   int c;
   for (c = LAB_CHANNEL_P; c <= LAB_CHANNEL_X; c++) {
     const double ought = lab_log_view_predicts(s, c) ? ought_to_move(s, c) : 0;
-    if (!(ought > 0.25 * scale_of(s, c)) || ought < 30 * s->sigma[c] || moves(s, c))
+    if (!(ought > 0.25 * scale_of(s, c)) || ought < 30 * s->sigma[c] ||
+        lab_log_view_span(s, c) > fmax(within_noise(s, c), hardly * scale_of(s, c)))
       continue;
     if (isnan(lab_log_view_span(s, c)))
       return lab_check_fail(f, LAB_NO_ROW, "channel %s has no values: name its column \"-\" to leave it out",
                             lab_channels[c].key);
     return lab_check_fail(
         f, LAB_NO_ROW,
-        "channel %s stays constant within %s, expected it to move by about %s: is the sensor dead, the "
-        "supply shut, the stem blocked, or is it the wrong log? Name a column \"-\" to leave it out%s",
+        "channel %s stays constant within %s, expected it to move by about %s: is %s, the supply shut, the sensor "
+        "dead, or is it the wrong log? Name a column \"-\" to leave it out%s",
         lab_channels[c].key, lab_check_show(f, c, lab_log_view_span(s, c)), lab_check_show(f, c, ought),
+        c == LAB_CHANNEL_X ? "the stem stuck" : "the transducer shut",
         lab_unit_slip(c, ought / lab_log_view_span(s, c)));
   }
   return 0;

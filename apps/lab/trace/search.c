@@ -44,8 +44,19 @@ static int see_row_by_row(lab_finding *coarse, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
+/* Whether friction that falls with speed was found, by which stems stick and slip. Anything else may leave only noise
+ * in a coarse view because that sees little, and has to explain the log row by row. */
+static int is_of_slips(const lab_candidate *c)
+{
+  const int falls = pneu_effect_find("stribeck_friction");
+  int i, any = 0;
+  for (i = 0; i < c->n_found; i++)
+    any |= c->found[i].effect >= 0 && c->found[i].effect == falls;
+  return any;
+}
+
 /* The search seen coarsely, if the log is rough.
- * Out:     done  1 if it found a cause and left only noise; else
+ * Out:     done  1 if it found why stems slip and left only noise; else
  *          f     is as it was */
 static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                            lab_error *error)
@@ -63,7 +74,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
     status = lab_rounds_run(coarse, NULL, NULL, options, error);
-    *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && lab_candidate_has_cause(&coarse->best);
+    *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && is_of_slips(&coarse->best);
   }
   if (*done) {
     status = see_row_by_row(coarse, error);

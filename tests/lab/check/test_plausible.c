@@ -433,6 +433,20 @@ static void test_lab_plausible__stem_that_rises_without_supply__is_refused(void 
 }
 
 /* A decay of pressure below the bench set: the stem rests in the log as in the model. */
+/* A recorder of 0.1 mm, whose last digit turns: what hardly moves is stuck. */
+static void test_lab_plausible__stem_that_hardly_moves__is_stuck(void **state)
+{
+  bad_log b = sound;
+  size_t i;
+  (void)state;
+  for (i = 0; i < b.n; i++)
+    b.x[i] = i % 7 ? 8e-3 : 8.1e-3;
+  read_log(&b);
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, "channel x stays constant within");
+  assert_contains(error.text, "is the stem stuck");
+}
+
 static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(void **state)
 {
   bad_log b = sound;
@@ -738,6 +752,7 @@ int main(void)
       TEST(test_lab_is_at_rest__supply_that_does_not_count__is_quiet),
       TEST(test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less),
       TEST(test_lab_plausible__stem_that_rises_without_supply__is_refused),
+      TEST(test_lab_plausible__stem_that_hardly_moves__is_stuck),
       TEST(test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark),
       TEST(test_lab_log_clean__pressure_input_that_saturates__is_refused),
       TEST(test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt),
