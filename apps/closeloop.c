@@ -16,8 +16,8 @@
 #include "lab/base/progress.h"
 #include "lab/base/text.h"
 
-static const char *holdout, *baseline, *out, *list, *init;
-static lab_texts sheet;
+static const char *out, *list, *init;
+static lab_texts holdout, baseline, sheet;
 static double alpha, min_gain;
 static int budget, figures, no_figures, reports, allow_include;
 
@@ -26,9 +26,9 @@ static const int usual_memory = 4096;      /* [MB] for a line of a batch */
 static const int patience = 10;            /* budgets after which even what follows the search is given up */
 
 static const lab_option options[] = {
-    {"holdout", LAB_OPTION_TEXT, &holdout, "LOG.csv[,LOG2.csv]",
+    {"holdout", LAB_OPTION_TEXTS, &holdout, "LOG.csv[,LOG2.csv]",
      "judge the completed model on these logs, which it has not seen", 0, 0},
-    {"baseline", LAB_OPTION_TEXT, &baseline, "THEN.csv[,THEN2.csv...]",
+    {"baseline", LAB_OPTION_TEXTS, &baseline, "THEN.csv[,THEN2.csv...]",
      "logs of the same rig as it was: say what has changed since", 0, 0},
     {"out", LAB_OPTION_TEXT, &out, "DIR", "write there instead of results/<rig name>, or results/<list name>", 0, 0},
     {"alpha", LAB_OPTION_REAL, &alpha, "P", "chance of naming anything when nothing is missing (0.01)", 1e-9, 0.5},
@@ -101,6 +101,18 @@ static int write_answer(const lab_answer *answer, lab_progress *progress, int qu
   return status;
 }
 
+/* The logs that an option names, separated by commas or given one after the other.
+ * Out:     text  of which the names are parts
+ * Returns: how many; -1: too many */
+static int name_logs(const lab_texts *named, char text[LAB_LOGS_MAX * LAB_PATH_TEXT], const char *log[LAB_LOGS_MAX])
+{
+  int i;
+  *text = '\0';
+  for (i = 0; i < named->n; i++)
+    lab_append(text, LAB_LOGS_MAX * LAB_PATH_TEXT, "%s%s", i ? "," : "", named->text[i]);
+  return lab_split(text, ',', log, LAB_LOGS_MAX);
+}
+
 static int run_one(const lab_cli *cli, lab_error *error)
 {
   char held_text[LAB_LOGS_MAX * LAB_PATH_TEXT], then_text[LAB_LOGS_MAX * LAB_PATH_TEXT], sentence[LAB_SENTENCE_TEXT];
@@ -109,15 +121,13 @@ static int run_one(const lab_cli *cli, lab_error *error)
   lab_answer *answer;
   lab_request q = {0};
   int status;
-  snprintf(held_text, sizeof held_text, "%s", holdout ? holdout : "");
-  snprintf(then_text, sizeof then_text, "%s", baseline ? baseline : "");
   q.rig = cli->operand[0];
   q.log = (const char *const *)cli->operand + 1;
   q.n_logs = cli->n_operands - 1;
   q.holdout = held;
-  q.n_holdout = lab_split(held_text, ',', held, LAB_LOGS_MAX);
+  q.n_holdout = name_logs(&holdout, held_text, held);
   q.baseline = then;
-  q.n_baseline = lab_split(then_text, ',', then, LAB_LOGS_MAX);
+  q.n_baseline = name_logs(&baseline, then_text, then);
   q.alpha = alpha;
   q.min_gain = min_gain;
   q.on_progress = on_progress;
@@ -179,9 +189,9 @@ static int run_init(const lab_cli *cli, lab_error *error)
 /* What the table of options cannot say. */
 static int check_usage(const lab_cli *cli, lab_error *error)
 {
-  if (init && (list || holdout || baseline))
+  if (init && (list || holdout.n || baseline.n))
     return lab_fail(error, LAB_USAGE, "--init: goes with --sheet and --out alone");
-  if (sheet.n && (list || holdout || baseline))
+  if (sheet.n && (list || holdout.n || baseline.n))
     return lab_fail(error, LAB_USAGE, "--sheet: goes with --init and --out alone");
   if (init && cli->n_operands && !sheet.n)
     return lab_fail(error, LAB_USAGE, "--init: needs a log, and --sheet before \"%s\": --init LOG.csv --sheet \"%s\"",
@@ -192,9 +202,9 @@ static int check_usage(const lab_cli *cli, lab_error *error)
     return lab_fail(error, LAB_USAGE, "--allow-include: goes with --batch; a single run reads what its rig file says");
   if (figures && no_figures)
     return lab_fail(error, LAB_USAGE, "--figures and --no-figures exclude each other");
-  if (list && baseline)
+  if (list && baseline.n)
     return lab_fail(error, LAB_USAGE, "--baseline: does not go with --batch");
-  if (list && holdout)
+  if (list && holdout.n)
     return lab_fail(error, LAB_USAGE, "--holdout: with --batch, the column holdout of the list says it");
   if (init || sheet.n)
     return LAB_OK;

@@ -93,6 +93,8 @@ done
 
 # held-out logs have an error each, a coarser log another
 awk 'NR == 1 || NR % 3 == 0' "$folder/log.csv" >"$folder/third.csv"
+expect 1 "nothere.csv" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --holdout "$folder/nothere.csv" \
+  --holdout "$folder/third.csv"
 expect 0 "held out" "$programs/closeloop" "$folder/rig.cfg" "$folder/log.csv" --holdout "$folder/log.csv,$folder/third.csv" \
   --out "$folder/held" --no-figures
 grep -q "log.csv is held out, but fitted too" "$folder/held/report.json" || complain "a log that is fitted and held out is not told"

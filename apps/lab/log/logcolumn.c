@@ -69,8 +69,8 @@ static int refuse_unit(const char *text, int channel, const char *unit, const ch
   return lab_fail(
       error, LAB_DATA,
       "column \"%s\" is a signal: write into the rig file, with its own range: log = { scale = { %s = \"%s\"; "
-      "}; range = { %s = [\"0 %s\", \"1 %s\"]; }; };",
-      text, key, scale, key, usual, usual);
+      "}; range = { %s = [\"0 %s\", \"%s %s\"]; }; };",
+      text, key, scale, key, usual, strcmp(usual, "%") == 0 ? "100" : "1", usual);
 }
 
 int lab_column_of(const char *text, int channel, int absolute, const char *unit, const lab_log_format *format,
@@ -111,8 +111,11 @@ int lab_column_read(const char *text, const lab_log_format *format, lab_column *
     return lab_fail(error, LAB_DATA, "expected a column \"name [unit]\", found \"%s\"", text);
   i = lab_name_index(name, column_names, NAMES, sizeof column_names[0]);
   if (i < 0)
-    return lab_fail(error, LAB_DATA, "unknown channel \"%s\"; the nearest known one is \"%s\"", name,
-                    lab_name_nearest(name, column_names, NAMES, sizeof column_names[0]));
+    return lab_fail(
+        error, LAB_DATA,
+        "unknown channel \"%s\"; the nearest known one is \"%s\". In the rig file log.map says which channel a "
+        "column of another name is, as in map = { t = \"%s [date]\"; }, and \"-\" that it is left out",
+        name, lab_name_nearest(name, column_names, NAMES, sizeof column_names[0]), name);
   found = &column_names[i];
   *column = (lab_column){.channel = found->channel, .scale = 1};
   if (found->channel < 0)

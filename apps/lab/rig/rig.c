@@ -143,6 +143,19 @@ static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, 
   return status;
 }
 
+static int check_cutoffs(const config_setting_t *group, const lab_rig *rig, lab_error *error)
+{
+  const double low = lab_param_value(rig, pneu_param_find("positioner.cutoff_low")),
+               high = lab_param_value(rig, pneu_param_find("positioner.cutoff_high"));
+  if (!(high > 0) || low < high)
+    return LAB_OK;
+  return lab_config_fail(
+      group, error,
+      "cutoff_low, %g %%, is not below cutoff_high, %g %%: nothing would be positioned between them; "
+      "0 is none",
+      100 * low, 100 * high);
+}
+
 /* A positioner has its usual gain unless the group says otherwise. */
 static int read_positioner(const config_setting_t *group, lab_rig *rig, lab_error *error)
 {
@@ -150,7 +163,7 @@ static int read_positioner(const config_setting_t *group, lab_rig *rig, lab_erro
   if (gain < 0)
     return lab_config_fail(group, error, "this build of the library has no positioner");
   *pneu_param_at(&rig->params, gain) = lab_param_info(gain).value;
-  return read_effect(group, pneu_effect_of(gain), rig, error);
+  return read_effect(group, pneu_effect_of(gain), rig, error) ? error->status : check_cutoffs(group, rig, error);
 }
 
 static int read_effects(const config_setting_t *group, lab_rig *rig, lab_error *error)
@@ -441,12 +454,26 @@ static int check_terms_act(const lab_rig *rig, const pneu_model *model, lab_erro
   return LAB_OK;
 }
 
+static int check_fit_acts(const lab_rig *rig, lab_error *error)
+{
+  const int positioner = pneu_effect_find("positioner");
+  char name[LAB_PARAM_NAME_TEXT];
+  int i;
+  for (i = 0; i < rig->n_fit; i++)
+    if (positioner >= 0 && pneu_effect_of(rig->fit[i]) == positioner && !lab_rig_has_positioner(rig))
+      return lab_fail(error, LAB_DATA,
+                      "%s: %s is to be fitted, but no positioner is declared: positioner = { }; has the usual gain",
+                      rig->file, lab_fit_name(rig->fit[i], name));
+  return LAB_OK;
+}
+
 /* What is set but cannot act under the declared laws is a mistake, not a remark. */
 static int check_all_acts(const lab_rig *rig, lab_error *error)
 {
   lab_rig last;
   pneu_model model;
-  if (lab_rig_model(rig, &model, error) || check_effects_act(rig, &model, error) || check_terms_act(rig, &model, error))
+  if (lab_rig_model(rig, &model, error) || check_effects_act(rig, &model, error) ||
+      check_terms_act(rig, &model, error) || check_fit_acts(rig, error))
     return error->status;
   lab_rig_at(rig, INFINITY, &last);
   return lab_rig_model(&last, &model, error) ? error->status : check_effects_act(&last, &model, error);

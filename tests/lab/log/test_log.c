@@ -1,4 +1,5 @@
-/* apps/lab/log/log, and through it logformat, logguess, logheader, logmap, logname, logcolumn, logshape, csv and text */
+/* apps/lab/log/log, and through it logformat, logguess, logheader, logmap, logname, logcolumn, logshape, csv and text
+ */
 #include "../../scratch.h"
 
 #include "../../../apps/lab/log/log.h"
@@ -786,6 +787,7 @@ static void test_lab_log_read__unknown_channel__names_the_nearest(void **state)
   (void)state;
   assert_refused("t [s],forse [N]\n0,0\n", "log.csv:1: column 2",
                  "unknown channel \"forse\"; the nearest known one is \"force\"");
+  assert_refused("time,u [1]\n0,0\n", "log.csv:1: column 1", "map = { t = \"time [date]\"; }");
 }
 
 static void test_lab_log_read__no_unit__asks_for_one(void **state)
@@ -799,7 +801,9 @@ static void test_lab_log_read__unit_of_other_dimension__names_both(void **state)
   (void)state;
   assert_refused("t [s],p [mm]\n0,0\n", "log.csv:1: column 2", "expected a unit like Pa");
   assert_refused("t [s],u [kPa]\n0,0\n", "log.csv:1: column 2", "expected a unit like 1");
-  assert_refused("t [s],x [mA]\n0,0\n", "log.csv:1: column 2", "scale = { x = \"4..20 mA\"; }; range = { x = [\"0 mm\"");
+  assert_refused("t [s],sp [mA]\n0,0\n", "log.csv:1: column 2", "range = { sp = [\"0 %\", \"100 %\"]");
+  assert_refused("t [s],x [mA]\n0,0\n", "log.csv:1: column 2",
+                 "scale = { x = \"4..20 mA\"; }; range = { x = [\"0 mm\"");
 }
 
 static void test_lab_log_read__unknown_unit__is_named(void **state)

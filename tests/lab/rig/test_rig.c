@@ -473,6 +473,15 @@ static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
                  "effects.heat_transfer.free_convection", "does nothing with the other laws");
 }
 
+static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **state)
+{
+  (void)state;
+  need_effect("positioner");
+  assert_refused("fit = ( \"positioner.gain\" );\n", "positioner.gain is to be fitted", "no positioner is declared");
+  assert_refused("positioner = { cutoff_low = \"99 %\"; cutoff_high = \"1 %\"; };\n", "rig.cfg:1: positioner",
+                 "cutoff_low, 99 %, is not below cutoff_high, 1 %");
+}
+
 static void test_lab_rig_read__control_characters__do_not_reach_the_message(void **state)
 {
   (void)state;
@@ -748,7 +757,7 @@ static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
   lab_rig rig, again;
   int i;
   (void)state;
-  lab_rig_default(&rig);
+  rig = read_rig(pneu_param_find("positioner.gain") >= 0 ? "positioner = { };\n" : "");
   for (i = 0; i < LAB_PARAM_COUNT; i++)
     if (i != PNEU_PARAM_fill_area && i != PNEU_PARAM_vent_area)
       rig.fit[rig.n_fit++] = i;
@@ -832,6 +841,7 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__long_name__is_refused),
       cmocka_unit_test(test_lab_rig_read__bad_fit__is_refused),
       cmocka_unit_test(test_lab_rig_read__effect_that_cannot_act__is_refused),
+      cmocka_unit_test(test_lab_rig_read__positioner_that_cannot_act__is_refused),
       cmocka_unit_test(test_lab_rig_read__control_characters__do_not_reach_the_message),
       cmocka_unit_test(test_lab_rig_read__bad_keys_of_logs__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_noise__is_refused),
