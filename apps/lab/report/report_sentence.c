@@ -256,20 +256,23 @@ static const struct {
              {"position_gain", "the gain error of the position sensor", NULL, NULL},
              {"clock", "the offset between the clocks of the channels", NULL, NULL}};
 
-/* What a value is off from: what is known to no better than its own size stands on no sheet, nor does the weather. */
-static const char *sheet_of(const lab_deviation *d)
+/* What a value is off from: what the rig file does not say, or is known to no better than its own size, stands on no
+ * sheet, nor does the weather. */
+static const char *sheet_of(const lab_rig *rig, const lab_deviation *d)
 {
-  return !(d->tolerance < 1)                        ? "what was assumed"
-         : strcmp(d->name, "ambient_pressure") == 0 ? "what was declared"
-                                                    : "its sheet";
+  return rig->assumed[d->param] || !(d->tolerance < 1) ? "what was assumed"
+         : strcmp(d->name, "ambient_pressure") == 0    ? "what was declared"
+                                                       : "its sheet";
 }
 
 /* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "0.5 kPa in place of 0 kPa". */
-static void add_ratio(char *text, const lab_deviation *d, const char *less, const char *more)
+static void add_ratio(char *text, const lab_rig *rig, const lab_deviation *d, const char *less, const char *more)
 {
   const double percent = 100 * (d->ratio - 1);
-  const char *sheet = sheet_of(d);
-  if (!isfinite(d->ratio))
+  const char *sheet = sheet_of(rig, d);
+  if (!isfinite(d->ratio) && strcmp(d->unit, "1") == 0)
+    ADD(text, "%.2g %% in place of %.2g %%", 100 * d->found, 100 * d->declared);
+  else if (!isfinite(d->ratio))
     ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
   else if (d->ratio >= 2 || d->ratio < 0.5)
     ADD(text, d->ratio < 99.5 ? "%.2g times %s" : "%.0f times %s", d->ratio, sheet);
@@ -290,7 +293,7 @@ static void add_deviation(char *text, const lab_report *report, const lab_deviat
   while ((at = strpbrk(name, "_.")))
     *at = ' ';
   ADD(text, "%s %s", i < PLAIN ? plain[i].called : name, first ? "is " : "");
-  add_ratio(text, d, i < PLAIN ? plain[i].less : NULL, i < PLAIN ? plain[i].more : NULL);
+  add_ratio(text, report->rig, d, i < PLAIN ? plain[i].less : NULL, i < PLAIN ? plain[i].more : NULL);
   ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
 

@@ -551,7 +551,7 @@ static void put_log(FILE *file, const draft *d)
     fprintf(file, " in %.4g s, one each %.4g s (%.4g Hz)", length, step, 1 / step);
   fputs(".\n", file);
   if (*d->log.read_as)
-    fprintf(file, "// It was %s.\n", d->log.read_as);
+    fprintf(file, "// Read as: %s.\n", d->log.read_as);
   fputs("// Channels, in SI:\n", file);
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     if (has(d, c))

@@ -45,6 +45,7 @@ static int read_param(const config_setting_t *setting, int param, lab_rig *rig, 
   if (lab_config_quantity(setting, info.unit, (double)info.lower, (double)info.upper, &value, error))
     return error->status;
   *pneu_param_at(&rig->params, param) = (pneu_real)value;
+  rig->assumed[param] = 0;
   return LAB_OK;
 }
 
@@ -506,6 +507,8 @@ static int take_config(config_t *config, int status, lab_rig *rig, lab_error *er
 static void begin(const char *path, lab_rig *rig)
 {
   lab_rig_default(rig);
+  memset(rig->assumed, 1, sizeof rig->assumed);
+  rig->assumed[LAB_PARAM_ORIFICE_AREA] = 0;
   snprintf(rig->file, sizeof rig->file, "%s", path);
   name_from_path(path, rig->name);
 }

@@ -51,6 +51,7 @@ typedef struct lab_rig {
   int fit[LAB_PARAM_COUNT];                   /* parameters (as in pneu_param_describe) or LAB_PARAM_ORIFICE_AREA */
   unsigned char fit_per_log[LAB_PARAM_COUNT]; /* 1: every log has its own value */
   double tolerance[LAB_TOLERANCE_COUNT];      /* with which a value is known, SI; NaN: see tolerance.h */
+  unsigned char assumed[LAB_PARAM_COUNT];     /* 1: a file was read that does not say it */
   int others_are_exact;                       /* the file says so of tolerances that it does not give */
   double noise[LAB_CHANNEL_COUNT];            /* standard deviation, SI; NaN: estimate it from the log */
   unsigned char input[LAB_CHANNEL_COUNT];     /* 1: drives the model; u always does */

@@ -36,6 +36,7 @@ static int put(const config_setting_t *from, int param, double value, const conf
     return lab_config_fail(from, error, "gives a %s of %g %s; expected %g to %g", info.name, value, info.unit,
                            (double)info.lower, (double)info.upper);
   *pneu_param_at(&rig->params, param) = (pneu_real)(value + 0.0); /* a zero without sign, as it is written */
+  rig->assumed[param] = 0;
   return LAB_OK;
 }
 

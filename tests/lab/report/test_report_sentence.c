@@ -130,6 +130,7 @@ static lab_deviation deviation(const char *name, double ratio, int beyond)
 {
   lab_deviation d = {.unit = "N", .declared = 100, .found = 100 * ratio, .ratio = ratio, .beyond = beyond};
   snprintf(d.name, sizeof d.name, "%s", name);
+  d.param = pneu_param_find(name);
   return d;
 }
 
@@ -191,8 +192,9 @@ static void test_lab_report_limits__effects_scored_by_a_beginning__says_so(void 
   result.preview = 27.46;
   lab_report_limits(&report, list);
   assert_int_equal(cJSON_GetArraySize(list), 1);
-  assert_string_equal(cJSON_GetArrayItem(list, 0)->valuestring,
-                      "Effects were scored by the first 27.5 s; what was found there was then fitted to the whole log.");
+  assert_string_equal(
+      cJSON_GetArrayItem(list, 0)->valuestring,
+      "Effects were scored by the first 27.5 s; what was found there was then fitted to the whole log.");
   cJSON_Delete(list);
 }
 
@@ -211,7 +213,15 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   d->of[d->n++] = deviation("dead_volume", 1.2, 0);
   lab_report_headline(&report, text);
   assert_string_equal(text, "Friction is 3.7 times its sheet, the spring 25 % soft; nothing else is missing.");
-  d->of[2].beyond = 1;
+  rig.assumed[PNEU_PARAM_dry_friction] = 1; /* no sheet says it */
+  lab_report_headline(&report, text);
+  assert_contains(text, "Friction is 3.7 times what was assumed, the spring 25 % soft;");
+  rig.assumed[PNEU_PARAM_dry_friction] = 0;
+  d->of[2] = (lab_deviation){
+      .name = "position_gain", .unit = "1", .found = 0.02, .ratio = NAN, .beyond = 1, .tolerance = 0.0025};
+  lab_report_headline(&report, text);
+  assert_contains(text, "the spring 25 % soft, the gain error of the position sensor 2 % in place of 0 %;");
+  d->of[2] = deviation("dead_volume", 1.2, 1);
   d->of[d->n++] = deviation("area", 0.4, 1);
   d->of[d->n++] = deviation("stroke", 0.95, 1);
   lab_report_headline(&report, text);

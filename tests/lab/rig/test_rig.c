@@ -92,6 +92,16 @@ static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
   assert_close(rig.params.polytropic_index, 1.2, 0, 1e-14);
 }
 
+static void test_lab_rig_read__what_is_not_said__is_assumed(void **state)
+{
+  lab_rig rig = read_rig("actuator = { bench_set = [\"0.2 bar\", \"1 bar\"]; damping = \"9 N.s/m\"; };\n");
+  (void)state;
+  assert_int_equal(rig.assumed[PNEU_PARAM_damping], 0);
+  assert_int_equal(rig.assumed[PNEU_PARAM_spring_rate], 0);
+  assert_int_equal(rig.assumed[PNEU_PARAM_dry_friction], 1);
+  assert_int_equal(rig.assumed[LAB_PARAM_ORIFICE_AREA], 0); /* a factor on what is said */
+}
+
 static void test_lab_rig_read__words__become_laws(void **state)
 {
   lab_rig rig = read_rig(declared);
@@ -806,6 +816,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_rig_read__every_parameter__lands_in_si),
+      cmocka_unit_test(test_lab_rig_read__what_is_not_said__is_assumed),
       cmocka_unit_test(test_lab_rig_read__words__become_laws),
       cmocka_unit_test(test_lab_rig_read__fit_and_noise__are_listed),
       cmocka_unit_test(test_lab_rig_read__fit_per_log__is_marked),
