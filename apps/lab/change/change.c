@@ -303,6 +303,13 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
+/* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
+ * that a new one has to be as plain as one that is added (PLAIN_BIC). */
+static int is_plain(const lab_change *change)
+{
+  return pneu_effect_of(change->param) < 0 || change->then != 0 || change->statistic > lab_constant(LAB_PLAIN_BIC);
+}
+
 static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
 {
   lab_unknowns *without = malloc(sizeof *without);
@@ -323,7 +330,7 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
       status = error->status;
       break;
     }
-    changes->n += change->p_value < changes->level;
+    changes->n += change->p_value < changes->level && is_plain(change);
   }
   qsort(changes->change, (size_t)changes->n, sizeof *changes->change, by_statistic);
   free(without);
