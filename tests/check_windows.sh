@@ -24,7 +24,9 @@ core_tests() {
     wrong "the tests do not build"
   passed=0
   for program in $programs; do
-    wine "$program" >"$out/log" 2>&1 || wrong "$(basename "$program")"
+    if ! wine "$program" >"$out/log" 2>&1; then # once more where Wine's own server broke off, not the test
+      grep -q "^wine client error" "$out/log" && wine "$program" >"$out/log" 2>&1 || wrong "$(basename "$program")"
+    fi
     passed=$((passed + $(tr -d '\r' <"$out/log" | sed -n 's/^\[  PASSED  \] \([0-9]*\) .*/\1/p')))
   done
   echo "ok      windows: $passed tests of the core $2"
