@@ -307,7 +307,8 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
  * that a new one has to be as plain as one that is added (PLAIN_BIC). */
 static int is_plain(const lab_change *change)
 {
-  return pneu_effect_of(change->param) < 0 || change->then != 0 || change->statistic > lab_constant(LAB_PLAIN_BIC);
+  return pneu_effect_of(change->param) < 0 || change->then != (double)lab_param_info(change->param).neutral ||
+         change->statistic > lab_constant(LAB_PLAIN_BIC);
 }
 
 static int describe(lab_sides *c, lab_changes *changes, lab_error *error)

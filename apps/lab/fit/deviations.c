@@ -16,11 +16,6 @@ const char *lab_condition_text(int condition)
 
 static const double one_in_twenty = 0.05;
 
-static int is_value(int param)
-{
-  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
-}
-
 static int param_of(const lab_unknowns *u, const lab_unknown *x)
 {
   return x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param : x->index;
@@ -32,8 +27,8 @@ static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
   const lab_unknown *x = &u->unknown[j];
   int i, fitted = 0;
   if (x->kind == LAB_UNKNOWN_ONSET)
-    return is_value(param_of(u, x));
-  if (is_value(x->index) && lab_unknowns_find_onset(u, x->index) >= 0)
+    return lab_param_is_value(param_of(u, x));
+  if (lab_param_is_value(x->index) && lab_unknowns_find_onset(u, x->index) >= 0)
     return 0;
   for (i = 0; i < rig->n_fit; i++)
     fitted |= rig->fit[i] == x->index;
@@ -142,7 +137,7 @@ typedef struct ranked {
 
 static int rank_of(const lab_unknown *x, const lab_deviation *d)
 {
-  return x->kind == LAB_UNKNOWN_ONSET ? BEGINS : is_value(d->param) ? VALUE : INSTRUMENT;
+  return x->kind == LAB_UNKNOWN_ONSET ? BEGINS : lab_param_is_value(d->param) ? VALUE : INSTRUMENT;
 }
 
 static int first_told(const void *a, const void *b)

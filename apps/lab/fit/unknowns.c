@@ -61,15 +61,19 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
                                   : x->spread;
 }
 
+int lab_param_is_value(int param)
+{
+  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
+}
+
 /* So many tolerances about the declared value; no ends where there is none. */
 static void find_ends(const lab_unknowns *u, int param, double tolerances, double *lower, double *upper)
 {
-  const int is_value = param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
   lab_rig declared = u->rig;
   double value, room;
   declared.params = u->declared;
   value = lab_param_value(&declared, param);
-  room = is_value ? tolerances * lab_tolerance(&declared, param) : 0;
+  room = lab_param_is_value(param) ? tolerances * lab_tolerance(&declared, param) : 0;
   *lower = room > 0 ? value - room : -(double)INFINITY;
   *upper = room > 0 ? value + room : (double)INFINITY;
 }

@@ -186,8 +186,7 @@ static void test_lab_changes_find__leak__is_the_change(void **state)
   assert_close(changes.change[0].then, 0, 1e-15, 0);
 }
 
-/* Chi-square falls by 33 for it: beyond chance (p = 8e-9), but no more than a model that is not quite the rig's leaves.
- */
+/* Chi-square falls by 33 for it: beyond chance (p = 8e-9), but no more than a model not quite the rig's leaves. */
 static void test_lab_changes_find__leak_that_hardly_shows__is_no_change(void **state)
 {
   second_rig then = virtual_rig(7), now = virtual_rig(8);

@@ -55,7 +55,7 @@ static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void *
 {
   static const double lag_of[] = {0.0149, 0.0151};
   const int lag = pneu_param_find("pressure_lag.pressure_time");
-  int k, channels;
+  int k;
   (void)state;
   if (lag < 0)
     skip();
@@ -65,7 +65,7 @@ static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void *
     static lab_deviations all;
     static lab_rig rig;
     lab_run run = {0};
-    channels = run.n_channels = 1 + k / 2;
+    run.n_channels = 1 + k / 2;
     lab_rig_default(&rig);
     rig.fit[rig.n_fit++] = lag;
     u.n = 0;
@@ -78,7 +78,7 @@ static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void *
     put(&u, &fit, LAB_UNKNOWN_INSTANT, 0, 0, 0);
     u.unknown[1].upper = 0.03;
     assert_int_equal(lab_deviations_find(&rig, &u, &fit, &all, &error), LAB_OK);
-    assert_int_equal(all.n, channels > 1 || k % 2);
+    assert_int_equal(all.n, k != 0);
   }
 }
 
