@@ -6,7 +6,7 @@
 #include "../../virtual.h"
 
 #include "../../../apps/lab/fit/deviations.h"
-#include "../../../apps/lab/trace/search.h"
+#include "../../../apps/lab/trace/rounds.h"
 #include "../../../apps/lab/trace/freeterms.h"
 
 enum { ROWS = 1001 };
@@ -399,6 +399,36 @@ static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **s
   assert_int_equal(u.window, 0); /* and handed back as it came */
 }
 
+/* ---- What is noted ---- */
+
+static void test_lab_search_list_small__again_and_again__is_there_once(void **state)
+{
+  static lab_search_result r;
+  int i;
+  (void)state;
+  for (i = 0; i < 3 * LAB_SCORES_MAX; i++)
+    lab_search_list_small(&r, i / 2);
+  assert_int_equal(r.n_listed, LAB_SCORES_MAX);
+  assert_int_equal(r.listed[1], 1);
+}
+
+/* The last model is the one that the search ends with; those before it may be missing. */
+static void test_lab_rounds_note_way__full__has_the_last(void **state)
+{
+  static lab_search_result r;
+  static lab_candidate c;
+  int i;
+  (void)state;
+  lab_rig_default(&c.u.rig);
+  for (i = 0; i <= LAB_SEARCH_PATH; i++) {
+    c.quality.chi2 = i;
+    lab_rounds_note_way(&r, &c);
+  }
+  assert_int_equal(r.n_path, LAB_SEARCH_PATH);
+  assert_close(r.path[LAB_SEARCH_PATH - 1].chi2, LAB_SEARCH_PATH, 0, 0);
+  assert_close(r.path[0].chi2, 0, 0, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -416,6 +446,8 @@ int main(void)
       cmocka_unit_test(test_lab_search_run__many_slopes__share_the_level),
       cmocka_unit_test(test_lab_search_run__friction_bump__is_a_force_at_its_place),
       cmocka_unit_test(test_lab_search_run__stick_slip__is_seen_coarsely_and_named),
+      cmocka_unit_test(test_lab_search_list_small__again_and_again__is_there_once),
+      cmocka_unit_test(test_lab_rounds_note_way__full__has_the_last),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
