@@ -43,15 +43,11 @@ int lab_fit_evaluate(const lab_fit_problem *p, const double *theta, double *r, d
   return lab_fail(error, LAB_NUMERIC, "residual %zu of %zu is not finite", i + 1, p->m);
 }
 
-/* The columns that are not known yet.  In: is_known  NULL: none is */
-static int other_slopes(const lab_fit_problem *p, const char *is_known, const double *theta, const double *r, double *J,
-                        lab_error *error)
+int lab_fit_other_slopes(const lab_fit_problem *p, const double *theta, const double *r, double *J, char *done,
+                         lab_error *error)
 {
-  char done[N] = {0};
   int j, status = LAB_OK;
-  if (is_known)
-    memcpy(done, is_known, (size_t)p->n);
-  else if (p->together)
+  if (p->together)
     status = p->together(p->context, theta, J, done, error);
   if ((status == LAB_OK || status == LAB_NUMERIC) && p->begin_slopes && memchr(done, 0, (size_t)p->n))
     status = p->begin_slopes(p->context, theta, error);
@@ -78,7 +74,8 @@ static int other_slopes(const lab_fit_problem *p, const char *is_known, const do
 
 int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *r, double *J, lab_error *error)
 {
-  return other_slopes(p, NULL, theta, r, J, error);
+  char done[N] = {0};
+  return lab_fit_other_slopes(p, theta, r, J, done, error);
 }
 
 /* What follows from the slopes. */
@@ -261,11 +258,15 @@ static int descend(descent *d, lab_error *error)
   const lab_fit_problem *p = d->problem;
   const int most = p->steps > 0 ? p->steps : STEPS;
   int steps = 0, end = GOES_ON, fresh = !p->is_known;
+  char done[N];
   double quality = 1;
   if (lab_fit_evaluate(p, d->theta, d->r, &d->chi2, error))
     return error->status;
-  if (!fresh && other_slopes(p, p->is_known, d->theta, d->r, d->J, error))
-    return error->status;
+  if (!fresh) {
+    memcpy(done, p->is_known, (size_t)p->n);
+    if (lab_fit_other_slopes(p, d->theta, d->r, d->J, done, error))
+      return error->status;
+  }
   while (steps < most && !lab_cpu_is_spent(p->until)) {
     if (fresh && lab_fit_slopes(p, d->theta, d->r, d->J, error))
       return error->status;

@@ -27,7 +27,8 @@ typedef struct lab_fit_problem {
   /* 0 is the default of what follows. */
   /* Before slopes are taken one by one at theta.  Returns: as above. */
   int (*begin_slopes)(void *context, const double *theta, lab_error *error);
-  /* Columns that come together more cheaply than one by one: J as of lab_fit_slopes; done: n, not 0 for these.
+  /* Columns that come together more cheaply than one by one: J as of lab_fit_slopes; done: n, not 0 for those
+   * that are there already, and then for these.
    * Returns: as above. */
   int (*together)(void *context, const double *theta, double *J, char *done, lab_error *error);
   /* Where the slopes are kept, m * n, column by column, so that the next fit can begin with those of this one; NULL:
@@ -58,6 +59,11 @@ int lab_fit_evaluate(const lab_fit_problem *problem, const double *theta, double
 /* Columns of the slopes, in parallel; 0 where one is not to be had.
  * Out:     J  m * n, column by column */
 int lab_fit_slopes(const lab_fit_problem *problem, const double *theta, const double *r, double *J, lab_error *error);
+
+/* The same of those columns that are not done yet.
+ * In/out:  done  n: not 0 for these */
+int lab_fit_other_slopes(const lab_fit_problem *problem, const double *theta, const double *r, double *J, char *done,
+                         lab_error *error);
 
 /* The best point of problem->search evaluations in the box and of theta.  In/out: theta  Returns: as lab_fit. */
 int lab_fit_search(const lab_fit_problem *problem, double *theta, lab_error *error);

@@ -28,25 +28,12 @@ static void add_column(lab_nuisance *h, const lab_unknown *x, double reach, cons
 /* Slopes of all that has a prior; 0 where one cannot be simulated. */
 static int find_slopes(lab_unknowns *u, double *r, double *slopes, lab_error *error)
 {
-  double theta[LAB_FIT_MAX];
-  int j, status = LAB_OK;
+  char done[LAB_FIT_MAX];
+  int j, status = lab_unknowns_residuals(u, NULL, r, error);
   for (j = 0; j < u->n; j++)
-    theta[j] = u->unknown[j].value;
-  if (lab_unknowns_residuals(u, theta, r, error) || lab_unknowns_take_pace(u, theta, error))
-    return error->status;
-#pragma omp parallel for schedule(dynamic)
-  for (j = 0; j < u->n; j++) {
-    lab_error mine;
-    double *slope = slopes + (size_t)j * u->m;
-    const int at =
-        lab_unknown_is_known(&u->unknown[j]) ? lab_unknowns_slope(u, theta, r, j, slope, &mine) : (int)LAB_OK;
-    if (at == LAB_NUMERIC)
-      memset(slope, 0, u->m * sizeof *slope);
-    else if (at != LAB_OK) {
-#pragma omp critical(nuisance_error)
-      *error = mine, status = at;
-    }
-  }
+    done[j] = !lab_unknown_is_known(&u->unknown[j]);
+  if (status == LAB_OK)
+    status = lab_unknowns_slopes(u, r, done, slopes, error);
   lab_unknowns_drop_pace(u);
   return status;
 }
@@ -87,6 +74,12 @@ void lab_nuisance_close(lab_nuisance *h)
   free(h->basis);
   free(h->slopes);
   memset(h, 0, sizeof *h);
+}
+
+void lab_nuisance_project(const lab_nuisance *h, double *change)
+{
+  memset(change + h->n_data, 0, (size_t)h->n * sizeof *change);
+  lab_project_out(h->basis, h->n, h->n_data + LAB_FIT_MAX, h->n_data + (size_t)h->n, change);
 }
 
 void lab_nuisance_apply(const lab_nuisance *h, double *r)

@@ -31,6 +31,9 @@ void lab_nuisance_close(lab_nuisance *nuisance);
 /* Project residuals.  In/out: r  n_data entries, and n more to be filled */
 void lab_nuisance_apply(const lab_nuisance *nuisance, double *r);
 
+/* The same of a change of residuals.  In/out: change  n_data entries, and n more to be filled */
+void lab_nuisance_project(const lab_nuisance *nuisance, double *change);
+
 /* Whether it holds a parameter. */
 int lab_nuisance_holds(const lab_nuisance *nuisance, int param);
 

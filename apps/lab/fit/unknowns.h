@@ -226,6 +226,14 @@ int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, doubl
 int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const double *r, double *change,
                              lab_error *error);
 
+/* The same of several models, to first order, from one run of each experiment (variation.h).
+ * In:      model   n of them
+ * Out:     change  m values of each that is done
+ *          done    n: not 0 for these; none of what is seen coarsely
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *const *model, int n, double *const *change,
+                              char *done, lab_error *error);
+
 /* See the experiments coarsely from now on, in windows of so many rows; 0: row by row. */
 void lab_unknowns_view(lab_unknowns *u, size_t window);
 
@@ -259,8 +267,22 @@ int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int run, 
 /* Errors of a run, or a change of them, as residuals: weighted and whitened, in place. */
 void lab_unknowns_weigh(const lab_unknowns *u, int run, double *r);
 
+/* Slopes of the residuals from one run of each experiment, to first order (variation.h).
+ * In:      context  const lab_unknowns *
+ * In/out:  done     n: columns that are there, and then those of J that were found too; none of what is seen coarsely
+ *          J        m * n, column by column
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_unknowns_slopes_together(void *context, const double *theta, double *J, char *done, lab_error *error);
+
+/* Slopes of the residuals r at the present values, those that are `done` already apart; 0 where one is not to be had.
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_unknowns_slopes(lab_unknowns *u, const double *r, char *done, double *J, lab_error *error);
+
 /* Step of the difference that a slope in unknown j is, into the side where there is room. */
 double lab_unknowns_slope_step(const lab_unknowns *u, const double *theta, int j);
+
+/* Residuals of one experiment. */
+size_t lab_unknowns_residuals_in(const lab_unknowns *u, int run);
 
 /* Residuals before those of the unknowns' priors: of the data, and of `nuisance`. */
 size_t lab_unknowns_before_priors(const lab_unknowns *u);

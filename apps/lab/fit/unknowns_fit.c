@@ -130,10 +130,18 @@ static void pose(lab_unknowns *u, posed *p)
                                  .residuals = residuals_to_fit,
                                  .slope = lab_unknowns_slope,
                                  .begin_slopes = lab_unknowns_take_pace,
-                                 .together = lab_instants_slopes,
+                                 .together = lab_unknowns_slopes_together,
                                  .slopes = u->slopes,
                                  .is_known = u->slopes && any_slope(u) ? u->has_slope : NULL,
                                  .is_rough = u->window > 0};
+}
+
+int lab_unknowns_slopes(lab_unknowns *u, const double *r, char *done, double *J, lab_error *error)
+{
+  posed p;
+  pose(u, &p);
+  p.problem.until = u->until;
+  return lab_fit_other_slopes(&p.problem, p.theta, r, J, done, error);
 }
 
 int lab_unknowns_keep_slopes(lab_unknowns *u, lab_error *error)
@@ -203,75 +211,6 @@ void lab_unknowns_begin_with(lab_unknowns *u, const lab_unknowns *base)
   }
 }
 
-/* ---- An actuator of another size ---- */
-
-/* An actuator with twice the area, volume, spring, friction, mass and orifices shows the same pressure and position:
- * only what is declared tells how large it is. */
-static int grows_with_size(const lab_unknown *x)
-{
-  static const int params[] = {PNEU_PARAM_area,        PNEU_PARAM_dead_volume,    PNEU_PARAM_spring_rate,
-                               PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction,   PNEU_PARAM_viscous_friction,
-                               PNEU_PARAM_damping,     PNEU_PARAM_external_force, PNEU_PARAM_fill_area,
-                               PNEU_PARAM_vent_area,   LAB_PARAM_ORIFICE_AREA};
-  size_t i;
-  int any = 0;
-  for (i = 0; i < sizeof params / sizeof params[0]; i++)
-    any |= x->kind == LAB_UNKNOWN_PARAM && x->index == params[i];
-  return any;
-}
-
-/* What the priors of such values add to chi-square. */
-static double cost_of_size(const lab_unknowns *u, const double *theta)
-{
-  double sum = 0;
-  int j;
-  for (j = 0; j < u->n; j++) {
-    const lab_unknown *x = &u->unknown[j];
-    const double off = (theta[j] - x->prior) / lab_unknown_reach(u, x);
-    sum += grows_with_size(x) && x->spread > 0 ? off * off : 0;
-  }
-  return sum;
-}
-
-/* The size at which they add least: with weights w, sum w theta prior / sum w theta^2.  In/out: theta */
-static void resize(const lab_unknowns *u, const posed *p, double *theta)
-{
-  double square = 0, product = 0;
-  int j;
-  for (j = 0; j < u->n; j++) {
-    const lab_unknown *x = &u->unknown[j];
-    const double share = grows_with_size(x) && x->spread > 0 ? theta[j] / pow(lab_unknown_reach(u, x), 2) : 0;
-    square += share * theta[j];
-    product += share * x->prior;
-  }
-  for (j = 0; j < u->n && square > 0; j++)
-    if (grows_with_size(&u->unknown[j]))
-      theta[j] = fmin(fmax(theta[j] * product / square, p->lower[j]), p->upper[j]);
-}
-
-/* A descent can stop short in the long valley along which only the size changes: from its end, at the size that is
- * declared, and on from there if that is better. What an effect has that grows with the size, such as the area of a
- * leak, is left as it is: the residual then says no.
- * In/out:  p, chi2  where the descent has ended */
-static int fit_size(const lab_unknowns *u, posed *p, double *chi2, lab_error *error)
-{
-  static const double worth = 1; /* of chi-square */
-  double theta[LAB_FIT_MAX], there, *r;
-  int status;
-  memcpy(theta, p->theta, sizeof theta);
-  resize(u, p, theta);
-  if (!(cost_of_size(u, p->theta) - cost_of_size(u, theta) > worth))
-    return LAB_OK;
-  r = malloc((u->m + 1) * sizeof *r);
-  status = r ? lab_fit_evaluate(&p->problem, theta, r, &there, error) : lab_fail_memory(error, "residuals");
-  free(r);
-  if (status != LAB_OK || !(there < *chi2))
-    return status == LAB_NUMERIC ? LAB_OK : status;
-  memcpy(p->theta, theta, sizeof theta);
-  p->problem.is_known = NULL;
-  return lab_fit(&p->problem, p->theta, chi2, error);
-}
-
 static int fit_as_weighed(lab_unknowns *u, int steps, double *chi2, lab_error *error)
 {
   posed p;
@@ -281,8 +220,6 @@ static int fit_as_weighed(lab_unknowns *u, int steps, double *chi2, lab_error *e
   p.problem.is_brief = steps != LAB_ROUNDS_ALL;
   p.problem.until = u->until;
   status = lab_fit(&p.problem, p.theta, chi2, error);
-  if (status == LAB_OK)
-    status = fit_size(u, &p, chi2, error);
   lab_unknowns_drop_pace(u);
   if (status != LAB_OK)
     return status;

@@ -5,69 +5,18 @@
 
 #include "../base/array.h"
 #include "drift.h"
+#include "drive.h"
 #include "windowed.h"
 #include "nuisance.h"
 
 static const double slope_tol = 1e-5; /* of the stepper, where runs for slopes take the same steps */
 
-/* Add to what all runs have, within the bounds. */
-static void apply_change(const lab_unknown *x, double value, lab_rig *rig)
-{
-  const pneu_param_info info = lab_param_info(x->index);
-  pneu_real *at;
-  if (x->index == LAB_PARAM_ORIFICE_AREA) {
-    rig->params.fill_area *= 1 + (pneu_real)value;
-    rig->params.vent_area *= 1 + (pneu_real)value;
-    return;
-  }
-  at = pneu_param_at(&rig->params, x->index);
-  *at = (pneu_real)fmin(fmax((double)*at + value, (double)info.lower), (double)info.upper);
-}
-
-static void apply_one(const lab_unknown *x, double value, const pneu_params *declared, lab_rig *rig)
-{
-  if (x->kind == LAB_UNKNOWN_KNOT) {
-    rig->term[x->term].value[x->index] = (pneu_real)value;
-  } else if (x->kind == LAB_UNKNOWN_ONSET) {
-    rig->onset[x->index].value = value;
-  } else if (x->kind == LAB_UNKNOWN_SINCE) {
-    rig->onset[x->index].from = value;
-  } else if (x->kind == LAB_UNKNOWN_PERIOD) {
-    rig->term[x->term].to = rig->term[x->term].from + (pneu_real)value;
-  } else if (x->kind == LAB_UNKNOWN_PARAM && x->index == LAB_PARAM_ORIFICE_AREA) {
-    rig->params.fill_area = declared->fill_area * (pneu_real)value;
-    rig->params.vent_area = declared->vent_area * (pneu_real)value;
-  } else if (x->kind == LAB_UNKNOWN_PARAM) {
-    *pneu_param_at(&rig->params, x->index) = (pneu_real)value;
-  } else if (x->kind == LAB_UNKNOWN_CHANGE) {
-    apply_change(x, value, rig);
-  }
-}
-
-/* Whether an unknown acts in run e. */
-static int is_of(const lab_unknown *x, int e)
-{
-  return x->run == LAB_ALL_RUNS || (x->kind == LAB_UNKNOWN_CHANGE ? e >= x->run : e == x->run);
-}
-
 void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int run, lab_rig *rig)
 {
   int j;
   for (j = 0; j < u->n; j++)
-    if (u->unknown[j].run == LAB_ALL_RUNS || (run != LAB_ALL_RUNS && is_of(&u->unknown[j], run)))
-      apply_one(&u->unknown[j], theta[j], &u->declared, rig);
-}
-
-/* How early one unknown has the changes of command of its experiment. */
-static void early_of(const lab_unknown *x, double value, const lab_run *e, double *early)
-{
-  size_t i;
-  if (x->kind != LAB_UNKNOWN_INSTANT)
-    return;
-  if (x->index != LAB_ALL_INSTANTS)
-    early[x->index] = value;
-  for (i = 0; x->index == LAB_ALL_INSTANTS && i < e->n_instants; i++)
-    early[i] = value * e->bracket[i];
+    if (u->unknown[j].run == LAB_ALL_RUNS || (run != LAB_ALL_RUNS && lab_unknown_acts(&u->unknown[j], run)))
+      lab_unknown_apply(&u->unknown[j], theta[j], &u->declared, rig);
 }
 
 /* Turn predictions into errors over noise, in place. */
@@ -83,65 +32,15 @@ static void weigh(const lab_run *e, double *r)
     }
 }
 
-/* The instants within a run at which a change begins or ends, in order, each once.  Returns: their number */
-static int cuts_of(const lab_unknowns *u, int e, double cut[LAB_EPISODES_MAX - 1])
-{
-  int j, k, side, n = 0;
-  for (j = 0; j < u->n; j++)
-    for (side = 0; side < 2 && u->unknown[j].kind == LAB_UNKNOWN_CHANGE && is_of(&u->unknown[j], e); side++) {
-      const double at = side ? u->unknown[j].to : u->unknown[j].from;
-      for (k = 0; k < n && cut[k] < at; k++)
-        ;
-      if (!isfinite(at) || n == LAB_EPISODES_MAX - 1 || (k < n && cut[k] == at))
-        continue;
-      memmove(cut + k + 1, cut + k, (size_t)(n - k) * sizeof *cut);
-      cut[k] = at;
-      n++;
-    }
-  return n;
-}
-
-/* Apply what acts in a run from an instant on: first what is its own, then what is added to that. */
-static void apply_from(const lab_unknowns *u, const double *theta, int e, double from, lab_rig *rig)
-{
-  int j, change;
-  for (change = 0; change < 2; change++)
-    for (j = 0; j < u->n; j++) {
-      const lab_unknown *x = &u->unknown[j];
-      if (x->run == LAB_ALL_RUNS || !is_of(x, e) || (x->kind == LAB_UNKNOWN_CHANGE) != change)
-        continue;
-      if (!change || (x->from <= from && from < x->to))
-        apply_one(x, theta[j], &u->declared, rig);
-    }
-}
-
 /* Predictions of one experiment. */
 static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace, double *r,
                    lab_error *error)
 {
-  const lab_run *x = &u->run[e];
-  const double begin = x->log->value[LAB_CHANNEL_TIME][x->first];
-  double cut[LAB_EPISODES_MAX - 1], *early = calloc(x->n_instants + 1, sizeof *early);
-  lab_episode episode[LAB_EPISODES_MAX];
-  const int n = 1 + cuts_of(u, e, cut);
-  lab_rig *rig = malloc((size_t)n * sizeof *rig);
-  int j, k, status = early && rig ? LAB_OK : lab_fail_memory(error, "a schedule");
-  for (k = 0; k < n && status == LAB_OK; k++) {
-    episode[k].from = k ? cut[k - 1] : begin;
-    episode[k].rig = &rig[k];
-    rig[k] = *model;
-    apply_from(u, theta, e, episode[k].from, &rig[k]);
-  }
-  for (j = 0; j < u->n && status == LAB_OK; j++)
-    if (u->unknown[j].run == e)
-      early_of(&u->unknown[j], theta[j], x, early);
-  for (j = 0; u->nuisance && j < u->nuisance->n && status == LAB_OK; j++)
-    if (u->nuisance->of[j].run == e)
-      early_of(&u->nuisance->of[j], u->nuisance->of[j].value, x, early);
+  lab_drive d;
+  int status = lab_drive_open(u, model, theta, e, &d, error);
   if (status == LAB_OK)
-    status = lab_run_predict_episodes(x, episode, n, early, u->tol, pace, r, error);
-  free(early);
-  free(rig);
+    status = lab_run_predict_episodes(&u->run[e], d.episode, d.n, d.early, u->tol, pace, r, error);
+  lab_drive_close(&d);
   return status;
 }
 
@@ -190,7 +89,7 @@ static int coarse_residuals_of(const lab_unknowns *u, const lab_rig *model, cons
   return status;
 }
 
-static size_t residuals_in(const lab_unknowns *u, int e)
+size_t lab_unknowns_residuals_in(const lab_unknowns *u, int e)
 {
   const lab_run *x = &u->run[e];
   return (u->window ? 2 * lab_windowed_count(x->n, u->window) : x->n) * (size_t)x->n_channels;
@@ -212,7 +111,7 @@ void lab_unknowns_view(lab_unknowns *u, size_t window)
   int e;
   u->window = window;
   for (u->n_data = 0, e = 0; e < u->n_runs; e++)
-    u->n_data += residuals_in(u, e);
+    u->n_data += lab_unknowns_residuals_in(u, e);
   u->n_values = window ? u->n_data : count_values(u);
   lab_unknowns_count(u);
 }
@@ -233,8 +132,8 @@ static int residuals_at(const lab_unknowns *u, const lab_rig *model, const doubl
 {
   double *all = r;
   int e, j;
-  for (e = 0; e < u->n_runs; r += residuals_in(u, e), e++)
-    if ((which < 0 || is_of(&u->unknown[which], e)) &&
+  for (e = 0; e < u->n_runs; r += lab_unknowns_residuals_in(u, e), e++)
+    if ((which < 0 || lab_unknown_acts(&u->unknown[which], e)) &&
         (u->window ? coarse_residuals_of(u, model, theta, e, r, error)
                    : residuals_of(u, model, theta, e, pace ? &pace[e] : NULL, r, error)))
       return error->status;

@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "cvode.h"
+#include "handover.h"
 #include "late.h"
 #include "sampler.h"
 #include "schedule.h"
+#include "variation.h"
 
 enum { COLUMNS = 13, SHOWN_COLUMNS = 5 };
 
@@ -55,6 +57,7 @@ typedef struct recorder {
   const pneu_model *const *model; /* the one that acts */
   double *t;                      /* [s] of the samples */
   size_t *row;                    /* of each sample, plus response->n where it is of the position; NULL: not skewed */
+  struct lab_variations *vary;    /* what nearby runs differ by; NULL: there are none */
   void (*take)(void *context, size_t i, const pneu_state *state, const pneu_input *input); /* a row */
 } recorder;
 
@@ -102,6 +105,8 @@ static void record_shown(void *context, size_t i, const pneu_state *state, const
     r->response->x[i] = (double)shown.position;
   r->response->T[i] = (double)shown.temperature;
   r->response->force[i] = (double)shown.force;
+  if (r->vary)
+    lab_variations_take(r->vary, i, state, input, &shown, !r->row, 1);
 }
 
 static void record_position(void *context, size_t i, const pneu_state *state, const pneu_input *input)
@@ -110,6 +115,8 @@ static void record_position(void *context, size_t i, const pneu_state *state, co
   pneu_shown shown = {0, 0, 0, 0};
   pneu_show(*r->model, state, input, &shown);
   r->response->x[i] = (double)shown.position;
+  if (r->vary)
+    lab_variations_take(r->vary, i, state, input, &shown, 1, 0);
 }
 
 static void record_skewed(void *context, size_t i, const pneu_state *state, const pneu_input *input)
@@ -154,21 +161,40 @@ typedef struct engine {
   double tol;
   lab_cvode *cvode; /* NULL: the stepper */
   lab_sampler *sampler;
-  lab_pace *taken;          /* the pace that is taken up, NULL: none */
-  const lab_pace *followed; /* the pace that is followed, NULL: none */
-  size_t row;               /* of the schedule */
+  lab_pace *taken;             /* the pace that is taken up, NULL: none */
+  const lab_pace *followed;    /* the pace that is followed, NULL: none */
+  struct lab_variations *vary; /* what nearby runs differ by; NULL: there are none */
+  size_t row;                  /* of the schedule */
   pneu_workspace work;
 } engine;
+
+/* Samples that are due by then; a few more than many do not matter. */
+static int samples_until(const lab_sampler *s, double t)
+{
+  enum { MANY = 8 };
+  int n = 0;
+  while (n < MANY && s->next + (size_t)n < s->n && s->t[s->next + (size_t)n] - s->origin <= t)
+    n++;
+  return n;
+}
 
 static int sample_step(void *context, const pneu_step_view *view)
 {
   const engine *e = context;
   pneu_state at;
   double due;
+  if (e->vary) {
+    lab_variations_step(e->vary, view);
+    lab_variations_expect(e->vary, samples_until(e->sampler, view->t + view->h));
+  }
   while ((due = lab_sampler_due(e->sampler)) <= view->t + view->h) {
     pneu_dense(view, (due - view->t) / view->h, &at);
+    if (e->vary)
+      lab_variations_look(e->vary, (due - view->t) / view->h);
     lab_sampler_take(e->sampler, &at);
   }
+  if (e->vary)
+    lab_variations_pass(e->vary);
   if (e->taken)
     lab_pace_step(e->taken, (double)view->h);
   return 0;
@@ -177,7 +203,9 @@ static int sample_step(void *context, const pneu_step_view *view)
 static int mark_event(void *context, pneu_real t, const pneu_state *state, int before)
 {
   const engine *e = context;
-  (void)t, (void)state, (void)before;
+  (void)t, (void)before;
+  if (e->vary)
+    lab_variations_event(e->vary, state);
   if (e->taken)
     lab_pace_event(e->taken);
   return 0;
@@ -203,7 +231,7 @@ static int stretch(engine *e, pneu_state *state, double duration, lab_error *err
   if (e->followed)
     lab_pace_follow(e->followed, e->row, &options);
   status = pneu_run(e->model, state, sampler->input, duration, &options,
-                    e->taken || sampler->next < sampler->n ? &observer : NULL, &e->work);
+                    e->taken || e->vary || sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC,
@@ -220,52 +248,9 @@ static void limit_samples(lab_sampler *sampler, size_t n, double to, int last)
     sampler->n++;
 }
 
-/* States of each effect. */
-static const int states_of[] = {
-#define PNEU_EFFECT(name, n_param, n_state) n_state,
-#include "../../../lib/effects.def"
-#undef PNEU_EFFECT
-    0};
-
-/* The place of an effect's states, -1 where it is off. */
-static int place_of(const pneu_model *model, int effect)
-{
-  int i;
-  for (i = 0; i < model->n_active; i++)
-    if (model->active[i] == effect)
-      return model->state_of[effect];
-  return -1;
-}
-
-/* Go on with another model: what both have goes on, what is new begins as at rest; a stem that has sunk into a stop
- * touches it.  Returns: LAB_OK, LAB_NUMERIC */
-static int hand_over(const pneu_model *from, const pneu_model *to, const pneu_input *input, pneu_state *state,
-                     lab_error *error)
-{
-  const pneu_real x = state->x < 0 ? 0 : state->x > to->p.stroke ? to->p.stroke : state->x;
-  pneu_state next;
-  int effect, i;
-  if (pneu_state_rest(to, state->p, state->T, x, input, &next) != PNEU_OK)
-    return lab_fail(error, LAB_NUMERIC, "no other model can go on from p = %.9g Pa, x = %.9g m", (double)state->p,
-                    (double)state->x);
-  next.T = to->thermal ? state->T : next.T;
-  for (effect = 0; effect < PNEU_EFFECT_COUNT; effect++) {
-    const int before = place_of(from, effect), after = place_of(to, effect);
-    for (i = 0; before >= 0 && after >= 0 && i < states_of[effect]; i++)
-      next.extra[after + i] = state->extra[before + i];
-  }
-  if (from->clock >= 0 && to->clock >= 0)
-    next.extra[to->clock] = state->extra[from->clock];
-  if (state->v != 0 && state->x > to->lower_stop && state->x < to->upper_stop) {
-    next.v = state->v;
-    next.mode = state->v > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
-  }
-  *state = next;
-  return LAB_OK;
-}
-
 /* Under one row of a schedule, to a time. */
-static int run_row(engine *e, pneu_input *input, double from, double to, pneu_state *state, lab_error *error)
+static int run_row(engine *e, pneu_input *input, double from, double to, const pneu_state *before, pneu_state *state,
+                   lab_error *error)
 {
   lab_sampler *sampler = e->sampler;
   pneu_delay acts; /* the schedule has the delay */
@@ -274,6 +259,8 @@ static int run_row(engine *e, pneu_input *input, double from, double to, pneu_st
   sampler->origin = from;
   sampler->input = input;
   pneu_settle(e->model, input, state);
+  if (e->vary)
+    lab_variations_row(e->vary, e->row, before, state);
   while (lab_sampler_due(sampler) <= 0)
     lab_sampler_take(sampler, state);
   if (stretch(e, state, to - from, error))
@@ -297,16 +284,20 @@ static int run_rows(engine *e, const lab_late *late, double t_end, lab_error *er
                     e->followed->rows);
   if (model->clock >= 0)
     state.extra[model->clock] = (pneu_real)schedule->t[0];
+  if (e->vary)
+    lab_variations_begin(e->vary, schedule, late->rows);
   for (i = 0; i < schedule->n && schedule->t[i] < t_end && status == LAB_OK; i++) {
     const double to = i + 1 < schedule->n && schedule->t[i + 1] < t_end ? schedule->t[i + 1] : t_end;
+    const pneu_state before = state;
     pneu_input input = schedule->input[i];
     limit_samples(sampler, n, to, to >= t_end);
-    if (late->rows[i] != e->model)
-      status = hand_over(e->model, late->rows[i], &input, &state, error);
+    if (late->rows[i] != e->model && lab_hand_over(e->model, late->rows[i], &input, &state) != PNEU_OK)
+      return lab_fail(error, LAB_NUMERIC, "no other model can go on from p = %.9g Pa, x = %.9g m", (double)state.p,
+                      (double)state.x);
     e->model = late->rows[i];
     e->row = i;
     if (status == LAB_OK)
-      status = run_row(e, &input, schedule->t[i], to, &state, error);
+      status = run_row(e, &input, schedule->t[i], to, &before, &state, error);
   }
   return status == LAB_OK && e->taken ? lab_pace_end(e->taken, error) : status;
 }
@@ -325,7 +316,7 @@ static int run_schedule(engine *e, double t_end, lab_error *error)
 static int run_sampled(engine *e, lab_response *response, lab_error *error)
 {
   const double skew = response ? (double)e->model->position_skew : 0;
-  recorder r = {response, &e->model, NULL, NULL, e->task->options.shown_only ? record_shown : record};
+  recorder r = {response, &e->model, NULL, NULL, e->vary, e->task->options.shown_only ? record_shown : record};
   lab_sampler sampler = {.context = &r};
   int status = response ? recorder_open(&r, skew, error) : LAB_OK;
   if (response) {
@@ -346,7 +337,7 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
 {
   const lab_response_options *o = &task->options;
   engine e = {.model = model, .task = task, .t_end = task->t_end, .tol = o->tol};
-  int status;
+  int status = LAB_OK;
   if (task->pace && task->pace->is_set)
     e.followed = task->pace;
   else
@@ -363,9 +354,12 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
     memcpy(response->t, task->t, task->n * sizeof *task->t);
   if (o->integrator == LAB_CVODE && !(e.cvode = lab_cvode_new()))
     status = lab_fail_memory(error, "CVODE");
-  else
+  else if (task->n_nearby > 0)
+    status = lab_variations_open(task, task->nearby, task->n_nearby, task->change, &e.vary, error);
+  if (status == LAB_OK)
     status = run_sampled(&e, response, error);
   lab_cvode_free(e.cvode);
+  lab_variations_close(e.vary, status != LAB_OK);
   if (task->stats)
     *task->stats = e.work.stats;
   if (status != LAB_OK && response)

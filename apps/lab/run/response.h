@@ -57,6 +57,11 @@ typedef struct lab_simulation {
   lab_response_options options;
   lab_pace *pace;    /* set by the first run that has it, with its tolerance; followed by those after it; NULL: none */
   pneu_stats *stats; /* written if not NULL */
+  /* Runs of nearly the same model, of which start, schedule and rows count, and what p, x, T and force of each have
+   * beyond this one, to first order (variation.h): all NULL where one cannot be had so. For the stepper, shown_only. */
+  const struct lab_simulation *nearby;
+  int n_nearby;
+  lab_response *change;
 } lab_simulation;
 
 /* Run a model. Commands act model->command_delay after they are given, but for the first, which has been acting;

@@ -259,6 +259,102 @@ int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n
   return LAB_OK;
 }
 
+/* Cases of a run, staged: the first is the one that is run. */
+typedef struct cast {
+  lab_staging *staging;
+  pneu_state *start;
+  lab_simulation *task;
+  lab_response *change;
+} cast;
+
+static void cast_close(cast *c, int n)
+{
+  int i;
+  for (i = 0; c->staging && i < n; i++)
+    lab_staging_close(&c->staging[i]);
+  for (i = 0; c->change && i < n; i++)
+    lab_response_free(&c->change[i]);
+  free(c->staging);
+  free(c->start);
+  free(c->task);
+  free(c->change);
+}
+
+static int cast_open(cast *c, int n, lab_error *error)
+{
+  c->staging = calloc((size_t)n, sizeof *c->staging);
+  c->start = calloc((size_t)n, sizeof *c->start);
+  c->task = calloc((size_t)n, sizeof *c->task);
+  c->change = calloc((size_t)n, sizeof *c->change);
+  return c->staging && c->start && c->task && c->change ? LAB_OK : lab_fail_memory(error, "cases of a run");
+}
+
+/* Stage a case, in the scales of the first.  Returns: LAB_OK; LAB_NUMERIC where it begins in no state; LAB_WORLD */
+static int stage(const lab_run *e, const lab_run_case *as, double tol, cast *c, int i, lab_error *error)
+{
+  lab_staging *s = &c->staging[i];
+  int k, status = lab_staging_open(e->log, &e->inputs.schedule, as->early, e->n_instants, as->episode, as->n, s, error);
+  for (k = 0; i > 0 && k < s->n && status == LAB_OK; k++)
+    memcpy(s->model[k].scale, c->staging[0].model[0].scale, sizeof s->model[k].scale);
+  if (status == LAB_OK)
+    status = lab_run_initial_state(s->of[0], s->input, e->log, e->run, &c->start[i], error);
+  c->task[i] = (lab_simulation){.start = &c->start[i],
+                                .schedule = &s->schedule,
+                                .rows = s->of,
+                                .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
+                                .n = e->n,
+                                .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
+  return status == LAB_DATA ? (error->status = LAB_NUMERIC) : status;
+}
+
+/* Run the first case with those behind it nearby; `of` says which case each is. */
+static int run_cast(const lab_run *e, cast *c, int n, const int *of, double *const *change, char *done,
+                    lab_error *error)
+{
+  lab_response response;
+  int i, k;
+  c->task[0].nearby = c->task + 1;
+  c->task[0].n_nearby = n - 1;
+  c->task[0].change = c->change + 1;
+  if (lab_response_run(c->staging[0].of[0], &c->task[0], &response, error))
+    return error->status;
+  lab_response_free(&response);
+  for (i = 1; i < n; i++) {
+    const int to = of[i];
+    done[to] = c->change[i].p != NULL;
+    for (k = 0; done[to] && k < e->n_channels; k++)
+      memcpy(change[to] + (size_t)k * e->n, column_of(&c->change[i], e->channel[k]), e->n * sizeof **change);
+  }
+  return LAB_OK;
+}
+
+int lab_run_vary(const lab_run *e, const lab_run_case *base, const lab_run_case *nearby, int n_cases, double tol,
+                 double *const *change, char *done, lab_error *error)
+{
+  cast c;
+  int *of = malloc((size_t)(n_cases + 1) * sizeof *of);
+  int i, n = 1, status = cast_open(&c, n_cases + 1, error);
+  memset(done, 0, (size_t)n_cases);
+  if (status == LAB_OK && !of)
+    status = lab_fail_memory(error, "cases of a run");
+  if (status == LAB_OK)
+    status = stage(e, base, tol, &c, 0, error);
+  for (i = 0; i < n_cases && status == LAB_OK; i++) {
+    status = stage(e, &nearby[i], tol, &c, n, error);
+    if (status == LAB_OK)
+      of[n++] = i;
+    else if (status == LAB_NUMERIC) {
+      lab_staging_close(&c.staging[n]);
+      status = LAB_OK;
+    }
+  }
+  if (status == LAB_OK && n > 1)
+    status = run_cast(e, &c, n, of, change, done, error);
+  cast_close(&c, n_cases + 1);
+  free(of);
+  return status;
+}
+
 int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error)
 {
   const lab_episode whole = {0, rig};

@@ -52,6 +52,20 @@ enum { LAB_EPISODES_MAX = 9 };
 int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
                              lab_pace *pace, double *y, lab_error *error);
 
+/* What a run is predicted from. */
+typedef struct lab_run_case {
+  const lab_episode *episode; /* n >= 1 of them, as above */
+  int n;
+  const double *early; /* [s] n_instants, as above */
+} lab_run_case;
+
+/* What cases nearby predict beyond `base`, to first order, from one run (variation.h).
+ * Out:     change  n_channels * n values of each case
+ *          done    n_cases: not 0 where it could be had so
+ * Returns: as lab_run_predict. */
+int lab_run_vary(const lab_run *e, const lab_run_case *base, const lab_run_case *nearby, int n_cases, double tol,
+                 double *const *change, char *done, lab_error *error);
+
 /* Errors of channel c over its noise, as they count: weighed, and without the memory of the noise.
  * In/out:  v  n values */
 void lab_run_weigh(const lab_run *e, int c, double *v);

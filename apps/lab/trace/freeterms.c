@@ -105,42 +105,74 @@ static int by_surplus(const void *a, const void *b)
   return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* The slope in one knot, or in one amplitude. */
+/* The model with a value at one knot of the term, or in one amplitude; `share` of the usual. */
+static void add_knot(const lab_unknowns *u, const lab_term_score *s, int knot, double share, lab_rig *model)
+{
+  pneu_term *term;
+  *model = u->rig;
+  term = &model->term[model->n_terms++];
+  *term = s->term;
+  term->value[knot] = (pneu_real)(share * lab_constant(LAB_KNOT_STEP) * s->scale);
+}
+
+/* The slope in one of them. */
 static int slope_of_knot(const lab_projection *p, const lab_term_score *s, int knot, double *slope, lab_error *error)
 {
-  lab_rig model = p->u->rig;
-  pneu_term *term = &model.term[model.n_terms++];
-  *term = s->term;
-  term->value[knot] = (pneu_real)(lab_constant(LAB_KNOT_STEP) * s->scale);
+  lab_rig model;
+  add_knot(p->u, s, knot, 1, &model);
   return lab_projection_slope(p, &model, slope, error);
+}
+
+/* Slopes in all knots from one run of each experiment.  Out: column, done */
+static int slopes_together(const lab_projection *p, const lab_term_score *s, double **column, char *done,
+                           lab_error *error)
+{
+  static const double share = 1e-3; /* lest a knot pass an edge where rates change at once */
+  lab_rig *model = malloc((size_t)s->term.n * sizeof *model);
+  const lab_rig *of[PNEU_TERM_ROOM];
+  size_t k;
+  int i, status = model ? LAB_OK : lab_fail_memory(error, "the slopes of a free term");
+  for (i = 0; i < s->term.n && status == LAB_OK; i++) {
+    add_knot(p->u, s, i, share, &model[i]);
+    of[i] = &model[i];
+  }
+  if (status == LAB_OK)
+    status = lab_unknowns_changes_with(p->u, of, s->term.n, column, done, error);
+  for (i = 0; i < s->term.n && status == LAB_OK; i++)
+    for (k = 0; done[i] && k < p->m; k++)
+      column[i][k] /= share;
+  free(model);
+  return status;
 }
 
 /* Project the residual on the span of the knots' slopes. */
 static void score_knots(const lab_projection *p, lab_term_score *s, lab_error *all)
 {
-  double *columns = malloc((size_t)s->term.n * p->m * sizeof *columns), whole, left, along;
+  double *columns = malloc((size_t)s->term.n * p->m * sizeof *columns), *column[PNEU_TERM_ROOM];
+  char done[PNEU_TERM_ROOM] = {0};
   lab_error error;
   size_t k;
-  int i;
-  if (!columns) {
-    lab_fail_memory(&error, "the slopes of a free term");
+  int i, status = columns ? LAB_OK : lab_fail_memory(&error, "the slopes of a free term");
+  for (i = 0; i < s->term.n && columns; i++)
+    column[i] = columns + (size_t)i * p->m;
+  if (status == LAB_OK)
+    status = slopes_together(p, s, column, done, &error);
+  if (status != LAB_OK)
     lab_fail_together(all, &error);
-    return;
-  }
-  for (i = 0; i < s->term.n; i++) {
-    double *column = columns + (size_t)s->degrees * p->m;
-    if (slope_of_knot(p, s, i, column, &error)) {
+  for (i = 0; i < s->term.n && status == LAB_OK; i++) {
+    double *to = columns + (size_t)s->degrees * p->m, whole, left, along;
+    if (!done[i] && slope_of_knot(p, s, i, column[i], &error)) {
       lab_fail_together(all, &error);
       continue;
     }
-    whole = sqrt(lab_dot(column, column, p->m));
-    left = lab_project_out(p->basis, p->n_basis, p->m, p->m, column);
-    left = fmin(left, lab_project_out(columns, s->degrees, p->m, p->m, column));
+    whole = sqrt(lab_dot(column[i], column[i], p->m));
+    left = lab_project_out(p->basis, p->n_basis, p->m, p->m, column[i]);
+    left = fmin(left, lab_project_out(columns, s->degrees, p->m, p->m, column[i]));
     if (!(left > lab_constant(LAB_KNOT_ABSORBED) * whole && whole > lab_constant(LAB_KNOT_SEEN)))
       continue;
     for (k = 0; k < p->m; k++)
-      column[k] /= left;
-    along = lab_dot(column, p->r, p->m);
+      to[k] = column[i][k] / left;
+    along = lab_dot(to, p->r, p->m);
     s->statistic += along * along;
     s->degrees++;
   }

@@ -40,20 +40,33 @@ static void orthonormalise(lab_projection *p, int columns)
   }
 }
 
-/* The slope in an unknown, as it is known or anew. */
-static int slope_of(lab_unknowns *u, const double *theta, const double *r, int j, double *column, lab_error *error)
+/* Slopes of the first n unknowns, as they are known or anew. */
+static int find_slopes(lab_unknowns *u, int n, const double *r, double *J, lab_error *error)
 {
-  if (!u->slopes || !u->has_slope[j])
-    return lab_unknowns_slope(u, theta, r, j, column, error);
-  memcpy(column, u->slopes + (size_t)j * u->m, u->m * sizeof *column);
-  return LAB_OK;
+  char done[LAB_FIT_MAX];
+  int j;
+  for (j = 0; j < u->n; j++) {
+    done[j] = j >= n || (u->slopes && u->has_slope[j]);
+    if (j < n && done[j])
+      memcpy(J + (size_t)j * u->m, u->slopes + (size_t)j * u->m, u->m * sizeof *J);
+  }
+  return lab_unknowns_slopes(u, r, done, J, error);
+}
+
+/* For slopes in what is not among the unknowns. */
+static int take_pace(lab_unknowns *u, lab_error *error)
+{
+  double theta[LAB_FIT_MAX];
+  int j;
+  for (j = 0; j < u->n; j++)
+    theta[j] = u->unknown[j].value;
+  return lab_unknowns_take_pace(u, theta, error);
 }
 
 /* With the slopes of the first n unknowns. */
 static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error)
 {
-  double theta[LAB_FIT_MAX];
-  int j, status = LAB_OK;
+  int status;
   memset(p, 0, sizeof *p);
   p->u = u;
   lab_unknowns_count(u);
@@ -62,22 +75,11 @@ static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error
   p->basis = malloc((size_t)(u->n + 1) * p->m * sizeof *p->basis);
   if (!p->r || !p->basis)
     return lab_fail_memory(error, "a projection");
-  for (j = 0; j < u->n; j++)
-    theta[j] = u->unknown[j].value;
-  if (lab_unknowns_residuals(u, theta, p->r, error) || lab_unknowns_take_pace(u, theta, error))
+  if (lab_unknowns_residuals(u, NULL, p->r, error))
     return error->status;
-#pragma omp parallel for schedule(dynamic)
-  for (j = 0; j < n; j++) {
-    lab_error mine;
-    double *column = p->basis + (size_t)j * p->m;
-    const int at = lab_cpu_is_spent(u->until) ? LAB_NUMERIC : slope_of(u, theta, p->r, j, column, &mine);
-    if (at == LAB_NUMERIC)
-      memset(column, 0, p->m * sizeof *column);
-    else if (at != LAB_OK) {
-#pragma omp critical(projection_error)
-      *error = mine, status = at;
-    }
-  }
+  status = find_slopes(u, n, p->r, p->basis, error);
+  if (status == LAB_OK)
+    status = take_pace(u, error);
   if (status == LAB_OK && lab_cpu_is_spent(u->until))
     return fail_spent(error);
   if (status == LAB_OK)
@@ -174,29 +176,37 @@ static int effect_slope(void *context, double size, double *slope, lab_error *er
   return lab_projection_slope(e->p, &e->model, slope, error);
 }
 
-/* Score one shape of an effect.  Returns: the number of slopes that were judged */
-static int score_shape(const lab_projection *p, lab_score *score, double shape_value, double *slope, lab_error *all)
-{
-  shaped_effect effect = {.p = p, .model = p->u->rig, .param = score->param};
-  lab_trial trial = {.shape_value = shape_value, .slope = effect_slope, .context = &effect};
-  const pneu_param_info info = lab_param_info(score->param);
-  effect.present = (double)*pneu_param_at(&effect.model.params, score->param); /* neutral, but for one that is held */
-  trial.usual = (double)info.value - (double)info.neutral;
-  trial.up = (double)info.upper - effect.present;
-  trial.down = effect.present - (double)info.lower;
-  trial.offset = effect.present - (double)info.neutral;
-  if (score->shape >= 0)
-    *pneu_param_at(&effect.model.params, score->shape) = (pneu_real)shape_value;
-  return lab_score_try(p, &trial, score, slope, all);
-}
-
 double lab_score_shape(const lab_score *score, int which)
 {
   const pneu_param_info info = lab_param_info(score->shape);
   return fmin(fmax(shapes[which] * (double)info.value, (double)info.lower), (double)info.upper);
 }
 
-static int score_effect(const lab_projection *p, lab_score *score, lab_error *all)
+/* One shape of an effect, in the model that is scored. */
+static void prepare(const lab_projection *p, const lab_score *score, int which, shaped_effect *effect, lab_trial *trial)
+{
+  const pneu_param_info info = lab_param_info(score->param);
+  *effect = (shaped_effect){.p = p, .model = p->u->rig, .param = score->param};
+  *trial = (lab_trial){.slope = effect_slope, .context = effect};
+  effect->present = (double)*pneu_param_at(&effect->model.params, score->param); /* neutral, but for one that is held */
+  trial->usual = (double)info.value - (double)info.neutral;
+  trial->up = (double)info.upper - effect->present;
+  trial->down = effect->present - (double)info.lower;
+  trial->offset = effect->present - (double)info.neutral;
+  if (score->shape < 0)
+    return;
+  trial->shape_value = lab_score_shape(score, which);
+  *pneu_param_at(&effect->model.params, score->shape) = (pneu_real)trial->shape_value;
+}
+
+static int shapes_of(const lab_score *score)
+{
+  return score->shape >= 0 ? LAB_SCORE_SHAPES : 1;
+}
+
+/* Score an effect in every shape, one after the other; those that are `done` already apart.  Returns: the number of
+ * slopes that were judged */
+static int score_effect(const lab_projection *p, lab_score *score, const char *done, lab_error *all)
 {
   lab_error error;
   double *slope = malloc(p->m * sizeof *slope);
@@ -206,10 +216,14 @@ static int score_effect(const lab_projection *p, lab_score *score, lab_error *al
     lab_fail_together(all, &error);
     return 0;
   }
-  for (k = 0; k < (score->shape >= 0 ? LAB_SCORE_SHAPES : 1); k++)
-    tests += score_shape(p, score, score->shape >= 0 ? lab_score_shape(score, k) : 0, slope, all);
-  score->p_value = lab_chi2_tail(score->statistic, 1);
-  score->explained = p->excess > 0 ? score->statistic / p->excess : 0;
+  for (k = 0; k < shapes_of(score); k++) {
+    shaped_effect effect;
+    lab_trial trial;
+    if (done[k])
+      continue;
+    prepare(p, score, k, &effect, &trial);
+    tests += lab_score_try(p, &trial, score, slope, all);
+  }
   free(slope);
   return tests;
 }
@@ -276,15 +290,88 @@ int lab_score_by_statistic(const void *a, const void *b)
   return x->param - y->param;
 }
 
+/* What is scored from one run of each experiment. */
+typedef struct together {
+  lab_rig *model;
+  const lab_rig **of;
+  double *columns, **column;
+  char *done;
+} together;
+
+static void together_close(together *t)
+{
+  free(t->model);
+  free(t->of);
+  free(t->columns);
+  free(t->column);
+  free(t->done);
+}
+
+static int together_open(together *t, size_t n, size_t m, lab_error *error)
+{
+  size_t i;
+  t->model = malloc((n + 1) * sizeof *t->model);
+  t->of = malloc((n + 1) * sizeof *t->of);
+  t->columns = malloc((n * m + 1) * sizeof *t->columns);
+  t->column = malloc((n + 1) * sizeof *t->column);
+  t->done = calloc(n + 1, 1);
+  if (!t->model || !t->of || !t->columns || !t->column || !t->done)
+    return lab_fail_memory(error, "scores");
+  for (i = 0; i < n; i++) {
+    t->of[i] = &t->model[i];
+    t->column[i] = t->columns + i * m;
+  }
+  return LAB_OK;
+}
+
+/* Score what changes little of the states, at the beginning of its slope.
+ * Out:     done   LAB_SCORE_SHAPES of each score
+ *          tests  slopes that were judged */
+static int score_together(const lab_projection *p, lab_scores *scores, char *done, int *tests, lab_error *error)
+{
+  static const double share = 1e-3; /* of the usual size */
+  together t;
+  shaped_effect effect;
+  lab_trial trial;
+  int i, k, n = 0, status = together_open(&t, LAB_SCORE_SHAPES * (size_t)scores->n, p->m, error);
+  *tests = 0;
+  for (i = 0; i < scores->n && status == LAB_OK; i++)
+    for (k = 0; k < shapes_of(&scores->of[i]); k++) {
+      prepare(p, &scores->of[i], k, &effect, &trial);
+      t.model[n] = effect.model;
+      *pneu_param_at(&t.model[n++].params, effect.param) = (pneu_real)(effect.present + share * trial.usual);
+    }
+  if (status == LAB_OK)
+    status = lab_unknowns_changes_with(p->u, t.of, n, t.column, t.done, error);
+  for (n = 0, i = 0; i < scores->n && status == LAB_OK; i++)
+    for (k = 0; k < shapes_of(&scores->of[i]); k++, n++) {
+      if (!t.done[n])
+        continue;
+      prepare(p, &scores->of[i], k, &effect, &trial);
+      judge(p, &trial, t.column[n], share * trial.usual, &scores->of[i]);
+      done[i * LAB_SCORE_SHAPES + k] = 1;
+      *tests += 1;
+    }
+  together_close(&t);
+  return status;
+}
+
 int lab_score_effects(const lab_projection *p, lab_scores *scores, lab_error *error)
 {
-  int i, tests = 0;
+  char done[LAB_SCORES_MAX * LAB_SCORE_SHAPES] = {0};
+  int i, tests;
   error->status = LAB_OK;
   memset(scores, 0, sizeof *scores);
   list_effects(p->u, scores);
+  if (score_together(p, scores, done, &tests, error))
+    return error->status;
 #pragma omp parallel for schedule(dynamic) reduction(+ : tests)
   for (i = 0; i < scores->n; i++)
-    tests += score_effect(p, &scores->of[i], error);
+    tests += score_effect(p, &scores->of[i], done + i * LAB_SCORE_SHAPES, error);
+  for (i = 0; i < scores->n; i++) {
+    scores->of[i].p_value = lab_chi2_tail(scores->of[i].statistic, 1);
+    scores->of[i].explained = p->excess > 0 ? scores->of[i].statistic / p->excess : 0;
+  }
   scores->tests = tests;
   qsort(scores->of, (size_t)scores->n, sizeof *scores->of, lab_score_by_statistic);
   return error->status;

@@ -621,7 +621,8 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   lab_log_free(&log);
 }
 
-/* One key, one meaning: what the refit of a candidate explains, found or not. */
+/* One key, one meaning: what the refit of a candidate explains, found or not; before what is found is fitted to the end,
+ * declared values follow straight lines, which costs some thousandths. */
 static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
 {
   cJSON *root, *candidate;
@@ -646,7 +647,7 @@ static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
     refitted += !isnan(share);
     not_refitted += cJSON_IsNull(cJSON_GetObjectItem(candidate, "explained"));
     if (is_leak)
-      assert_close(share, found, 1e-3, 0);
+      assert_close(share, found, 5e-3, 0);
   }
   assert_true(refitted > 1 && not_refitted > 1);
   cJSON_Delete(root);

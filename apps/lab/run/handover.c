@@ -1,0 +1,50 @@
+#include "handover.h"
+
+/* States of each effect. */
+static const int states_of[] = {
+#define PNEU_EFFECT(name, n_param, n_state) n_state,
+#include "../../../lib/effects.def"
+#undef PNEU_EFFECT
+    0};
+
+/* The place of an effect's states, -1 where it is off. */
+static int place_of(const pneu_model *model, int effect)
+{
+  int i;
+  for (i = 0; i < model->n_active; i++)
+    if (model->active[i] == effect)
+      return model->state_of[effect];
+  return -1;
+}
+
+int lab_hand_over(const pneu_model *from, const pneu_model *to, const pneu_input *input, pneu_state *state)
+{
+  const pneu_real x = state->x < 0 ? 0 : state->x > to->p.stroke ? to->p.stroke : state->x;
+  pneu_state next;
+  int effect, i, status = pneu_state_rest(to, state->p, state->T, x, input, &next);
+  if (status != PNEU_OK)
+    return status;
+  next.T = to->thermal ? state->T : next.T;
+  for (effect = 0; effect < PNEU_EFFECT_COUNT; effect++) {
+    const int before = place_of(from, effect), after = place_of(to, effect);
+    for (i = 0; before >= 0 && after >= 0 && i < states_of[effect]; i++)
+      next.extra[after + i] = state->extra[before + i];
+  }
+  if (from->clock >= 0 && to->clock >= 0)
+    next.extra[to->clock] = state->extra[from->clock];
+  if (state->v != 0 && state->x > to->lower_stop && state->x < to->upper_stop) {
+    next.v = state->v;
+    next.mode = state->v > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+  }
+  *state = next;
+  return PNEU_OK;
+}
+
+int lab_states_agree(const pneu_model *a, const pneu_model *b)
+{
+  int effect,
+      same = a->thermal == b->thermal && a->bristle == b->bristle && a->n_extra == b->n_extra && a->clock == b->clock;
+  for (effect = 0; same && effect < PNEU_EFFECT_COUNT; effect++)
+    same = states_of[effect] == 0 || place_of(a, effect) == place_of(b, effect);
+  return same;
+}

@@ -1,0 +1,589 @@
+#include "variation.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "handover.h"
+#include "late.h"
+
+enum { S = PNEU_STATE_MAX, STAGES = 3, N = STAGES * S };
+
+/* Lobatto IIIC; the last row is that of the result. */
+static const double butcher[STAGES][STAGES] = {
+    {1.0 / 6, -1.0 / 3, 1.0 / 6}, {1.0 / 6, 5.0 / 12, -1.0 / 12}, {1.0 / 6, 2.0 / 3, 1.0 / 6}};
+
+enum { EVENTS = 10 }; /* in one row of the schedule: a stem that takes more slips has no slopes */
+
+static const double nothing = 1e-11; /* of full scale: a difference that has died out */
+
+/* One of the runs nearby. Differences have an entry for each of a moving stem's packed vector, whatever the mode. */
+typedef struct nearby {
+  lab_late late;
+  lab_response *change;
+  const pneu_model *model; /* that acts */
+  pneu_input input;        /* at the beginning of its row */
+  double lead;             /* [s] by which its row has lasted longer than the run's */
+  int is_off;              /* it cannot be followed */
+  int is_same;             /* nothing differs */
+  int knows_start;         /* g[0] is there */
+  pneu_real d[STAGES][S];  /* at the start, middle and end of the step */
+  pneu_real g[STAGES][S];
+  pneu_shown excess[STAGES]; /* of the sensors */
+} nearby;
+
+struct lab_variations {
+  int n;
+  nearby *of;
+  const lab_schedule *acts;
+  const pneu_model *const *rows;
+  const pneu_model *model;
+  pneu_input input; /* at the beginning of the row */
+  double theta;     /* of the present look */
+  int events;       /* in the row */
+  int is_lost;      /* none can be followed */
+  /* the step: */
+  pneu_state state[STAGES];
+  pneu_shown shown[STAGES];
+  int is_interpolated; /* samples are, between the stages */
+  pneu_input at[STAGES];
+  pneu_real y[STAGES][S], f[STAGES][S], jac[STAGES][S][S];
+  double matrix[N][N];                /* of the linear equations of a step, transposed */
+  double weight[2 * S][N];            /* of the stages, in the middle and the end */
+  double from_start[2][S][S];         /* share of d[0] in the middle and the end */
+  double from_stage[2][STAGES][S][S]; /* of each g */
+};
+
+/* ---- Differences of states ---- */
+
+static void add(const pneu_model *m, const pneu_real *d, pneu_state *s)
+{
+  int i, k = 0;
+  s->p += d[k++];
+  if (m->thermal)
+    s->T += d[k++];
+  for (i = 0; i < m->n_extra; i++)
+    s->extra[i] += d[k++];
+  s->x += d[k++];
+  s->v += d[k];
+}
+
+static void subtract(const pneu_model *m, const pneu_state *a, const pneu_state *b, pneu_real *d)
+{
+  int i, k = 0;
+  d[k++] = a->p - b->p;
+  if (m->thermal)
+    d[k++] = a->T - b->T;
+  for (i = 0; i < m->n_extra; i++)
+    d[k++] = a->extra[i] - b->extra[i];
+  d[k++] = a->x - b->x;
+  d[k] = a->v - b->v;
+}
+
+static pneu_state displaced(const pneu_model *m, const pneu_state *s, const pneu_real *d)
+{
+  pneu_state moved = *s;
+  add(m, d, &moved);
+  return moved;
+}
+
+/* What goes on for dt [s] at these rates, of the entries that the mode has. */
+static void drift(const pneu_model *m, int mode, const pneu_real *rate, double dt, pneu_state *s)
+{
+  pneu_real d[S] = {0};
+  const int n = pneu_dimension(m, mode);
+  int i;
+  for (i = 0; i < n; i++)
+    d[i] = rate[i] * dt;
+  add(m, d, s);
+}
+
+static int rates_at(const pneu_model *m, const pneu_state *s, const pneu_input *input, pneu_real *f)
+{
+  pneu_real y[S];
+  pneu_pack(m, s, y);
+  return pneu_rhs(m, s, input, y, f);
+}
+
+/* ---- The equations of a step ---- */
+
+/* Gauss with partial pivoting: b becomes the solution of a x = b, column by column. */
+static int solve(int n, double a[N][N], int n_b, double (*b)[N])
+{
+  int i, j, k, l;
+  for (k = 0; k < n; k++) {
+    int best = k;
+    for (i = k + 1; i < n; i++)
+      best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
+    if (!(fabs(a[best][k]) > 0))
+      return -1;
+    for (j = k; j < n && best != k; j++) {
+      const double keep = a[k][j];
+      a[k][j] = a[best][j];
+      a[best][j] = keep;
+    }
+    for (l = 0; l < n_b && best != k; l++) {
+      const double keep = b[l][k];
+      b[l][k] = b[l][best];
+      b[l][best] = keep;
+    }
+    for (i = k + 1; i < n; i++) {
+      const double share = a[i][k] / a[k][k];
+      for (j = k + 1; j < n && share != 0; j++)
+        a[i][j] -= share * a[k][j];
+      for (l = 0; l < n_b && share != 0; l++)
+        b[l][i] -= share * b[l][k];
+    }
+  }
+  for (l = 0; l < n_b; l++)
+    for (i = n - 1; i >= 0; i--) {
+      for (j = i + 1; j < n; j++)
+        b[l][i] -= a[i][j] * b[l][j];
+      b[l][i] /= a[i][i];
+    }
+  return 0;
+}
+
+/* What the start and what each stage's g have in the middle and at the end of a step.  Returns: 0, -1 if it cannot be
+ * had */
+static int find_shares(struct lab_variations *v, int n, double h)
+{
+  int s, t, i, j, k, at;
+  for (s = 0; s < STAGES; s++)
+    for (i = 0; i < n; i++)
+      for (t = 0; t < STAGES; t++)
+        for (j = 0; j < n; j++)
+          v->matrix[t * n + j][s * n + i] = (s == t && i == j) - h * butcher[s][t] * v->jac[t][i][j];
+  for (i = 0; i < 2 * n; i++) {
+    memset(v->weight[i], 0, (size_t)(STAGES * n) * sizeof v->weight[i][0]);
+    v->weight[i][n + i] = 1;
+  }
+  if (solve(STAGES * n, v->matrix, 2 * n, v->weight))
+    return -1;
+  for (at = 0; at < 2; at++)
+    for (i = 0; i < n; i++) {
+      const double *w = v->weight[at * n + i];
+      for (j = 0; j < n; j++) {
+        double sum = 0;
+        for (s = 0; s < STAGES; s++)
+          sum += w[s * n + j];
+        v->from_start[at][i][j] = sum;
+        for (t = 0; t < STAGES; t++) {
+          sum = 0;
+          for (k = 0; k < STAGES; k++)
+            sum += butcher[k][t] * w[k * n + j];
+          v->from_stage[at][t][i][j] = h * sum;
+        }
+      }
+    }
+  return 0;
+}
+
+/* ---- Through a step ---- */
+
+static int n_of(const struct lab_variations *v)
+{
+  return pneu_dimension(v->model, v->state[0].mode);
+}
+
+/* What the other model adds to the rates at a stage, seen where the difference was at the start of the step: near equal
+ * pressures or a stop the rates have a kink, and what follows the run has to be on the same side of its own.  Returns:
+ * 0, -1 */
+static int find_excess(const struct lab_variations *v, nearby *k, int stage)
+{
+  const int n = n_of(v);
+  const pneu_state s = displaced(v->model, &v->state[stage], k->d[0]);
+  pneu_input input = k->input;
+  pneu_real y[S];
+  int i, j;
+  input.elapsed = v->at[stage].elapsed + k->lead;
+  pneu_pack(k->model, &s, y);
+  if (pneu_rhs(k->model, &s, &input, y, k->g[stage]) != PNEU_OK)
+    return -1;
+  for (i = 0; i < n; i++) {
+    k->g[stage][i] -= v->f[stage][i];
+    for (j = 0; j < n; j++)
+      k->g[stage][i] -= v->jac[stage][i][j] * k->d[0][j];
+  }
+  return 0;
+}
+
+static void carry(const struct lab_variations *v, int n, nearby *k)
+{
+  int at, i, j, t;
+  for (at = 0; at < 2; at++) {
+    memcpy(k->d[at + 1], k->d[0], sizeof k->d[0]);
+    for (i = 0; i < n; i++) {
+      double sum = 0;
+      for (j = 0; j < n; j++)
+        sum += v->from_start[at][i][j] * k->d[0][j];
+      for (t = 0; t < STAGES; t++)
+        for (j = 0; j < n; j++)
+          sum += v->from_stage[at][t][i][j] * k->g[t][j];
+      k->d[at + 1][i] = sum;
+    }
+  }
+}
+
+/* Rates, states and Jacobians of the run at the stages of its step.  Returns: 0, -1 */
+static int look_at_step(struct lab_variations *v, const pneu_step_view *view)
+{
+  int s;
+  for (s = 0; s < STAGES; s++) {
+    v->at[s] = *view->input;
+    v->at[s].elapsed += s * view->h / 2;
+    pneu_dense(view, s * (pneu_real)0.5, &v->state[s]);
+    pneu_pack(view->model, &v->state[s], v->y[s]);
+    if (s == 0) {
+      memcpy(v->f[0], view->work->f0, sizeof v->f[0]);
+      memcpy(v->jac[0], view->work->jac, sizeof v->jac[0]);
+    } else if (pneu_rhs(view->model, &v->state[s], &v->at[s], v->y[s], v->f[s]) != PNEU_OK ||
+               pneu_jacobian(view->model, &v->state[s], &v->at[s], v->y[s], v->f[s], v->jac[s]) != PNEU_OK)
+      return -1;
+  }
+  return find_shares(v, n_of(v), view->h);
+}
+
+static void step_one(const struct lab_variations *v, nearby *k)
+{
+  if (k->is_off || k->is_same)
+    return;
+  if ((!k->knows_start && find_excess(v, k, 0)) || find_excess(v, k, 1) || find_excess(v, k, 2))
+    k->is_off = 1;
+  else
+    carry(v, n_of(v), k);
+}
+
+void lab_variations_step(struct lab_variations *v, const pneu_step_view *view)
+{
+  int k;
+  v->is_lost = v->is_lost || v->events > EVENTS || look_at_step(v, view);
+  for (k = 0; k < v->n; k++) {
+    v->of[k].is_off |= v->is_lost;
+    step_one(v, &v->of[k]);
+  }
+}
+
+void lab_variations_look(struct lab_variations *v, double theta)
+{
+  v->theta = theta;
+}
+
+static int is_nothing(const pneu_model *m, const pneu_real *d)
+{
+  pneu_real scale[S];
+  int i, any = 0;
+  pneu_scales(m, scale);
+  for (i = 0; i < m->n_gas + 2; i++)
+    any |= fabs(d[i]) > nothing * scale[i];
+  return !any;
+}
+
+/* Whether the nearby run is driven as the run is. */
+static int is_driven_alike(const struct lab_variations *v, const nearby *k)
+{
+  const pneu_input *a = &k->input, *b = &v->input;
+  return k->model == v->model && (k->lead == 0 || a->u_rate == 0) && a->u == b->u && a->u_rate == b->u_rate &&
+         a->supply_pressure == b->supply_pressure && a->force == b->force && a->pressure_rate == b->pressure_rate &&
+         a->position_rate == b->position_rate;
+}
+
+static void note_same(const struct lab_variations *v, nearby *k)
+{
+  k->is_same = is_driven_alike(v, k) && is_nothing(v->model, k->d[0]);
+  if (k->is_same)
+    memset(k->d, 0, sizeof k->d);
+}
+
+void lab_variations_pass(struct lab_variations *v)
+{
+  int i;
+  v->theta = 0;
+  for (i = 0; i < v->n; i++) {
+    nearby *k = &v->of[i];
+    if (k->is_off || k->is_same)
+      continue;
+    memcpy(k->d[0], k->d[2], sizeof k->d[0]);
+    memcpy(k->g[0], k->g[2], sizeof k->g[0]);
+    k->knows_start = 1;
+    if (k->model == v->model)
+      note_same(v, k);
+  }
+}
+
+/* ---- Events ---- */
+
+/* Which event has ended the step: of a stem that slides the one that is nearer, at rest the stronger push. */
+static int event_of(const struct lab_variations *v, const pneu_real *g, int n_events)
+{
+  const int mode = v->state[2].mode;
+  if (n_events < 2)
+    return 0;
+  if (mode == PNEU_MODE_UP || mode == PNEU_MODE_DOWN)
+    return fabs(g[1]) * v->model->scale[3] < fabs(g[0]) * v->model->scale[2];
+  return g[1] > g[0];
+}
+
+/* Rate of an event's function along the run. */
+static double rate_of_event(const struct lab_variations *v, int which, const pneu_real *g)
+{
+  static const double back = 1e-7; /* [s] */
+  pneu_state s = v->state[2];
+  pneu_input input = v->at[2];
+  pneu_real y[S], before[PNEU_EVENT_MAX];
+  drift(v->model, s.mode, v->f[2], -back, &s);
+  input.elapsed -= back;
+  pneu_pack(v->model, &s, y);
+  return pneu_events(v->model, &s, &input, y, before) > which ? (g[which] - before[which]) / back : 0;
+}
+
+/* One nearby run passes the event.  In: rate of the event's function; after, f  the run's state and rates behind it */
+static int pass_event(const struct lab_variations *v, nearby *k, int which, const pneu_real *g, double rate,
+                      const pneu_state *after, const pneu_real *f)
+{
+  pneu_state s = displaced(v->model, &v->state[2], k->d[0]), end = *after;
+  pneu_input input = k->input;
+  pneu_real y[S], own[PNEU_EVENT_MAX];
+  double late;
+  input.elapsed = v->at[2].elapsed + k->lead;
+  pneu_pack(k->model, &s, y);
+  if (pneu_events(k->model, &s, &input, y, own) <= which)
+    return -1;
+  late = rate > 0 ? -(own[which] - g[which]) / rate : 0;
+  drift(v->model, s.mode, v->f[2], late, &s);
+  pneu_switch(k->model, &input, which, &s);
+  drift(v->model, after->mode, f, late, &end);
+  subtract(v->model, &s, &end, k->d[0]);
+  return isfinite(late) ? 0 : -1;
+}
+
+void lab_variations_event(struct lab_variations *v, const pneu_state *after)
+{
+  pneu_real y[S], g[PNEU_EVENT_MAX], f[S];
+  int n_events, which, i, is_lost;
+  double rate;
+  v->events++;
+  if (v->is_lost)
+    return;
+  pneu_pack(v->model, &v->state[2], y);
+  n_events = pneu_events(v->model, &v->state[2], &v->at[2], y, g);
+  which = event_of(v, g, n_events);
+  rate = rate_of_event(v, which, g);
+  is_lost = n_events == 0 || rates_at(v->model, after, &v->at[2], f) != PNEU_OK;
+  for (i = 0; i < v->n; i++) {
+    nearby *k = &v->of[i];
+    if (k->is_off || k->is_same)
+      continue;
+    k->knows_start = 0;
+    k->is_off = is_lost || pass_event(v, k, which, g, rate, after, f);
+  }
+}
+
+/* ---- Rows ---- */
+
+/* One nearby run passes to row i.  In: f, f_after  rates of the run before and behind; not looked at where both pass at
+ * once */
+static int pass_row(struct lab_variations *v, nearby *k, size_t i, const pneu_model *was, const pneu_state *before,
+                    const pneu_state *after, const pneu_real *f, const pneu_real *f_after)
+{
+  const double late = k->late.schedule.t[i] - v->acts->t[i];
+  pneu_state s = displaced(was, before, k->d[0]), end = *after;
+  k->input = k->late.schedule.input[i];
+  k->lead = k->input.elapsed - v->input.elapsed - late;
+  if (late != 0)
+    drift(was, s.mode, f, late, &s);
+  if (k->model != k->late.rows[i]) {
+    if (lab_hand_over(k->model, k->late.rows[i], &k->input, &s) != PNEU_OK)
+      return -1;
+    k->model = k->late.rows[i];
+  }
+  pneu_settle(k->model, &k->input, &s);
+  if (late != 0)
+    drift(v->model, after->mode, f_after, late, &end);
+  memset(k->d, 0, sizeof k->d);
+  subtract(v->model, &s, &end, k->d[0]);
+  k->knows_start = 0;
+  note_same(v, k);
+  return 0;
+}
+
+void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *before, const pneu_state *after)
+{
+  const pneu_model *was = v->model;
+  pneu_input end = v->input;
+  pneu_real f[S] = {0}, f_after[S] = {0};
+  int k, is_lost = 0;
+  if (i > 0)
+    end.elapsed += v->acts->t[i] - v->acts->t[i - 1];
+  v->model = v->rows[i];
+  v->input = v->acts->input[i];
+  v->theta = 0;
+  v->events = 0;
+  if (v->is_lost)
+    return;
+  if (i > 0)
+    is_lost = rates_at(was, before, &end, f) != PNEU_OK || rates_at(v->model, after, &v->input, f_after) != PNEU_OK;
+  for (k = 0; k < v->n; k++)
+    if (!v->of[k].is_off)
+      v->of[k].is_off = is_lost || pass_row(v, &v->of[k], i, was, before, after, f, f_after);
+}
+
+/* ---- Samples ---- */
+
+static void difference_at(const nearby *k, int n, double theta, pneu_real *d)
+{
+  const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
+  int i;
+  for (i = 0; i < n; i++)
+    d[i] = theta > 0 ? start * k->d[0][i] + middle * k->d[1][i] + end * k->d[2][i] : k->d[0][i];
+}
+
+/* What the sensors of a nearby run show beyond those of the run, which show this.  Returns: 0, -1 */
+static int excess_shown(const struct lab_variations *v, const nearby *k, const pneu_state *state, double elapsed,
+                        const pneu_real *d, const pneu_shown *shown, pneu_shown *excess)
+{
+  const pneu_state s = displaced(v->model, state, d);
+  pneu_input own = k->input;
+  own.elapsed = elapsed + k->lead;
+  if (pneu_show(k->model, &s, &own, excess) != PNEU_OK)
+    return -1;
+  excess->pressure -= shown->pressure;
+  excess->temperature -= shown->temperature;
+  excess->position -= shown->position;
+  excess->force -= shown->force;
+  return 0;
+}
+
+/* The same at the stages of a step.  Returns: 0, -1 */
+static int look_at_stages(const struct lab_variations *v, nearby *k)
+{
+  int s;
+  for (s = 0; s < STAGES; s++)
+    if (excess_shown(v, k, &v->state[s], v->at[s].elapsed, k->d[s], &v->shown[s], &k->excess[s]))
+      return -1;
+  return 0;
+}
+
+void lab_variations_expect(struct lab_variations *v, int samples)
+{
+  int i, s;
+  v->is_interpolated = samples > STAGES && !v->is_lost;
+  for (s = 0; s < STAGES && v->is_interpolated; s++)
+    if (pneu_show(v->model, &v->state[s], &v->at[s], &v->shown[s]) != PNEU_OK)
+      v->is_interpolated = 0;
+  for (i = 0; i < v->n && v->is_interpolated; i++)
+    if (!v->of[i].is_off && !v->of[i].is_same)
+      v->of[i].is_off = look_at_stages(v, &v->of[i]) != 0;
+}
+
+static void interpolate(const nearby *k, double theta, pneu_shown *excess)
+{
+  const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
+  const pneu_shown *e = k->excess;
+  excess->pressure = start * e[0].pressure + middle * e[1].pressure + end * e[2].pressure;
+  excess->temperature = start * e[0].temperature + middle * e[1].temperature + end * e[2].temperature;
+  excess->position = start * e[0].position + middle * e[1].position + end * e[2].position;
+  excess->force = start * e[0].force + middle * e[1].force + end * e[2].force;
+}
+
+/* Memory that stays 0 is not touched. */
+static void put(double *column, size_t i, double value)
+{
+  if (value != 0)
+    column[i] = value;
+}
+
+void lab_variations_take(struct lab_variations *v, size_t i, const pneu_state *state, const pneu_input *input,
+                         const pneu_shown *shown, int of_position, int of_rest)
+{
+  pneu_real d[S];
+  pneu_shown excess;
+  int k;
+  for (k = 0; k < v->n && !v->is_lost; k++) {
+    nearby *of = &v->of[k];
+    if (of->is_off || of->is_same)
+      continue;
+    if (v->is_interpolated && v->theta > 0)
+      interpolate(of, v->theta, &excess);
+    else {
+      difference_at(of, v->model->n_gas + 2, v->theta, d);
+      of->is_off = excess_shown(v, of, state, input->elapsed, d, shown, &excess) != 0;
+    }
+    if (of_position)
+      put(of->change->x, i, excess.position);
+    if (!of_rest)
+      continue;
+    put(of->change->p, i, excess.pressure);
+    put(of->change->T, i, excess.temperature);
+    put(of->change->force, i, excess.force);
+  }
+}
+
+/* ---- From beginning to end ---- */
+
+void lab_variations_close(struct lab_variations *v, int without_result)
+{
+  int i;
+  for (i = 0; v && v->of && i < v->n; i++) {
+    lab_late_close(&v->of[i].late);
+    if (without_result || v->of[i].is_off)
+      lab_response_free(v->of[i].change);
+  }
+  if (v)
+    free(v->of);
+  free(v);
+}
+
+static int allocate_change(lab_response *change, size_t n, lab_error *error)
+{
+  memset(change, 0, sizeof *change);
+  change->n = n;
+  change->p = calloc(n + 1, sizeof *change->p);
+  change->x = calloc(n + 1, sizeof *change->x);
+  change->T = calloc(n + 1, sizeof *change->T);
+  change->force = calloc(n + 1, sizeof *change->force);
+  return change->p && change->x && change->T && change->force ? LAB_OK : lab_fail_memory(error, "variations of a run");
+}
+
+int lab_variations_open(const lab_simulation *run, const lab_simulation *nearby_run, int n, lab_response *change,
+                        struct lab_variations **variations, lab_error *error)
+{
+  struct lab_variations *v = *variations = calloc(1, sizeof *v);
+  int i, status = LAB_OK;
+  memset(change, 0, (size_t)n * sizeof *change);
+  if (!v || !(v->of = calloc((size_t)n, sizeof *v->of)))
+    return lab_fail_memory(error, "variations of a run");
+  v->n = n;
+  for (i = 0; i < n; i++)
+    v->of[i].change = &change[i];
+  for (i = 0; i < n && status == LAB_OK; i++) {
+    nearby *k = &v->of[i];
+    k->model = nearby_run[i].rows[0];
+    subtract(k->model, nearby_run[i].start, run->start, k->d[0]);
+    status = allocate_change(k->change, run->n, error);
+    if (status == LAB_OK)
+      status = lab_late_open(&nearby_run[i], k->model, &k->late, error);
+  }
+  return status;
+}
+
+/* Whether a nearby run has the states and the rows of the run, and shows them at the same times. */
+static int can_follow(const struct lab_variations *v, const nearby *k)
+{
+  size_t i;
+  int can = k->late.schedule.n == v->acts->n;
+  for (i = 0; can && i < v->acts->n; i++)
+    can = k->late.rows[i] == v->rows[i] || (lab_states_agree(k->late.rows[i], v->rows[i]) &&
+                                            k->late.rows[i]->position_skew == v->rows[i]->position_skew);
+  return can;
+}
+
+void lab_variations_begin(struct lab_variations *v, const lab_schedule *acts, const pneu_model *const *rows)
+{
+  int i;
+  v->acts = acts;
+  v->rows = rows;
+  v->model = rows[0];
+  for (i = 0; i < v->n; i++)
+    v->of[i].is_off = !can_follow(v, &v->of[i]);
+}

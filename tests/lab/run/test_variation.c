@@ -1,0 +1,203 @@
+/* What nearby runs differ by, beside differences of exact runs. */
+#include "../../fixture.h"
+
+#include "../../../apps/lab/run/response.h"
+
+enum { SAMPLES = 601, ROWS = 3 };
+static const double dt = 0.01, t_end = 6;
+static const double row_t[ROWS] = {0, 0.2, 3}, row_u[ROWS] = {0, 1, -1};
+
+/* A run: its model, and by how much its rows, its start and its last command differ from the usual. */
+typedef struct drive {
+  pneu_model model;
+  double later;   /* [s] the second row */
+  double warmer;  /* [K] the start */
+  double command; /* [1] */
+  size_t rows;    /* fewer than usual; 0: all */
+} drive;
+
+/* One of them, and its memory. */
+typedef struct cast {
+  pneu_input input[ROWS];
+  double t[ROWS];
+  lab_schedule schedule;
+  const pneu_model *rows[ROWS];
+  pneu_state start;
+  lab_simulation task;
+} cast;
+
+static double sample_t[SAMPLES];
+
+static void prepare(const drive *d, double tol, cast *c)
+{
+  size_t i;
+  for (i = 0; i < SAMPLES; i++)
+    sample_t[i] = fmin(((double)i + 0.5) * dt, t_end); /* none as a command changes */
+  for (i = 0; i < ROWS; i++) {
+    c->t[i] = row_t[i] + (i == 1 ? d->later : 0);
+    c->input[i] = fixture_input(&d->model, row_u[i] - (i == 2 ? d->command : 0));
+    c->rows[i] = &d->model;
+  }
+  c->schedule = (lab_schedule){d->rows ? d->rows : ROWS, c->t, c->input};
+  c->start = fixture_rest(&d->model, 0, 0, &c->input[0]);
+  c->start.T += (pneu_real)d->warmer;
+  c->task = (lab_simulation){.start = &c->start,
+                             .schedule = &c->schedule,
+                             .rows = c->rows,
+                             .t = sample_t,
+                             .n = SAMPLES,
+                             .t_end = t_end,
+                             .options = {.tol = tol, .shown_only = 1}};
+}
+
+/* Response of one. */
+static void respond(const drive *d, double tol, lab_response *response)
+{
+  lab_error error;
+  cast c;
+  prepare(d, tol, &c);
+  assert_int_equal(lab_response_run(&d->model, &c.task, response, &error), LAB_OK);
+}
+
+/* What `there` has beyond `here`, from one run. */
+static void vary(const drive *here, const drive *there, double tol, lab_response *change)
+{
+  lab_response response;
+  lab_error error;
+  cast base, nearby;
+  prepare(here, tol, &base);
+  prepare(there, tol, &nearby);
+  base.task.nearby = &nearby.task;
+  base.task.n_nearby = 1;
+  base.task.change = change;
+  assert_int_equal(lab_response_run(&here->model, &base.task, &response, &error), LAB_OK);
+  lab_response_free(&response);
+}
+
+/* Largest error of a change over the largest change, or the errors that exact runs have. */
+static double worst_of(const double *change, const double *above, const double *below, double scale)
+{
+  double worst = 0, largest = 1e-8 * scale;
+  int i;
+  for (i = 0; i < SAMPLES; i++) {
+    const double exact = (above[i] - below[i]) / 2;
+    largest = fmax(largest, fabs(exact));
+    worst = fmax(worst, fabs(change[i] - exact));
+  }
+  return worst / largest;
+}
+
+/* The change from `here` to `up`, by exact runs of `up` and of `down`, as far on the other side, and by one run. */
+static void check_change(const char *what, const drive *here, const drive *up, const drive *down, double most)
+{
+  lab_response above, below, change;
+  double x, p;
+  respond(up, 1e-10, &above);
+  respond(down, 1e-10, &below);
+  vary(here, up, 1e-6, &change);
+  if (!change.x)
+    fail_msg("%s is not followed", what);
+  x = worst_of(change.x, above.x, below.x, 0.02);
+  p = worst_of(change.p, above.p, below.p, 4e5);
+  check_note("%s: position %g, pressure %g", what, x, p);
+  assert_between(x, 0, most);
+  assert_between(p, 0, most);
+  lab_response_free(&above);
+  lab_response_free(&below);
+  lab_response_free(&change);
+}
+
+static drive with(int gas, const char *name, double value)
+{
+  return (drive){.model = fixture_quick(gas, name, value)};
+}
+
+/* Across the stops, from which the stem breaks away and on which it lands, in every law of the gas. */
+static void test_lab_variations__parameters__are_those_of_exact_runs(void **state)
+{
+  static const struct {
+    const char *name;
+    double value, step;
+  } of[] = {{"spring_rate", 1e5, 1}, {"dry_friction", 480, 1e-2}, {"area", 0.04, 4e-7},
+            {"stroke", 0.02, 2e-7},  {"damping", 1000, 1e-1},     {"supply_pressure", 4e5, 1}};
+  int gas, i;
+  (void)state;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
+    for (i = 0; i < COUNT(of); i++) {
+      const drive here = with(gas, of[i].name, of[i].value), up = with(gas, of[i].name, of[i].value + of[i].step),
+                  down = with(gas, of[i].name, of[i].value - of[i].step);
+      check_change(of[i].name, &here, &up, &down, 0.01);
+    }
+}
+
+/* A command that comes later, a start that is warmer, another command. */
+static void test_lab_variations__commands_and_start__are_those_of_exact_runs(void **state)
+{
+  const double step = 1e-6;
+  const drive here = with(PNEU_GAS_ENERGY, NULL, 0);
+  drive up = here, down = here;
+  (void)state;
+  up.later = step;
+  down.later = -step;
+  check_change("a later command", &here, &up, &down, 0.01);
+  up.later = down.later = 0;
+  up.warmer = 100 * step;
+  down.warmer = -100 * step;
+  check_change("a warmer start", &here, &up, &down, 0.01);
+  up.warmer = down.warmer = 0;
+  up.command = step;
+  down.command = -step;
+  check_change("another command", &here, &up, &down, 0.01);
+}
+
+/* What has states of its own, and what sensors show. */
+static void test_lab_variations__effects__are_those_of_exact_runs(void **state)
+{
+  static const struct {
+    const char *name;
+    double value, step;
+  } of[] = {{"transducer_time", 0.05, 1e-6},
+            {"pressure_gain", 0.01, 1e-5},
+            {"position_time", 0.05, 1e-6},
+            {"leak_area", 1e-7, 1e-12},
+            {"film_conductance", 1, 1e-5}};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(of); i++) {
+    const drive here = with(PNEU_GAS_ENERGY, of[i].name, of[i].value),
+                up = with(PNEU_GAS_ENERGY, of[i].name, of[i].value + of[i].step),
+                down = with(PNEU_GAS_ENERGY, of[i].name, of[i].value - of[i].step);
+    check_change(of[i].name, &here, &up, &down, 0.01);
+  }
+}
+
+static void check_not_followed(const drive *here, const drive *there)
+{
+  lab_response change;
+  vary(here, there, 1e-6, &change);
+  assert_true(!change.p && !change.x && !change.T && !change.force);
+}
+
+/* What has other states, other rows, or shows the position at another time: who asks has to take a difference. */
+static void test_lab_variations__another_kind_of_run__is_not_followed(void **state)
+{
+  const drive here = with(PNEU_GAS_ENERGY, NULL, 0), lagging = with(PNEU_GAS_ENERGY, "transducer_time", 0.05),
+              skewed = with(PNEU_GAS_ENERGY, "channel_skew", 0.05);
+  drive shorter = here;
+  (void)state;
+  shorter.rows = ROWS - 1;
+  check_not_followed(&here, &lagging);
+  check_not_followed(&here, &skewed);
+  check_not_followed(&here, &shorter);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_variations__parameters__are_those_of_exact_runs),
+      cmocka_unit_test(test_lab_variations__commands_and_start__are_those_of_exact_runs),
+      cmocka_unit_test(test_lab_variations__effects__are_those_of_exact_runs),
+      cmocka_unit_test(test_lab_variations__another_kind_of_run__is_not_followed),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
