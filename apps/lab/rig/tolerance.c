@@ -122,22 +122,19 @@ static int is_share(const config_setting_t *setting, const struct kind *k)
 static int read_one(const config_setting_t *setting, const struct kind *k, lab_rig *rig, lab_error *error)
 {
   const int param = param_of(k);
-  double value;
-  int status;
+  double whole = 1, value;
   if (param < 0)
     return LAB_OK;
-  if (is_share(setting, k) && !(whole_of(k, rig) > 0))
+  if (is_share(setting, k))
+    whole = whole_of(k, rig);
+  if (!(whole > 0))
     return lab_config_expected(setting, "a quantity, because a share of 0 is 0", error);
-  if (is_share(setting, k)) {
-    status = lab_config_quantity(setting, "1", 0, INFINITY, &value, error);
-    value *= whole_of(k, rig);
-  } else {
-    status = lab_config_difference(setting, unit_of(k), &value, error);
-    if (status == LAB_OK && !(value >= 0))
-      status = lab_config_expected(setting, "a standard deviation, 0 or more", error);
-  }
-  rig->tolerance[param] = value;
-  return status;
+  if (lab_config_difference(setting, is_share(setting, k) ? "1" : unit_of(k), &value, error))
+    return error->status;
+  if (!(value >= 0))
+    return lab_config_expected(setting, "a standard deviation, 0 or more", error);
+  rig->tolerance[param] = value * whole;
+  return LAB_OK;
 }
 
 int lab_tolerance_read(const config_setting_t *group, lab_rig *rig, lab_error *error)

@@ -77,7 +77,7 @@ static void test_lab_tolerance_read__mistakes__are_named(void **state)
   assert_int_equal(read_rig("tolerance = { sprig_rate = \"5 %\"; };"), LAB_DATA);
   assert_contains(error.text, "spring_rate");
   assert_int_equal(read_rig("tolerance = { spring_rate = \"-5 %\"; };"), LAB_DATA);
-  assert_contains(error.text, "tolerance.spring_rate");
+  assert_contains(error.text, "tolerance.spring_rate: expected a standard deviation, 0 or more, found \"-5 %\"");
   assert_int_equal(read_rig("tolerance = { dead_volume = \"5 s\"; };"), LAB_DATA);
   assert_contains(error.text, "tolerance.dead_volume");
 }
