@@ -175,6 +175,14 @@ static int number_or_text(const config_setting_t *setting, const char *unit,
   }
 }
 
+/* What to write where a number without a unit is too large or too small: it may be in another unit than SI's. */
+static const char *unit_advice(const config_setting_t *setting, const char *unit)
+{
+  const char *text = config_setting_get_string(setting);
+  const int is_bare = !text || !text[strspn(text, "+-.0123456789eE \t")];
+  return is_bare && strcmp(unit, "1") != 0 ? "; if it is in another unit, write number and unit in quotes" : "";
+}
+
 int lab_config_quantity(const config_setting_t *setting, const char *unit, double lower, double upper, double *value,
                         lab_error *error)
 {
@@ -184,8 +192,8 @@ int lab_config_quantity(const config_setting_t *setting, const char *unit, doubl
   if (isfinite(*value) && *value >= lower && *value <= upper)
     return LAB_OK;
   describe(setting, found);
-  return lab_config_fail(setting, error, "expected %g to %g %s, found %s, which is %g %s", lower, upper, unit, found,
-                         *value, unit);
+  return lab_config_fail(setting, error, "expected %g to %g %s, found %s, which is %g %s%s", lower, upper, unit, found,
+                         *value, unit, unit_advice(setting, unit));
 }
 
 int lab_config_difference(const config_setting_t *setting, const char *unit, double *value, lab_error *error)

@@ -82,7 +82,7 @@ static int read_bench_set(const config_setting_t *actuator, lab_rig *rig, lab_er
     return LAB_OK;
   if (lab_config_list(set, 2, 2, error) ||
       lab_config_quantity(config_setting_get_elem(set, 0), "Pa", -bar, INFINITY, &low, error) ||
-      lab_config_quantity(config_setting_get_elem(set, 1), "Pa", -bar, INFINITY, &high, error))
+      lab_config_quantity(config_setting_get_elem(set, 1), "Pa", 1e3, INFINITY, &high, error))
     return error->status;
   if (!(low < high))
     return lab_config_fail(set, error, "expected the lower pressure first, found %g Pa and %g Pa", low, high);
@@ -128,13 +128,14 @@ static passed flow_of_c(const lab_rig *rig, double c, double b)
   return p;
 }
 
-/* What a sheet says of an orifice. */
+/* What a sheet says of an orifice. Qn and C end beyond the largest boosters, with a Kv of 40, and p1 at 10 mbar, so
+ * that a number meant in litres or bar is refused. */
 enum { KV, CV, C, B, QN, XT, P1, P2, WORDS };
 static const struct {
   const char *key, *unit;
-  double upper;
-} words[WORDS] = {{"Kv", "m3/h", 1e6}, {"Cv", "1", 1e6}, {"C", "m3/(s.Pa)", 1}, {"b", "1", 0.99},
-                  {"Qn", "m3/s", 1e3}, {"xT", "1", 1},   {"p1", "Pa", 1e9},     {"p2", "Pa", 1e9}};
+  double lower, upper;
+} words[WORDS] = {{"Kv", "m3/h", 0, 1e6}, {"Cv", "1", 0, 1e6}, {"C", "m3/(s.Pa)", 0, 1e-5}, {"b", "1", 0, 0.99},
+                  {"Qn", "m3/s", 0, 1},   {"xT", "1", 0, 1},   {"p1", "Pa", 1e3, 1e9},      {"p2", "Pa", 0, 1e9}};
 
 /* Read those that are there over w. */
 static int read_words(const config_setting_t *group, double w[WORDS], lab_error *error)
@@ -146,7 +147,7 @@ static int read_words(const config_setting_t *group, double w[WORDS], lab_error 
     const config_setting_t *setting = lab_config_member(group, words[i].key);
     if (!setting)
       continue;
-    if (lab_config_quantity(setting, words[i].unit, 0, words[i].upper, &w[i], error))
+    if (lab_config_quantity(setting, words[i].unit, words[i].lower, words[i].upper, &w[i], error))
       return error->status;
     if (i < P1 && !(w[i] > 0))
       return lab_config_expected(setting, "more than 0", error);

@@ -164,6 +164,7 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
   assert_refused("actuator = { bench_set = [\"1 bar\", \"0.2 bar\"]; };", "actuator.bench_set", "lower pressure first");
   assert_refused("actuator = { bench_set = [\"1 bar\"]; };", "actuator.bench_set", "2 to 2 entries");
   assert_refused("actuator = { bench_set = [\"1 bar\", \"2 mm\"]; };", "actuator.bench_set", "expected a unit like Pa");
+  assert_refused("actuator = { bench_set = [0.2, 1.0]; };", "actuator.bench_set[1]", "write number and unit in quotes");
   assert_refused("actuator = { stroke = 0; bench_set = [\"0 bar\", \"1 bar\"]; };", "actuator.bench_set", "stroke");
   assert_refused("actuator = { spring_rate = 1e5; bench_set = [\"0 bar\", \"1 bar\"]; };", "actuator.bench_set",
                  "spring_rate is there too");
@@ -180,6 +181,10 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
   assert_refused("transducer = { fill = { Kv = 0; }; };", "transducer.fill.Kv", "more than 0");
   assert_refused("transducer = { fill = 3; };", "transducer.fill", "a group");
   assert_refused("transducer = { fill = { Qn = 1e-3; p1 = \"5 bar\"; }; };", "transducer.fill", "p1 above p2");
+  assert_refused("transducer = { fill = { Qn = 110; }; };", "transducer.fill.Qn", "write number and unit in quotes");
+  assert_refused("transducer = { fill = { C = 0.4; }; };", "transducer.fill.C", "write number and unit in quotes");
+  assert_refused("transducer = { fill = { Qn = 1e-3; p1 = 6; p2 = 0; }; };", "transducer.fill.p1",
+                 "write number and unit in quotes");
   assert_refused("transducer = { vent = { Kv = 1; }; vent_area = 1e-6; };", "transducer.vent",
                  "vent_area is there too");
   assert_refused("transducer = { fill = { C = 1e-9; b = 0.3; }; vent = { C = 1e-9; b = 0.4; }; };", "transducer.vent.b",
