@@ -344,20 +344,42 @@ static int is_any_measured(const naming *m)
   return any;
 }
 
+/* What a log usually has. */
+static const int usual[] = {LAB_CHANNEL_U, LAB_CHANNEL_P, LAB_CHANNEL_X};
+enum { USUAL = sizeof usual / sizeof usual[0] };
+
+static int has_unit_of(const naming *m, int i, int channel)
+{
+  char unit[LAB_COLUMN_TEXT];
+  int absolute = 0;
+  return find_unit(m, i, channel, "", unit, &absolute);
+}
+
+/* The next of what a log usually has that is not asked for and goes with the unit of a column, if that has one of
+ * theirs; -1: none. */
+static int next_usual(const naming *m, int i)
+{
+  int k, any = 0;
+  for (k = 0; k < USUAL; k++)
+    any |= has_unit_of(m, i, usual[k]);
+  for (k = 0; k < USUAL; k++)
+    if (!*m->ask[usual[k]] && (!any || has_unit_of(m, i, usual[k])))
+      return usual[k];
+  return -1;
+}
+
 /* Ask for what a log usually has, of the columns that are left, in their order. */
 static void ask_for_measured(naming *m)
 {
-  static const int usual[] = {LAB_CHANNEL_U, LAB_CHANNEL_P, LAB_CHANNEL_X};
-  size_t k = 0;
-  int i;
-  for (i = 0; i < m->n; i++)
-    if (is_free(m, i) && *m->heading[i].text && k < sizeof usual / sizeof usual[0] &&
-        m->taken[LAB_CHANNEL_TIME] != i + 1 && !(i == 0 && *m->ask[LAB_CHANNEL_TIME])) {
-      ask(m, usual[k], i, lab_usual_unit(usual[k], m->format),
-          "none of the columns is known to be a command, a pressure or a position; say which are, and what a 1 in them "
-          "is");
-      k++;
-    }
+  int i, channel;
+  for (i = 0; i < m->n; i++) {
+    if (!is_free(m, i) || !*m->heading[i].text || m->taken[LAB_CHANNEL_TIME] == i + 1 ||
+        (i == 0 && *m->ask[LAB_CHANNEL_TIME]) || (channel = next_usual(m, i)) < 0)
+      continue;
+    ask(m, channel, i, has_unit_of(m, i, channel) ? "" : lab_usual_unit(channel, m->format),
+        "none of the columns is known to be a command, a pressure or a position; say which are, and what a 1 in them "
+        "is");
+  }
 }
 
 static int name_all(naming *m)

@@ -33,7 +33,7 @@ static const struct logger {
     {"pandas.csv", LAB_CHANNEL_SP, 0, "t is \"timestamp\" (ymd)"},
     {"keysight.csv", LAB_CHANNEL_U, 1, "u = \"1 [1]\"; p = \"2 [bar]\"; x = \"3 [mm]\";"},
     {"tektronix.csv", LAB_CHANNEL_U, 1, "t = \"TIME [s]\"; u = \"CH1 [1]\"; p = \"CH2 [bar]\"; x = \"CH3 [mm]\";"},
-    {"picoscope.csv", LAB_CHANNEL_U, 1, "u = \"Channel A [1]\"; p = \"Channel B [bar]\"; x = \"Channel C [mm]\";"},
+    {"picoscope.csv", LAB_CHANNEL_U, 1, "u = \"Channel A [1]\"; p = \"Channel B\"; x = \"Channel C\";"},
     {"labview.lvm", LAB_CHANNEL_U, 1, "t = \"X_Value [s]\"; u = \"Command [1]\"; p = \"Pressure [bar]\";"},
     {"catman.asc", LAB_CHANNEL_SP, 0, "header in line 3, units in line 4"},
     {"testo.csv", LAB_CHANNEL_SP, 0, "t is \"Datum\" (dmy), t is \"Uhrzeit\" (time of day)"},
@@ -197,6 +197,8 @@ static void test_lab_log_read__hard_files__are_guessed_or_told(void **state)
   assert_close(log.value[LAB_CHANNEL_X][1], 2.5e-3, 1e-15, 0);
   lab_log_free(&log);
   assert_refused("", scratch_text("h.csv", "a;b;c\n1;2;3\n4;5;6\n"), "t = \"a [s]\"; u = \"b [1]\"; p = \"c [bar]\";");
+  assert_refused("", scratch_text("h.csv", "Time (s),YT (%),ZT (%),PT (psi)\n0,1,2,3\n1,2,3,4\n"),
+                 "map = { u = \"YT (%)\"; p = \"PT (psi)\"; x = \"ZT (%)\"; };");
   assert_refused("", scratch_text("h.csv", "Zeit (s);p (bar)\n"), "nor are there rows of numbers");
   assert_refused("", scratch_text("h.csv", "Time,Pressure\n2024-03-01 12:00:00,1 bar\n2024-03-01 12:00:01,2 bar\n"),
                  "p = \"Pressure [bar]\";");
