@@ -362,6 +362,8 @@ static void put_key(FILE *file, const draft *d, const lab_key *key)
     fprintf(file, "  %s = %s; // %s\n", key->key, word->value, source_of(d, word));
     return;
   }
+  if (key->kind == LAB_KEY_NAME)
+    fprintf(file, "  // %s = \"...\"; // by default that of this file\n", key->key);
   if (key->kind != LAB_KEY_PARAM || is_said(d, key))
     return;
   for (i = 0; i < NEEDED; i++)

@@ -66,6 +66,7 @@ static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **st
   assert_contains(text, " moving_mass = \"100 %\";");   /* a default is not the sheet's */
   assert_contains(text, " dry_friction = \"1000 %\";"); /* nor is where a fit begins */
   assert_null(strstr(text, " stroke = \"100"));
+  assert_contains(text, "// name = \"...\"; // by default that of this file");
   free(text);
 }
 
