@@ -169,6 +169,15 @@ static int run_batch(const lab_cli *cli, lab_error *error)
   return lab_batch_run(&how, error);
 }
 
+/* What the reader of logs wants written into a rig file, of which there is none yet.  Returns: status */
+static int say_how_to_begin(int status, lab_error *error)
+{
+  if (status == LAB_DATA && strstr(error->text, "rig file"))
+    lab_append(error->text, sizeof error->text,
+               " (there is no rig file yet: closeloop --sheet name=VALVE > rig.cfg makes one)");
+  return status;
+}
+
 /* Words of the sheet may stand behind the first as operands; on a terminal they are asked for. */
 static int run_init(const lab_cli *cli, lab_error *error)
 {
@@ -183,7 +192,8 @@ static int run_init(const lab_cli *cli, lab_error *error)
     sheet.text[sheet.n++] = cli->operand[i];
   if (lab_out_open(&file, out, error))
     return error->status;
-  return lab_out_end(&file, lab_draft_write(file.file, init, sheet.text, sheet.n, error), error);
+  return lab_out_end(&file, say_how_to_begin(lab_draft_write(file.file, init, sheet.text, sheet.n, error), error),
+                     error);
 }
 
 /* What the table of options cannot say. */

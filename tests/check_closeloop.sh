@@ -32,6 +32,9 @@ expect 0 "draft" "$programs/closeloop" --init "$folder/log.csv" --sheet "area=40
 expect 0 "run of a draft" "$programs/closeloop" "$folder/draft.cfg" "$folder/log.csv" --out "$folder/drafted" --no-figures
 grep -q '"verdict"' "$folder/drafted/report.json" || complain "a drafted rig file has no answer"
 expect 2 "draft with a wrong word" "$programs/closeloop" --init "$folder/log.csv" --sheet aera=1
+printf 'Time (s),A,B\n0,1,2\n1,2,3\n' >"$folder/unknown.csv"
+expect 1 "draft of unknown columns" "$programs/closeloop" --init "$folder/unknown.csv"
+grep -q "closeloop --sheet name=VALVE > rig.cfg makes one" "$folder/err" || complain "a rig file is to be written that is not there"
 expect 2 "words without a draft" "$programs/closeloop" --sheet area=1 "$folder/rig.cfg" "$folder/log.csv"
 expect 2 "a draft of a list" "$programs/closeloop" --init "$folder/log.csv" --batch "$folder/list.csv"
 
