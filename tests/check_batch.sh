@@ -201,6 +201,7 @@ b1,rigs/b.cfg,r1.csv,2026-01-01
 b2,rigs/b.cfg,r1.csv,2026-05-01
 lost,rigs/b.cfg,torn.csv,2026-06-01
 undated,rigs/b.cfg,r5.csv,
+american,rigs/b.cfg,r1.csv,3/14/2026
 LIST
 list=dated
 expect 1 "dated" batch dated --threads 1
@@ -210,6 +211,8 @@ rigs/a.cfg,spring_rate,N/m,3,2026-01-01,2026-03-02 rigs/b.cfg,spring_rate,N/m,2,
 grep -q "<p>spring_rate leaves its tolerance of 10 % in 30 days (2[0-9] to 3[0-9])</p>" "$folder/dated/index.html" ||
   complain "the page does not say when the tolerance is left"
 [ "$(grep -c 'class="spark' "$folder/dated/index.html")" -eq 2 ] || complain "not a line of sparklines for each rig"
+grep -q '^american,error,.*line 9 of the list, column date: expected a date like 2026-05-04' "$folder/dated/batch.csv" ||
+  complain "a date of another form is not named with its line"
 [ -e "$folder/one/trends.csv" ] && complain "trends of a list without dates"
 behind dated-killed --threads 1
 while [ ! -e "$folder/dated-killed/a1/.done" ] && kill -0 "$victim" 2>/dev/null; do sleep 0.01; done
@@ -224,6 +227,9 @@ sed -i.old 's/2026-03-02/2026-03-12/' "$folder/list/dated.csv"
 expect 1 "another date" batch dated-killed
 grep -q "2026-03-12" "$folder/dated-killed/trends.csv" || complain "another date, and the same trends"
 [ "$(find "$folder/dated-killed" -name .done -newer "$folder/before" | wc -l)" -eq 0 ] || complain "another date: lines were done again"
+sed -i.american 's,3/14/2026,2026-03-14,' "$folder/list/dated.csv"
+expect 1 "date mended" batch dated-killed
+[ "$(cell dated-killed american verdict)" = none ] || complain "a line whose date was mended is not done again"
 mv "$folder/list/dated.csv.old" "$folder/list/dated.csv"
 list=list
 

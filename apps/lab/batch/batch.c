@@ -114,15 +114,15 @@ static int has_include(const char *rig)
   return any;
 }
 
-/* Checksum of all that decides about a line's row and report; 0 where that cannot be told. The line's date is no part
- * of it, because trends are made anew at the end of every run. */
+/* Checksum of all that decides about a line's row and report; 0 where that cannot be told. A date that can be read is
+ * no part of it, because trends are made anew at the end of every run. */
 static uint64_t key_of(const batch *b, const lab_fleet_entry *e)
 {
   char numbers[80];
   uint64_t key = lab_checksum_text(LAB_CHECKSUM_SEED, lab_build());
   snprintf(numbers, sizeof numbers, "%.17g %.17g", b->how->alpha, b->how->min_gain);
   key = lab_checksum_text(key, numbers);
-  key = lab_checksum_text(key, e->name);
+  key = lab_checksum_text(lab_checksum_text(key, e->name), e->wrong);
   key = lab_checksum_file(lab_checksum_text(key, e->rig), e->rig);
   key = add_files(add_files(key, e->log), e->holdout);
   return has_include(e->rig) ? 0 : key;
@@ -192,6 +192,8 @@ static int ask(batch *b, const lab_fleet_entry *e, lab_answer **answer, lab_erro
   q.n_holdout = split(e->holdout, held_text, held);
   q.on_progress = look_for_leader;
   q.context = b;
+  if (*e->wrong)
+    return lab_fail(error, LAB_DATA, "%s", e->wrong);
   if (q.n_logs < 0 || q.n_holdout < 0)
     return lab_fail(error, LAB_DATA, "more than %d logs on one line of the list", (int)LAB_LOGS_MAX);
   if (!b->how->allow_include && has_include(e->rig))

@@ -152,17 +152,17 @@ static int check_name(const lab_fleet_entry *e, lab_error *error)
 }
 
 /* Only as ISO 8601 has it, with the year first: 3/4/2026 is another day on either side of the ocean. */
-static int read_date(lab_fleet_entry *e, lab_error *error)
+static void read_date(lab_fleet_entry *e)
 {
   lab_stamp stamp = {0};
   const int is_iso = strspn(e->date, "0123456789") == 4 && e->date[4] == '-';
   if (!*e->date)
-    return LAB_OK;
+    return;
   if (!is_iso || !lab_stamp_read(e->date, e->date + strlen(e->date), LAB_DATE_YMD, &stamp) || !stamp.has_day)
-    return lab_fail(error, LAB_DATA, "column date: expected a date like 2026-05-04 or 2026-05-04T13:30Z, found \"%s\"",
-                    e->date);
+    snprintf(e->wrong, sizeof e->wrong,
+             "line %d of the list, column date: expected a date like 2026-05-04 or 2026-05-04T13:30Z, found \"%s\"",
+             e->line, e->date);
   e->day = (double)stamp.day + stamp.second / 86400;
-  return LAB_OK;
 }
 
 static int fill(const lab_fleet_list *list, lab_fleet_entry *e, lab_error *error)
@@ -188,7 +188,8 @@ static int fill(const lab_fleet_list *list, lab_fleet_entry *e, lab_error *error
   for (i = 0; i < COLUMNS; i++)
     if (columns[i].is_needed && !*((const char *)e + columns[i].at))
       return lab_fail(error, LAB_DATA, "column %s is empty; every line needs a rig file and a log", columns[i].name);
-  if (read_date(e, error) || (!*e->name && name_after_log(e, error)))
+  read_date(e);
+  if (!*e->name && name_after_log(e, error))
     return error->status;
   return check_name(e, error);
 }

@@ -10,6 +10,7 @@
  *   in it. Several logs in one cell are separated by semicolons (in quotes if the cells are, too).
  * - Without a name, a line is called as its first log: may/p2.csv is may-p2.
  * - A date is a day or a moment by ISO 8601; lines with the same rig file and dates make a history (trends.h).
+ * - A line with a date of another form is an error, and the others are done.
  * - Empty lines, and lines that begin with #, are left out.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_BATCHLIST_H
@@ -18,7 +19,7 @@
 #include "../base/csv.h"
 #include "../rig/rig.h"
 
-enum { LAB_FLEET_ENTRY_NAME = 128, LAB_FLEET_ENTRY_TEXT = 4096, LAB_FLEET_DATE_TEXT = 40 };
+enum { LAB_FLEET_ENTRY_NAME = 128, LAB_FLEET_ENTRY_TEXT = 4096, LAB_FLEET_DATE_TEXT = 40, LAB_FLEET_WRONG_TEXT = 160 };
 
 /* A line; plain bytes, to be sent from process to process. */
 typedef struct lab_fleet_entry {
@@ -28,6 +29,7 @@ typedef struct lab_fleet_entry {
   char log[LAB_FLEET_ENTRY_TEXT], holdout[LAB_FLEET_ENTRY_TEXT]; /* paths, separated by semicolons */
   char date[LAB_FLEET_DATE_TEXT];                                /* as it stands there */
   double day;                                                    /* [d] since 1 January 1970, of the date */
+  char wrong[LAB_FLEET_WRONG_TEXT];                              /* why this line cannot be done; "": it can */
 } lab_fleet_entry;
 
 typedef struct lab_fleet_list {
