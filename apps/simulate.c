@@ -7,6 +7,7 @@
 #include "lab/run/schedule.h"
 #include "lab/run/simulation.h"
 #include "lab/check/mend.h"
+#include "lab/check/plausible.h"
 #include "lab/check/standstill.h"
 #include "lab/rig/rig.h"
 #include "lab/run/standard.h"
@@ -105,6 +106,7 @@ static int read_and_simulate(const pneu_model *model, const lab_rig *rig, const 
   if (log.dropped)
     fprintf(stderr, "%s: note: %s: %zu damaged rows left out\n", program.name, path, log.dropped);
   note_no_venting(rig, &log, path);
+  lab_say_idle_columns(rig, &log, &said);
   status = lab_log_smooth_inputs(rig, &log, &said, error);
   for (i = 0; i < said.n; i++)
     fprintf(stderr, "%s: note: %s\n", program.name, said.text[i]);

@@ -63,6 +63,21 @@ static int is_compared(const lab_log_view *s, int channel)
          (channel == LAB_CHANNEL_FORCE && s->y[channel] && !s->rig->input[channel] && s->rig->laws.position_input);
 }
 
+void lab_say_idle_columns(const lab_rig *rig, const lab_log *log, lab_limitations *limitations)
+{
+  const struct {
+    int channel, is_used;
+    const char *why;
+  } columns[] = {{LAB_CHANNEL_FORCE, rig->input[LAB_CHANNEL_FORCE] || rig->laws.position_input,
+                  "it is predicted only where x is an input, and drives the model only as an input itself"},
+                 {LAB_CHANNEL_P2, 0, "the model does not predict the far end of a line"}};
+  size_t i;
+  for (i = 0; i < sizeof columns / sizeof columns[0]; i++)
+    if (log->value[columns[i].channel] && !columns[i].is_used)
+      lab_limitation(limitations, "The column %s is not used: %s.", lab_channels[columns[i].channel].key,
+                     columns[i].why);
+}
+
 static size_t count_values(const lab_log_view *s)
 {
   size_t i, n = 0;
@@ -77,6 +92,7 @@ int lab_plausible(const lab_rig *rig, const lab_log *log, lab_limitations *limit
                   lab_error *error)
 {
   size_t run;
+  lab_say_idle_columns(rig, log, limitations);
   for (run = 0; run < log->n_runs; run++) {
     lab_log_view view;
     int status = lab_log_view_open(rig, log, run, &view, error);

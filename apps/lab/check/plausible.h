@@ -24,7 +24,10 @@ typedef struct lab_content {
   int still; /* runs in which nothing moves */
 } lab_content;
 
-/* Check every run of a log.
+/* Remark on columns of a log that this rig has no use for. */
+void lab_say_idle_columns(const lab_rig *rig, const lab_log *log, lab_limitations *limitations);
+
+/* Check every run of a log, and its columns.
  * In/out:  remarks
  *          content  what the log adds
  * Returns: LAB_OK; LAB_DATA; LAB_WORLD. */

@@ -292,6 +292,26 @@ static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **sta
 }
 
 /* A control system's output bar: 50 % is shut. */
+static void test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used(void **state)
+{
+  static const struct {
+    const char *inputs;
+    int force;
+  } rigs[] = {{"", 1}, {"inputs = [\"force\"];", 0}, {"inputs = [\"x\"];", 0}};
+  const char *path =
+      strdup(scratch_text("f.csv", "t [s],u [1],p [kPa],x [mm],force [N],p2 [kPa]\n0,0,0,0,1,2\n1,1,1,1,2,3\n"));
+  size_t i;
+  (void)state;
+  for (i = 0; i < sizeof rigs / sizeof *rigs; i++) {
+    limitations.n = 0;
+    read_files(bad_rig("rig.cfg", rigs[i].inputs), path);
+    lab_say_idle_columns(&rig, &log_read, &limitations);
+    assert_int_equal(limitations.n, 1 + rigs[i].force);
+    assert_contains(limitations.text[0], rigs[i].force ? "column force is not used" : "column p2 is not used");
+  }
+  free((char *)path);
+}
+
 static void test_lab_plausible__half_that_is_shut__is_told(void **state)
 {
   static const struct {
@@ -744,6 +764,7 @@ int main(void)
       TEST(test_lab_plausible_content__one_still_run_of_two__passes),
       TEST(test_lab_plausible_content__nothing_but_still_runs__is_refused),
       TEST(test_lab_plausible__temperature_in_other_degrees__is_refused),
+      TEST(test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used),
       TEST(test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused),
       TEST(test_lab_plausible__half_that_is_shut__is_told),
       TEST(test_lab_plausible__pressure_lost_while_filling_or_shut__is_told),
