@@ -214,6 +214,17 @@ static void drop_mark(lab_text *text)
   memmove(text->data, text->data + 3, text->size + 1);
 }
 
+/* Lines that end in CR alone, as on an old Mac, end in LF. */
+static void mend_ends(lab_text *text)
+{
+  size_t i;
+  if (memchr(text->data, '\n', text->size))
+    return;
+  for (i = 0; i < text->size; i++)
+    if (text->data[i] == '\r')
+      text->data[i] = '\n';
+}
+
 static struct {
   const lab_text_given *text; /* NULL: files are read */
   int n;
@@ -262,6 +273,7 @@ int lab_text_read(const char *path, lab_text *text, lab_error *error)
     status = recode(path, text, error);
   if (status == LAB_OK) {
     drop_mark(text);
+    mend_ends(text);
     status = check_text(path, text, error);
   }
   if (status != LAB_OK)

@@ -31,8 +31,8 @@ typedef struct lab_text_given {
  * In:      given  n of them, that stay where they are; NULL: files again */
 void lab_text_give(const lab_text_given *given, int n);
 
-/* Read a whole file that lab_text_open opens, or a text that was given; UTF-16 becomes UTF-8, and a byte order mark is
- * left out.
+/* Read a whole file that lab_text_open opens, or a text that was given; UTF-16 becomes UTF-8, a byte order mark is
+ * left out, and lines that all end in CR end in LF.
  * Out:     text  to be freed with lab_text_free
  * Returns: LAB_OK; LAB_DATA if the file is missing, no file on a disk, too large, empty or not text, with what turns it
  *          into text where its kind is known; LAB_WORLD if it cannot be read. */

@@ -74,6 +74,18 @@ static void test_lab_text_read__as_large_as_may_be_and_empty__ends_soon(void **s
   assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 0.2);
 }
 
+static void test_lab_text_read__lines_that_end_in_cr_alone__are_lines(void **state)
+{
+  lab_text text;
+  (void)state;
+  assert_int_equal(lab_text_read(scratch_text("mac.csv", "t [s],x [mm]\r0,1\r"), &text, &error), LAB_OK);
+  assert_string_equal(text.data, "t [s],x [mm]\n0,1\n");
+  lab_text_free(&text);
+  assert_int_equal(lab_text_read(scratch_text("dos.csv", "t [s],x [mm]\r\n0,1\r\n"), &text, &error), LAB_OK);
+  assert_string_equal(text.data, "t [s],x [mm]\r\n0,1\r\n");
+  lab_text_free(&text);
+}
+
 static void test_lab_log_read__a_thousand_columns__are_refused(void **state)
 {
   static char text[1000 * 8 + 2];
@@ -105,6 +117,7 @@ int main(void)
       cmocka_unit_test(test_lab_text_open__no_file_on_a_disk__is_refused),
       cmocka_unit_test(test_lab_text_open__too_large__is_refused),
       cmocka_unit_test(test_lab_text_read__as_large_as_may_be_and_empty__ends_soon),
+      cmocka_unit_test(test_lab_text_read__lines_that_end_in_cr_alone__are_lines),
       cmocka_unit_test(test_lab_log_read__a_thousand_columns__are_refused),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
