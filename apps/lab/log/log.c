@@ -79,10 +79,14 @@ static int read_stamp(struct reader *r, int i)
 /* What may be done about a cell that is no number. */
 static const char *number_advice(const struct reader *r, const char *text)
 {
-  if (strpbrk(text, "0123456789") && strchr(text, ',') && strchr(text, '.') && !r->format->thousands)
-    return r->format->decimal == ','
-               ? "; if points part thousands, write into the rig file: log = { thousands = \".\"; };"
-               : "; if commas part thousands, write into the rig file: log = { thousands = \",\"; };";
+  const int comma = strchr(text, ',') != NULL, point = strchr(text, '.') != NULL, decimal = r->format->decimal;
+  if (!strpbrk(text, "0123456789") || r->format->thousands)
+    return LEAVE_OUT;
+  if (comma && point)
+    return decimal == ',' ? "; if points part thousands, write into the rig file: log = { thousands = \".\"; };"
+                          : "; if commas part thousands, write into the rig file: log = { thousands = \",\"; };";
+  if (comma && decimal == '.')
+    return "; if commas are decimal ones, write into the rig file: log = { decimal = \",\"; };";
   return LEAVE_OUT;
 }
 

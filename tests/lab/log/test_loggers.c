@@ -199,6 +199,7 @@ static void test_lab_log_read__hard_files__are_guessed_or_told(void **state)
   assert_refused("", scratch_text("h.csv", "a;b;c\n1;2;3\n4;5;6\n"), "t = \"a [s]\"; u = \"b [1]\"; p = \"c [bar]\";");
   assert_refused("", scratch_text("h.csv", "Time (s),YT (%),ZT (%),PT (psi)\n0,1,2,3\n1,2,3,4\n"),
                  "map = { u = \"YT (%)\"; p = \"PT (psi)\"; x = \"ZT (%)\"; };");
+  assert_refused("", scratch_text("h.csv", "t [s],x [mm]\n\"0,0\",\"1,25\"\n"), "log = { decimal = \",\"; };");
   assert_refused("", scratch_text("h.csv", "Zeit (s);p (bar)\n"), "nor are there rows of numbers");
   assert_refused("", scratch_text("h.csv", "Time,Pressure\n2024-03-01 12:00:00,1 bar\n2024-03-01 12:00:01,2 bar\n"),
                  "p = \"Pressure [bar]\";");
