@@ -268,20 +268,22 @@ static int told_by(const lab_sides *c, const lab_change *change)
   return at;
 }
 
-/* Value then and now, with the interval of now. */
+/* Value then and now, with the interval of now: a change of both orifices is a share of what they were. */
 static void size_up(const lab_sides *c, const lab_fit_result *fit, lab_change *change)
 {
-  const int param = change->param;
+  const int param = change->param, is_share = param == LAB_PARAM_ORIFICE_AREA;
   const int d = told_by(c, change), b = lab_unknowns_find(&c->u, param);
   const double by = c->u.unknown[d].value, half = lab_student_quantile(0.975, (double)INFINITY);
-  double variance = fit->covariance[d][d], unit;
+  double unit, kept, variance;
   change->then = b >= 0 ? c->u.unknown[b].value : lab_param_value(&c->u.rig, param);
-  unit = param == LAB_PARAM_ORIFICE_AREA ? change->then : 1;
+  unit = is_share ? change->then : 1;
+  kept = is_share ? 1 + by : 1; /* of an error of then */
+  variance = unit * unit * fit->covariance[d][d];
   if (b >= 0)
-    variance += fit->covariance[b][b] / (unit * unit) + 2 * fit->covariance[b][d] / unit;
+    variance += kept * kept * fit->covariance[b][b] + 2 * kept * unit * fit->covariance[b][d];
   change->now = change->then + unit * by;
-  change->low = change->now - half * unit * sqrt(fmax(variance, 0));
-  change->high = change->now + half * unit * sqrt(fmax(variance, 0));
+  change->low = change->now - half * sqrt(fmax(variance, 0));
+  change->high = change->now + half * sqrt(fmax(variance, 0));
 }
 
 /* A supply that cannot lift the stem moves it as little as none does: where the log does not tell a followed level from

@@ -209,6 +209,31 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
   assert_close(changes.change[0].then, 480, 0, 0.02);
 }
 
+/* What the orifices pass goes with the sizes of chamber and spring. Where nothing is known of these it is uncertain by
+ * the same share then and now, 26 %, so that the interval shrinks with the orifices. */
+static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
+{
+  static const char *const sizes[] = {"area", "dead_volume"};
+  static lab_rig rig;
+  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
+  second_rig then = virtual_rig(7), now = virtual_rig(8);
+  lab_changes changes;
+  int i;
+  (void)state;
+  now.fill_area *= 0.6;
+  now.vent_area *= 0.6;
+  declare(&rig);
+  for (i = 0; i < 2; i++)
+    rig.fit[rig.n_fit++] = lab_param_index(sizes[i]);
+  write_log(&then, u_cmd[0], path[0]);
+  write_log(&now, u_cmd[1], path[1]);
+  changes = compare_logs(&rig, path);
+  assert_int_equal(changes.n, 1);
+  assert_int_equal(changes.change[0].param, LAB_PARAM_ORIFICE_AREA);
+  assert_close(changes.change[0].now / changes.change[0].then, 0.6, 0, 0.02);
+  assert_between((changes.change[0].high - changes.change[0].low) / 2 / changes.change[0].now, 0.2, 0.3);
+}
+
 static void test_lab_changes_find__softer_spring__is_the_change(void **state)
 {
   second_rig then = virtual_rig(7), now = virtual_rig(8);
@@ -381,6 +406,7 @@ int main(void)
       cmocka_unit_test(test_lab_changes_find__leak__is_the_change),
       cmocka_unit_test(test_lab_changes_find__leak_that_hardly_shows__is_no_change),
       cmocka_unit_test(test_lab_changes_find__more_friction__is_the_change),
+      cmocka_unit_test(test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share),
       cmocka_unit_test(test_lab_changes_find__softer_spring__is_the_change),
       cmocka_unit_test(test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset),
       cmocka_unit_test(test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset),
