@@ -20,8 +20,8 @@ enum { LAB_CHANGES_MAX = 4, LAB_CHANGE_LEADERS = 5, LAB_WHY_TEXT = 512 };
 /* One thing that has changed, in SI. */
 typedef struct lab_change {
   int param;                   /* as in pneu_param_describe, or LAB_PARAM_ORIFICE_AREA */
-  double then, now, low, high; /* 95 % interval of now */
-  double statistic, p_value;   /* chi-square that it alone explains, the others being there */
+  double then, now, low, high; /* 95 % interval of now: it has what is not known of then, and what the model leaves */
+  double statistic, p_value;   /* chi-square that it alone explains, the others being there: of the difference */
   lab_onset begin, end;        /* where it does not act throughout the new log */
   int n_alike;                 /* other changes that explain it as well */
   int alike[LAB_CHANGE_LEADERS];

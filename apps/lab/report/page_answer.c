@@ -99,6 +99,12 @@ static void say_more(const lab_change *change, cJSON *list)
     lab_append(names, sizeof names, "%s%s", i ? ", " : "", lab_change_name(change->alike[i], alike));
   if (change->n_alike)
     lab_json_say(list, "The logs are explained by %s as well as by %s.", names, name);
+  if (change->low <= change->then && change->then <= change->high)
+    lab_json_say(
+        list,
+        "The interval of %s reaches the value then: it is that of now alone, with what is not known of then and "
+        "what the model leaves. The p-value is of the difference.",
+        name);
   say_when(name, &change->begin, "since", list);
   say_when(name, &change->end, "until", list);
 }
