@@ -17,6 +17,8 @@ enum {
   LAB_PARAM_COUNT = PNEU_PARAM_COUNT + 1,    /* things that can be fitted */
   LAB_PRESSURE_DRIFT = LAB_PARAM_COUNT,      /* in lab_rig.tolerance alone: of a sensor, over a run */
   LAB_POSITION_DRIFT,
+  LAB_PRESSURE_RESOLUTION, /* there too: the step of its values */
+  LAB_POSITION_RESOLUTION,
   LAB_TOLERANCE_COUNT,
   LAB_TERM_MAX = 4,
   LAB_ONSETS_MAX = 3,

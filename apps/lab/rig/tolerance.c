@@ -54,6 +54,8 @@ static const struct kind {
     {"positioner.dead_band", "positioner", 3, OF_VALUE, 0, 0},
     {"pressure_drift", NULL, LAB_PRESSURE_DRIFT, OF_SUPPLY, 0.0025, 0},
     {"position_drift", NULL, LAB_POSITION_DRIFT, OF_STROKE, 0.0025, 0},
+    {"pressure_resolution", NULL, LAB_PRESSURE_RESOLUTION, OF_SUPPLY, 0, 0},
+    {"position_resolution", NULL, LAB_POSITION_RESOLUTION, OF_STROKE, 0, 0},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/noise.h"
+#include "../rig/tolerance.h"
 #include "response.h"
 #include "start.h"
 
@@ -95,10 +96,19 @@ static int follows_pressure(const lab_run *e, int channel)
          e->rig->params.spring_rate > 0;
 }
 
+/* The step of a channel's values: as declared, or what the log shows. */
+static double resolution_of(const lab_run *e, int channel)
+{
+  const double declared = channel == LAB_CHANNEL_P   ? lab_tolerance(e->rig, LAB_PRESSURE_RESOLUTION)
+                          : channel == LAB_CHANNEL_X ? lab_tolerance(e->rig, LAB_POSITION_RESOLUTION)
+                                                     : 0;
+  return declared > 0 ? declared : lab_resolution(e->log->value[channel] + e->first, e->n);
+}
+
 static int add_channel(lab_run *e, int channel, lab_error *error)
 {
   const double *value = e->log->value[channel] + e->first;
-  const double q = lab_resolution(value, e->n), rounding = q * q / 12;
+  const double q = resolution_of(e, channel), rounding = q * q / 12;
   double sigma = e->rig->noise[channel], inner = sigma;
   if (isnan(sigma)) {
     if (lab_noise_estimate(value, e->n, &sigma, error))

@@ -40,8 +40,8 @@ static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **stat
 static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 {
   (void)state;
-  assert_int_equal(read_rig("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"),
-                   LAB_OK);
+  assert_int_equal(
+      read_rig("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"), LAB_OK);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dead_volume), 20e-6, 0, 1e-12);
   assert_close(lab_tolerance(&rig, bias()), 4e3, 0, 1e-12);
@@ -69,6 +69,14 @@ static void test_lab_tolerance_read__others__are_exact(void **state)
   assert_int_equal(read_rig("tolerance = { others = 0; spring_rate = \"5 %\"; };"), LAB_OK);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
+}
+
+static void test_lab_tolerance_read__resolution__is_none_unless_given(void **state)
+{
+  (void)state;
+  assert_int_equal(read_rig("tolerance = { pressure_resolution = \"1 kPa\"; };"), LAB_OK);
+  assert_close(lab_tolerance(&rig, LAB_PRESSURE_RESOLUTION), 1000, 0, 1e-12);
+  assert_close(lab_tolerance(&rig, LAB_POSITION_RESOLUTION), 0, 0, 0);
 }
 
 static void test_lab_tolerance_read__mistakes__are_named(void **state)
@@ -104,6 +112,7 @@ int main(void)
       cmocka_unit_test(test_lab_tolerance_read__share_and_quantity__are_in_si),
       cmocka_unit_test(test_lab_tolerance_read__positioner__is_a_share_of_its_own_value),
       cmocka_unit_test(test_lab_tolerance_read__others__are_exact),
+      cmocka_unit_test(test_lab_tolerance_read__resolution__is_none_unless_given),
       cmocka_unit_test(test_lab_tolerance_read__mistakes__are_named),
       cmocka_unit_test(test_lab_tolerance_write__given_ones__are_read_again),
   };

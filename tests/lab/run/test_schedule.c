@@ -623,6 +623,22 @@ static void test_lab_run_open__values_in_steps_without_noise__have_weights(void 
   }
 }
 
+/* Rounding to steps of q adds q^2/12 to a declared variance. */
+static void test_lab_run_open__declared_resolution__is_that_of_the_run(void **state)
+{
+  const double q = 500, noise = 100; /* [Pa] */
+  lab_log log = read_log("t [s],u [1],p [kPa]\n0,1,0\n1,1,1.1\n2,1,2.3\n3,1,2.9\n");
+  lab_run run;
+  (void)state;
+  rig.noise[LAB_CHANNEL_P] = noise;
+  rig.tolerance[LAB_PRESSURE_RESOLUTION] = q;
+  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+  assert_close(run.resolution[0], q, 0, 0);
+  assert_close(run.sigma[0], sqrt(noise * noise + q * q / 12), 0, 1e-12);
+  lab_run_close(&run);
+  lab_log_free(&log);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -662,6 +678,7 @@ int main(void)
       CASE(test_lab_standard_experiment__default_model__fills_and_vents),
       CASE(test_lab_series_rows__numbers__are_scaled_and_gaps_empty),
       CASE(test_lab_run_open__values_in_steps_without_noise__have_weights),
+      CASE(test_lab_run_open__declared_resolution__is_that_of_the_run),
   };
   return cmocka_run_group_tests_name("schedule", tests, scratch_open, scratch_close);
 }
