@@ -162,6 +162,4 @@ void pneu_options_default(pneu_options *options)
 #endif
   options->h_max = 0;
   options->max_steps = 100000;
-  options->pace = NULL;
-  options->n_pace = 0;
 }

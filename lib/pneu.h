@@ -411,22 +411,10 @@ typedef struct pneu_shown {
   pneu_real force;       /* [N] where position is an input: pneu_output.holding_force; else 0 */
 } pneu_shown;
 
-/* One step of a run, for other runs to follow. */
-typedef struct pneu_paced_step {
-  pneu_real h; /* [s] > 0 */
-  int event;   /* not 0: an event ended it */
-} pneu_paced_step;
-
 typedef struct pneu_options {
   pneu_real tol;   /* local error in units of stroke, full pressure and so on (pneu_scales); 1e-10..1e-2 */
   pneu_real h_max; /* [s] longest step; 0 or less: none */
   int max_steps;   /* per run, > 0 */
-  /* The steps of a run that hardly differs, which this one is to take as well: their errors then cancel in the
-   * difference of the two. Events keep their own time. A step that would err by more than 30 tol is shortened; behind
-   * the last step, and from a step that ended on an event there and not here to the next event, lengths are chosen as
-   * usual. */
-  const pneu_paced_step *pace;
-  int n_pace; /* 0: none */
 } pneu_options;
 
 typedef struct pneu_stats {

@@ -9,8 +9,7 @@ enum { EVENTS_AT_ONE_TIME = 16 };
 #define PNEU_STEP_TOL   PNEU_C(1e-4)
 #define PNEU_COARSE_TOL PNEU_C(1e-3)
 #define PNEU_HELD_TOL   PNEU_C(1e-2)
-#define PNEU_AIM        PNEU_C(0.6)  /* share of it that the next part aims at, lest every other be refused */
-#define PNEU_PACE_TOL   PNEU_C(30.0) /* times the tolerance that a step of another run may err by */
+#define PNEU_AIM        PNEU_C(0.6) /* share of it that the next part aims at, lest every other be refused */
 
 /* One run in progress. */
 typedef struct run {
@@ -27,8 +26,6 @@ typedef struct run {
   pneu_real h;                      /* to try next; 0: choose */
   pneu_real h_before, error_before; /* of the last accepted step; 0: none */
   int steps, events_here;           /* events without progress in time beyond their exactness */
-  int paced;                        /* steps of options->pace that are done */
-  int waits;                        /* for the event that ended the next of them */
 } run;
 
 /* Time to go, and time that passes: single precision would lose short steps late in a long run. */
@@ -113,24 +110,6 @@ static int accept(run *r, pneu_real h, int which)
   if (r->observer && r->observer->event && r->observer->event(r->observer->context, r->t, r->state, mode))
     return PNEU_E_STOPPED;
   return PNEU_OK;
-}
-
-/* The step to follow, NULL: none. */
-static const pneu_paced_step *pace_of(const run *r)
-{
-  return r->paced < r->options->n_pace && !r->waits ? &r->options->pace[r->paced] : NULL;
-}
-
-/* A step is done: on to the next, or behind the next one that ends on an event if this one did. */
-static void keep_pace(run *r, int event)
-{
-  const pneu_options *o = r->options;
-  if (r->paced >= o->n_pace)
-    return;
-  while (event && r->paced + 1 < o->n_pace && !o->pace[r->paced].event)
-    r->paced++;
-  r->waits = !event && o->pace[r->paced].event;
-  r->paced += !r->waits;
 }
 
 static pneu_real clip(pneu_real value, pneu_real lo, pneu_real hi)
@@ -250,8 +229,7 @@ static int is_through(const run *r)
 /* Try steps from the present state until one is accepted. */
 static int advance(run *r)
 {
-  const pneu_paced_step *pace = pace_of(r);
-  const pneu_real tol = (pace ? PNEU_PACE_TOL : 1) * r->options->tol, left = left_of(r);
+  const pneu_real tol = r->options->tol, left = left_of(r);
   pneu_workspace *w = r->work;
   int status, fresh = r->h <= 0, refused = 0;
   r->input = *r->given;
@@ -260,9 +238,7 @@ static int advance(run *r)
   status = pneu_step_prepare(r->model, r->state, &r->input, w);
   if (status != PNEU_OK)
     return PNEU_E_NONFINITE;
-  if (pace)
-    r->h = pace->h;
-  else if (fresh)
+  if (fresh)
     r->h = first_step(r);
   for (;;) {
     pneu_real error = 0, h = r->h, factor, tried, located;
@@ -288,7 +264,7 @@ static int advance(run *r)
       continue;
     }
     tried = h;
-    factor = pace ? 1 : clip(next_factor(r, h, error), PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
+    factor = clip(next_factor(r, h, error), PNEU_C(0.2), refused ? 1 : fresh ? 10 : 6);
     status = pneu_locate(r->model, r->state, &r->input, w, &h, &which, &located);
     if (status < 0)
       return status;
@@ -298,9 +274,8 @@ static int advance(run *r)
       refused = 1;
       continue;
     }
-    r->h_before = pace ? 0 : tried;
+    r->h_before = tried;
     r->error_before = PNEU_M(fmax)(error, PNEU_C(1e-4) * tol);
-    keep_pace(r, which >= 0);
     if (tried < left || factor < 1) /* a step cut short by the end says little about the next */
       r->h = tried * factor;
     return accept(r, h, which);
@@ -360,7 +335,6 @@ int pneu_run(const pneu_model *model, pneu_state *state, const pneu_input *input
   r.error_before = 0;
   r.steps = 0;
   r.events_here = 0;
-  r.paced = r.waits = 0;
   r.event_t = -1;
   r.carry = 0;
   do {

@@ -38,7 +38,6 @@ static int begin_trial(const lab_projection *p, int first, int param, tried *t, 
   int j;
   t->p = p;
   t->u = *p->u;
-  t->u.pace = NULL; /* which has no residual of the change's prior */
   if (lab_unknowns_add_change(&t->u, param, first, 0, error))
     return error->status;
   t->u.m++;

@@ -49,8 +49,6 @@ int lab_fit_other_slopes(const lab_fit_problem *p, const double *theta, const do
   int j, status = LAB_OK;
   if (p->together)
     status = p->together(p->context, theta, J, done, error);
-  if ((status == LAB_OK || status == LAB_NUMERIC) && p->begin_slopes && memchr(done, 0, (size_t)p->n))
-    status = p->begin_slopes(p->context, theta, error);
   if (status != LAB_OK && status != LAB_NUMERIC)
     return status;
   status = LAB_OK;

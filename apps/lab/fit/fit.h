@@ -25,8 +25,6 @@ typedef struct lab_fit_problem {
    * the unknown stays where it is. */
   int (*slope)(void *context, const double *theta, const double *r, int j, double *column, lab_error *error);
   /* 0 is the default of what follows. */
-  /* Before slopes are taken one by one at theta.  Returns: as above. */
-  int (*begin_slopes)(void *context, const double *theta, lab_error *error);
   /* Columns that come together more cheaply than one by one: J as of lab_fit_slopes; done: n, not 0 for those
    * that are there already, and then for these.
    * Returns: as above. */

@@ -34,7 +34,6 @@ static int find_slopes(lab_unknowns *u, double *r, double *slopes, lab_error *er
     done[j] = !lab_unknown_is_known(&u->unknown[j]);
   if (status == LAB_OK)
     status = lab_unknowns_slopes(u, r, done, slopes, error);
-  lab_unknowns_drop_pace(u);
   return status;
 }
 

@@ -43,8 +43,6 @@ typedef struct lab_unknowns {
   int n;
   lab_unknown unknown[LAB_FIT_MAX];
   double tol;        /* of the stepper; 0: as in response.h */
-  lab_pace *pace;    /* n_runs: what runs for slopes follow; NULL: they choose their own steps */
-  double *paced;     /* m: residuals where the slopes are taken, by these steps */
   double misfit;     /* 1 or more: times the noise that is left; what is held counts as if that were the noise */
   double own_misfit; /* the same for what each log has for itself */
   double most_off;   /* tolerances that a fit may take a value off its sheet; 0: any */
@@ -198,17 +196,9 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
  * In/out:  r       those of other runs stay */
 int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error);
 
-/* Have the runs for slopes at theta all take the same steps from now on; and no longer. Where these cannot be had each
- * chooses its own, and so it does seen coarsely.
- * In/out:  context  lab_unknowns *
- * Returns: LAB_OK, LAB_WORLD */
-int lab_unknowns_take_pace(void *context, const double *theta, lab_error *error);
-void lab_unknowns_drop_pace(lab_unknowns *u);
-
-/* What other values than those where the pace was taken change in the residuals of the runs that have unknown `which`;
- * by its steps where they can be taken.
+/* What other values change in the residuals of the runs that have unknown `which`.
  * In:      theta   n values
- *          r       residuals of the place without a pace, m values
+ *          r       residuals, m values
  * Out:     change  m values; 0 of other runs */
 int lab_unknowns_change(const lab_unknowns *u, const double *theta, int which, const double *r, double *change,
                         lab_error *error);
@@ -220,7 +210,7 @@ int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error);
  * In:      rig  in the place of the model; what each experiment has for itself still applies */
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error);
 
-/* What another model changes in them, of all; by the steps of u->pace where it can take them.
+/* What another model changes in them, of all.
  * In:      r       residuals of the model as it is
  * Out:     change  u->m values */
 int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const double *r, double *change,

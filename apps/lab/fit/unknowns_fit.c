@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "../base/clock.h"
-#include "instants.h"
 #include "unknowns.h"
 
 static const double slope_step = 1e-3;   /* of a slope's difference, over what matters */
@@ -129,7 +128,6 @@ static void pose(lab_unknowns *u, posed *p)
                                  .context = u,
                                  .residuals = residuals_to_fit,
                                  .slope = lab_unknowns_slope,
-                                 .begin_slopes = lab_unknowns_take_pace,
                                  .together = lab_unknowns_slopes_together,
                                  .slopes = u->slopes,
                                  .is_known = u->slopes && any_slope(u) ? u->has_slope : NULL,
@@ -177,7 +175,6 @@ int lab_unknowns_find_slopes(lab_unknowns *u, lab_error *error)
   status = r ? lab_unknowns_residuals(u, p.theta, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
     status = lab_fit_slopes(&p.problem, p.theta, r, u->slopes, error);
-  lab_unknowns_drop_pace(u);
   memset(u->has_slope, status == LAB_OK, (size_t)u->n);
   free(r);
   return status;
@@ -220,7 +217,6 @@ static int fit_as_weighed(lab_unknowns *u, int steps, double *chi2, lab_error *e
   p.problem.is_brief = steps != LAB_ROUNDS_ALL;
   p.problem.until = u->until;
   status = lab_fit(&p.problem, p.theta, chi2, error);
-  lab_unknowns_drop_pace(u);
   if (status != LAB_OK)
     return status;
   for (j = 0; j < u->n; j++)
@@ -257,16 +253,13 @@ int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *e
   p.problem.until = 0; /* they belong to the answer */
   if (in_time) {
     p.problem.slope = close_slope;
-    p.problem.begin_slopes = NULL; /* their own steps: a kink that one passes elsewhere would count thirtyfold */
     u->tol = fmin(u->tol, exact);
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
     u->tol = tol;
   }
   if (status == LAB_NUMERIC) {
     p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
-    p.problem.begin_slopes = lab_unknowns_take_pace;
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
   }
-  lab_unknowns_drop_pace(u);
   return status;
 }

@@ -9,8 +9,6 @@
 #include "windowed.h"
 #include "nuisance.h"
 
-static const double slope_tol = 1e-5; /* of the stepper, where runs for slopes take the same steps */
-
 void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int run, lab_rig *rig)
 {
   int j;
@@ -33,13 +31,12 @@ static void weigh(const lab_run *e, double *r)
 }
 
 /* Predictions of one experiment. */
-static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace, double *r,
-                   lab_error *error)
+static int predict(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r, lab_error *error)
 {
   lab_drive d;
   int status = lab_drive_open(u, model, theta, e, &d, error);
   if (status == LAB_OK)
-    status = lab_run_predict_episodes(&u->run[e], d.episode, d.n, d.early, u->tol, pace, r, error);
+    status = lab_run_predict_episodes(&u->run[e], d.episode, d.n, d.early, u->tol, r, error);
   lab_drive_close(&d);
   return status;
 }
@@ -54,19 +51,19 @@ void lab_unknowns_weigh(const lab_unknowns *u, int e, double *r)
 }
 
 /* Errors of one run over noise, row by row. */
-static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace, double *r,
+static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
                      lab_error *error)
 {
-  if (predict(u, model, theta, e, pace, r, error))
+  if (predict(u, model, theta, e, r, error))
     return error->status;
   weigh(&u->run[e], r);
   return LAB_OK;
 }
 
-static int residuals_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, lab_pace *pace,
-                        double *r, lab_error *error)
+static int residuals_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
+                        lab_error *error)
 {
-  if (errors_of(u, model, theta, e, pace, r, error))
+  if (errors_of(u, model, theta, e, r, error))
     return error->status;
   lab_unknowns_weigh(u, e, r);
   return LAB_OK;
@@ -78,8 +75,7 @@ static int coarse_residuals_of(const lab_unknowns *u, const lab_rig *model, cons
 {
   const lab_run *x = &u->run[e];
   double *predicted = malloc((x->n * (size_t)x->n_channels + 1) * sizeof *predicted);
-  int c,
-      status = predicted ? predict(u, model, theta, e, NULL, predicted, error) : lab_fail_memory(error, "a response");
+  int c, status = predicted ? predict(u, model, theta, e, predicted, error) : lab_fail_memory(error, "a response");
   for (c = 0; c < x->n_channels && status == LAB_OK; c++) {
     lab_windowed_residuals(x->log->value[x->channel[c]] + x->first, predicted + (size_t)c * x->n, x->n, u->window,
                            x->sigma[c], r);
@@ -127,15 +123,14 @@ void lab_unknowns_count(lab_unknowns *u)
 }
 
 /* Residuals of the runs that have unknown `which`, or of all for -1; those of other runs are left as they are. */
-static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, lab_pace *pace,
-                        double *r, lab_error *error)
+static int residuals_at(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, double *r,
+                        lab_error *error)
 {
   double *all = r;
   int e, j;
   for (e = 0; e < u->n_runs; r += lab_unknowns_residuals_in(u, e), e++)
     if ((which < 0 || lab_unknown_acts(&u->unknown[which], e)) &&
-        (u->window ? coarse_residuals_of(u, model, theta, e, r, error)
-                   : residuals_of(u, model, theta, e, pace ? &pace[e] : NULL, r, error)))
+        (u->window ? coarse_residuals_of(u, model, theta, e, r, error) : residuals_of(u, model, theta, e, r, error)))
       return error->status;
   if (u->nuisance)
     lab_nuisance_apply(u->nuisance, all);
@@ -154,69 +149,29 @@ static void present(const lab_unknowns *u, double *theta)
     theta[j] = u->unknown[j].value;
 }
 
-static int residuals_by(const lab_unknowns *u, const double *theta, int which, lab_pace *pace, double *r,
-                        lab_error *error)
+static int residuals_by(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return residuals_at(u, &model, theta, u->nuisance ? -1 : which, pace, r, error);
+  return residuals_at(u, &model, theta, u->nuisance ? -1 : which, r, error);
 }
 
 int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
 {
-  return residuals_by(u, theta, which, NULL, r, error);
-}
-
-void lab_unknowns_drop_pace(lab_unknowns *u)
-{
-  int e;
-  for (e = 0; u->pace && e < u->n_runs; e++)
-    lab_pace_close(&u->pace[e]);
-  free(u->pace);
-  free(u->paced);
-  u->pace = NULL;
-  u->paced = NULL;
-}
-
-int lab_unknowns_take_pace(void *context, const double *theta, lab_error *error)
-{
-  lab_unknowns *u = context;
-  int e, status;
-  lab_unknowns_drop_pace(u);
-  if (u->window)
-    return LAB_OK;
-  u->pace = calloc((size_t)u->n_runs, sizeof *u->pace);
-  u->paced = malloc((u->m + 1) * sizeof *u->paced);
-  for (e = 0; u->pace && e < u->n_runs; e++)
-    u->pace[e].tol = fmax(u->tol, slope_tol);
-  status = u->pace && u->paced ? residuals_by(u, theta, -1, u->pace, u->paced, error)
-                               : lab_fail_memory(error, "the steps of runs");
-  if (status != LAB_OK)
-    lab_unknowns_drop_pace(u);
-  return status == LAB_WORLD ? status : LAB_OK;
+  return residuals_by(u, theta, which, r, error);
 }
 
 /* Residuals of a model less those of the base, in which the runs that stay have no part. */
-static int less_base(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, lab_pace *pace,
-                     const double *base, double *change, lab_error *error)
+static int less_base(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, const double *base,
+                     double *change, lab_error *error)
 {
   size_t i;
   memcpy(change, base, u->m * sizeof *change);
-  if (residuals_at(u, model, theta, u->nuisance ? -1 : which, pace, change, error))
+  if (residuals_at(u, model, theta, u->nuisance ? -1 : which, change, error))
     return error->status;
   for (i = 0; i < u->m; i++)
     change[i] -= base[i];
   return LAB_OK;
-}
-
-/* The same by the steps of the pace, if there is one and the model can take them. */
-static int change_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int which, const double *r,
-                     double *change, lab_error *error)
-{
-  int status = LAB_NUMERIC;
-  if (u->pace)
-    status = less_base(u, model, theta, which, u->pace, u->paced, change, error);
-  return status == LAB_NUMERIC ? less_base(u, model, theta, which, NULL, r, change, error) : status;
 }
 
 int lab_unknowns_change(const lab_unknowns *u, const double *theta, int which, const double *r, double *change,
@@ -224,7 +179,7 @@ int lab_unknowns_change(const lab_unknowns *u, const double *theta, int which, c
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return change_of(u, &model, theta, which, r, change, error);
+  return less_base(u, &model, theta, which, r, change, error);
 }
 
 void lab_unknowns_take(lab_unknowns *u)
@@ -248,14 +203,14 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
   double now[LAB_FIT_MAX];
   if (!theta)
     present(u, now);
-  return residuals_by(u, theta ? theta : now, -1, NULL, r, error);
+  return residuals_by(u, theta ? theta : now, -1, r, error);
 }
 
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
   present(u, now);
-  return residuals_at(u, rig, now, -1, NULL, r, error);
+  return residuals_at(u, rig, now, -1, r, error);
 }
 
 int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const double *r, double *change,
@@ -263,7 +218,7 @@ int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const do
 {
   double now[LAB_FIT_MAX];
   present(u, now);
-  return change_of(u, rig, now, -1, r, change, error);
+  return less_base(u, rig, now, -1, r, change, error);
 }
 
 int lab_unknowns_chi2(const lab_unknowns *u, double *chi2, lab_error *error)
@@ -314,7 +269,7 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
   int e;
   present(u, now);
   for (e = 0; e < u->n_runs; r += u->run[e].n * (size_t)u->run[e].n_channels, e++)
-    if (errors_of(u, &u->rig, now, e, NULL, r, error))
+    if (errors_of(u, &u->rig, now, e, r, error))
       return error->status;
   return LAB_OK;
 }
@@ -323,7 +278,7 @@ int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int e, do
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return errors_of(u, &model, theta, e, NULL, r, error);
+  return errors_of(u, &model, theta, e, r, error);
 }
 
 void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column)

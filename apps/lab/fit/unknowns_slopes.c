@@ -9,7 +9,7 @@
 #include "drive.h"
 #include "nuisance.h"
 
-static const double tol = 1e-5;     /* of the stepper at least: differences do not have its errors */
+static const double coarser = 10;   /* times the tolerance of the stepper: its errors are none of what is followed */
 static const double shorter = 1e-3; /* a slope's step, over that of a difference of two runs: one that is long passes
                                        the edge of a dead band, or a stop, where the rates change at once */
 
@@ -91,8 +91,8 @@ static int follow(const lab_unknowns *u, int e, together *t, char *lost, lab_err
   for (k = 0; k < runs; k++) {
     const int from = k * t->n / runs, n = (k + 1) * t->n / runs - from;
     lab_error mine;
-    const int at = lab_run_vary(&u->run[e], t->as, t->as + 1 + from, n, fmax(u->tol, tol), t->change + from,
-                                t->done + from, &mine);
+    const int at =
+        lab_run_vary(&u->run[e], t->as, t->as + 1 + from, n, coarser * u->tol, t->change + from, t->done + from, &mine);
     if (at != LAB_OK) {
 #pragma omp critical(slopes_error)
       *error = mine, status = at;

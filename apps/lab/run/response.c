@@ -161,8 +161,6 @@ typedef struct engine {
   double tol;
   lab_cvode *cvode; /* NULL: the stepper */
   lab_sampler *sampler;
-  lab_pace *taken;             /* the pace that is taken up, NULL: none */
-  const lab_pace *followed;    /* the pace that is followed, NULL: none */
   struct lab_variations *vary; /* what nearby runs differ by; NULL: there are none */
   size_t row;                  /* of the schedule */
   pneu_workspace work;
@@ -195,8 +193,6 @@ static int sample_step(void *context, const pneu_step_view *view)
   }
   if (e->vary)
     lab_variations_pass(e->vary);
-  if (e->taken)
-    lab_pace_step(e->taken, (double)view->h);
   return 0;
 }
 
@@ -206,8 +202,6 @@ static int mark_event(void *context, pneu_real t, const pneu_state *state, int b
   (void)t, (void)before;
   if (e->vary)
     lab_variations_event(e->vary, state);
-  if (e->taken)
-    lab_pace_event(e->taken);
   return 0;
 }
 
@@ -226,12 +220,8 @@ static int stretch(engine *e, pneu_state *state, double duration, lab_error *err
   options.tol = e->tol;
   if (max_steps > 0)
     options.max_steps = max_steps;
-  if (e->taken)
-    lab_pace_row(e->taken);
-  if (e->followed)
-    lab_pace_follow(e->followed, e->row, &options);
   status = pneu_run(e->model, state, sampler->input, duration, &options,
-                    e->taken || e->vary || sampler->next < sampler->n ? &observer : NULL, &e->work);
+                    e->vary || sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)
     return LAB_OK;
   return lab_fail(error, LAB_NUMERIC,
@@ -279,9 +269,6 @@ static int run_rows(engine *e, const lab_late *late, double t_end, lab_error *er
   const size_t n = sampler->n;
   size_t i;
   int status = LAB_OK;
-  if (e->followed && e->followed->rows != schedule->n)
-    return lab_fail(error, LAB_NUMERIC, "a run of %zu stretches cannot follow one of %zu", schedule->n,
-                    e->followed->rows);
   if (model->clock >= 0)
     state.extra[model->clock] = (pneu_real)schedule->t[0];
   if (e->vary)
@@ -299,7 +286,7 @@ static int run_rows(engine *e, const lab_late *late, double t_end, lab_error *er
     if (status == LAB_OK)
       status = run_row(e, &input, schedule->t[i], to, &before, &state, error);
   }
-  return status == LAB_OK && e->taken ? lab_pace_end(e->taken, error) : status;
+  return status;
 }
 
 static int run_schedule(engine *e, double t_end, lab_error *error)
@@ -338,14 +325,8 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
   const lab_response_options *o = &task->options;
   engine e = {.model = model, .task = task, .t_end = task->t_end, .tol = o->tol};
   int status = LAB_OK;
-  if (task->pace && task->pace->is_set)
-    e.followed = task->pace;
-  else
-    e.taken = task->pace;
   if (e.t_end == 0 && task->n > 0)
     e.t_end = task->t[task->n - 1];
-  if (task->pace)
-    e.tol = task->pace->tol;
   if (e.tol == 0)
     e.tol = usual_tol;
   if (response && trace_allocate(response, task->n, o->shown_only, error))

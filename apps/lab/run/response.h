@@ -7,7 +7,6 @@
 
 #include "../../../lib/pneu.h"
 #include "../base/message.h"
-#include "pace.h"
 
 /* Inputs over time: row i acts from t[i] to t[i+1], its command with its slope; the last one to the end. */
 typedef struct lab_schedule {
@@ -55,7 +54,6 @@ typedef struct lab_simulation {
   size_t n;
   double t_end; /* [s]; 0: the last sample */
   lab_response_options options;
-  lab_pace *pace;    /* set by the first run that has it, with its tolerance; followed by those after it; NULL: none */
   pneu_stats *stats; /* written if not NULL */
   /* Runs of nearly the same model, of which start, schedule and rows count, and what p, x, T and force of each have
    * beyond this one, to first order (variation.h): all NULL where one cannot be had so. For the stepper, shown_only. */
@@ -67,8 +65,7 @@ typedef struct lab_simulation {
 /* Run a model. Commands act model->command_delay after they are given, but for the first, which has been acting;
  * positions are those of model->position_skew before. The model's clock, where it has one, begins at schedule->t[0].
  * Out:     trace  allocated; free with lab_response_free; NULL: only statistics are wanted
- * Returns: LAB_OK, LAB_NUMERIC (named, with time and state; also where a pace has another number of rows), LAB_WORLD.
- */
+ * Returns: LAB_OK, LAB_NUMERIC (named, with time and state), LAB_WORLD. */
 int lab_response_run(const pneu_model *model, const lab_simulation *simulation, lab_response *response,
                      lab_error *error);
 

@@ -234,8 +234,7 @@ static const double *column_of(const lab_response *response, int channel)
                                     : response->force;
 }
 
-static int respond(const lab_run *e, const lab_staging *s, double tol, lab_pace *pace, lab_response *response,
-                   lab_error *error)
+static int respond(const lab_run *e, const lab_staging *s, double tol, lab_response *response, lab_error *error)
 {
   pneu_state start;
   const lab_simulation task = {.start = &start,
@@ -243,21 +242,20 @@ static int respond(const lab_run *e, const lab_staging *s, double tol, lab_pace 
                                .rows = s->of,
                                .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
                                .n = e->n,
-                               .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps},
-                               .pace = pace};
+                               .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
   if (lab_run_initial_state(s->of[0], s->input, e->log, e->run, &start, error))
     return error->status == LAB_DATA ? (error->status = LAB_NUMERIC) : error->status;
   return lab_response_run(s->of[0], &task, response, error);
 }
 
 int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
-                             lab_pace *pace, double *y, lab_error *error)
+                             double *y, lab_error *error)
 {
   lab_response response;
   lab_staging s;
   int c, status = lab_staging_open(e->log, &e->inputs.schedule, early, e->n_instants, episode, n, &s, error);
   if (status == LAB_OK)
-    status = respond(e, &s, tol, pace, &response, error);
+    status = respond(e, &s, tol, &response, error);
   else if (status == LAB_DATA)
     status = error->status = LAB_NUMERIC;
   lab_staging_close(&s);
@@ -368,5 +366,5 @@ int lab_run_vary(const lab_run *e, const lab_run_case *base, const lab_run_case 
 int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error)
 {
   const lab_episode whole = {0, rig};
-  return lab_run_predict_episodes(e, &whole, 1, early, tol, NULL, y, error);
+  return lab_run_predict_episodes(e, &whole, 1, early, tol, y, error);
 }

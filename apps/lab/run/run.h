@@ -6,7 +6,6 @@
 #include "../base/colour.h"
 #include "../log/log.h"
 #include "../rig/rig.h"
-#include "pace.h"
 #include "staging.h"
 
 typedef struct lab_run {
@@ -48,9 +47,9 @@ enum { LAB_EPISODES_MAX = 9 };
 
 /* The same where the model changes on the way.
  * In:      episode  n >= 1 of them, in the order of time; the first acts from the beginning, whatever its time
- *          pace     of the run, as of lab_simulation */
+ */
 int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
-                             lab_pace *pace, double *y, lab_error *error);
+                             double *y, lab_error *error);
 
 /* What a run is predicted from. */
 typedef struct lab_run_case {

@@ -53,16 +53,6 @@ static int find_slopes(lab_unknowns *u, int n, const double *r, double *J, lab_e
   return lab_unknowns_slopes(u, r, done, J, error);
 }
 
-/* For slopes in what is not among the unknowns. */
-static int take_pace(lab_unknowns *u, lab_error *error)
-{
-  double theta[LAB_FIT_MAX];
-  int j;
-  for (j = 0; j < u->n; j++)
-    theta[j] = u->unknown[j].value;
-  return lab_unknowns_take_pace(u, theta, error);
-}
-
 /* With the slopes of the first n unknowns. */
 static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error)
 {
@@ -78,8 +68,6 @@ static int open_with(lab_unknowns *u, int n, lab_projection *p, lab_error *error
   if (lab_unknowns_residuals(u, NULL, p->r, error))
     return error->status;
   status = find_slopes(u, n, p->r, p->basis, error);
-  if (status == LAB_OK)
-    status = take_pace(u, error);
   if (status == LAB_OK && lab_cpu_is_spent(u->until))
     return fail_spent(error);
   if (status == LAB_OK)
@@ -100,8 +88,6 @@ int lab_projection_open_rest(lab_unknowns *u, lab_projection *p, lab_error *erro
 
 void lab_projection_close(lab_projection *p)
 {
-  if (p->u)
-    lab_unknowns_drop_pace(p->u);
   free(p->r);
   free(p->basis);
   memset(p, 0, sizeof *p);
