@@ -181,10 +181,8 @@ static int sample_step(void *context, const pneu_step_view *view)
   const engine *e = context;
   pneu_state at;
   double due;
-  if (e->vary) {
-    lab_variations_step(e->vary, view);
-    lab_variations_expect(e->vary, samples_until(e->sampler, view->t + view->h));
-  }
+  if (e->vary)
+    lab_variations_step(e->vary, view, samples_until(e->sampler, view->t + view->h));
   while ((due = lab_sampler_due(e->sampler)) <= view->t + view->h) {
     pneu_dense(view, (due - view->t) / view->h, &at);
     if (e->vary)

@@ -45,13 +45,13 @@ struct lab_variations {
   /* the step: */
   pneu_state state[STAGES];
   pneu_shown shown[STAGES];
-  int is_interpolated; /* samples are, between the stages */
+  int has_middle;      /* samples lie inside */
+  int is_interpolated; /* they are taken between the stages */
   pneu_input at[STAGES];
   pneu_real y[STAGES][S], f[STAGES][S], jac[STAGES][S][S];
-  double matrix[N][N];                /* of the linear equations of a step, transposed */
-  double weight[2 * S][N];            /* of the stages, in the middle and the end */
-  double from_start[2][S][S];         /* share of d[0] in the middle and the end */
-  double from_stage[2][STAGES][S][S]; /* of each g */
+  double matrix[N][N];                  /* of the linear equations of a step, transposed */
+  double weight[2 * S][N];              /* of the stages, at the end and in the middle */
+  pneu_real share[2][1 + STAGES][S][S]; /* of the start and of each g, at the end and in the middle */
 };
 
 /* ---- Differences of states ---- */
@@ -144,38 +144,45 @@ static int solve(int n, double a[N][N], int n_b, double (*b)[N])
   return 0;
 }
 
-/* What the start and what each stage's g have in the middle and at the end of a step.  Returns: 0, -1 if it cannot be
- * had */
-static int find_shares(struct lab_variations *v, int n, double h)
+/* What the difference at the start, and each stage's g, have in that at `place`, in the middle or at the end, of a
+ * step. In:      weight  n rows of the inverse of the equations */
+static void find_shares(int n, double h, double (*weight)[N], pneu_real (*share)[S][S])
 {
-  int s, t, i, j, k, at;
+  int i, j, s, t;
+  for (i = 0; i < n; i++)
+    for (j = 0; j < n; j++) {
+      double start = 0, stage[STAGES] = {0};
+      for (s = 0; s < STAGES; s++) {
+        const double w = weight[i][s * n + j];
+        start += w;
+        for (t = 0; t < STAGES; t++)
+          stage[t] += butcher[s][t] * w;
+      }
+      share[0][i][j] = start;
+      for (t = 0; t < STAGES; t++)
+        share[t + 1][i][j] = h * stage[t];
+    }
+}
+
+/* The equations of a step, solved for its end, and for its middle where samples lie inside.  Returns: 0, -1 if they
+ * cannot be */
+static int solve_step(struct lab_variations *v, int n, double h)
+{
+  const int places = v->has_middle ? 2 : 1;
+  int s, t, i, j;
   for (s = 0; s < STAGES; s++)
     for (i = 0; i < n; i++)
       for (t = 0; t < STAGES; t++)
         for (j = 0; j < n; j++)
           v->matrix[t * n + j][s * n + i] = (s == t && i == j) - h * butcher[s][t] * v->jac[t][i][j];
-  for (i = 0; i < 2 * n; i++) {
+  for (i = 0; i < places * n; i++) { /* the end, then the middle */
     memset(v->weight[i], 0, (size_t)(STAGES * n) * sizeof v->weight[i][0]);
-    v->weight[i][n + i] = 1;
+    v->weight[i][i < n ? 2 * n + i : i] = 1;
   }
-  if (solve(STAGES * n, v->matrix, 2 * n, v->weight))
+  if (solve(STAGES * n, v->matrix, places * n, v->weight))
     return -1;
-  for (at = 0; at < 2; at++)
-    for (i = 0; i < n; i++) {
-      const double *w = v->weight[at * n + i];
-      for (j = 0; j < n; j++) {
-        double sum = 0;
-        for (s = 0; s < STAGES; s++)
-          sum += w[s * n + j];
-        v->from_start[at][i][j] = sum;
-        for (t = 0; t < STAGES; t++) {
-          sum = 0;
-          for (k = 0; k < STAGES; k++)
-            sum += butcher[k][t] * w[k * n + j];
-          v->from_stage[at][t][i][j] = h * sum;
-        }
-      }
-    }
+  for (i = 0; i < places; i++)
+    find_shares(n, h, v->weight + i * n, v->share[i]);
   return 0;
 }
 
@@ -208,20 +215,18 @@ static int find_excess(const struct lab_variations *v, nearby *k, int stage)
   return 0;
 }
 
-static void carry(const struct lab_variations *v, int n, nearby *k)
+/* The difference in the middle of the step, or at its end. */
+static void carry(pneu_real (*share)[S][S], int n, const nearby *k, pneu_real *to)
 {
-  int at, i, j, t;
-  for (at = 0; at < 2; at++) {
-    memcpy(k->d[at + 1], k->d[0], sizeof k->d[0]);
-    for (i = 0; i < n; i++) {
-      double sum = 0;
+  const pneu_real *of[1 + STAGES] = {k->d[0], k->g[0], k->g[1], k->g[2]};
+  int i, j, s;
+  memcpy(to, k->d[0], sizeof k->d[0]);
+  for (i = 0; i < n; i++) {
+    double sum = 0;
+    for (s = 0; s <= STAGES; s++)
       for (j = 0; j < n; j++)
-        sum += v->from_start[at][i][j] * k->d[0][j];
-      for (t = 0; t < STAGES; t++)
-        for (j = 0; j < n; j++)
-          sum += v->from_stage[at][t][i][j] * k->g[t][j];
-      k->d[at + 1][i] = sum;
-    }
+        sum += share[s][i][j] * of[s][j];
+    to[i] = sum;
   }
 }
 
@@ -241,27 +246,83 @@ static int look_at_step(struct lab_variations *v, const pneu_step_view *view)
                pneu_jacobian(view->model, &v->state[s], &v->at[s], v->y[s], v->f[s], v->jac[s]) != PNEU_OK)
       return -1;
   }
-  return find_shares(v, n_of(v), view->h);
+  return solve_step(v, n_of(v), view->h);
 }
 
-static void step_one(const struct lab_variations *v, nearby *k)
+static void step_one(struct lab_variations *v, nearby *k)
 {
-  if (k->is_off || k->is_same)
-    return;
-  if ((!k->knows_start && find_excess(v, k, 0)) || find_excess(v, k, 1) || find_excess(v, k, 2))
+  if ((!k->knows_start && find_excess(v, k, 0)) || find_excess(v, k, 1) || find_excess(v, k, 2)) {
     k->is_off = 1;
-  else
-    carry(v, n_of(v), k);
+    return;
+  }
+  carry(v->share[0], n_of(v), k, k->d[2]);
+  if (v->has_middle)
+    carry(v->share[1], n_of(v), k, k->d[1]);
 }
 
-void lab_variations_step(struct lab_variations *v, const pneu_step_view *view)
+static int is_moved(const nearby *k)
 {
-  int k;
-  v->is_lost = v->is_lost || v->events > EVENTS || look_at_step(v, view);
-  for (k = 0; k < v->n; k++) {
-    v->of[k].is_off |= v->is_lost;
-    step_one(v, &v->of[k]);
-  }
+  return !k->is_off && !k->is_same;
+}
+
+static void difference_at(const nearby *k, int n, double theta, pneu_real *d)
+{
+  const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
+  int i;
+  for (i = 0; i < n; i++)
+    d[i] = theta > 0 ? start * k->d[0][i] + middle * k->d[1][i] + end * k->d[2][i] : k->d[0][i];
+}
+
+/* What the sensors of a nearby run show beyond those of the run, which show this.  Returns: 0, -1 */
+static int excess_shown(const struct lab_variations *v, const nearby *k, const pneu_state *state, double elapsed,
+                        const pneu_real *d, const pneu_shown *shown, pneu_shown *excess)
+{
+  const pneu_state s = displaced(v->model, state, d);
+  pneu_input own = k->input;
+  own.elapsed = elapsed + k->lead;
+  if (pneu_show(k->model, &s, &own, excess) != PNEU_OK)
+    return -1;
+  excess->pressure -= shown->pressure;
+  excess->temperature -= shown->temperature;
+  excess->position -= shown->position;
+  excess->force -= shown->force;
+  return 0;
+}
+
+/* The same at the stages of a step.  Returns: 0, -1 */
+static int look_at_stages(const struct lab_variations *v, nearby *k)
+{
+  int s;
+  for (s = 0; s < STAGES; s++)
+    if (excess_shown(v, k, &v->state[s], v->at[s].elapsed, k->d[s], &v->shown[s], &k->excess[s]))
+      return -1;
+  return 0;
+}
+
+/* What samples in a step are interpolated between, where there are many. */
+static void look_at_samples(struct lab_variations *v, int samples)
+{
+  int i, s;
+  v->is_interpolated = samples > STAGES;
+  for (s = 0; s < STAGES && v->is_interpolated; s++)
+    v->is_interpolated = pneu_show(v->model, &v->state[s], &v->at[s], &v->shown[s]) == PNEU_OK;
+  for (i = 0; i < v->n && v->is_interpolated; i++)
+    if (is_moved(&v->of[i]))
+      v->of[i].is_off = look_at_stages(v, &v->of[i]) != 0;
+}
+
+void lab_variations_step(struct lab_variations *v, const pneu_step_view *view, int samples)
+{
+  int k, any = 0;
+  for (k = 0; k < v->n; k++)
+    any |= is_moved(&v->of[k]);
+  v->has_middle = samples > 0;
+  v->is_lost = v->is_lost || v->events > EVENTS || (any && look_at_step(v, view));
+  for (k = 0; k < v->n && !v->is_lost; k++)
+    if (is_moved(&v->of[k]))
+      step_one(v, &v->of[k]);
+  if (any && !v->is_lost)
+    look_at_samples(v, samples);
 }
 
 void lab_variations_look(struct lab_variations *v, double theta)
@@ -301,7 +362,7 @@ void lab_variations_pass(struct lab_variations *v)
   v->theta = 0;
   for (i = 0; i < v->n; i++) {
     nearby *k = &v->of[i];
-    if (k->is_off || k->is_same)
+    if (!is_moved(k))
       continue;
     memcpy(k->d[0], k->d[2], sizeof k->d[0]);
     memcpy(k->g[0], k->g[2], sizeof k->g[0]);
@@ -372,7 +433,7 @@ void lab_variations_event(struct lab_variations *v, const pneu_state *after)
   is_lost = n_events == 0 || rates_at(v->model, after, &v->at[2], f) != PNEU_OK;
   for (i = 0; i < v->n; i++) {
     nearby *k = &v->of[i];
-    if (k->is_off || k->is_same)
+    if (!is_moved(k))
       continue;
     k->knows_start = 0;
     k->is_off = is_lost || pass_event(v, k, which, g, rate, after, f);
@@ -430,52 +491,6 @@ void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *be
 
 /* ---- Samples ---- */
 
-static void difference_at(const nearby *k, int n, double theta, pneu_real *d)
-{
-  const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
-  int i;
-  for (i = 0; i < n; i++)
-    d[i] = theta > 0 ? start * k->d[0][i] + middle * k->d[1][i] + end * k->d[2][i] : k->d[0][i];
-}
-
-/* What the sensors of a nearby run show beyond those of the run, which show this.  Returns: 0, -1 */
-static int excess_shown(const struct lab_variations *v, const nearby *k, const pneu_state *state, double elapsed,
-                        const pneu_real *d, const pneu_shown *shown, pneu_shown *excess)
-{
-  const pneu_state s = displaced(v->model, state, d);
-  pneu_input own = k->input;
-  own.elapsed = elapsed + k->lead;
-  if (pneu_show(k->model, &s, &own, excess) != PNEU_OK)
-    return -1;
-  excess->pressure -= shown->pressure;
-  excess->temperature -= shown->temperature;
-  excess->position -= shown->position;
-  excess->force -= shown->force;
-  return 0;
-}
-
-/* The same at the stages of a step.  Returns: 0, -1 */
-static int look_at_stages(const struct lab_variations *v, nearby *k)
-{
-  int s;
-  for (s = 0; s < STAGES; s++)
-    if (excess_shown(v, k, &v->state[s], v->at[s].elapsed, k->d[s], &v->shown[s], &k->excess[s]))
-      return -1;
-  return 0;
-}
-
-void lab_variations_expect(struct lab_variations *v, int samples)
-{
-  int i, s;
-  v->is_interpolated = samples > STAGES && !v->is_lost;
-  for (s = 0; s < STAGES && v->is_interpolated; s++)
-    if (pneu_show(v->model, &v->state[s], &v->at[s], &v->shown[s]) != PNEU_OK)
-      v->is_interpolated = 0;
-  for (i = 0; i < v->n && v->is_interpolated; i++)
-    if (!v->of[i].is_off && !v->of[i].is_same)
-      v->of[i].is_off = look_at_stages(v, &v->of[i]) != 0;
-}
-
 static void interpolate(const nearby *k, double theta, pneu_shown *excess)
 {
   const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
@@ -501,7 +516,7 @@ void lab_variations_take(struct lab_variations *v, size_t i, const pneu_state *s
   int k;
   for (k = 0; k < v->n && !v->is_lost; k++) {
     nearby *of = &v->of[k];
-    if (of->is_off || of->is_same)
+    if (!is_moved(of))
       continue;
     if (v->is_interpolated && v->theta > 0)
       interpolate(of, v->theta, &excess);
@@ -526,7 +541,7 @@ void lab_variations_close(struct lab_variations *v, int without_result)
   int i;
   for (i = 0; v && v->of && i < v->n; i++) {
     lab_late_close(&v->of[i].late);
-    if (without_result || v->of[i].is_off)
+    if (without_result || v->is_lost || v->of[i].is_off)
       lab_response_free(v->of[i].change);
   }
   if (v)

@@ -30,8 +30,7 @@ void lab_variations_begin(struct lab_variations *v, const lab_schedule *acts, co
 void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *before, const pneu_state *after);
 
 /* A step is made, in which so many samples are due; it is looked at, at a share theta of it; it is done. */
-void lab_variations_step(struct lab_variations *v, const pneu_step_view *view);
-void lab_variations_expect(struct lab_variations *v, int samples);
+void lab_variations_step(struct lab_variations *v, const pneu_step_view *view, int samples);
 void lab_variations_look(struct lab_variations *v, double theta);
 void lab_variations_pass(struct lab_variations *v);
 

@@ -191,12 +191,28 @@ static void test_lab_variations__another_kind_of_run__is_not_followed(void **sta
   check_not_followed(&here, &shorter);
 }
 
+/* A stem that sticks and slips more than ten times under one command has no slopes that mean anything. */
+static void test_lab_variations__stick_slip__is_not_followed(void **state)
+{
+  drive here = with(PNEU_GAS_ISOTHERMAL, NULL, 0), there;
+  pneu_params p = here.model.p;
+  (void)state;
+  fixture_set(&p, "stribeck_friction.stribeck_excess", 1);
+  fixture_set(&p, "fill_area", 2e-8);
+  here.model = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  fixture_set(&p, "spring_rate", 1.001 * (double)p.spring_rate);
+  there = here;
+  there.model = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  check_not_followed(&here, &there);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_variations__parameters__are_those_of_exact_runs),
       cmocka_unit_test(test_lab_variations__commands_and_start__are_those_of_exact_runs),
       cmocka_unit_test(test_lab_variations__effects__are_those_of_exact_runs),
+      cmocka_unit_test(test_lab_variations__stick_slip__is_not_followed),
       cmocka_unit_test(test_lab_variations__another_kind_of_run__is_not_followed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
