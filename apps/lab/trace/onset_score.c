@@ -133,32 +133,36 @@ static void judge(const scan *s, const double *slope, double step, double up, do
   }
 }
 
-/* Score one of them, at shorter steps where one changes far too much.  Returns: how many slopes */
+/* How far a parameter may change either way. */
+static void room_of(const scan *s, int param, double *up, double *down)
+{
+  const double now = lab_param_value(&s->open.rig, param);
+  pneu_param_info info;
+  *up = HUGE_VAL;
+  *down = 1;
+  if (param == LAB_PARAM_ORIFICE_AREA)
+    return;
+  pneu_param_describe(param, &info);
+  *up = (double)info.upper - now;
+  *down = now - (double)info.lower;
+}
+
+/* Score one of them by differences, at shorter steps where one changes far too much.  Returns: how many slopes */
 static int score_one(const scan *s, double *throughout, lab_score *score, double *slope, lab_error *all)
 {
-  const lab_rig *rig = &s->open.rig;
-  const double now = lab_param_value(rig, score->param);
-  double up = HUGE_VAL, down = 1, step = first_step(rig, score->param);
-  pneu_param_info info;
+  double up, down, step = first_step(&s->open.rig, score->param);
   lab_error error;
-  size_t i;
   int tries, n = 0;
-  if (score->param != LAB_PARAM_ORIFICE_AREA) {
-    pneu_param_describe(score->param, &info);
-    up = (double)info.upper - now;
-    down = now - (double)info.lower;
-  }
+  room_of(s, score->param, &up, &down);
   for (tries = 0; tries < lab_count(LAB_SLOPE_SIZES); tries++) {
-    lab_rig model = *rig;
+    lab_rig model = s->open.rig;
     double length;
     add(&model, score->param, step);
-    if (lab_unknowns_residuals_with(&s->open, &model, slope, &error)) {
+    if (lab_unknowns_change_with(&s->open, &model, s->before, slope, &error)) {
       lab_fail_together(all, &error);
       step *= lab_constant(LAB_SLOPE_SMALL);
       continue;
     }
-    for (i = 0; i < s->open.n_data; i++)
-      slope[i] -= s->before[i];
     length = sqrt(lab_dot(slope, slope, s->open.n_data));
     judge(s, slope, step, up, down, throughout, score);
     n++;
@@ -258,28 +262,69 @@ static void close_scan(scan *s)
   free(s->along);
 }
 
-static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
+/* Score those that can be had from one run.  Out: done  of each */
+static int score_together(const scan *s, lab_onset_scores *all, double *slopes, char *done, lab_error *error)
 {
-  double *slopes = malloc((size_t)all->n * s->open.m * sizeof *slopes), throughout = 0;
-  int i, slopes_tried = 0;
-  if (!slopes)
-    return lab_fail_memory(error, "slopes");
+  static const double share = 1e-3; /* of the usual step */
+  lab_rig *model = malloc((size_t)all->n * sizeof *model);
+  const lab_rig *of[LAB_ONSET_SCORES_MAX];
+  double *slope[LAB_ONSET_SCORES_MAX], up, down;
+  int i, status = model ? LAB_OK : lab_fail_memory(error, "models");
+  for (i = 0; i < all->n && status == LAB_OK; i++) {
+    model[i] = s->open.rig;
+    add(&model[i], all->of[i].param, share * first_step(&s->open.rig, all->of[i].param));
+    of[i] = &model[i];
+    slope[i] = slopes + (size_t)i * s->open.m;
+  }
+  if (status == LAB_OK)
+    status = lab_unknowns_changes_with(&s->open, of, all->n, slope, done, error);
+  for (i = 0; i < all->n && status == LAB_OK; i++) {
+    if (!done[i])
+      continue;
+    room_of(s, all->of[i].param, &up, &down);
+    judge(s, slope[i], share * first_step(&s->open.rig, all->of[i].param), up, down, &all->throughout, &all->of[i]);
+    all->tests++;
+  }
+  free(model);
+  return status;
+}
+
+/* Score the others, each by runs of its own. */
+static int score_others(const scan *s, lab_onset_scores *all, double *slopes, const char *done, lab_error *error)
+{
+  double throughout = all->throughout;
+  int i, tests = 0;
   error->status = LAB_OK;
-#pragma omp parallel for schedule(dynamic) reduction(+ : slopes_tried) reduction(max : throughout)
+#pragma omp parallel for schedule(dynamic) reduction(+ : tests) reduction(max : throughout)
   for (i = 0; i < all->n; i++) {
     double own = 0;
-    slopes_tried += score_one(s, &own, &all->of[i], slopes + (size_t)i * s->open.m, error);
+    if (done[i])
+      continue;
+    tests += score_one(s, &own, &all->of[i], slopes + (size_t)i * s->open.m, error);
     throughout = fmax(throughout, own);
   }
-  free(slopes);
-  all->tests = slopes_tried * (s->last - s->first + 1);
   all->throughout = throughout;
+  all->tests += tests;
+  return error->status;
+}
+
+static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
+{
+  double *slopes = malloc((size_t)all->n * s->open.m * sizeof *slopes);
+  char done[LAB_ONSET_SCORES_MAX];
+  int i, status = slopes ? LAB_OK : lab_fail_memory(error, "slopes");
+  if (status == LAB_OK)
+    status = score_together(s, all, slopes, done, error);
+  if (status == LAB_OK)
+    status = score_others(s, all, slopes, done, error);
+  free(slopes);
+  all->tests *= s->last - s->first + 1;
   for (i = 0; i < all->n; i++) {
     all->of[i].p_value = lab_chi2_tail(all->of[i].statistic, 1);
     all->of[i].explained = s->p->excess > 0 ? all->of[i].statistic / s->p->excess : 0;
   }
   qsort(all->of, (size_t)all->n, sizeof *all->of, lab_score_by_statistic);
-  return error->status;
+  return status;
 }
 
 int lab_onset_scores_find(const lab_projection *p, size_t from, size_t to, lab_onset_scores *all, lab_error *error)
