@@ -2,7 +2,8 @@
  * A difference d follows d' = J d + g, with J the Jacobian of the run's right-hand side and g what the other model, or
  * its inputs, add to the rates where the run is; by Lobatto IIIC with three stages (Chipman 1971; order 4, L-stable,
  * Hairer and Wanner 1996, IV.5), at the start, the middle and the end of each step. Where the run meets an event, or a
- * change of its inputs, the other one does dt later, and the difference jumps by what the rates change there over dt.
+ * change of its inputs, the other one does dt later, and the difference jumps by what the rates change there over dt
+ * (Galan, Feehery and Barton 1999, Appl. Numer. Math. 31:17).
  *
  * Left out: what is of second order in the difference, such as a stem that breaks away in one of the two alone.
  * SPDX-License-Identifier: MIT */
@@ -13,10 +14,12 @@
 
 struct lab_variations;
 
-/* Open what lab_response_run is to follow.
- * In:      nearby  n of them, their start, schedule and rows; used as long as the result is
+/* Open what lab_response_run is to follow, and close it, with or without what it found.
+ * In:      run     that is made
+ *          nearby  n of them, their start, schedule and rows; used as long as the result is
  * Out:     change  n of them, what p, x, T and force of each have beyond the run, to be freed; all NULL where one
- * cannot be had so: with another skew, other states, or other rows of its schedule Returns: LAB_OK, LAB_WORLD. */
+ *                  cannot be had so: with another skew, other states, or other rows of its schedule
+ * Returns: LAB_OK, LAB_WORLD. */
 int lab_variations_open(const lab_simulation *run, const lab_simulation *nearby, int n, lab_response *change,
                         struct lab_variations **variations, lab_error *error);
 void lab_variations_close(struct lab_variations *variations, int without_result);
