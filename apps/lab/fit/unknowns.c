@@ -39,6 +39,16 @@ static void describe_param(lab_unknown *x, int param)
                  : fabs((double)info.value - (param < PNEU_PARAM_BASE_COUNT || info.shape ? 0 : (double)info.neutral));
 }
 
+int lab_unknown_rests(const lab_unknown *x)
+{
+  return x->lower == x->upper;
+}
+
+int lab_unknown_is_absent(const lab_unknown *x)
+{
+  return lab_unknown_rests(x) && !lab_param_info(x->index).shape;
+}
+
 int lab_unknown_is_known(const lab_unknown *x)
 {
   return x->spread > 0 && ((x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS) || x->kind == LAB_UNKNOWN_INSTANT);

@@ -110,6 +110,12 @@ int lab_unknown_is_let_go(const lab_unknown *x);
  * In/out:  result  intervals of the unknowns, from which it is taken out; NULL: none */
 void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result);
 
+/* Whether an unknown rests at the value that has no effect (trace/absent.h). */
+int lab_unknown_rests(const lab_unknown *x);
+
+/* Whether it is the size of a declared effect, and rests there: the logs refute the effect. */
+int lab_unknown_is_absent(const lab_unknown *x);
+
 /* Whether something is known of an unknown beforehand: it is held, or the instant of a command. */
 int lab_unknown_is_known(const lab_unknown *x);
 

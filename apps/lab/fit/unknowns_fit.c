@@ -240,7 +240,7 @@ int lab_unknowns_fit(lab_unknowns *u, int steps, double *chi2, lab_error *error)
   return status;
 }
 
-int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error)
+static int find_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error)
 {
   const int in_time = !lab_cpu_is_spent(u->until);
   lab_fit_param param[LAB_FIT_MAX];
@@ -261,5 +261,25 @@ int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *e
     p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
   }
+  return status;
+}
+
+/* An unknown that rests may be anything that its bounds allow. */
+int lab_unknowns_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *error)
+{
+  char rests[LAB_FIT_MAX];
+  int j, status;
+  for (j = 0; j < u->n; j++) {
+    lab_unknown *x = &u->unknown[j];
+    rests[j] = (char)lab_unknown_rests(x);
+    if (!rests[j])
+      continue;
+    x->lower = (double)lab_param_info(x->index).lower;
+    x->upper = (double)lab_param_info(x->index).upper;
+  }
+  status = find_intervals(u, result, error);
+  for (j = 0; j < u->n; j++)
+    if (rests[j])
+      u->unknown[j].lower = u->unknown[j].upper = u->unknown[j].value;
   return status;
 }

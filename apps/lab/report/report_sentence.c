@@ -458,6 +458,15 @@ static void add_corrected(char *text, const lab_search_result *r)
     ADD(text, "With these values the model leaves %.2f times the noise.", after);
 }
 
+/* "The logs do not show chamber_leak.leak_area, which is declared." */
+static void add_absent(char *text, const lab_unknowns *u)
+{
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (lab_unknown_is_absent(&u->unknown[j]))
+      ADD(text, " The logs do not show %s, which is declared: it is 0.", u->unknown[j].name);
+}
+
 void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
   const lab_search_result *r = report->result;
@@ -480,6 +489,7 @@ void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
         lab_report_is_completed(report) ? ", with values within their tolerances" : "");
   if (r->verdict == LAB_VERDICT_NONE && is_small(r))
     add_small(text, r);
+  add_absent(text, report->completed);
   if (r->cut_short)
     ADD(text, " The search was ended by --budget: this is the best answer so far.");
 }

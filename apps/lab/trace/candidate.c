@@ -17,7 +17,7 @@ static double bic(const lab_unknowns *u, double chi2)
 {
   int j, n = 0;
   for (j = 0; j < u->n; j++)
-    n += !lab_unknown_is_known(&u->unknown[j]);
+    n += !lab_unknown_is_known(&u->unknown[j]) && !lab_unknown_rests(&u->unknown[j]);
   n += u->rig.n_onsets; /* each has its time beside its value */
   return chi2 + n * log((double)u->n_values) + lab_constant(LAB_TERM_BIC) * u->rig.n_terms;
 }
@@ -171,6 +171,9 @@ void lab_candidate_name(const lab_candidate *c, char *text, size_t size)
   for (i = 0; i < c->u.n && used < size; i++)
     if (c->u.unknown[i].kind == LAB_UNKNOWN_ONSET)
       used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " + " : "", c->u.unknown[i].name);
+  for (i = 0; i < c->u.n && used < size; i++)
+    if (lab_unknown_is_absent(&c->u.unknown[i]))
+      used += (size_t)snprintf(text + used, size - used, " less %s", c->u.unknown[i].name);
 }
 
 int lab_found_is_of_sensor(const lab_found *found)

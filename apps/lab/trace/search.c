@@ -10,6 +10,7 @@
 #include "../fit/deviations.h"
 #include "../fit/nuisance.h"
 #include "../fit/outliers.h"
+#include "absent.h"
 #include "carry.h"
 #include "contest.h"
 #include "preview.h"
@@ -164,6 +165,15 @@ static int take_out_what_harms(lab_finding *f, lab_error *error)
   return status;
 }
 
+/* Put declared effects that the logs refute to rest. */
+static int rest_what_is_absent(lab_finding *f, lab_error *error)
+{
+  int any, status = lab_absent_find(&f->best, &any, error);
+  if (any)
+    lab_rounds_note_way(&f->result, &f->best);
+  return status;
+}
+
 /* Put each effect to the test against those that may stand in its place. */
 static int try_rivals(lab_finding *f, lab_error *error)
 {
@@ -272,6 +282,8 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     status = try_rivals(f, error);
   if (status == LAB_OK && !done)
     status = take_out_what_harms(f, error);
+  if (status == LAB_OK && !done)
+    status = rest_what_is_absent(f, error);
   if (status == LAB_OK)
     status = conclude(f, u, result, error);
   if (f && f->result.n_path > 0 && (status == LAB_NUMERIC || (status == LAB_OK && is_worse(result)))) {

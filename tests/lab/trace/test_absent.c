@@ -1,0 +1,91 @@
+/* A declared leak that a log of the independent rig refutes, or has. */
+#include "../../fixture.h"
+#include "../../scratch.h"
+#include "../../virtual.h"
+
+#include "../../../apps/lab/trace/absent.h"
+
+enum { ROWS = 401, COMMANDS = 3 };
+static const double spacing = 0.02; /* [s] */
+static const double t_cmd[COMMANDS] = {0.402, 3.003, 5.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
+static const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+
+static lab_rig rig;
+static lab_log run_log;
+static lab_run run;
+static lab_candidate c;
+static lab_fit_result fit;
+static lab_error error;
+
+/* A fit of the declared leak, and the friction, to a log.  In: leak  of the rig, over its vent orifice */
+static void open_log(double leak)
+{
+  const char *path = scratch_path("one.csv");
+  const int at = pneu_param_find("chamber_leak.leak_area");
+  second_rig g = virtual_rig(3);
+  virtual_declare(&rig);
+  *pneu_param_at(&rig.params, at) = (pneu_real)(0.02 * g.vent_area);
+  rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
+  rig.fit[rig.n_fit++] = at;
+  g.leak_area = leak * g.vent_area;
+  virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
+  assert_int_equal(lab_log_read(path, &rig.log, 101325, &run_log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &run_log, 0, &run, &error), LAB_OK);
+  memset(&c, 0, sizeof c);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);
+  lab_unknowns_view(&c.u, 0);
+  assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);
+}
+
+static const lab_unknown *leak_of(void)
+{
+  return &c.u.unknown[lab_unknowns_find(&c.u, pneu_param_find("chamber_leak.leak_area"))];
+}
+
+static void close_log(void)
+{
+  lab_run_close(&run);
+  lab_log_free(&run_log);
+}
+
+/* It rests at 0, costs nothing of BIC, and its interval says how large it may be. */
+static void test_lab_absent_find__leak_that_is_not_there__rests(void **state)
+{
+  const double largest = 1e-3; /* of the vent orifice */
+  double bic;
+  int any, j;
+  (void)state;
+  open_log(0);
+  bic = c.quality.bic;
+  assert_false(lab_unknown_rests(leak_of()));
+  assert_int_equal(lab_absent_find(&c, &any, &error), LAB_OK);
+  assert_true(any && lab_unknown_is_absent(leak_of()));
+  assert_true(c.quality.bic <= bic);
+  assert_true(leak_of()->value == 0);
+  assert_int_equal(lab_unknowns_intervals(&c.u, &fit, &error), LAB_OK);
+  j = lab_unknowns_find(&c.u, pneu_param_find("chamber_leak.leak_area"));
+  assert_close(fit.low[j], 0, 0, 0);
+  assert_between(fit.high[j], 1e-15, largest * (double)rig.params.vent_area);
+  assert_true(lab_unknown_rests(leak_of()));
+  close_log();
+}
+
+static void test_lab_absent_find__leak_that_is_there__stays(void **state)
+{
+  int any;
+  (void)state;
+  open_log(0.01);
+  assert_int_equal(lab_absent_find(&c, &any, &error), LAB_OK);
+  assert_false(any || lab_unknown_rests(leak_of()));
+  assert_close(leak_of()->value, 0.01 * (double)rig.params.vent_area, 0, 0.05);
+  close_log();
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lab_absent_find__leak_that_is_not_there__rests),
+      cmocka_unit_test(test_lab_absent_find__leak_that_is_there__stays),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
