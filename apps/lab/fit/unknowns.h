@@ -257,9 +257,6 @@ int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
 /* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);
 
-/* The same of one run, at theta. */
-int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int run, double *r, lab_error *error);
-
 /* Errors of a run, or a change of them, as residuals: weighted and whitened, in place. */
 void lab_unknowns_weigh(const lab_unknowns *u, int run, double *r);
 

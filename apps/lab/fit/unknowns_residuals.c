@@ -274,13 +274,6 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
   return LAB_OK;
 }
 
-int lab_unknowns_errors_of(const lab_unknowns *u, const double *theta, int e, double *r, lab_error *error)
-{
-  lab_rig model = u->rig;
-  lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
-  return errors_of(u, &model, theta, e, r, error);
-}
-
 void lab_unknowns_slope_of_prior(const lab_unknowns *u, int j, double *column)
 {
   const lab_unknown *x = &u->unknown[j];

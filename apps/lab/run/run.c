@@ -160,18 +160,10 @@ static int only_command_changes(const lab_schedule *s)
   return 1;
 }
 
-static size_t row_at(const double *t, size_t n, double at)
-{
-  size_t i = 0;
-  while (i + 1 < n && t[i] < at)
-    i++;
-  return i;
-}
-
 static int bracket_switches(lab_run *e, lab_error *error)
 {
   const double *t = e->log->value[LAB_CHANNEL_TIME] + e->first, *at = e->inputs.t;
-  size_t k;
+  size_t k, row = 0;
   if (e->inputs.schedule.n < 2 || !only_command_changes(&e->inputs.schedule))
     return LAB_OK;
   e->n_instants = e->inputs.schedule.n - 1;
@@ -179,8 +171,9 @@ static int bracket_switches(lab_run *e, lab_error *error)
   if (!e->bracket)
     return lab_fail_memory(error, "an experiment");
   for (k = 0; k < e->n_instants; k++) {
-    const size_t row = row_at(t, e->n, at[k + 1]);
     const pneu_input *next = &e->inputs.input[k + 1];
+    while (row + 1 < e->n && t[row] < at[k + 1])
+      row++;
     if (row > 0 && next->u_rate == 0 && lab_input_jumps(&e->inputs.input[k], at[k + 1] - at[k], next))
       e->bracket[k] = t[row] - t[row - 1];
   }
