@@ -253,11 +253,14 @@ static int find_intervals(lab_unknowns *u, lab_fit_result *result, lab_error *er
   p.problem.until = 0; /* they belong to the answer */
   if (in_time) {
     p.problem.slope = close_slope;
+    if (lab_rig_has_positioner(&u->rig)) /* to first order the jump at the edge of its dead band has no width */
+      p.problem.together = NULL;
     u->tol = fmin(u->tol, exact);
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
     u->tol = tol;
   }
   if (status == LAB_NUMERIC) {
+    p.problem.together = lab_unknowns_slopes_together;
     p.problem.slope = lab_unknowns_slope; /* no time, or a model too stiff to be followed so closely */
     status = lab_fit_spread(&p.problem, param, p.theta, result, error);
   }

@@ -10,7 +10,7 @@
 #include "nuisance.h"
 
 static const double coarser = 10;   /* times the tolerance of the stepper: its errors are none of what is followed */
-static const double shorter = 1e-3; /* a slope's step, over that of a difference of two runs: one that is long passes
+static const double shorter = 1e-4; /* a slope's step, over that of a difference of two runs: one that is long passes
                                        the edge of a dead band, or a stop, where the rates change at once */
 
 /* One experiment and what is asked for there. */
@@ -87,7 +87,7 @@ static int follow(const lab_unknowns *u, int e, together *t, char *lost, lab_err
 {
   const int runs = runs_for(t->n);
   int i, k, status = LAB_OK;
-#pragma omp parallel for schedule(static, 1)
+#pragma omp parallel for schedule(static, 1) if (runs > 1)
   for (k = 0; k < runs; k++) {
     const int from = k * t->n / runs, n = (k + 1) * t->n / runs - from;
     lab_error mine;

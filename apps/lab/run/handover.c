@@ -42,8 +42,8 @@ int lab_hand_over(const pneu_model *from, const pneu_model *to, const pneu_input
 
 int lab_states_agree(const pneu_model *a, const pneu_model *b)
 {
-  int effect,
-      same = a->thermal == b->thermal && a->bristle == b->bristle && a->n_extra == b->n_extra && a->clock == b->clock;
+  int effect, same = a->thermal == b->thermal && a->bristle == b->bristle && a->n_extra == b->n_extra &&
+                     a->clock == b->clock && (a->stop_compliance > 0) == (b->stop_compliance > 0);
   for (effect = 0; same && effect < PNEU_EFFECT_COUNT; effect++)
     same = states_of[effect] == 0 || place_of(a, effect) == place_of(b, effect);
   return same;

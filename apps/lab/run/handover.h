@@ -11,7 +11,7 @@
  * Returns: as pneu_state_rest: PNEU_OK, or < 0 where the other model can be in no such state. */
 int lab_hand_over(const pneu_model *from, const pneu_model *to, const pneu_input *input, pneu_state *state);
 
-/* Whether the states of two models have the same entries. */
+/* Whether the states of two models have the same entries, and the stem the same modes: none on a stop that yields. */
 int lab_states_agree(const pneu_model *a, const pneu_model *b);
 
 #endif

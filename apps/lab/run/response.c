@@ -179,18 +179,21 @@ static int samples_until(const lab_sampler *s, double t)
 static int sample_step(void *context, const pneu_step_view *view)
 {
   const engine *e = context;
+  double due, from, to;
   pneu_state at;
-  double due;
-  if (e->vary)
-    lab_variations_step(e->vary, view, samples_until(e->sampler, view->t + view->h));
-  while ((due = lab_sampler_due(e->sampler)) <= view->t + view->h) {
-    pneu_dense(view, (due - view->t) / view->h, &at);
+  for (from = 0; from < 1; from = to) {
+    to = e->vary ? lab_variations_step(e->vary, view, from) : 1;
     if (e->vary)
-      lab_variations_look(e->vary, (due - view->t) / view->h);
-    lab_sampler_take(e->sampler, &at);
+      lab_variations_expect(e->vary, samples_until(e->sampler, view->t + to * view->h));
+    while ((due = lab_sampler_due(e->sampler)) <= view->t + to * view->h) {
+      pneu_dense(view, (due - view->t) / view->h, &at);
+      if (e->vary)
+        lab_variations_look(e->vary, (due - view->t) / view->h);
+      lab_sampler_take(e->sampler, &at);
+    }
+    if (e->vary)
+      lab_variations_pass(e->vary, view);
   }
-  if (e->vary)
-    lab_variations_pass(e->vary);
   return 0;
 }
 

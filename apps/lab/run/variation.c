@@ -15,7 +15,9 @@ static const double butcher[STAGES][STAGES] = {
 
 enum { EVENTS = 10 }; /* in one row of the schedule: a stem that takes more slips has no slopes */
 
-static const double nothing = 1e-11; /* of full scale: a difference that has died out */
+static const double nothing = 1e-7; /* of the largest so far: a difference that has died out */
+static const double fine = 0.005;   /* of it: what a part of a step may be off by on its way */
+enum { SHORTENED = 6 };             /* times that parts of one step are, at most: what jumps is not seen closer */
 
 /* One of the runs nearby. Differences have an entry for each of a moving stem's packed vector, whatever the mode. */
 typedef struct nearby {
@@ -27,7 +29,8 @@ typedef struct nearby {
   int is_off;              /* it cannot be followed */
   int is_same;             /* nothing differs */
   int knows_start;         /* g[0] is there */
-  pneu_real d[STAGES][S];  /* at the start, middle and end of the step */
+  double largest;          /* difference so far, of full scale */
+  pneu_real d[STAGES][S];  /* at the start, middle and end of the part of the step */
   pneu_real g[STAGES][S];
   pneu_shown excess[STAGES]; /* of the sensors */
 } nearby;
@@ -39,13 +42,16 @@ struct lab_variations {
   const pneu_model *const *rows;
   const pneu_model *model;
   pneu_input input; /* at the beginning of the row */
-  double theta;     /* of the present look */
+  double theta;     /* of the present look, in the part of the step */
   int events;       /* in the row */
   int is_lost;      /* none can be followed */
-  /* the step: */
+  double length;    /* [s] of a part of a step that follows what changes; a step as a rule is shorter */
+  /* the part of a step: */
+  double from, to; /* shares of the step */
+  double behind;   /* an edge that ends it, where what follows begins; else `to` */
+  int shortened;   /* times in this step */
   pneu_state state[STAGES];
   pneu_shown shown[STAGES];
-  int has_middle;      /* samples lie inside */
   int is_interpolated; /* they are taken between the stages */
   pneu_input at[STAGES];
   pneu_real y[STAGES][S], f[STAGES][S], jac[STAGES][S][S];
@@ -164,24 +170,24 @@ static void find_shares(int n, double h, double (*weight)[N], pneu_real (*share)
     }
 }
 
-/* The equations of a step, solved for its end, and for its middle where samples lie inside.  Returns: 0, -1 if they
- * cannot be */
-static int solve_step(struct lab_variations *v, int n, double h)
+/* The equations of a part of a step, h [s] long, solved for its end and its middle.  Returns: 0, -1 if they cannot be
+ */
+static int solve_part(struct lab_variations *v, int n, double h)
 {
-  const int places = v->has_middle ? 2 : 1;
+  enum { PLACES = 2 };
   int s, t, i, j;
   for (s = 0; s < STAGES; s++)
     for (i = 0; i < n; i++)
       for (t = 0; t < STAGES; t++)
         for (j = 0; j < n; j++)
           v->matrix[t * n + j][s * n + i] = (s == t && i == j) - h * butcher[s][t] * v->jac[t][i][j];
-  for (i = 0; i < places * n; i++) { /* the end, then the middle */
+  for (i = 0; i < PLACES * n; i++) { /* the end, then the middle */
     memset(v->weight[i], 0, (size_t)(STAGES * n) * sizeof v->weight[i][0]);
     v->weight[i][i < n ? 2 * n + i : i] = 1;
   }
-  if (solve(STAGES * n, v->matrix, places * n, v->weight))
+  if (solve(STAGES * n, v->matrix, PLACES * n, v->weight))
     return -1;
-  for (i = 0; i < places; i++)
+  for (i = 0; i < PLACES; i++)
     find_shares(n, h, v->weight + i * n, v->share[i]);
   return 0;
 }
@@ -230,34 +236,66 @@ static void carry(pneu_real (*share)[S][S], int n, const nearby *k, pneu_real *t
   }
 }
 
-/* Rates, states and Jacobians of the run at the stages of its step.  Returns: 0, -1 */
-static int look_at_step(struct lab_variations *v, const pneu_step_view *view)
+/* Rates, states and Jacobians of the run at the stages of a part of its step.  Returns: 0, -1 */
+static int look_at_part(struct lab_variations *v, const pneu_step_view *view)
 {
+  const double theta[STAGES] = {v->from, (v->from + v->to) / 2, v->to};
   int s;
   for (s = 0; s < STAGES; s++) {
     v->at[s] = *view->input;
-    v->at[s].elapsed += s * view->h / 2;
-    pneu_dense(view, s * (pneu_real)0.5, &v->state[s]);
+    v->at[s].elapsed += theta[s] * view->h;
+    pneu_dense(view, theta[s], &v->state[s]);
     pneu_pack(view->model, &v->state[s], v->y[s]);
-    if (s == 0) {
-      memcpy(v->f[0], view->work->f0, sizeof v->f[0]);
-      memcpy(v->jac[0], view->work->jac, sizeof v->jac[0]);
+    if (theta[s] == 0) {
+      memcpy(v->f[s], view->work->f0, sizeof v->f[s]);
+      memcpy(v->jac[s], view->work->jac, sizeof v->jac[s]);
     } else if (pneu_rhs(view->model, &v->state[s], &v->at[s], v->y[s], v->f[s]) != PNEU_OK ||
                pneu_jacobian(view->model, &v->state[s], &v->at[s], v->y[s], v->f[s], v->jac[s]) != PNEU_OK)
       return -1;
   }
-  return solve_step(v, n_of(v), view->h);
+  return solve_part(v, n_of(v), (v->to - v->from) * view->h);
 }
 
-static void step_one(struct lab_variations *v, nearby *k)
+/* Size of a difference, of full scale. */
+static double size_of(const pneu_model *m, const pneu_real *d)
 {
-  if ((!k->knows_start && find_excess(v, k, 0)) || find_excess(v, k, 1) || find_excess(v, k, 2)) {
-    k->is_off = 1;
-    return;
-  }
+  pneu_real scale[S];
+  double size = 0;
+  int i;
+  pneu_scales(m, scale);
+  for (i = 0; i < m->n_gas + 2; i++)
+    size = fmax(size, fabs(d[i]) / scale[i]);
+  return size;
+}
+
+/* By how much the first stage of a part, h [s] long, is not the start, over what it may be. */
+static double error_of(const struct lab_variations *v, const nearby *k, double h)
+{
+  static const double weight[STAGES] = {1, -2, 1}; /* sixths of the rates */
+  const int n = n_of(v);
+  const double largest = fmax(k->largest, fmax(size_of(v->model, k->d[0]), size_of(v->model, k->d[2])));
+  pneu_real error[S] = {0};
+  int s, i, j;
+  for (s = 0; s < STAGES; s++)
+    for (i = 0; i < n; i++) {
+      double rate = k->g[s][i];
+      for (j = 0; j < n; j++)
+        rate += v->jac[s][i][j] * k->d[s][j];
+      error[i] += h / 6 * weight[s] * rate;
+    }
+  return largest > 0 ? size_of(v->model, error) / (fine * largest) : 0;
+}
+
+/* One nearby run passes a part of a step, h [s] long.  Returns: its error, over what it may be */
+static double pass_part(struct lab_variations *v, nearby *k, double h)
+{
+  k->is_off = (!k->knows_start && find_excess(v, k, 0)) || find_excess(v, k, 1) || find_excess(v, k, 2);
+  k->knows_start = 1;
+  if (k->is_off)
+    return 0;
   carry(v->share[0], n_of(v), k, k->d[2]);
-  if (v->has_middle)
-    carry(v->share[1], n_of(v), k, k->d[1]);
+  carry(v->share[1], n_of(v), k, k->d[1]);
+  return error_of(v, k, h);
 }
 
 static int is_moved(const nearby *k)
@@ -300,10 +338,10 @@ static int look_at_stages(const struct lab_variations *v, nearby *k)
 }
 
 /* What samples in a step are interpolated between, where there are many. */
-static void look_at_samples(struct lab_variations *v, int samples)
+void lab_variations_expect(struct lab_variations *v, int samples)
 {
   int i, s;
-  v->is_interpolated = samples > STAGES;
+  v->is_interpolated = samples > STAGES && !v->is_lost;
   for (s = 0; s < STAGES && v->is_interpolated; s++)
     v->is_interpolated = pneu_show(v->model, &v->state[s], &v->at[s], &v->shown[s]) == PNEU_OK;
   for (i = 0; i < v->n && v->is_interpolated; i++)
@@ -311,33 +349,146 @@ static void look_at_samples(struct lab_variations *v, int samples)
       v->of[i].is_off = look_at_stages(v, &v->of[i]) != 0;
 }
 
-void lab_variations_step(struct lab_variations *v, const pneu_step_view *view, int samples)
+/* ---- The edge of a positioner's dead band, where the opening jumps and the stepper has no event ---- */
+
+enum { DEAD_BAND = PNEU_AT_positioner + 3, CUTOFF_LOW, CUTOFF_HIGH }; /* as in lib/effects/positioner.c */
+
+/* How far the error of a positioner is beyond its dead band, in shares of the stroke; NaN where it does not matter. */
+static double beyond_band(const pneu_model *m, const pneu_state *s, const pneu_input *input)
+{
+  const pneu_real *e = m->p.effect;
+  const double band = e[DEAD_BAND] + e[PNEU_AT_positioner_dead_band], low = e[CUTOFF_LOW], high = e[CUTOFF_HIGH];
+  const double x = s->x * (1 + e[PNEU_AT_positioner_span]) + e[PNEU_AT_positioner_zero];
+  if (!(e[PNEU_AT_positioner] > 0) || !(band > 0) || !input->set_position || input->u_rate != 0 ||
+      m->law.pressure_input || (low > 0 && input->u < low) || (high > 0 && input->u > high))
+    return NAN;
+  return fabs(input->u - x / m->p.stroke) - band;
+}
+
+static double edge_at(const pneu_step_view *view, double theta, pneu_state *state)
+{
+  pneu_dense(view, theta, state);
+  return beyond_band(view->model, state, view->input);
+}
+
+static double edge_nearby(const struct lab_variations *v, const nearby *k, const pneu_state *state)
+{
+  const pneu_state s = displaced(v->model, state, k->d[0]);
+  return beyond_band(k->model, &s, &k->input);
+}
+
+/* The last place at which the run is `level` or more on the side of the edge on which the part begins. */
+static double place_on_side(const pneu_step_view *view, double from, double to, double side, double level)
+{
+  enum { HALVINGS = 40 };
+  pneu_state state;
+  int i;
+  for (i = 0; i < HALVINGS; i++) {
+    const double theta = (from + to) / 2;
+    *(side * edge_at(view, theta, &state) >= level ? &from : &to) = theta;
+  }
+  return from;
+}
+
+/* End the part before an edge, and have what follows begin behind it, by as much as puts all nearby runs on the same
+ * side as the run. */
+static void stop_at_edge(struct lab_variations *v, const pneu_step_view *view)
+{
+  static const double margin = 3, rounding = 1e-14;
+  pneu_state state, end_state;
+  const double start = edge_at(view, v->from, &state), end = edge_at(view, v->to, &end_state);
+  const double side = start > 0 ? 1 : -1;
+  double most = rounding;
+  int i;
+  v->behind = v->to;
+  if (!(start * end < 0))
+    return;
+  for (i = 0; i < v->n; i++)
+    if (is_moved(&v->of[i]))
+      most = fmax(most, margin * fabs(edge_nearby(v, &v->of[i], &state) - start));
+  v->behind = place_on_side(view, v->from, v->to, side, -most);
+  v->to = place_on_side(view, v->from, v->to, side, most);
+}
+
+/* A nearby run passes the edge later: it goes on as before for so long.
+ * In:      rate  of what the run is beyond the edge
+ *          f     rates of the run behind it */
+static int pass_edge(struct lab_variations *v, nearby *k, double rate, const pneu_state *behind, const pneu_real *f)
+{
+  const double late = (beyond_band(v->model, &v->state[2], &v->input) - edge_nearby(v, k, &v->state[2])) / rate;
+  pneu_state s = displaced(v->model, behind, k->d[0]), end = *behind;
+  drift(v->model, behind->mode, v->f[2], late, &s);
+  drift(v->model, behind->mode, f, late, &end);
+  subtract(v->model, &s, &end, k->d[0]);
+  k->knows_start = 0;
+  return isfinite(late) ? 0 : -1;
+}
+
+static void pass_edges(struct lab_variations *v, const pneu_step_view *view)
+{
+  pneu_state behind;
+  pneu_input input = *view->input;
+  pneu_real f[S];
+  const double there = edge_at(view, v->behind, &behind), here = beyond_band(v->model, &v->state[2], &v->input);
+  const double rate = (there - here) / ((v->behind - v->to) * view->h);
+  int i, is_lost;
+  input.elapsed += v->behind * view->h;
+  is_lost = rates_at(v->model, &behind, &input, f) != PNEU_OK;
+  for (i = 0; i < v->n; i++)
+    if (is_moved(&v->of[i]))
+      v->of[i].is_off = is_lost || pass_edge(v, &v->of[i], rate, &behind, f);
+}
+
+/* ---- A step, in parts ---- */
+
+/* Follow all to v->to.  Returns: the largest error over what it may be */
+static double try_part(struct lab_variations *v, const pneu_step_view *view)
+{
+  const double h = (v->to - v->from) * view->h;
+  double error = 0;
+  int k;
+  v->is_lost = look_at_part(v, view) != 0;
+  for (k = 0; k < v->n && !v->is_lost; k++)
+    if (is_moved(&v->of[k]))
+      error = fmax(error, pass_part(v, &v->of[k], h));
+  return error;
+}
+
+static int any_moved(const struct lab_variations *v)
 {
   int k, any = 0;
   for (k = 0; k < v->n; k++)
     any |= is_moved(&v->of[k]);
-  v->has_middle = samples > 0;
-  v->is_lost = v->is_lost || v->events > EVENTS || (any && look_at_step(v, view));
-  for (k = 0; k < v->n && !v->is_lost; k++)
-    if (is_moved(&v->of[k]))
-      step_one(v, &v->of[k]);
-  if (any && !v->is_lost)
-    look_at_samples(v, samples);
+  return any;
+}
+
+double lab_variations_step(struct lab_variations *v, const pneu_step_view *view, double from)
+{
+  double error, factor;
+  v->from = from;
+  v->to = v->behind = 1;
+  v->is_lost = v->is_lost || v->events > EVENTS;
+  if (v->is_lost || !any_moved(v))
+    return 1;
+  if (from == 0)
+    v->shortened = 0;
+  for (;;) {
+    v->to = fmin(1, from + v->length / view->h);
+    stop_at_edge(v, view);
+    error = try_part(v, view);
+    factor = 0.9 / cbrt(error);
+    if (!(error > 1) || v->shortened == SHORTENED)
+      break;
+    v->shortened++;
+    v->length = (v->to - from) * view->h * fmax(factor, 0.1);
+  }
+  v->length = fmax(v->length, (v->to - from) * view->h * fmin(fmax(factor, 2), 5));
+  return v->behind;
 }
 
 void lab_variations_look(struct lab_variations *v, double theta)
 {
-  v->theta = theta;
-}
-
-static int is_nothing(const pneu_model *m, const pneu_real *d)
-{
-  pneu_real scale[S];
-  int i, any = 0;
-  pneu_scales(m, scale);
-  for (i = 0; i < m->n_gas + 2; i++)
-    any |= fabs(d[i]) > nothing * scale[i];
-  return !any;
+  v->theta = v->to > v->from ? fmin((theta - v->from) / (v->to - v->from), 1) : 1;
 }
 
 /* Whether the nearby run is driven as the run is. */
@@ -351,12 +502,12 @@ static int is_driven_alike(const struct lab_variations *v, const nearby *k)
 
 static void note_same(const struct lab_variations *v, nearby *k)
 {
-  k->is_same = is_driven_alike(v, k) && is_nothing(v->model, k->d[0]);
+  k->is_same = is_driven_alike(v, k) && size_of(v->model, k->d[0]) <= nothing * k->largest;
   if (k->is_same)
     memset(k->d, 0, sizeof k->d);
 }
 
-void lab_variations_pass(struct lab_variations *v)
+void lab_variations_pass(struct lab_variations *v, const pneu_step_view *view)
 {
   int i;
   v->theta = 0;
@@ -366,10 +517,13 @@ void lab_variations_pass(struct lab_variations *v)
       continue;
     memcpy(k->d[0], k->d[2], sizeof k->d[0]);
     memcpy(k->g[0], k->g[2], sizeof k->g[0]);
+    k->largest = fmax(k->largest, size_of(v->model, k->d[0]));
     k->knows_start = 1;
     if (k->model == v->model)
       note_same(v, k);
   }
+  if (v->behind > v->to && !v->is_lost)
+    pass_edges(v, view);
 }
 
 /* ---- Events ---- */
@@ -599,6 +753,7 @@ void lab_variations_begin(struct lab_variations *v, const lab_schedule *acts, co
   v->acts = acts;
   v->rows = rows;
   v->model = rows[0];
+  v->length = HUGE_VAL;
   for (i = 0; i < v->n; i++)
     v->of[i].is_off = !can_follow(v, &v->of[i]);
 }

@@ -210,7 +210,8 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
 }
 
 /* What the orifices pass goes with the sizes of chamber and spring. Where nothing is known of these it is uncertain by
- * the same share then and now, 26 %, so that the interval shrinks with the orifices. */
+ * the same share then and now, 42 %, so that the interval shrinks with the orifices; as wide as then it would be 69 %.
+ */
 static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
 {
   static const char *const sizes[] = {"area", "dead_volume"};
@@ -231,7 +232,7 @@ static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_
   assert_int_equal(changes.n, 1);
   assert_int_equal(changes.change[0].param, LAB_PARAM_ORIFICE_AREA);
   assert_close(changes.change[0].now / changes.change[0].then, 0.6, 0, 0.02);
-  assert_between((changes.change[0].high - changes.change[0].low) / 2 / changes.change[0].now, 0.2, 0.3);
+  assert_between((changes.change[0].high - changes.change[0].low) / 2 / changes.change[0].now, 0.2, 0.5);
 }
 
 static void test_lab_changes_find__softer_spring__is_the_change(void **state)

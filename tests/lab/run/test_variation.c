@@ -14,6 +14,7 @@ typedef struct drive {
   double warmer;  /* [K] the start */
   double command; /* [1] */
   size_t rows;    /* fewer than usual; 0: all */
+  int positioned; /* its commands are set positions */
 } drive;
 
 /* One of them, and its memory. */
@@ -36,6 +37,7 @@ static void prepare(const drive *d, double tol, cast *c)
   for (i = 0; i < ROWS; i++) {
     c->t[i] = row_t[i] + (i == 1 ? d->later : 0);
     c->input[i] = fixture_input(&d->model, row_u[i] - (i == 2 ? d->command : 0));
+    c->input[i].set_position = d->positioned;
     c->rows[i] = &d->model;
   }
   c->schedule = (lab_schedule){d->rows ? d->rows : ROWS, c->t, c->input};
@@ -150,6 +152,48 @@ static void test_lab_variations__commands_and_start__are_those_of_exact_runs(voi
   check_change("another command", &here, &up, &down, 0.01);
 }
 
+/* A vessel at rest, its run one long step: what differs goes its own way. */
+static void test_lab_variations__run_at_rest__follows_what_differs(void **state)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  drive here = {.rows = 1}, up, down;
+  (void)state;
+  fixture_set(&p, "film_conductance", 2);
+  fixture_set(&p, "pressure_time", 0.1);
+  here.model = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  up = down = here;
+  up.warmer = 1e-3;
+  down.warmer = -1e-3;
+  check_change("a warmer start at rest", &here, &up, &down, 0.02);
+}
+
+/* A stem that its positioner brings to 0.6 of the stroke and stops as its error enters the dead band. */
+static drive positioned(const char *name, double value)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  fixture_set(&p, "dead_volume", 4e-5);
+  fixture_set(&p, "positioner.gain", 20);
+  fixture_set(&p, "positioner.dead_band", 5e-3);
+  fixture_set(&p, name, value);
+  return (drive){.model = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), .positioned = 1, .command = -1.6};
+}
+
+/* Across the edge of the dead band, where the opening jumps. */
+static void test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs(void **state)
+{
+  static const struct {
+    const char *name;
+    double value, step;
+  } of[] = {{"spring_rate", 4e5, 1}, {"positioner.dead_band", 5e-3, 1e-8}, {"fill_area", 0.893e-6, 1e-12}};
+  int i;
+  (void)state;
+  for (i = 0; i < COUNT(of); i++) {
+    const drive here = positioned(of[i].name, of[i].value), up = positioned(of[i].name, of[i].value + of[i].step),
+                down = positioned(of[i].name, of[i].value - of[i].step);
+    check_change(of[i].name, &here, &up, &down, 0.02);
+  }
+}
+
 /* What has states of its own, and what sensors show. */
 static void test_lab_variations__effects__are_those_of_exact_runs(void **state)
 {
@@ -182,12 +226,15 @@ static void check_not_followed(const drive *here, const drive *there)
 static void test_lab_variations__another_kind_of_run__is_not_followed(void **state)
 {
   const drive here = with(PNEU_GAS_ENERGY, NULL, 0), lagging = with(PNEU_GAS_ENERGY, "transducer_time", 0.05),
+              yields = with(PNEU_GAS_ENERGY, "stop_compliance", 1e-11),
               skewed = with(PNEU_GAS_ENERGY, "channel_skew", 0.05);
   drive shorter = here;
   (void)state;
   shorter.rows = ROWS - 1;
   check_not_followed(&here, &lagging);
   check_not_followed(&here, &skewed);
+  check_not_followed(&here, &yields);
+  check_not_followed(&yields, &here);
   check_not_followed(&here, &shorter);
 }
 
@@ -211,6 +258,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_variations__parameters__are_those_of_exact_runs),
       cmocka_unit_test(test_lab_variations__commands_and_start__are_those_of_exact_runs),
+      cmocka_unit_test(test_lab_variations__run_at_rest__follows_what_differs),
+      cmocka_unit_test(test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs),
       cmocka_unit_test(test_lab_variations__effects__are_those_of_exact_runs),
       cmocka_unit_test(test_lab_variations__stick_slip__is_not_followed),
       cmocka_unit_test(test_lab_variations__another_kind_of_run__is_not_followed),
