@@ -290,6 +290,23 @@ static int cast_open(cast *c, int n, lab_error *error)
   return c->staging && c->start && c->task && c->change ? LAB_OK : lab_fail_memory(error, "cases of a run");
 }
 
+/* Whether two models are the same, but for where they lie in memory. */
+static int are_alike(const pneu_model *a, const pneu_model *b)
+{
+  return memcmp(&a->p, &b->p, sizeof a->p) == 0 && memcmp(&a->law, &b->law, sizeof a->law) == 0 && a->n_terms == 0 &&
+         b->n_terms == 0;
+}
+
+/* Give a case the models of the first where they are the same: what differs there are instants, and where these have
+ * died out nothing is followed. */
+static void share_models(const lab_staging *first, lab_staging *s)
+{
+  size_t i;
+  for (i = 0; i < s->schedule.n && i < first->schedule.n; i++)
+    if (are_alike(s->of[i], first->of[i]))
+      s->of[i] = first->of[i];
+}
+
 /* Stage a case, in the scales of the first.  Returns: LAB_OK; LAB_NUMERIC where it begins in no state; LAB_WORLD */
 static int stage(const lab_run *e, const lab_run_case *as, double tol, cast *c, int i, lab_error *error)
 {
@@ -305,6 +322,8 @@ static int stage(const lab_run *e, const lab_run_case *as, double tol, cast *c, 
                                 .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
                                 .n = e->n,
                                 .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
+  if (i > 0 && status == LAB_OK)
+    share_models(&c->staging[0], s);
   return status == LAB_DATA ? (error->status = LAB_NUMERIC) : status;
 }
 

@@ -52,7 +52,7 @@ struct lab_variations {
   int shortened;   /* times in this step */
   pneu_state state[STAGES];
   pneu_shown shown[STAGES];
-  int is_interpolated; /* they are taken between the stages */
+  int is_interpolated; /* samples are taken between the stages */
   pneu_input at[STAGES];
   pneu_real y[STAGES][S], f[STAGES][S], jac[STAGES][S][S];
   double matrix[N][N];                  /* of the linear equations of a step, transposed */
