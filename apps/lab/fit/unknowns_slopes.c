@@ -2,9 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 #include "drive.h"
 #include "nuisance.h"
@@ -70,16 +67,12 @@ static void weigh_change(const lab_unknowns *u, int e, double *r)
   lab_unknowns_weigh(u, e, r);
 }
 
-/* Runs in which those asked for are followed: one, but for as many threads as are idle. */
+/* Runs in which those asked for are followed: as many however many threads there are, because the parts of a step
+ * depend on what is followed together. */
 static int runs_for(int n)
 {
-  static const int worth = 8; /* a run of their own */
-#ifdef _OPENMP
-  const int threads = omp_in_parallel() ? 1 : omp_get_max_threads(), most = (n + worth - 1) / worth;
-  return threads < most ? threads : most;
-#else
-  return n > 0;
-#endif
+  static const int most = 32; /* in one run */
+  return (n + most - 1) / most;
 }
 
 /* In/out: lost  those that cannot be had */
