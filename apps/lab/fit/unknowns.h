@@ -224,11 +224,11 @@ int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const do
 
 /* The same of several models, to first order, from one run of each experiment (variation.h).
  * In:      model   n of them
- * Out:     change  m values of each that is done
+ * Out:     change  m * n values, model by model, of those that are done
  *          done    n: not 0 for these; none of what is seen coarsely
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *const *model, int n, double *const *change,
-                              char *done, lab_error *error);
+int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *model, int n, double *change, char *done,
+                              lab_error *error);
 
 /* See the experiments coarsely from now on, in windows of so many rows; 0: row by row. */
 void lab_unknowns_view(lab_unknowns *u, size_t window);

@@ -164,17 +164,16 @@ void lab_unknowns_forget_slopes(lab_unknowns *u)
 
 int lab_unknowns_find_slopes(lab_unknowns *u, lab_error *error)
 {
-  posed p;
+  char done[LAB_FIT_MAX] = {0};
   double *r;
   int status;
   if (!u->slopes)
     return LAB_OK;
-  pose(u, &p);
-  p.problem.until = u->until;
+  lab_unknowns_count(u);
   r = malloc((u->m + 1) * sizeof *r);
-  status = r ? lab_unknowns_residuals(u, p.theta, r, error) : lab_fail_memory(error, "residuals");
+  status = r ? lab_unknowns_residuals(u, NULL, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
-    status = lab_fit_slopes(&p.problem, p.theta, r, u->slopes, error);
+    status = lab_unknowns_slopes(u, r, done, u->slopes, error);
   memset(u->has_slope, status == LAB_OK, (size_t)u->n);
   free(r);
   return status;

@@ -10,13 +10,23 @@ static const double coarser = 10;   /* times the tolerance of the stepper: its e
 static const double shorter = 1e-4; /* a slope's step, over that of a difference of two runs: one that is long passes
                                        the edge of a dead band, or a stop, where the rates change at once */
 
-/* One experiment and what is asked for there. */
+/* What is asked for: a model with its values, where one of its unknowns acts, or everywhere, and where to put what it
+ * changes. */
+typedef struct asked {
+  const lab_rig *model;
+  const double *theta;
+  const lab_unknown *of; /* NULL: everywhere */
+  double *change;        /* u->m values */
+  char is_lost;          /* it cannot be had */
+} asked;
+
+/* One experiment and what is followed there. */
 typedef struct together {
   lab_drive *drive; /* the first is the model as it is */
   lab_run_case *as;
   double **change;
   char *done;
-  int *of; /* which of those asked for each is */
+  int *which; /* of those asked for each is */
   int n;
 } together;
 
@@ -29,7 +39,7 @@ static void together_close(together *t)
   free(t->as);
   free(t->change);
   free(t->done);
-  free(t->of);
+  free(t->which);
 }
 
 static int together_open(together *t, int room, lab_error *error)
@@ -39,16 +49,15 @@ static int together_open(together *t, int room, lab_error *error)
   t->as = calloc((size_t)room + 1, sizeof *t->as);
   t->change = calloc((size_t)room + 1, sizeof *t->change);
   t->done = calloc((size_t)room + 1, sizeof *t->done);
-  t->of = calloc((size_t)room + 1, sizeof *t->of);
-  return t->drive && t->as && t->change && t->done && t->of ? LAB_OK : lab_fail_memory(error, "slopes");
+  t->which = calloc((size_t)room + 1, sizeof *t->which);
+  return t->drive && t->as && t->change && t->done && t->which ? LAB_OK : lab_fail_memory(error, "slopes");
 }
 
 /* Take up a model with its values: the first, or the last that was counted. */
-static int take_up(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, together *t,
-                   lab_error *error)
+static int take_up(const lab_unknowns *u, const asked *a, int e, together *t, lab_error *error)
 {
   lab_drive *d = &t->drive[t->n];
-  const int status = lab_drive_open(u, model, theta, e, d, error);
+  const int status = lab_drive_open(u, a->model, a->theta, e, d, error);
   t->as[t->n] = (lab_run_case){d->episode, d->n, d->early};
   return status;
 }
@@ -75,8 +84,8 @@ static int runs_for(int n)
   return (n + most - 1) / most;
 }
 
-/* In/out: lost  those that cannot be had */
-static int follow(const lab_unknowns *u, int e, together *t, char *lost, lab_error *error)
+/* In/out: ask  is_lost */
+static int follow(const lab_unknowns *u, int e, together *t, asked *ask, lab_error *error)
 {
   const int runs = runs_for(t->n);
   int i, k, status = LAB_OK;
@@ -92,11 +101,41 @@ static int follow(const lab_unknowns *u, int e, together *t, char *lost, lab_err
     }
   }
   for (i = 0; i < t->n; i++) {
-    lost[t->of[i]] |= status != LAB_OK || !t->done[i];
+    ask[t->which[i]].is_lost |= status != LAB_OK || !t->done[i];
     if (status == LAB_OK && t->done[i])
       weigh_change(u, e, t->change[i]);
   }
   return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+/* Those of one experiment, from value `from` on of each change.  In/out: ask  n of them */
+static int vary_run(const lab_unknowns *u, const asked *base, asked *ask, int n, int e, size_t from, lab_error *error)
+{
+  together t;
+  int i, status = together_open(&t, n, error);
+  if (status == LAB_OK)
+    status = take_up(u, base, e, &t, error);
+  for (i = 0; i < n && status == LAB_OK; i++) {
+    if (ask[i].is_lost || (ask[i].of && !lab_unknown_acts(ask[i].of, e)))
+      continue;
+    t.which[t.n] = i;
+    t.change[t.n++] = ask[i].change + from;
+    status = take_up(u, &ask[i], e, &t, error);
+  }
+  if (status == LAB_OK)
+    status = follow(u, e, &t, ask, error);
+  together_close(&t);
+  return status;
+}
+
+/* Those of all experiments. */
+static int vary(const lab_unknowns *u, const asked *base, asked *ask, int n, lab_error *error)
+{
+  size_t from = 0;
+  int e, status = LAB_OK;
+  for (e = 0; e < u->n_runs && status == LAB_OK; from += lab_unknowns_residuals_in(u, e), e++)
+    status = vary_run(u, base, ask, n, e, from, error);
+  return status;
 }
 
 /* Behind the data of a change: what is projected out, and priors, which have no part in it.  Returns: whether it is
@@ -115,102 +154,77 @@ static int finish(const lab_unknowns *u, double scale, double *change)
   return good;
 }
 
-int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *const *model, int n, double *const *change,
-                              char *done, lab_error *error)
+int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *model, int n, double *change, char *done,
+                              lab_error *error)
 {
   double now[LAB_FIT_MAX];
-  char *lost = calloc((size_t)n + 1, 1);
-  size_t from = 0;
-  int e, i, status = lost ? LAB_OK : lab_fail_memory(error, "slopes");
+  const asked base = {&u->rig, now, NULL, NULL, 0};
+  asked *ask = malloc(((size_t)n + 1) * sizeof *ask);
+  int i, status = ask ? LAB_OK : lab_fail_memory(error, "slopes");
   memset(done, 0, (size_t)n);
   for (i = 0; i < u->n; i++)
     now[i] = u->unknown[i].value;
-  for (e = 0; e < u->n_runs && status == LAB_OK && u->window == 0; from += lab_unknowns_residuals_in(u, e), e++) {
-    together t;
-    status = together_open(&t, n, error);
-    if (status == LAB_OK)
-      status = take_up(u, &u->rig, now, e, &t, error);
-    for (i = 0; i < n && status == LAB_OK; i++) {
-      if (lost[i])
-        continue;
-      t.of[t.n] = i;
-      t.change[t.n++] = change[i] + from;
-      status = take_up(u, model[i], now, e, &t, error);
-    }
-    if (status == LAB_OK)
-      status = follow(u, e, &t, lost, error);
-    together_close(&t);
+  for (i = 0; i < n && status == LAB_OK; i++)
+    ask[i] = (asked){&model[i], now, NULL, change + (size_t)i * u->m, 0};
+  if (status == LAB_OK && u->window == 0) {
+    status = vary(u, &base, ask, n, error);
+    for (i = 0; i < n && status == LAB_OK; i++)
+      done[i] = !ask[i].is_lost && finish(u, 1, ask[i].change);
   }
-  for (i = 0; i < n && status == LAB_OK && u->window == 0; i++)
-    done[i] = !lost[i] && finish(u, 1, change[i]);
-  free(lost);
+  free(ask);
   return status;
 }
 
-/* Take up the model with another value of unknown j. */
-static int take_up_step(const lab_unknowns *u, const double *theta, int j, double step, int e, together *t,
-                        lab_error *error)
+/* Models with one unknown moved each, and the values that they are of. */
+typedef struct moved {
+  lab_rig model;
+  double theta[LAB_FIT_MAX];
+} moved;
+
+static void move(const lab_unknowns *u, const double *theta, int j, double step, moved *to)
 {
-  double at[LAB_FIT_MAX];
-  lab_rig *model = malloc(sizeof *model);
-  int status = model ? LAB_OK : lab_fail_memory(error, "a model");
-  if (status == LAB_OK) {
-    memcpy(at, theta, (size_t)u->n * sizeof *at);
-    at[j] += step;
-    *model = u->rig;
-    lab_unknowns_apply(u, at, LAB_ALL_RUNS, model);
-    status = take_up(u, model, at, e, t, error);
-  }
-  free(model);
-  return status;
+  memcpy(to->theta, theta, (size_t)u->n * sizeof *theta);
+  to->theta[j] += step;
+  to->model = u->rig;
+  lab_unknowns_apply(u, to->theta, LAB_ALL_RUNS, &to->model);
 }
 
-/* Those of one experiment, from value `from` on of each column.  In/out: lost  those that cannot be had, or are not
- * asked for */
-static int vary_run(const lab_unknowns *u, const double *theta, const double *step, int e, size_t from, double *J,
-                    char *lost, lab_error *error)
+/* In:  at  room for u->n and one more */
+static int slopes_at(const lab_unknowns *u, const double *theta, moved *at, double *J, char *done, lab_error *error)
 {
-  together t;
-  int j, status = together_open(&t, u->n, error);
-  if (status == LAB_OK)
-    status = take_up_step(u, theta, 0, 0, e, &t, error);
-  for (j = 0; j < u->n && status == LAB_OK; j++) {
-    if (lost[j] || !lab_unknown_acts(&u->unknown[j], e))
+  asked base, ask[LAB_FIT_MAX];
+  double step[LAB_FIT_MAX];
+  int j;
+  move(u, theta, 0, 0, &at[u->n]);
+  base = (asked){&at[u->n].model, at[u->n].theta, NULL, NULL, 0};
+  for (j = 0; j < u->n; j++) {
+    double *column = J + (size_t)j * u->m;
+    step[j] = shorter * lab_unknowns_slope_step(u, theta, j);
+    move(u, theta, j, step[j], &at[j]);
+    ask[j] = (asked){&at[j].model, at[j].theta, &u->unknown[j], column, done[j]};
+    if (!done[j])
+      memset(column, 0, u->m * sizeof *column);
+  }
+  if (vary(u, &base, ask, u->n, error))
+    return error->status;
+  for (j = 0; j < u->n; j++) {
+    if (ask[j].is_lost)
       continue;
-    t.of[t.n] = j;
-    t.change[t.n++] = J + (size_t)j * u->m + from;
-    status = take_up_step(u, theta, j, step[j], e, &t, error);
+    done[j] = (char)finish(u, 1 / step[j], ask[j].change);
+    lab_unknowns_slope_of_prior(u, j, ask[j].change);
   }
-  if (status == LAB_OK)
-    status = follow(u, e, &t, lost, error);
-  together_close(&t);
-  return status;
+  return LAB_OK;
 }
 
 int lab_unknowns_slopes_together(void *context, const double *theta, double *J, char *done, lab_error *error)
 {
   const lab_unknowns *u = context;
-  double step[LAB_FIT_MAX];
-  char lost[LAB_FIT_MAX];
-  size_t from = 0;
-  int e, j;
+  moved *at;
+  int status;
   if (u->window || u->n == 0)
     return LAB_OK;
-  memcpy(lost, done, sizeof lost);
-  for (j = 0; j < u->n; j++) {
-    step[j] = shorter * lab_unknowns_slope_step(u, theta, j);
-    if (!done[j])
-      memset(J + (size_t)j * u->m, 0, u->m * sizeof *J);
-  }
-  for (e = 0; e < u->n_runs; from += lab_unknowns_residuals_in(u, e), e++)
-    if (vary_run(u, theta, step, e, from, J, lost, error))
-      return error->status;
-  for (j = 0; j < u->n; j++) {
-    double *column = J + (size_t)j * u->m;
-    if (lost[j])
-      continue;
-    done[j] = (char)finish(u, 1 / step[j], column);
-    lab_unknowns_slope_of_prior(u, j, column);
-  }
-  return LAB_OK;
+  at = malloc((size_t)(u->n + 1) * sizeof *at);
+  status = at ? slopes_at(u, theta, at, J, done, error) : lab_fail_memory(error, "slopes");
+  free(at);
+  return status;
 }

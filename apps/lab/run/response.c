@@ -25,7 +25,7 @@ static double **trace_column(lab_response *response, int i)
   return column[i];
 }
 
-static int trace_allocate(lab_response *response, size_t n, int shown_only, lab_error *error)
+int lab_response_allocate(lab_response *response, size_t n, int shown_only, lab_error *error)
 {
   const int columns = shown_only ? SHOWN_COLUMNS : COLUMNS;
   int i;
@@ -34,7 +34,7 @@ static int trace_allocate(lab_response *response, size_t n, int shown_only, lab_
   if (!shown_only)
     response->mode = calloc(n ? n : 1, sizeof *response->mode);
   for (i = 0; i < columns; i++)
-    if (!(*trace_column(response, i) = malloc((n ? n : 1) * sizeof(double))))
+    if (!(*trace_column(response, i) = calloc(n ? n : 1, sizeof(double))))
       break;
   if (i == columns && (response->mode || shown_only))
     return LAB_OK;
@@ -330,7 +330,7 @@ int lab_response_run(const pneu_model *model, const lab_simulation *task, lab_re
     e.t_end = task->t[task->n - 1];
   if (e.tol == 0)
     e.tol = usual_tol;
-  if (response && trace_allocate(response, task->n, o->shown_only, error))
+  if (response && lab_response_allocate(response, task->n, o->shown_only, error))
     return error->status;
   if (response)
     memcpy(response->t, task->t, task->n * sizeof *task->t);

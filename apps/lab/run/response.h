@@ -69,6 +69,8 @@ typedef struct lab_simulation {
 int lab_response_run(const pneu_model *model, const lab_simulation *simulation, lab_response *response,
                      lab_error *error);
 
+/* Room for n samples, all 0.  In: shown_only  as in the options  Returns: LAB_OK, LAB_WORLD */
+int lab_response_allocate(lab_response *response, size_t n, int shown_only, lab_error *error);
 void lab_response_free(lab_response *response);
 
 #endif

@@ -227,17 +227,29 @@ static const double *column_of(const lab_response *response, int channel)
                                     : response->force;
 }
 
+/* What is run of a case, from where it begins.
+ * Out:     start, task
+ * Returns: LAB_OK, LAB_NUMERIC where it begins in no state, LAB_WORLD */
+static int pose(const lab_run *e, const lab_staging *s, double tol, pneu_state *start, lab_simulation *task,
+                lab_error *error)
+{
+  *task = (lab_simulation){.start = start,
+                           .schedule = &s->schedule,
+                           .rows = s->of,
+                           .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
+                           .n = e->n,
+                           .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
+  if (lab_run_initial_state(s->of[0], s->input, e->log, e->run, start, error))
+    return error->status == LAB_DATA ? (error->status = LAB_NUMERIC) : error->status;
+  return LAB_OK;
+}
+
 static int respond(const lab_run *e, const lab_staging *s, double tol, lab_response *response, lab_error *error)
 {
   pneu_state start;
-  const lab_simulation task = {.start = &start,
-                               .schedule = &s->schedule,
-                               .rows = s->of,
-                               .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
-                               .n = e->n,
-                               .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
-  if (lab_run_initial_state(s->of[0], s->input, e->log, e->run, &start, error))
-    return error->status == LAB_DATA ? (error->status = LAB_NUMERIC) : error->status;
+  lab_simulation task;
+  if (pose(e, s, tol, &start, &task, error))
+    return error->status;
   return lab_response_run(s->of[0], &task, response, error);
 }
 
@@ -315,13 +327,7 @@ static int stage(const lab_run *e, const lab_run_case *as, double tol, cast *c, 
   for (k = 0; i > 0 && k < s->n && status == LAB_OK; k++)
     memcpy(s->model[k].scale, c->staging[0].model[0].scale, sizeof s->model[k].scale);
   if (status == LAB_OK)
-    status = lab_run_initial_state(s->of[0], s->input, e->log, e->run, &c->start[i], error);
-  c->task[i] = (lab_simulation){.start = &c->start[i],
-                                .schedule = &s->schedule,
-                                .rows = s->of,
-                                .t = e->log->value[LAB_CHANNEL_TIME] + e->first,
-                                .n = e->n,
-                                .options = {.tol = tol, .shown_only = 1, .max_steps = most_steps}};
+    status = pose(e, s, tol, &c->start[i], &c->task[i], error);
   if (i > 0 && status == LAB_OK)
     share_models(&c->staging[0], s);
   return status == LAB_DATA ? (error->status = LAB_NUMERIC) : status;

@@ -303,12 +303,19 @@ static int is_moved(const nearby *k)
   return !k->is_off && !k->is_same;
 }
 
+/* A value inside a part, on the parabola through its values at the stages. */
+static double inside(double theta, double start, double middle, double end)
+{
+  return theta > 0
+             ? (1 - theta) * (1 - 2 * theta) * start + 4 * theta * (1 - theta) * middle + theta * (2 * theta - 1) * end
+             : start;
+}
+
 static void difference_at(const nearby *k, int n, double theta, pneu_real *d)
 {
-  const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
   int i;
   for (i = 0; i < n; i++)
-    d[i] = theta > 0 ? start * k->d[0][i] + middle * k->d[1][i] + end * k->d[2][i] : k->d[0][i];
+    d[i] = inside(theta, k->d[0][i], k->d[1][i], k->d[2][i]);
 }
 
 /* What the sensors of a nearby run show beyond those of the run, which show this.  Returns: 0, -1 */
@@ -497,7 +504,7 @@ static int is_driven_alike(const struct lab_variations *v, const nearby *k)
   const pneu_input *a = &k->input, *b = &v->input;
   return k->model == v->model && (k->lead == 0 || a->u_rate == 0) && a->u == b->u && a->u_rate == b->u_rate &&
          a->supply_pressure == b->supply_pressure && a->force == b->force && a->pressure_rate == b->pressure_rate &&
-         a->position_rate == b->position_rate;
+         a->position_rate == b->position_rate && a->set_position == b->set_position;
 }
 
 static void note_same(const struct lab_variations *v, nearby *k)
@@ -519,8 +526,7 @@ void lab_variations_pass(struct lab_variations *v, const pneu_step_view *view)
     memcpy(k->g[0], k->g[2], sizeof k->g[0]);
     k->largest = fmax(k->largest, size_of(v->model, k->d[0]));
     k->knows_start = 1;
-    if (k->model == v->model)
-      note_same(v, k);
+    note_same(v, k);
   }
   if (v->behind > v->to && !v->is_lost)
     pass_edges(v, view);
@@ -622,6 +628,14 @@ static int pass_row(struct lab_variations *v, nearby *k, size_t i, const pneu_mo
   return 0;
 }
 
+static int any_late(const struct lab_variations *v, size_t i)
+{
+  int k, any = 0;
+  for (k = 0; k < v->n; k++)
+    any |= !v->of[k].is_off && v->of[k].late.schedule.t[i] != v->acts->t[i];
+  return any;
+}
+
 void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *before, const pneu_state *after)
 {
   const pneu_model *was = v->model;
@@ -636,7 +650,7 @@ void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *be
   v->events = 0;
   if (v->is_lost)
     return;
-  if (i > 0)
+  if (any_late(v, i))
     is_lost = rates_at(was, before, &end, f) != PNEU_OK || rates_at(v->model, after, &v->input, f_after) != PNEU_OK;
   for (k = 0; k < v->n; k++)
     if (!v->of[k].is_off)
@@ -647,12 +661,11 @@ void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *be
 
 static void interpolate(const nearby *k, double theta, pneu_shown *excess)
 {
-  const double start = (1 - theta) * (1 - 2 * theta), middle = 4 * theta * (1 - theta), end = theta * (2 * theta - 1);
   const pneu_shown *e = k->excess;
-  excess->pressure = start * e[0].pressure + middle * e[1].pressure + end * e[2].pressure;
-  excess->temperature = start * e[0].temperature + middle * e[1].temperature + end * e[2].temperature;
-  excess->position = start * e[0].position + middle * e[1].position + end * e[2].position;
-  excess->force = start * e[0].force + middle * e[1].force + end * e[2].force;
+  excess->pressure = inside(theta, e[0].pressure, e[1].pressure, e[2].pressure);
+  excess->temperature = inside(theta, e[0].temperature, e[1].temperature, e[2].temperature);
+  excess->position = inside(theta, e[0].position, e[1].position, e[2].position);
+  excess->force = inside(theta, e[0].force, e[1].force, e[2].force);
 }
 
 /* Memory that stays 0 is not touched. */
@@ -703,17 +716,6 @@ void lab_variations_close(struct lab_variations *v, int without_result)
   free(v);
 }
 
-static int allocate_change(lab_response *change, size_t n, lab_error *error)
-{
-  memset(change, 0, sizeof *change);
-  change->n = n;
-  change->p = calloc(n + 1, sizeof *change->p);
-  change->x = calloc(n + 1, sizeof *change->x);
-  change->T = calloc(n + 1, sizeof *change->T);
-  change->force = calloc(n + 1, sizeof *change->force);
-  return change->p && change->x && change->T && change->force ? LAB_OK : lab_fail_memory(error, "variations of a run");
-}
-
 int lab_variations_open(const lab_simulation *run, const lab_simulation *nearby_run, int n, lab_response *change,
                         struct lab_variations **variations, lab_error *error)
 {
@@ -729,7 +731,7 @@ int lab_variations_open(const lab_simulation *run, const lab_simulation *nearby_
     nearby *k = &v->of[i];
     k->model = nearby_run[i].rows[0];
     subtract(k->model, nearby_run[i].start, run->start, k->d[0]);
-    status = allocate_change(k->change, run->n, error);
+    status = lab_response_allocate(k->change, run->n, 1, error);
     if (status == LAB_OK)
       status = lab_late_open(&nearby_run[i], k->model, &k->late, error);
   }

@@ -8,15 +8,8 @@
 /* The effect of a parameter that all runs share, -1 if it has none. */
 static int effect_of(const lab_unknown *x)
 {
-  int e, count;
-  if (x->kind != LAB_UNKNOWN_PARAM || x->run != LAB_ALL_RUNS || lab_param_is_value(x->index))
-    return -1;
-  for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
-    const int first = pneu_effect_params(e, &count);
-    if (first <= x->index && x->index < first + count)
-      return e;
-  }
-  return -1;
+  const int is_shared = x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS;
+  return is_shared && x->index != LAB_PARAM_ORIFICE_AREA ? pneu_effect_of(x->index) : -1;
 }
 
 static int was_found(const lab_candidate *c, int effect)

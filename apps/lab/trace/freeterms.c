@@ -123,24 +123,21 @@ static int slope_of_knot(const lab_projection *p, const lab_term_score *s, int k
   return lab_projection_slope(p, &model, slope, error);
 }
 
-/* Slopes in all knots from one run of each experiment.  Out: column, done */
-static int slopes_together(const lab_projection *p, const lab_term_score *s, double **column, char *done,
+/* Slopes in all knots from one run of each experiment.  Out: columns, done */
+static int slopes_together(const lab_projection *p, const lab_term_score *s, double *columns, char *done,
                            lab_error *error)
 {
   static const double share = 1e-3; /* lest a knot pass an edge where rates change at once */
-  lab_rig *model = malloc((size_t)s->term.n * sizeof *model);
-  const lab_rig *of[PNEU_TERM_ROOM];
+  const size_t n = (size_t)s->term.n;
+  lab_rig *model = malloc(n * sizeof *model);
   size_t k;
   int i, status = model ? LAB_OK : lab_fail_memory(error, "the slopes of a free term");
-  for (i = 0; i < s->term.n && status == LAB_OK; i++) {
-    add_knot(p->u, s, i, share, &model[i]);
-    of[i] = &model[i];
-  }
-  if (status == LAB_OK)
-    status = lab_unknowns_changes_with(p->u, of, s->term.n, column, done, error);
   for (i = 0; i < s->term.n && status == LAB_OK; i++)
-    for (k = 0; done[i] && k < p->m; k++)
-      column[i][k] /= share;
+    add_knot(p->u, s, i, share, &model[i]);
+  if (status == LAB_OK)
+    status = lab_unknowns_changes_with(p->u, model, s->term.n, columns, done, error);
+  for (k = 0; k < n * p->m && status == LAB_OK; k++)
+    columns[k] = done[k / p->m] ? columns[k] / share : 0;
   free(model);
   return status;
 }
@@ -148,30 +145,28 @@ static int slopes_together(const lab_projection *p, const lab_term_score *s, dou
 /* Project the residual on the span of the knots' slopes. */
 static void score_knots(const lab_projection *p, lab_term_score *s, lab_error *all)
 {
-  double *columns = malloc((size_t)s->term.n * p->m * sizeof *columns), *column[PNEU_TERM_ROOM];
+  double *columns = malloc((size_t)s->term.n * p->m * sizeof *columns);
   char done[PNEU_TERM_ROOM] = {0};
   lab_error error;
   size_t k;
   int i, status = columns ? LAB_OK : lab_fail_memory(&error, "the slopes of a free term");
-  for (i = 0; i < s->term.n && columns; i++)
-    column[i] = columns + (size_t)i * p->m;
   if (status == LAB_OK)
-    status = slopes_together(p, s, column, done, &error);
+    status = slopes_together(p, s, columns, done, &error);
   if (status != LAB_OK)
     lab_fail_together(all, &error);
   for (i = 0; i < s->term.n && status == LAB_OK; i++) {
-    double *to = columns + (size_t)s->degrees * p->m, whole, left, along;
-    if (!done[i] && slope_of_knot(p, s, i, column[i], &error)) {
+    double *column = columns + (size_t)i * p->m, *to = columns + (size_t)s->degrees * p->m, whole, left, along;
+    if (!done[i] && slope_of_knot(p, s, i, column, &error)) {
       lab_fail_together(all, &error);
       continue;
     }
-    whole = sqrt(lab_dot(column[i], column[i], p->m));
-    left = lab_project_out(p->basis, p->n_basis, p->m, p->m, column[i]);
-    left = fmin(left, lab_project_out(columns, s->degrees, p->m, p->m, column[i]));
+    whole = sqrt(lab_dot(column, column, p->m));
+    left = lab_project_out(p->basis, p->n_basis, p->m, p->m, column);
+    left = fmin(left, lab_project_out(columns, s->degrees, p->m, p->m, column));
     if (!(left > lab_constant(LAB_KNOT_ABSORBED) * whole && whole > lab_constant(LAB_KNOT_SEEN)))
       continue;
     for (k = 0; k < p->m; k++)
-      to[k] = column[i][k] / left;
+      to[k] = column[k] / left;
     along = lab_dot(to, p->r, p->m);
     s->statistic += along * along;
     s->degrees++;

@@ -137,14 +137,9 @@ static void judge(const scan *s, const double *slope, double step, double up, do
 static void room_of(const scan *s, int param, double *up, double *down)
 {
   const double now = lab_param_value(&s->open.rig, param);
-  pneu_param_info info;
-  *up = HUGE_VAL;
-  *down = 1;
-  if (param == LAB_PARAM_ORIFICE_AREA)
-    return;
-  pneu_param_describe(param, &info);
-  *up = (double)info.upper - now;
-  *down = now - (double)info.lower;
+  const int is_share = param == LAB_PARAM_ORIFICE_AREA;
+  *up = is_share ? HUGE_VAL : (double)lab_param_info(param).upper - now;
+  *down = is_share ? 1 : now - (double)lab_param_info(param).lower;
 }
 
 /* Score one of them by differences, at shorter steps where one changes far too much.  Returns: how many slopes */
@@ -267,22 +262,20 @@ static int score_together(const scan *s, lab_onset_scores *all, double *slopes, 
 {
   static const double share = 1e-3; /* of the usual step */
   lab_rig *model = malloc((size_t)all->n * sizeof *model);
-  const lab_rig *of[LAB_ONSET_SCORES_MAX];
-  double *slope[LAB_ONSET_SCORES_MAX], up, down;
+  double up, down;
   int i, status = model ? LAB_OK : lab_fail_memory(error, "models");
   for (i = 0; i < all->n && status == LAB_OK; i++) {
     model[i] = s->open.rig;
     add(&model[i], all->of[i].param, share * first_step(&s->open.rig, all->of[i].param));
-    of[i] = &model[i];
-    slope[i] = slopes + (size_t)i * s->open.m;
   }
   if (status == LAB_OK)
-    status = lab_unknowns_changes_with(&s->open, of, all->n, slope, done, error);
+    status = lab_unknowns_changes_with(&s->open, model, all->n, slopes, done, error);
   for (i = 0; i < all->n && status == LAB_OK; i++) {
     if (!done[i])
       continue;
     room_of(s, all->of[i].param, &up, &down);
-    judge(s, slope[i], share * first_step(&s->open.rig, all->of[i].param), up, down, &all->throughout, &all->of[i]);
+    judge(s, slopes + (size_t)i * s->open.m, share * first_step(&s->open.rig, all->of[i].param), up, down,
+          &all->throughout, &all->of[i]);
     all->tests++;
   }
   free(model);

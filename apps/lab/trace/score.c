@@ -276,69 +276,48 @@ int lab_score_by_statistic(const void *a, const void *b)
   return x->param - y->param;
 }
 
-/* What is scored from one run of each experiment. */
-typedef struct together {
-  lab_rig *model;
-  const lab_rig **of;
-  double *columns, **column;
-  char *done;
-} together;
-
-static void together_close(together *t)
+/* All shapes of all effects, a little of each.  Out: model  Returns: their number */
+static int list_models(const lab_projection *p, const lab_scores *scores, double share, lab_rig *model)
 {
-  free(t->model);
-  free(t->of);
-  free(t->columns);
-  free(t->column);
-  free(t->done);
+  shaped_effect effect;
+  lab_trial trial;
+  int i, k, n = 0;
+  for (i = 0; i < scores->n; i++)
+    for (k = 0; k < shapes_of(&scores->of[i]); k++) {
+      prepare(p, &scores->of[i], k, &effect, &trial);
+      model[n] = effect.model;
+      *pneu_param_at(&model[n++].params, effect.param) = (pneu_real)(effect.present + share * trial.usual);
+    }
+  return n;
 }
 
-static int together_open(together *t, size_t n, size_t m, lab_error *error)
-{
-  size_t i;
-  t->model = malloc((n + 1) * sizeof *t->model);
-  t->of = malloc((n + 1) * sizeof *t->of);
-  t->columns = malloc((n * m + 1) * sizeof *t->columns);
-  t->column = malloc((n + 1) * sizeof *t->column);
-  t->done = calloc(n + 1, 1);
-  if (!t->model || !t->of || !t->columns || !t->column || !t->done)
-    return lab_fail_memory(error, "scores");
-  for (i = 0; i < n; i++) {
-    t->of[i] = &t->model[i];
-    t->column[i] = t->columns + i * m;
-  }
-  return LAB_OK;
-}
-
-/* Score what changes little of the states, at the beginning of its slope.
+/* Score what changes little of the states from one run of each experiment, at the beginning of its slope.
  * Out:     done   LAB_SCORE_SHAPES of each score
  *          tests  slopes that were judged */
 static int score_together(const lab_projection *p, lab_scores *scores, char *done, int *tests, lab_error *error)
 {
   static const double share = 1e-3; /* of the usual size */
-  together t;
-  shaped_effect effect;
-  lab_trial trial;
-  int i, k, n = 0, status = together_open(&t, LAB_SCORE_SHAPES * (size_t)scores->n, p->m, error);
+  const size_t room = LAB_SCORE_SHAPES * (size_t)scores->n + 1;
+  lab_rig *model = malloc(room * sizeof *model);
+  double *columns = malloc(room * p->m * sizeof *columns);
+  char followed[LAB_SCORES_MAX * LAB_SCORE_SHAPES];
+  int i, k, n, status = model && columns ? LAB_OK : lab_fail_memory(error, "scores");
   *tests = 0;
-  for (i = 0; i < scores->n && status == LAB_OK; i++)
-    for (k = 0; k < shapes_of(&scores->of[i]); k++) {
-      prepare(p, &scores->of[i], k, &effect, &trial);
-      t.model[n] = effect.model;
-      *pneu_param_at(&t.model[n++].params, effect.param) = (pneu_real)(effect.present + share * trial.usual);
-    }
   if (status == LAB_OK)
-    status = lab_unknowns_changes_with(p->u, t.of, n, t.column, t.done, error);
+    status = lab_unknowns_changes_with(p->u, model, list_models(p, scores, share, model), columns, followed, error);
   for (n = 0, i = 0; i < scores->n && status == LAB_OK; i++)
     for (k = 0; k < shapes_of(&scores->of[i]); k++, n++) {
-      if (!t.done[n])
+      shaped_effect effect;
+      lab_trial trial;
+      if (!followed[n])
         continue;
       prepare(p, &scores->of[i], k, &effect, &trial);
-      judge(p, &trial, t.column[n], share * trial.usual, &scores->of[i]);
+      judge(p, &trial, columns + (size_t)n * p->m, share * trial.usual, &scores->of[i]);
       done[i * LAB_SCORE_SHAPES + k] = 1;
       *tests += 1;
     }
-  together_close(&t);
+  free(model);
+  free(columns);
   return status;
 }
 

@@ -210,7 +210,7 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
 }
 
 /* What the orifices pass goes with the sizes of chamber and spring. Where nothing is known of these it is uncertain by
- * the same share then and now, 42 %, so that the interval shrinks with the orifices; as wide as then it would be 69 %.
+ * the same share then and now, 42 %, so that the interval shrinks with the orifices; as wide as then it would be 70 %.
  */
 static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
 {

@@ -1049,13 +1049,26 @@ static double distance(const double *a, const double *b, size_t n)
   return sqrt(sum / (double)n) / size_of(a, n);
 }
 
+/* Difference quotient of the residuals in unknown j.  Out: quotient */
+static void difference(const double *theta, int j, double up, double down, double *quotient)
+{
+  static double below[DATA + LAB_FIT_MAX];
+  double at[LAB_FIT_MAX];
+  size_t i;
+  memcpy(at, theta, sizeof at);
+  at[j] = theta[j] + up;
+  assert_int_equal(lab_unknowns_residuals(&u, at, quotient, &error), LAB_OK);
+  at[j] = theta[j] - down;
+  assert_int_equal(lab_unknowns_residuals(&u, at, below, &error), LAB_OK);
+  for (i = 0; i < u.m; i++)
+    quotient[i] = (quotient[i] - below[i]) / (up + down);
+}
+
 /* Beside a central difference over ten times the step; of an instant, beside the change over its own step. */
 static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference(void **state)
 {
-  static double below[DATA + LAB_FIT_MAX];
-  double theta[LAB_FIT_MAX], at[LAB_FIT_MAX];
+  double theta[LAB_FIT_MAX];
   int j;
-  size_t i;
   (void)state;
   open_usual();
   u.tol = 1e-9;
@@ -1067,13 +1080,7 @@ static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_differen
     const double up = (is_instant ? 0.15 : 1e-2) * u.unknown[j].scale, down = is_instant ? 0 : up;
     check_note("%s", u.unknown[j].name);
     assert_int_equal(lab_unknowns_slope(&u, theta, r, j, column, &error), LAB_OK);
-    memcpy(at, theta, sizeof at);
-    at[j] = theta[j] + up;
-    assert_int_equal(lab_unknowns_residuals(&u, at, other, &error), LAB_OK);
-    at[j] = theta[j] - down;
-    assert_int_equal(lab_unknowns_residuals(&u, at, below, &error), LAB_OK);
-    for (i = 0; i < u.m; i++)
-      other[i] = (other[i] - below[i]) / (up + down);
+    difference(theta, j, up, down, other);
     assert_true(size_of(column, u.m) > 0);
     assert_close(distance(column, other, u.m), 0, 0.05, 0);
   }
@@ -1082,11 +1089,10 @@ static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_differen
 /* From one run with steps of 1e-5, beside a central difference of exact ones; what is done already stays. */
 static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_difference(void **state)
 {
-  static double J[LAB_FIT_MAX * (DATA + LAB_FIT_MAX)], below[DATA + LAB_FIT_MAX];
-  double theta[LAB_FIT_MAX], at[LAB_FIT_MAX];
+  static double J[LAB_FIT_MAX * (DATA + LAB_FIT_MAX)];
+  double theta[LAB_FIT_MAX];
   char done[LAB_FIT_MAX] = {0};
   int j;
-  size_t i;
   (void)state;
   open_usual();
   u.tol = 1e-9;
@@ -1099,13 +1105,7 @@ static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_diffe
     const double step = 1e-5 * u.unknown[j].scale;
     check_note("%s", u.unknown[j].name);
     assert_true(done[j]);
-    memcpy(at, theta, sizeof at);
-    at[j] = theta[j] + step;
-    assert_int_equal(lab_unknowns_residuals(&u, at, other, &error), LAB_OK);
-    at[j] = theta[j] - step;
-    assert_int_equal(lab_unknowns_residuals(&u, at, below, &error), LAB_OK);
-    for (i = 0; i < u.m; i++)
-      other[i] = (other[i] - below[i]) / (2 * step);
+    difference(theta, j, step, step, other);
     if (j != SPRING)
       assert_close(distance(J + (size_t)j * u.m, other, u.m), 0, 0.02, 0);
   }
@@ -1114,24 +1114,23 @@ static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_diffe
 /* Of a model that differs, beside a difference; one that has other states is left. */
 static void test_lab_unknowns_changes_with__other_models__are_their_differences(void **state)
 {
-  static lab_rig leaking, lagging;
-  static double leak[DATA + LAB_FIT_MAX], lag[DATA + LAB_FIT_MAX];
-  const lab_rig *model[] = {&leaking, &lagging};
-  double *change[] = {leak, lag};
-  char done[2];
+  enum { LEAKING, LAGGING, MODELS };
+  static lab_rig model[MODELS];
+  static double change[MODELS * (DATA + LAB_FIT_MAX)];
+  char done[MODELS];
   (void)state;
   open_usual();
   u.tol = 1e-9;
   measure(&rig);
-  leaking = lagging = u.rig;
-  *pneu_param_at(&leaking.params, pneu_param_find("leak_area")) = (pneu_real)1e-12;
-  *pneu_param_at(&lagging.params, pneu_param_find("transducer_time")) = (pneu_real)1e-4;
+  model[LEAKING] = model[LAGGING] = u.rig;
+  *pneu_param_at(&model[LEAKING].params, pneu_param_find("leak_area")) = (pneu_real)1e-12;
+  *pneu_param_at(&model[LAGGING].params, pneu_param_find("transducer_time")) = (pneu_real)1e-4;
   assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_changes_with(&u, model, 2, change, done, &error), LAB_OK);
-  assert_true(done[0] && !done[1]);
-  assert_int_equal(lab_unknowns_change_with(&u, &leaking, r, other, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_changes_with(&u, model, MODELS, change, done, &error), LAB_OK);
+  assert_true(done[LEAKING] && !done[LAGGING]);
+  assert_int_equal(lab_unknowns_change_with(&u, &model[LEAKING], r, other, &error), LAB_OK);
   assert_true(size_of(other, u.m) > 0);
-  assert_close(distance(leak, other, u.m), 0, 0.01, 0);
+  assert_close(distance(change, other, u.m), 0, 0.01, 0);
 }
 
 /* A model with one unknown more begins with the slopes of the one that it extends, and the new one is not among them.

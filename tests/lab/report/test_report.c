@@ -621,8 +621,8 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   lab_log_free(&log);
 }
 
-/* One key, one meaning: what the refit of a candidate explains, found or not; before what is found is fitted to the end,
- * declared values follow straight lines, which costs some thousandths. */
+/* One key, one meaning: what the refit of a candidate explains, found or not; before what is found is fitted to the
+ * end, declared values follow straight lines, which costs some thousandths. */
 static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
 {
   cJSON *root, *candidate;
