@@ -7,7 +7,7 @@
 #include "handover.h"
 #include "late.h"
 
-enum { S = PNEU_STATE_MAX, STAGES = 3, N = STAGES * S };
+enum { S = PNEU_STATE_MAX, STAGES = 3, N = STAGES * S, SIDES = 2 * S };
 
 /* Lobatto IIIC; the last row is that of the result. */
 static const double butcher[STAGES][STAGES] = {
@@ -56,8 +56,8 @@ struct lab_variations {
   pneu_input at[STAGES];
   pneu_real y[STAGES][S], f[STAGES][S], jac[STAGES][S][S];
   double matrix[N][N];                  /* of the linear equations of a step, transposed */
-  double weight[2 * S][N];              /* of the stages, at the end and in the middle */
-  pneu_real share[2][1 + STAGES][S][S]; /* of the start and of each g, at the end and in the middle */
+  double weight[N][SIDES];              /* of the stages, at the end and in the middle, transposed */
+  pneu_real share[2][1 + STAGES][S][S]; /* of the start and of each g, at the end and in the middle, transposed */
 };
 
 /* ---- Differences of states ---- */
@@ -113,60 +113,74 @@ static int rates_at(const pneu_model *m, const pneu_state *s, const pneu_input *
 
 /* ---- The equations of a step ---- */
 
-/* Gauss with partial pivoting: b becomes the solution of a x = b, column by column. */
-static int solve(int n, double a[N][N], int n_b, double (*b)[N])
+static void exchange(double *a, double *b, int from, int n)
 {
-  int i, j, k, l;
+  int j;
+  for (j = from; j < n; j++) {
+    const double keep = a[j];
+    a[j] = b[j];
+    b[j] = keep;
+  }
+}
+
+/* a -= share * b */
+static void take_share(double *restrict a, const double *restrict b, double share, int from, int n)
+{
+  int j;
+#pragma omp simd
+  for (j = from; j < n; j++)
+    a[j] -= share * b[j];
+}
+
+/* Gauss with partial pivoting: b, of n_b columns, becomes the solution of a x = b. */
+static int solve(int n, double (*a)[N], int n_b, double (*b)[SIDES])
+{
+  int i, j, k;
   for (k = 0; k < n; k++) {
     int best = k;
     for (i = k + 1; i < n; i++)
       best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
     if (!(fabs(a[best][k]) > 0))
       return -1;
-    for (j = k; j < n && best != k; j++) {
-      const double keep = a[k][j];
-      a[k][j] = a[best][j];
-      a[best][j] = keep;
-    }
-    for (l = 0; l < n_b && best != k; l++) {
-      const double keep = b[l][k];
-      b[l][k] = b[l][best];
-      b[l][best] = keep;
+    if (best != k) {
+      exchange(a[k], a[best], k, n);
+      exchange(b[k], b[best], 0, n_b);
     }
     for (i = k + 1; i < n; i++) {
       const double share = a[i][k] / a[k][k];
-      for (j = k + 1; j < n && share != 0; j++)
-        a[i][j] -= share * a[k][j];
-      for (l = 0; l < n_b && share != 0; l++)
-        b[l][i] -= share * b[l][k];
+      if (share != 0) {
+        take_share(a[i], a[k], share, k + 1, n);
+        take_share(b[i], b[k], share, 0, n_b);
+      }
     }
   }
-  for (l = 0; l < n_b; l++)
-    for (i = n - 1; i >= 0; i--) {
-      for (j = i + 1; j < n; j++)
-        b[l][i] -= a[i][j] * b[l][j];
-      b[l][i] /= a[i][i];
-    }
+  for (i = n - 1; i >= 0; i--) {
+    for (j = i + 1; j < n; j++)
+      if (a[i][j] != 0)
+        take_share(b[i], b[j], a[i][j], 0, n_b);
+    for (j = 0; j < n_b; j++)
+      b[i][j] /= a[i][i];
+  }
   return 0;
 }
 
-/* What the difference at the start, and each stage's g, have in that at `place`, in the middle or at the end, of a
- * step. In:      weight  n rows of the inverse of the equations */
-static void find_shares(int n, double h, double (*weight)[N], pneu_real (*share)[S][S])
+/* What the difference at the start, and each stage's g, have in that at one place of a step.
+ * In:      weight  of the stages: n columns of the inverse of the equations, transposed, from column `at` on */
+static void find_shares(int n, double h, double (*weight)[SIDES], int at, pneu_real (*share)[S][S])
 {
   int i, j, s, t;
   for (i = 0; i < n; i++)
     for (j = 0; j < n; j++) {
       double start = 0, stage[STAGES] = {0};
       for (s = 0; s < STAGES; s++) {
-        const double w = weight[i][s * n + j];
+        const double w = weight[s * n + j][at + i];
         start += w;
         for (t = 0; t < STAGES; t++)
           stage[t] += butcher[s][t] * w;
       }
-      share[0][i][j] = start;
+      share[0][j][i] = start;
       for (t = 0; t < STAGES; t++)
-        share[t + 1][i][j] = h * stage[t];
+        share[t + 1][j][i] = h * stage[t];
     }
 }
 
@@ -174,21 +188,20 @@ static void find_shares(int n, double h, double (*weight)[N], pneu_real (*share)
  */
 static int solve_part(struct lab_variations *v, int n, double h)
 {
-  enum { PLACES = 2 };
   int s, t, i, j;
   for (s = 0; s < STAGES; s++)
     for (i = 0; i < n; i++)
       for (t = 0; t < STAGES; t++)
         for (j = 0; j < n; j++)
           v->matrix[t * n + j][s * n + i] = (s == t && i == j) - h * butcher[s][t] * v->jac[t][i][j];
-  for (i = 0; i < PLACES * n; i++) { /* the end, then the middle */
-    memset(v->weight[i], 0, (size_t)(STAGES * n) * sizeof v->weight[i][0]);
-    v->weight[i][i < n ? 2 * n + i : i] = 1;
-  }
-  if (solve(STAGES * n, v->matrix, PLACES * n, v->weight))
+  for (i = 0; i < STAGES * n; i++)
+    memset(v->weight[i], 0, sizeof v->weight[i]);
+  for (i = 0; i < n; i++)
+    v->weight[2 * n + i][i] = v->weight[n + i][n + i] = 1; /* the end, the middle */
+  if (solve(STAGES * n, v->matrix, 2 * n, v->weight))
     return -1;
-  for (i = 0; i < PLACES; i++)
-    find_shares(n, h, v->weight + i * n, v->share[i]);
+  find_shares(n, h, v->weight, 0, v->share[0]);
+  find_shares(n, h, v->weight, n, v->share[1]);
   return 0;
 }
 
@@ -225,15 +238,15 @@ static int find_excess(const struct lab_variations *v, nearby *k, int stage)
 static void carry(pneu_real (*share)[S][S], int n, const nearby *k, pneu_real *to)
 {
   const pneu_real *of[1 + STAGES] = {k->d[0], k->g[0], k->g[1], k->g[2]};
+  pneu_real sum[S] = {0};
   int i, j, s;
+  for (s = 0; s <= STAGES; s++)
+    for (j = 0; j < n; j++)
+#pragma omp simd
+      for (i = 0; i < n; i++)
+        sum[i] += share[s][j][i] * of[s][j];
   memcpy(to, k->d[0], sizeof k->d[0]);
-  for (i = 0; i < n; i++) {
-    double sum = 0;
-    for (s = 0; s <= STAGES; s++)
-      for (j = 0; j < n; j++)
-        sum += share[s][i][j] * of[s][j];
-    to[i] = sum;
-  }
+  memcpy(to, sum, (size_t)n * sizeof *to);
 }
 
 /* Rates, states and Jacobians of the run at the stages of a part of its step.  Returns: 0, -1 */

@@ -323,11 +323,34 @@ static int can_be_accidents(const lab_outliers *out, const lab_logs *bench)
   return out->n > 0 && (out->n_soon == 0 || (double)out->n_soon < lab_constant(LAB_ACCIDENT_SHARE) * (double)changes);
 }
 
+/* Where nothing was missing with these values, nothing is without them: the model is fitted once more.
+ * In/out:  o  completed, result  as they were with these values */
+static int settle_again(outcome *o, lab_error *error)
+{
+  lab_finding *f = calloc(1, sizeof *f);
+  int status = f ? LAB_OK : lab_fail_memory(error, "the search");
+  if (status == LAB_OK) {
+    f->result = o->result;
+    f->best.u = o->completed;
+    lab_unknowns_view(&f->best.u, 0);
+    status = lab_search_measure(&o->declared, LAB_STAGE_BEFORE, &f->result, error);
+  }
+  if (status == LAB_OK)
+    status = lab_candidate_fit(&f->best, LAB_ROUNDS_ALL, error);
+  if (status == LAB_OK)
+    status = conclude(f, &o->completed, &o->result, error);
+  free(f);
+  return status;
+}
+
+/* In/out:  o  completed, result  as they were with these values */
 static int run_again(const lab_search_options *options, outcome *o, lab_error *error)
 {
   lab_unknowns_view(&o->declared, 0); /* counts the values that are left */
   if (lab_unknowns_fit(&o->declared, LAB_ROUNDS_ALL, NULL, error))
     return error->status;
+  if (doubt(&o->result) == 0)
+    return settle_again(o, error);
   o->completed = o->declared;
   return lab_search_run(&o->completed, options, &o->result, error);
 }
@@ -354,6 +377,8 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
   }
   if (o) {
     o->declared = *declared;
+    o->completed = *completed;
+    o->result = *result;
     status = run_again(options, o, error);
   }
   result->cut_short = o && o->result.cut_short;
