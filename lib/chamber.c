@@ -16,7 +16,7 @@ pneu_real pneu_mass(const pneu_model *model, const pneu_state *state)
 void pneu_chamber_rates(const pneu_terms *t, pneu_real *y_dot)
 {
   const pneu_model *model = t->model;
-  const pneu_real g = model->g, R = model->p.gas_constant, expansion = t->swept_area * t->v;
+  const pneu_real g = model->g, R = model->p.gas_constant, expansion = t->swept_area * t->v + t->growth;
   pneu_real per_volume;
   if (model->law.pressure_input) {
     y_dot[0] = t->input->pressure_rate;

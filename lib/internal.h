@@ -91,6 +91,7 @@ struct pneu_terms {
   pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
   pneu_real exhaust_resistance;       /* [Pa s/kg] pressure built up on the way out */
   pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
+  pneu_real growth;                   /* [m3/s] of the volume, beside what the stem sweeps */
   pneu_real mass_in, mass_out;        /* [kg/s] of the chamber */
   pneu_real drawn;                    /* [kg/s] from the supply */
   pneu_real mass_in_T;                /* [kg K/s] inflow times its temperature */

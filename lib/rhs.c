@@ -71,7 +71,7 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->zero = t->span = t->dead_band = t->crossing = 0;
   t->asked = t->opening = t->supply_resistance = t->exhaust_resistance = t->choked_share = 0;
   t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
-  t->heat = t->film = t->bristle_force = 0;
+  t->growth = t->heat = t->film = t->bristle_force = 0;
   t->din_dp = t->dout_dp = t->dout_dT = 0;
   t->choked = 0;
 }

@@ -482,6 +482,32 @@ static void footprint_wall_temperature(void)
   assert_close(s.T, 298.15, 0, TOL(1e-9, 1e-5));
 }
 
+/* Of a shut vessel P (1 + c (p_y - p_a)) stays what it was while p_y goes to p: in the end both have what the square
+ * says. On the way p_y follows the pressure at the rate of the difference over tau. */
+static void footprint_chamber_creep(void)
+{
+  const double c = 2e-6, P0 = 3e5, Pa = 101325;
+  pneu_params p = fixture_vessel(1e-3);
+  pneu_model m;
+  pneu_input shut;
+  pneu_state s;
+  double scale, end;
+  fixture_set(&p, "volume_compliance", c);
+  fixture_set(&p, "volume_time", 0.5);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  scale = (double)m.scale[0];
+  shut = fixture_input(&m, 0);
+  s = fixture_rest(&m, P0 - Pa, 0, &shut);
+  assert_close(s.extra[0], P0 / scale, 0, TOL(1e-15, 1e-6)); /* at rest it has given way */
+  s.extra[0] = (pneu_real)(Pa / scale);
+  fixture_run(&m, &s, &shut, 0.3, FIXTURE_TOL, NULL);
+  assert_close(((double)s.p + Pa) * (1 + c * (s.extra[0] * scale - Pa)), P0, 0, TOL(1e-7, 1e-4));
+  fixture_run(&m, &s, &shut, 20, FIXTURE_TOL, NULL);
+  end = (c * Pa - 1 + sqrt((1 - c * Pa) * (1 - c * Pa) + 4 * c * P0)) / (2 * c); /* P (1 + c (P - Pa)) = P0 */
+  assert_close((double)s.p + Pa, end, 0, TOL(1e-7, 1e-4));
+  assert_int_equal(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0).n_active, 0);
+}
+
 /* ---- command ---- */
 
 /* In a vessel time enters by the integral of the opening alone: t becomes t - tau (1 - exp(-t/tau)). */
@@ -698,6 +724,7 @@ static void footprint_positioner_zero(void)
 }
 
 static footprint footprints[] = {
+    {"chamber_creep", "shut_vessel__shares_its_pressure_with_the_wall", footprint_chamber_creep},
     {"chamber_exponent", "shut_air__follows_its_power_law", footprint_chamber_exponent},
     {"chamber_leak", "shut_vessel__loses_pressure_as_a_choked_blowdown", footprint_chamber_leak},
     {"choked_flow", "share__mixes_the_laws", footprint_choked_flow},

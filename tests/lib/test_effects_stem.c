@@ -339,6 +339,34 @@ static void footprint_spring_hysteresis(void)
                TOL(1e-10, 1e-3));
 }
 
+/* Driven at a velocity v from rest, y stays behind by v tau (1 - exp(-t/tau)); held, it comes after. At rest in
+ * equilibrium nothing of it is left. */
+static void footprint_spring_creep(void)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  const double k = 8e4, tau = 0.4, v = 0.01, stroke = (double)p.stroke, behind = v * tau * (1 - exp(-0.5 / tau));
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  fixture_set(&p, "creep_stiffness", k);
+  fixture_set(&p, "creep_time", tau);
+  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 1e5, 0, &input);
+  input.position_rate = (pneu_real)v;
+  fixture_run(&m, &s, &input, 0.5, FIXTURE_TOL, NULL);
+  assert_close(s.extra[0], (0.005 - behind) / stroke, TOL(1e-9, 1e-5), 0);
+  input.position_rate = 0;
+  fixture_run(&m, &s, &input, 0.2, FIXTURE_TOL, NULL);
+  assert_close(s.extra[0], (0.005 - behind * exp(-0.2 / tau)) / stroke, TOL(1e-9, 1e-5), 0);
+  m = pressed(&p);
+  input = fixture_input(&m, 0);
+  s = fixture_rest(&m, 2e5, 0.01, &input);
+  assert_close(s.extra[0], 0.01 / stroke, 0, TOL(1e-15, 1e-6));
+  assert_close(acceleration(&m, 2e5, 0.01, 0.01, 0) - acceleration(&m, 2e5, 0.01, 0.01, 0.01 / stroke), -k * 0.01 / 2, 0,
+               TOL(1e-10, 1e-3));
+}
+
 /* ---- geometry ---- */
 
 /* At rest p A (1 - a x/stroke) = k (x + x0); sealed air follows the integral of the swept area. */
@@ -545,6 +573,7 @@ static footprint footprints[] = {
     {"friction_position", "level_and_break_away__depend_on_position", footprint_friction_position},
     {"friction_pressure", "break_away__depends_on_pressure", footprint_friction_pressure},
     {"presliding", "before_break_away__stem_moves_by_micrometres", footprint_presliding},
+    {"spring_creep", "driven_and_held__follows_by_the_closed_form", footprint_spring_creep},
     {"spring_hardening", "balance__bends_with_the_cube", footprint_spring_hardening},
     {"spring_hysteresis", "reversals__follow_the_closed_form", footprint_spring_hysteresis},
     {"stop_compliance", "stem_on_a_stop__sinks_in_by_the_load", footprint_stop_compliance},

@@ -21,6 +21,8 @@ enum {
   TUBE,
   BRISTLE,
   HYST,
+  CREEP,
+  GROWN,
   P_LAG,
   X_LAG,
   T_LAG,
@@ -157,6 +159,12 @@ static double volume_at(const second_rig *g, double x)
   return g->dead_volume + 0.5 * (g->area + area_at(g, x)) * x; /* integral of a linear area */
 }
 
+/* With what the wall has given way. */
+static double volume_of(const second_rig *g, const double *y)
+{
+  return volume_at(g, y[X]) + g->dead_volume * g->growth * y[GROWN];
+}
+
 /* The exponent by which the chamber's air stores energy. */
 static double kappa(const second_rig *g)
 {
@@ -166,7 +174,7 @@ static double kappa(const second_rig *g)
 static chamber chamber_of(const second_rig *g, const double *y)
 {
   chamber c;
-  c.V = volume_at(g, y[X]);
+  c.V = volume_of(g, y);
   c.A = area_at(g, y[X]);
   c.P = (kappa(g) - 1.0) * y[U] / c.V;
   c.p = c.P - g->ambient;
@@ -278,7 +286,8 @@ static void gas_rates(const world *w, const double *y, double t, const chamber *
   transducer(w, y, t, c, d);
   leaks(g, c, d);
   d[M] = d[MASS_IN] - d[MASS_OUT];
-  d[WORK] = c->P * c->A * y[V];
+  d[GROWN] = g->growth_time > 0.0 ? (c->p - y[GROWN]) / g->growth_time : 0.0;
+  d[WORK] = c->P * (c->A * y[V] + g->dead_volume * g->growth * d[GROWN]);
   if (g->gas == SECOND_ISOTHERMAL) { /* U = m cv Ta; the heat is whatever that takes */
     d[U] = cv * g->ambient_temperature * d[M];
     if (g->rate_exponent > 0.0) /* d(P V)/dt, of V dP/dt = n (R T dM/dt - P dV/dt) */
@@ -310,7 +319,7 @@ static double upper_stop(const second_rig *g)
 /* What the stem works against besides main spring and friction: hysteresis, elastic stops, an added force. */
 static double other_forces(const second_rig *g, const double *y, double t)
 {
-  double f = g->hysteresis * y[HYST] + g->force * sin(TAU * g->force_rate * t);
+  double f = g->hysteresis * y[HYST] + g->creep * (y[X] - y[CREEP]) + g->force * sin(TAU * g->force_rate * t);
   double over = y[X] - rigid_limit(g);
   if (g->upper_rate > 0.0 && over > 0.0)
     f += fmax(0.0, g->upper_rate * over + g->stop_damping * y[V]);
@@ -368,6 +377,8 @@ static double friction(const world *w, const double *y, const chamber *c, double
 static void stem_rates(const world *w, const double *y, double t, const chamber *c, double *d)
 {
   const second_rig *g = w->rig;
+  if (g->creep_time > 0.0)
+    d[CREEP] = (y[X] - y[CREEP]) / g->creep_time;
   if (w->mode == REST)
     return;
   double f = friction(w, y, c, d), v = y[V];
@@ -587,7 +598,9 @@ static void start(world *w)
   y[V] = g->start_velocity;
   if (g->lower_rate > 0.0 && y[X] == 0.0) /* the preload sits in the stop */
     y[X] = -g->spring_rate * g->spring_preload / (g->spring_rate + g->lower_rate);
-  y[M] = P * volume_at(g, y[X]) / (g->gas_constant * T);
+  y[CREEP] = y[X];
+  y[GROWN] = P - g->ambient;
+  y[M] = P * volume_of(g, y) / (g->gas_constant * T);
   y[U] = y[M] * g->gas_constant / (kappa(g) - 1.0) * T;
   y[TUBE] = P * g->tube_volume / (g->gas_constant * g->ambient_temperature);
   y[WALL] = g->ambient_temperature;
@@ -701,8 +714,8 @@ static void close_audit(const world *w, const double *y0, second_audit *a)
       .mass_end = y[M],
       .energy_start = y0[U],
       .energy_end = y[U],
-      .volume_start = volume_at(g, y0[X]),
-      .volume_end = volume_at(g, y[X]),
+      .volume_start = volume_of(g, y0),
+      .volume_end = volume_of(g, y),
       .kinetic_start = 0.5 * g->mass * y0[V] * y0[V],
       .kinetic_end = 0.5 * g->mass * y[V] * y[V],
       .spring_start = spring_energy(g, y0[X]),

@@ -47,6 +47,7 @@ typedef struct {
   double pulsation, pulsation_rate;             /* Pa, Hz: supply + a sin(2 pi f t) */
   double back_pressure;                         /* Pa s/kg, exhaust rises by this times the flow */
   double tube_volume, tube_resistance;          /* m3, Pa s/kg: isothermal volume, then a linear restriction */
+  double growth, growth_time;                   /* 1/Pa, s: dead volume grows by this, with the pressure of a lag */
 
   /* command */
   double transducer_lag, dead_time; /* s */
@@ -61,6 +62,7 @@ typedef struct {
   double bump, bump_at, bump_width;            /* N, m, m: F + B exp(-((x - xb)/w)^2) */
   double spring_cubic;                         /* N/m3: k3 x^3 */
   double hysteresis, hysteresis_length;        /* N, m: H h, dh = (dx - h |dx|)/length */
+  double creep, creep_time;                    /* N/m, s: k (x - y), y follows x with a lag */
   double area_slope;                           /* 1: A (1 - a x / stroke) */
   double travel_limit;                         /* m, upper stop; 0: the stroke */
   double upper_rate, lower_rate, stop_damping; /* N/m, N/m, N s/m: elastic stops; 0: rigid, inelastic */

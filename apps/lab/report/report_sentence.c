@@ -46,6 +46,12 @@ static double friction_rise(const about *a)
   return a->value * (double)a->rig.params.supply_pressure;
 }
 
+/* Of the dead volume, at the supply pressure. */
+static double volume_growth(const about *a)
+{
+  return 100 * a->value * (double)a->rig.params.supply_pressure;
+}
+
 /* Of the straight spring's force at full stroke. */
 static double of_spring(const about *a)
 {
@@ -132,6 +138,8 @@ static const struct {
     {"of_friction_rise", "%", friction_rise, 100, PNEU_PARAM_dry_friction, 1000},
     {"friction_rise", "N", friction_rise, 1, NONE, 0},
     {"of_spring", "%", of_spring, 1, NONE, 0},
+    {"volume_growth", "%", volume_growth, 1, NONE, 0},
+    {"of_rate", "%", of_itself, 100, PNEU_PARAM_spring_rate, 1000},
     {"fill_drop", "Pa", fill_drop, 1, NONE, 0},
     {"vent_drop", "Pa", vent_drop, 1, NONE, 0},
     {"leak", "Nl/h", leak_normal, 1, NONE, 0},
