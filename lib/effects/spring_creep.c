@@ -28,7 +28,8 @@ const pneu_effect pneu_effect_record_spring_creep = {
     "Spring, diaphragm or bellows give way slowly: the stem goes on under a constant force.",
     "standard linear solid: Ferry 1980, Viscoelastic Properties of Polymers, 3rd ed., ch. 1",
     "force",
-    "after each stroke the position moves on in the same sense and settles; quick strokes seem to have a stiffer spring",
+    "after each stroke the position moves on in the same sense and settles; quick strokes seem to have a stiffer "
+    "spring",
     PNEU_STAGE_FORCE,
     params,
     add,

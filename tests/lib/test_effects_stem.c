@@ -363,8 +363,8 @@ static void footprint_spring_creep(void)
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 2e5, 0.01, &input);
   assert_close(s.extra[0], 0.01 / stroke, 0, TOL(1e-15, 1e-6));
-  assert_close(acceleration(&m, 2e5, 0.01, 0.01, 0) - acceleration(&m, 2e5, 0.01, 0.01, 0.01 / stroke), -k * 0.01 / 2, 0,
-               TOL(1e-10, 1e-3));
+  assert_close(acceleration(&m, 2e5, 0.01, 0.01, 0) - acceleration(&m, 2e5, 0.01, 0.01, 0.01 / stroke), -k * 0.01 / 2,
+               0, TOL(1e-10, 1e-3));
 }
 
 /* ---- geometry ---- */
