@@ -56,20 +56,38 @@ static int predict_left(const lab_unknowns *u, int left, lab_run *run, lab_unkno
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-int lab_carry_over(const lab_candidate *c, double *sum, lab_error *error)
+int lab_carry_over(const lab_candidate *c, double *of_run, lab_error *error)
 {
   lab_run *run = calloc((size_t)c->u.n_runs, sizeof *run);
   lab_unknowns *less = malloc(sizeof *less);
   int e, status = run && less ? LAB_OK : lab_fail_memory(error, "the runs but one");
-  *sum = 0;
-  for (e = 0; e < c->u.n_runs && status == LAB_OK; e++) {
-    double one;
-    status = predict_left(&c->u, e, run, less, &one, error);
-    *sum += one;
-  }
+  for (e = 0; e < c->u.n_runs && status == LAB_OK; e++)
+    status = predict_left(&c->u, e, run, less, &of_run[e], error);
   free(less);
   free(run);
   return status;
+}
+
+/* The same of all runs. */
+static int carry_over_all(const lab_candidate *c, double *sum, lab_error *error)
+{
+  double *of_run = malloc((size_t)c->u.n_runs * sizeof *of_run);
+  int e, status = of_run ? lab_carry_over(c, of_run, error) : lab_fail_memory(error, "errors of runs");
+  for (*sum = 0, e = 0; e < c->u.n_runs && status == LAB_OK; e++)
+    *sum += of_run[e];
+  free(of_run);
+  return status;
+}
+
+int lab_carry_is_better(const double *other, const double *present, int n)
+{
+  double mean = 0, squares = 0;
+  int e;
+  for (e = 0; e < n; e++)
+    mean += (present[e] - other[e]) / n;
+  for (e = 0; e < n; e++)
+    squares += pow(present[e] - other[e] - mean, 2);
+  return mean == (double)INFINITY || mean > sqrt(squares / n / (n - 1));
 }
 
 int lab_carry_is_asked(const lab_candidate *c)
@@ -85,7 +103,7 @@ static int try_without(lab_candidate *c, int which, double *error_of, int *any, 
   double sum = INFINITY;
   int status = without ? lab_candidate_leave_out(c, which, without, error) : lab_fail_memory(error, "a candidate");
   if (status == LAB_OK && without->quality.fitted)
-    status = lab_carry_over(without, &sum, error);
+    status = carry_over_all(without, &sum, error);
   if (status == LAB_OK && sum < *error_of && !lab_cpu_is_spent(c->u.until)) {
     *c = *without;
     *error_of = sum;
@@ -102,7 +120,7 @@ int lab_carry_prune(lab_candidate *c, int *any, lab_error *error)
   *any = 0;
   if (c->n_found == 0 || !lab_carry_is_asked(c) || lab_cpu_is_spent(c->u.until))
     return LAB_OK;
-  status = lab_carry_over(c, &sum, error);
+  status = carry_over_all(c, &sum, error);
   for (i = c->n_found - 1; i >= 0 && status == LAB_OK && !lab_cpu_is_spent(c->u.until); i--)
     if (c->found[i].term < 0 || i == c->n_found - 1)
       status = try_without(c, i, &sum, any, error);

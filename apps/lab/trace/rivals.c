@@ -123,18 +123,23 @@ static void note_alike(field *f, const lab_found *before)
     }
 }
 
-/* Which of those that come near carries over best to runs that are left out.  Returns: LAB_OK, LAB_WORLD */
+/* Which of those that come near carries over to runs that are left out: of two the one that fits better, unless the
+ * other errs less there by more than chance.  Returns: LAB_OK, LAB_WORLD */
 static int find_what_carries(const field *f, int *best, lab_error *error)
 {
   const double bar = lab_constant(LAB_RIVAL) * f->of[0].quality.chi2;
-  double least = INFINITY, sum;
-  int i, status = LAB_OK;
+  const int n = f->of[0].u.n_runs;
+  double *present = malloc(2 * (size_t)n * sizeof *present), *other = present + n;
+  int i, status = present ? lab_carry_over(&f->of[0], present, error) : lab_fail_memory(error, "errors of runs");
   *best = 0;
-  for (i = 0; i < f->n && f->of[i].quality.chi2 < bar && status == LAB_OK && !lab_cpu_is_spent(f->base.until); i++) {
-    status = lab_carry_over(&f->of[i], &sum, error);
-    *best = sum < least ? i : *best;
-    least = fmin(least, sum);
+  for (i = 1; i < f->n && f->of[i].quality.chi2 < bar && status == LAB_OK && !lab_cpu_is_spent(f->base.until); i++) {
+    status = lab_carry_over(&f->of[i], other, error);
+    if (status == LAB_OK && lab_carry_is_better(other, present, n)) {
+      *best = i;
+      memcpy(present, other, (size_t)n * sizeof *present);
+    }
   }
+  free(present);
   return status;
 }
 

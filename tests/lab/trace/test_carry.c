@@ -86,20 +86,43 @@ static void test_lab_carry_prune__two_logs__are_not_asked(void **state)
   assert_false(is_pruned((const int[LOGS]){0, 1}, 2));
 }
 
+static double carried(void)
+{
+  double of_run[LOGS], sum = 0;
+  int e;
+  assert_int_equal(lab_carry_over(&c, of_run, &error), LAB_OK);
+  for (e = 0; e < c.u.n_runs; e++)
+    sum += of_run[e];
+  return sum;
+}
+
 /* A run left out has no part in the fit: what it errs by is what a fit to the others alone predicts of it. */
 static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(void **state)
 {
   double sum, of_two;
   (void)state;
   open_logs((const int[LOGS]){1, 1, 1}, LOGS);
-  assert_int_equal(lab_carry_over(&c, &sum, &error), LAB_OK);
+  sum = carried();
   assert_int_equal(lab_unknowns_chi2(&c.u, &of_two, &error), LAB_OK);
   assert_between(sum / of_two, 0.9, 1.2);
   c.u.n_runs = 2;
   lab_unknowns_view(&c.u, 0);
-  assert_int_equal(lab_carry_over(&c, &of_two, &error), LAB_OK);
-  assert_between(of_two / sum, 0.6, 0.72);
+  assert_between(carried() / sum, 0.6, 0.72);
   close_logs(LOGS);
+}
+
+/* One standard error: of differences 1, 1, 1 none; of 3, 0, 0 as much as their mean; what cannot be followed is worse.
+ */
+static void test_lab_carry_is_better__differences_of_runs__are_held_against_their_scatter(void **state)
+{
+  static const double present[] = {10, 20, 30};
+  (void)state;
+  assert_true(lab_carry_is_better((const double[]){9, 19, 29}, present, 3));
+  assert_false(lab_carry_is_better((const double[]){7.1, 20, 30.1}, present, 3));
+  assert_true(lab_carry_is_better((const double[]){7.1, 19.9, 30}, present, 3));
+  assert_false(lab_carry_is_better((const double[]){11, 21, 31}, present, 3));
+  assert_false(lab_carry_is_better((const double[]){(double)INFINITY, 0, 0}, present, 3));
+  assert_true(lab_carry_is_better(present, (const double[]){(double)INFINITY, 0, 0}, 3));
 }
 
 /* Where more than noise is left, a lower BIC is no reason: that of a laminar leak is lower, by 73, and it carries over
@@ -122,6 +145,7 @@ int main(void)
       cmocka_unit_test(test_lab_carry_prune__leak_of_one_log__is_taken_out),
       cmocka_unit_test(test_lab_carry_prune__two_logs__are_not_asked),
       cmocka_unit_test(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do),
+      cmocka_unit_test(test_lab_carry_is_better__differences_of_runs__are_held_against_their_scatter),
       cmocka_unit_test(test_lab_rivals_try__three_logs__keeps_what_carries_over),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
