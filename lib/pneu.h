@@ -740,7 +740,8 @@ void pneu_orifice(const pneu_model *model, int law, pneu_real area, pneu_real p_
  * flow of both is the same. */
 pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area);
 
-/* Chamber volume [m3] at position x [m], 0..stroke, and mass of gas [kg] of a state; [B, Eq. 6]. Exact to rounding. */
+/* Chamber volume [m3] at position x [m], 0..stroke, and mass of gas [kg] of a state; [B, Eq. 6]. Exact to rounding. Left
+ * out is what effects add: the volume of a connecting_tube, and that by which a wall gives way (chamber_creep). */
 pneu_real pneu_volume(const pneu_model *model, pneu_real x);
 pneu_real pneu_mass(const pneu_model *model, const pneu_state *state);
 
