@@ -142,19 +142,34 @@ static void test_blind_draw__any_rig__makes_its_whole_stroke(void **state)
   }
 }
 
+/* What no trial draws, by how it begins, and why. */
+static const struct {
+  const char *name, *why;
+} undrawn[] = {
+    {"positioner", "these rigs have none"},
+    {"start_temperature", "these begin as warm as the room"},
+    {"chamber_creep", "newer than the series of results/, whose draws would all be others"},
+    {"spring_creep", "the same"},
+};
+
+static int is_undrawn(const char *name)
+{
+  int i, any = 0;
+  for (i = 0; i < (int)(sizeof undrawn / sizeof *undrawn); i++)
+    any |= strncmp(name, undrawn[i].name, strlen(undrawn[i].name)) == 0;
+  return any;
+}
+
 static void test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation(void **state)
 {
   int i;
   (void)state;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
     const blind_effect *e = blind_effect_named(pneu_effect_at(i)->name);
-    if (!e && strncmp(pneu_effect_at(i)->name, "positioner", strlen("positioner")) == 0)
-      continue; /* these rigs have none */
-    if (!e && strcmp(pneu_effect_at(i)->name, "start_temperature") == 0)
-      continue; /* these begin as warm as the room */
-    if (!e)
+    if (!e && !is_undrawn(pneu_effect_at(i)->name))
       fail_msg("no blind trial has %s", pneu_effect_at(i)->name);
-    assert_string_equal(e->equation, pneu_effect_at(i)->equation);
+    if (e)
+      assert_string_equal(e->equation, pneu_effect_at(i)->equation);
   }
   for (i = 0; i < blind_listed_count(); i++)
     assert_true(pneu_effect_find(blind_effects[i].name) >= 0);
