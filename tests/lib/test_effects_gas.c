@@ -501,7 +501,7 @@ static void footprint_chamber_creep(void)
   assert_close(s.extra[0], P0 / scale, 0, TOL(1e-15, 1e-6)); /* at rest it has given way */
   s.extra[0] = (pneu_real)(Pa / scale);
   fixture_run(&m, &s, &shut, 0.3, FIXTURE_TOL, NULL);
-  assert_close(((double)s.p + Pa) * (1 + c * (s.extra[0] * scale - Pa)), P0, 0, TOL(1e-7, 1e-4));
+  assert_close(((double)s.p + Pa) * (1 + c * ((double)s.extra[0] * scale - Pa)), P0, 0, TOL(1e-7, 1e-4));
   fixture_run(&m, &s, &shut, 20, FIXTURE_TOL, NULL);
   end = (c * Pa - 1 + sqrt((1 - c * Pa) * (1 - c * Pa) + 4 * c * P0)) / (2 * c); /* P (1 + c (P - Pa)) = P0 */
   assert_close((double)s.p + Pa, end, 0, TOL(1e-7, 1e-4));
