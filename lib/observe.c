@@ -113,6 +113,7 @@ static void sink_in(const pneu_model *model, const pneu_input *input, pneu_state
   pneu_real y[PNEU_STATE_MAX];
   int i;
   for (i = 0; i < ROUNDS && (lower || upper); i++) {
+    pneu_start_effects(model, input, state); /* at rest, what creeps has followed */
     pneu_pack(model, state, y);
     (void)pneu_evaluate(model, state, input, y, PNEU_EXTENT_FORCES, &t, NULL);
     if (i == 0 && (lower ? t.force >= 0 : t.force <= 0))

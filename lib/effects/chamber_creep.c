@@ -1,7 +1,7 @@
 /* A chamber of plastic or rubber gives way slowly: its dead volume V grows by V c (p_y - p_a) with
  * p_y' = (p - p_y)/tau. The state is p_y over the absolute supply pressure; at rest p_y = p. What gives way at once is
  * not seen beside the gas, and counts as volume.
- * Size: 1e-9 1/Pa for a thick wall of plastic, 1e-7 for a hose of rubber, over seconds. */
+ * Size: a printed chamber that leaks has 1.9e-7 1/Pa over 1 s (results/measured), 15 % at its 7.66 bar. */
 #include "../internal.h"
 
 enum { COMPLIANCE, TIME };
@@ -32,7 +32,7 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 const pneu_effect pneu_effect_record_chamber_creep = {
     "chamber_creep",
     "The chamber's wall gives way slowly: its volume grows under pressure.",
-    "standard linear solid: Ferry 1980, Viscoelastic Properties of Polymers, 3rd ed., ch. 1",
+    "standard linear solid: Zener 1948, Elasticity and Anelasticity of Metals",
     "mass",
     "after the chamber is shut the pressure sinks and settles, or rises after venting, though nothing leaks",
     PNEU_STAGE_GEOMETRY,

@@ -41,15 +41,10 @@ static double reciprocal(const about *a)
   return 1 / a->value;
 }
 
-static double friction_rise(const about *a)
+/* What grows with pressure, at the supply pressure. */
+static double at_supply(const about *a)
 {
   return a->value * (double)a->rig.params.supply_pressure;
-}
-
-/* Of the dead volume, at the supply pressure. */
-static double volume_growth(const about *a)
-{
-  return 100 * a->value * (double)a->rig.params.supply_pressure;
 }
 
 /* Of the straight spring's force at full stroke. */
@@ -135,10 +130,10 @@ static const struct {
     {"of_stroke", "%", of_itself, 100, PNEU_PARAM_stroke, 1000},
     {"of_supply", "%", of_itself, 100, PNEU_PARAM_supply_pressure, 1000},
     {"of_friction", "%", of_itself, 100, PNEU_PARAM_dry_friction, 1000},
-    {"of_friction_rise", "%", friction_rise, 100, PNEU_PARAM_dry_friction, 1000},
-    {"friction_rise", "N", friction_rise, 1, NONE, 0},
+    {"of_friction_rise", "%", at_supply, 100, PNEU_PARAM_dry_friction, 1000},
+    {"friction_rise", "N", at_supply, 1, NONE, 0},
     {"of_spring", "%", of_spring, 1, NONE, 0},
-    {"volume_growth", "%", volume_growth, 1, NONE, 0},
+    {"volume_growth", "%", at_supply, 100, NONE, 0},
     {"of_rate", "%", of_itself, 100, PNEU_PARAM_spring_rate, 1000},
     {"fill_drop", "Pa", fill_drop, 1, NONE, 0},
     {"vent_drop", "Pa", vent_drop, 1, NONE, 0},

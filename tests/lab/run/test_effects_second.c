@@ -583,20 +583,24 @@ static void test_lab_response_run__positioner__is_that_of_the_second_implementat
     }
 }
 
-/* Some of the effects at once, at random sizes: order and interplay. */
+/* Some of the effects at once, at random sizes: order and interplay. Effects that are newer than the first sets take
+ * part in the last ones only, lest the first become others. */
 static void test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation(void **state)
 {
-  static const apart most[] = {{2e-6, 3e-9, 3e-15}, {7e-7, 3e-8, 5e-7}, {8e-7, 3e-9, 3e-15}, {2e-8, 3e-8, 7e-10},
-                               {6e-9, 3e-9, 3e-15}, {6e-8, 2e-9, 2e-6}, {2e-6, 4e-7, 3e-15}, {8e-5, 5e-6, 5e-7}};
+  enum { FIRST_SETS = 8, NEWER = 2 };
+  static const apart most[] = {{2e-6, 3e-9, 3e-15}, {7e-7, 6e-7, 2e-7}, {7e-6, 5e-6, 3e-15}, {6e-7, 3e-9, 3e-9},
+                               {7e-6, 6e-7, 3e-15}, {3e-8, 3e-8, 4e-9}, {8e-7, 6e-8, 3e-15}, {3e-8, 2e-8, 8e-9},
+                               {2e-7, 2e-8, 3e-15}, {3e-5, 6e-8, 2e-5}, {2e-6, 6e-8, 3e-15}, {8e-5, 5e-5, 3e-5}};
   uint64_t seed = 5;
   int draw, i;
   (void)state;
   for (draw = 0; draw < COUNT(most); draw++) {
     const int *law = laws[draw % 2];
     run e = random_experiment((uint64_t)(100 + draw), law[0], law[1]);
+    const int n = COUNT(cases) - (draw < FIRST_SETS ? NEWER : 0);
     char what[600];
     int at = snprintf(what, sizeof what, "set %d", draw);
-    for (i = 0; i < COUNT(cases); i++) {
+    for (i = 0; i < n; i++) {
       const double size = fixture_random(&seed, 0.3, 1.5), chance = fixture_random(&seed, 0, 1);
       if (chance > 0.35 || !comparable(&cases[i], law[0]))
         continue;
