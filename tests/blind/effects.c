@@ -35,6 +35,17 @@ static double dead_volume(const second_rig *g)
   return g->dead_volume;
 }
 
+static double spring_rate(const second_rig *g)
+{
+  return g->spring_rate;
+}
+
+/* A wall that gives way by the dead volume itself at supply pressure. */
+static double per_supply(const second_rig *g)
+{
+  return 1 / g->supply;
+}
+
 /* A cubic spring that gives at full stroke what the spring itself gives. */
 static double cubic(const second_rig *g)
 {
@@ -178,6 +189,11 @@ const blind_effect blind_effects[] = {
      .channels = BLIND_P | BLIND_X},
     {"temperature_lag", "sensor", "temperature sensor", "s", 1e-4, 2, .field = AT(temperature_lag),
      .channels = BLIND_P | BLIND_X | BLIND_T, .setting = BLIND_FILM},
+    /* what gives way slowly */
+    {"chamber_creep", "mass", "volume", "1/Pa", 1e-3, 0.3, per_supply, .field = AT(growth),
+     .shape = {{"volume_time", AT(growth_time), 0.3, 5, blind_filling_time}}},
+    {"spring_creep", "force", "creep", "N/m", 1e-3, 0.5, spring_rate, .field = AT(creep),
+     .shape = {{"creep_time", AT(creep_time), 0.3, 5, blind_filling_time}}},
 
     /* not in the catalogue */
     {"unlisted:friction_bump", "force", "", "N", 2e-3, 2, dry_friction, .field = AT(bump),
