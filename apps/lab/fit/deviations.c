@@ -146,8 +146,15 @@ static int first_told(const void *a, const void *b)
   return x->rank != y->rank ? x->rank - y->rank : (x->size < y->size) - (x->size > y->size);
 }
 
-int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, lab_deviations *all,
-                        lab_error *error)
+/* Whether a value is to be told: where a model lacks something, one that goes to its end or far from its sheet makes up
+ * for that. */
+static int is_trusted(const lab_fit_result *fit, int j, double tolerances, double trusted)
+{
+  return !isfinite(trusted) || (fit->state[j] == LAB_STATE_FREE && tolerances < trusted);
+}
+
+int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, double trusted,
+                        lab_deviations *all, lab_error *error)
 {
   ranked *found = calloc((size_t)u->n + 1, sizeof *found);
   const double limit = told_up_to(rig, u, fit);
@@ -162,7 +169,7 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
     all->condition = all->condition == LAB_CONDITION_DEVIATES ? all->condition : (int)LAB_CONDITION_AS_DECLARED;
     found[n].size = compare(rig, u, fit, j, d);
     found[n].rank = rank_of(&u->unknown[j], d);
-    if (chance(u, fit, j) > limit)
+    if (chance(u, fit, j) > limit || !is_trusted(fit, j, found[n].size, trusted))
       continue;
     if (d->beyond)
       all->condition = LAB_CONDITION_DEVIATES;

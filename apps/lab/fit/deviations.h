@@ -40,13 +40,14 @@ typedef struct lab_deviations {
 /* What a fit says of the declared values: those whose interval leaves out what was declared, of which one in twenty is
  * as declared all the same (Benjamini and Hochberg 1995), and whether one of them is beyond its tolerance. Of a value
  * that is another from some time on, the later one counts.
- * In:      rig  as declared
- *          u    fitted, with what is held
- *          fit  its intervals
+ * In:      rig      as declared
+ *          u        fitted, with what is held
+ *          fit      its intervals
+ *          trusted  tolerances up to which a value is told unless it is at its bound; INFINITY: all are
  * Out:     all
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, lab_deviations *all,
-                        lab_error *error);
+int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, double trusted,
+                        lab_deviations *all, lab_error *error);
 
 /* Intervals are those of a parabola about the fit. Where chi-square rises less than that on the way to the declared
  * value, the interval of a value that would be told is made wider until the parabola rises no more.

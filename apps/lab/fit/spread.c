@@ -13,6 +13,9 @@
  * power of two thirds. */
 static const double floor_of_singular = 10 * 2.154434690031884e-7;
 
+/* Chi-square over degrees of freedom up to which a model leaves noise. */
+static const double noise = 1.05 * 1.05;
+
 /* A fit where it ended. Slopes are in units of what matters. */
 typedef struct place {
   const lab_fit_problem *problem;
@@ -250,6 +253,56 @@ static void fill_covariance(const place *at, const spectrum *s, double variance,
     }
 }
 
+/* ---- What is left in stretches ---- */
+
+/* How the fitted value of member a follows the data: its change is the product of this and of Q' dr. */
+static void find_influence(const spectrum *s, int a, double *influence)
+{
+  int d, l;
+  memset(influence, 0, (size_t)s->k * sizeof *influence);
+  for (d = 0; d < s->k; d++)
+    for (l = 0; l < s->k && s->singular[d] > floor_of_singular; l++)
+      influence[l] += s->V[a][d] * s->R[d][l] / (s->singular[d] * s->singular[d] * s->length[a]);
+}
+
+enum {
+  STRETCHES = 64, /* of all residuals */
+  SHORTEST = 8    /* residuals of one */
+};
+
+/* Variance in z of member a where what is left comes in stretches of a sign: that of the sum over stretches, each taken
+ * for one value (Liang and Zeger 1986). */
+static double variance_by_stretches(const place *at, const spectrum *s, int a)
+{
+  const size_t m = at->problem->m;
+  double influence[LAB_FIT_MAX], sum = 0;
+  int i, l;
+  find_influence(s, a, influence);
+  for (i = 0; i < STRETCHES; i++) {
+    const size_t first = m * (size_t)i / STRETCHES, n = m * (size_t)(i + 1) / STRETCHES - first;
+    double change = 0;
+    for (l = 0; l < s->k; l++)
+      change += influence[l] * lab_dot(s->column[l] + first, at->r + first, n);
+    sum += change * change;
+  }
+  return sum;
+}
+
+/* Where more than noise is left the covariance grows by as much as stretches ask for. */
+static void widen_by_stretches(const place *at, const spectrum *s, lab_fit_result *result)
+{
+  double wider[LAB_FIT_MAX];
+  int a, b;
+  for (a = 0; a < s->k; a++) {
+    const int i = s->of[a];
+    const double own = result->covariance[i][i] / (at->unit[i] * at->unit[i]);
+    wider[a] = own > 0 ? sqrt(fmax(1, variance_by_stretches(at, s, a) / own)) : 1;
+  }
+  for (a = 0; a < s->k; a++)
+    for (b = 0; b < s->k; b++)
+      result->covariance[s->of[a]][s->of[b]] *= wider[a] * wider[b];
+}
+
 static void fill_interval(const place *at, int j, lab_fit_result *result)
 {
   const double half = lab_student_quantile(0.975, (double)INFINITY) * sqrt(result->covariance[j][j]);
@@ -367,6 +420,8 @@ static void describe(place *at, lab_fit_result *result)
   result->reduced_chi2 = degrees > 0 ? at->chi2 / degrees : (double)NAN;
   variance = degrees > 0 ? fmax(1, result->reduced_chi2) : 1;
   fill_covariance(at, &s, variance, result);
+  if (variance > noise && at->problem->m >= STRETCHES * SHORTEST)
+    widen_by_stretches(at, &s, result);
   fill_intervals(at, &s, variance, result);
   remark_free(at, result);
   clip_intervals(at, result);

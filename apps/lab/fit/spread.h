@@ -1,5 +1,6 @@
 /* What the data say about each unknown of a fit: intervals, covariance, and in words what they do not determine. The
- * residuals are in units of the noise; where more than noise is left, intervals are wider by its root mean square.
+ * residuals are in units of the noise; where more than noise is left, intervals are wider by its root mean square, or
+ * by what its stretches of one sign ask for, if that is more (Liang and Zeger 1986, Biometrika 73:13).
  *
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_SPREAD_H

@@ -199,16 +199,6 @@ static int decline(lab_unknowns *u, lab_search_result *result, lab_error *error)
   return lab_unknowns_intervals(u, &result->fit, error);
 }
 
-/* Only deviations that begin within the log. */
-static void keep_onsets(const lab_report *report, lab_deviations *all)
-{
-  int i, n = 0;
-  for (i = 0; i < all->n; i++)
-    if (lab_report_onset(report, all->of[i].param))
-      all->of[n++] = all->of[i];
-  all->n = n;
-}
-
 static int is_listed(const lab_deviations *all, const lab_deviation *d)
 {
   int i, any = 0;
@@ -244,17 +234,16 @@ static void remark_moved(lab_answer *a)
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
+  const lab_search_result *r = &a->now.result;
+  const int undecided = r->verdict == LAB_VERDICT_UNDECIDED;
   lab_deviations *all = &a->report.deviations;
-  if (lab_deviations_find(&a->rig, &a->now.completed, &a->now.result.fit, all, error))
+  if (lab_deviations_find(&a->rig, &a->now.completed, &r->fit, undecided ? lab_constant(LAB_FAR_OFF) : (double)INFINITY, all,
+                          error))
     return error->status;
-  if (a->now.result.verdict == LAB_VERDICT_UNDECIDED && all->condition == LAB_CONDITION_AS_DECLARED)
+  if (undecided && all->condition == LAB_CONDITION_AS_DECLARED)
     all->condition = LAB_CONDITION_CANNOT_TELL;
-  if (lab_values_stand_in(a->now.result.verdict, a->now.result.fit.reduced_chi2)) {
-    all->condition = LAB_CONDITION_CANNOT_TELL;
-    keep_onsets(&a->report, all);
-  } else {
+  if (!lab_values_stand_in(r->verdict, r->fit.reduced_chi2))
     remark_moved(a);
-  }
   lab_unknowns_settle(&a->now.completed, &a->now.result.fit);
   return LAB_OK;
 }

@@ -554,7 +554,7 @@ static void add_widening(const lab_search_result *r, cJSON *list)
   lab_json_say(
       list,
       r->verdict == LAB_VERDICT_UNDECIDED || r->verdict == LAB_VERDICT_UNLISTED
-          ? "More than noise is left, so intervals are %.2g times as wide as noise alone would make them."
+          ? "More than noise is left, so intervals are at least %.2g times as wide as noise alone would make them."
       : lab_residual_stats_white(r->left[LAB_STAGE_AFTER])
           ? "The residual is white, so the sensors seem to be %.2g times as noisy as the rig file says. The intervals "
             "allow for that."

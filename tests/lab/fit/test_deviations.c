@@ -41,7 +41,7 @@ static void test_lab_deviations_find__begins_within_the_log__is_told_first(void 
   put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_dry_friction, 3 * (double)rig.params.dry_friction, 480);
   put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_spring_rate, 1.5 * (double)rig.params.spring_rate, 4e5);
   put(&u, &fit, LAB_UNKNOWN_ONSET, 0, 0.96 * supply, supply);
-  assert_int_equal(lab_deviations_find(&rig, &u, &fit, &all, &error), LAB_OK);
+  assert_int_equal(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error), LAB_OK);
   assert_int_equal(all.n, 4);
   assert_string_equal(all.of[0].name, "supply_pressure");
   assert_string_equal(all.of[1].name, "spring_rate");
@@ -77,7 +77,7 @@ static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void *
     snprintf(u.unknown[0].unit, sizeof u.unknown[0].unit, "s");
     put(&u, &fit, LAB_UNKNOWN_INSTANT, 0, 0, 0);
     u.unknown[1].upper = 0.03;
-    assert_int_equal(lab_deviations_find(&rig, &u, &fit, &all, &error), LAB_OK);
+    assert_int_equal(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error), LAB_OK);
     assert_int_equal(all.n, k != 0);
   }
 }
@@ -113,9 +113,35 @@ static void test_lab_deviations_find__several_are_off__small_ones_are_told_with_
     u.declared = rig.params;
     for (i = 0; i < 4; i++)
       put_off(&rig, &u, &fit, params[i], off[k][i]);
-    assert_int_equal(lab_deviations_find(&rig, &u, &fit, &all, &error), LAB_OK);
+    assert_int_equal(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error), LAB_OK);
     assert_int_equal(all.n, told[k]);
   }
+}
+
+/* A dead volume a tenth off is well within ten tolerances of 30 %; friction of twelve times its sheet is 22 of 50 %, and
+ * the preload is at its bound. */
+static void test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told(void **state)
+{
+  static const double trusted[] = {INFINITY, 10};
+  static const int told[] = {3, 1};
+  static lab_unknowns u;
+  static lab_fit_result fit;
+  static lab_deviations all;
+  static lab_rig rig;
+  int k;
+  (void)state;
+  lab_rig_default(&rig);
+  u.declared = rig.params;
+  put_off(&rig, &u, &fit, PNEU_PARAM_dead_volume, 5);
+  put_off(&rig, &u, &fit, PNEU_PARAM_spring_preload, 5);
+  fit.state[1] = LAB_STATE_AT_UPPER;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_dry_friction, 12 * (double)rig.params.dry_friction, 480);
+  for (k = 0; k < 2; k++) {
+    assert_int_equal(lab_deviations_find(&rig, &u, &fit, trusted[k], &all, &error), LAB_OK);
+    assert_int_equal(all.n, told[k]);
+  }
+  assert_string_equal(all.of[0].name, "dead_volume");
 }
 
 int main(void)
@@ -124,6 +150,7 @@ int main(void)
       cmocka_unit_test(test_lab_deviations_find__begins_within_the_log__is_told_first),
       cmocka_unit_test(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger),
       cmocka_unit_test(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them),
+      cmocka_unit_test(test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

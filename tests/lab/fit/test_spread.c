@@ -217,6 +217,34 @@ static int quarter(void *data, const double *theta, double *r, lab_error *e)
   return LAB_OK;
 }
 
+/* A mean of 64 stretches of `size` values that differ by sqrt(3) times their noise from stretch to stretch, up and down:
+ * as if there were 64 values, its variance is sum b^2/64^2 = 3/64; value by value it would be 3/(64 size). */
+static int mean_residuals(void *context, const double *theta, double *r, lab_error *e)
+{
+  const int size = *(const int *)context;
+  int i;
+  (void)e;
+  for (i = 0; i < 64 * size; i++)
+    r[i] = theta[0] - 2 - (i / size % 2 ? 1 : -1) * sqrt(3);
+  return LAB_OK;
+}
+
+static void test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_stretches(void **state)
+{
+  static int sizes[] = {8, 50};
+  double theta[MOST];
+  size_t k;
+  (void)state;
+  for (k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+    trial c = {.m = (size_t)(64 * sizes[k]), .model = mean_residuals, .data = &sizes[k], .step = 1e-3};
+    lab_fit_result result;
+    add(&c, "mean", 0.5, -10, 10);
+    result = fitted(&c, theta);
+    assert_close(result.deviation[0], sqrt(3.0 / 64), 0, 1e-8);
+    assert_close(result.high[0] - result.low[0], 2 * 1.959963984540054 * result.deviation[0], 0, 1e-8);
+  }
+}
+
 static void test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says(void **state)
 {
   static trial c = {.m = MOST, .model = quarter, .step = 1e-3};
@@ -462,6 +490,7 @@ int main(void)
       cmocka_unit_test(test_student_quantile__tables__agree),
       cmocka_unit_test(test_lab_fit_spread__line__weighted_and_normal),
       cmocka_unit_test(test_lab_fit_spread__more_left_than_noise__wider_by_its_size),
+      cmocka_unit_test(test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_stretches),
       cmocka_unit_test(test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says),
       cmocka_unit_test(test_lab_fit_spread__bound_active__is_said_and_the_other_alone_is_free),
       cmocka_unit_test(test_lab_fit_spread__bound_active__interval_on_one_side),

@@ -64,7 +64,7 @@ static void close_loop(const second_rig *first, const second_rig *later, double 
   lab_search_options_default(&options);
   options.max_effects = 1;
   assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
-  assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, &all, &error), LAB_OK);
+  assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error), LAB_OK);
 }
 
 static void close_log(void)

@@ -81,7 +81,7 @@ static void run_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, 
   open_log(g, u_cmd, u, all != NULL);
   assert_int_equal(lab_search_run(u, &options, result, &error), LAB_OK);
   if (all)
-    assert_int_equal(lab_deviations_find(&rig, u, &result->fit, all, &error), LAB_OK);
+    assert_int_equal(lab_deviations_find(&rig, u, &result->fit, INFINITY, all, &error), LAB_OK);
   close_log();
 }
 
