@@ -237,8 +237,8 @@ static int conclude(lab_answer *a, lab_error *error)
   const lab_search_result *r = &a->now.result;
   const int undecided = r->verdict == LAB_VERDICT_UNDECIDED;
   lab_deviations *all = &a->report.deviations;
-  if (lab_deviations_find(&a->rig, &a->now.completed, &r->fit, undecided ? lab_constant(LAB_FAR_OFF) : (double)INFINITY, all,
-                          error))
+  if (lab_deviations_find(&a->rig, &a->now.completed, &r->fit, undecided ? lab_constant(LAB_FAR_OFF) : (double)INFINITY,
+                          all, error))
     return error->status;
   if (undecided && all->condition == LAB_CONDITION_AS_DECLARED)
     all->condition = LAB_CONDITION_CANNOT_TELL;

@@ -79,6 +79,11 @@ static double vent_drop(const about *a)
   return a->value * full_flow(a, (double)a->rig.params.vent_area);
 }
 
+static double growth_at_supply(const about *a)
+{
+  return at_supply(a) * (double)a->rig.params.dead_volume;
+}
+
 /* What leaves a chamber at supply pressure while both orifices are shut [kg/s]. */
 static double outflow(const lab_rig *rig)
 {
@@ -133,7 +138,8 @@ static const struct {
     {"of_friction_rise", "%", at_supply, 100, PNEU_PARAM_dry_friction, 1000},
     {"friction_rise", "N", at_supply, 1, NONE, 0},
     {"of_spring", "%", of_spring, 1, NONE, 0},
-    {"volume_growth", "%", at_supply, 100, NONE, 0},
+    {"volume_growth", "m3", growth_at_supply, 1, NONE, 0},
+    {"of_volume", "%", at_supply, 100, NONE, 0},
     {"of_rate", "%", of_itself, 100, PNEU_PARAM_spring_rate, 1000},
     {"fill_drop", "Pa", fill_drop, 1, NONE, 0},
     {"vent_drop", "Pa", vent_drop, 1, NONE, 0},

@@ -41,8 +41,9 @@ static void test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence(void
   assert_null(pneu_effect_sentence(PNEU_EFFECT_COUNT));
 }
 
-/* Supply 4 bar, 25 degC, fill orifice 0.893 mm2, stroke 20 mm, spring 400 N/mm, 480 N of friction. Choked flow is
- * 0.0404 sqrt(K s2/m2) p/sqrt(T) per area: 0.013 mm2 x 501.3 kPa x 0.0404/sqrt(298.15 K) is 15.2 mg/s, 42.5 Nl/h. */
+/* Supply 4 bar, 25 degC, dead volume 2 mL, fill orifice 0.893 mm2, stroke 20 mm, spring 400 N/mm, 480 N of friction.
+ * Choked flow is 0.0404 sqrt(K s2/m2) p/sqrt(T) per area: 0.013 mm2 x 501.3 kPa x 0.0404/sqrt(298.15 K) is 15.2
+ * mg/s, 42.5 Nl/h. */
 static void test_lab_effect_sentence__sizes__by_hand(void **state)
 {
   static const struct {
@@ -63,6 +64,9 @@ static void test_lab_effect_sentence__sizes__by_hand(void **state)
       {PNEU_EFFECT_supply_droop, 1e7, "The supply gives way: it loses 10 kPa at the full flow of the fill orifice."},
       {PNEU_EFFECT_laminar_leak, 1e-16,
        "The chamber leaks through a narrow gap: 67 Nl/h at 4 bar supply, 2.3 % of what the fill orifice passes."},
+      {PNEU_EFFECT_chamber_creep, 1e-7,
+       "The chamber's wall gives way slowly: at the supply pressure its volume grows by 0.080 cm³, 4.0 % of the "
+       "dead volume."},
       {PNEU_EFFECT_wall_temperature, 0.01, "The wall warms and cools with the gas: its heat capacity is 100 J/K."},
   };
   size_t i;
