@@ -1,8 +1,7 @@
 #!/bin/sh
 # Load the public measurements that the study compares with, and check each by its SHA-256.
 #
-#   study/measured/fetch.sh [FOLDER [SET...]]      default: folder measured, every set
-#   MEASURED=measured ./sweep hypotheses.cfg       then uses them
+#   study/measured/fetch.sh [FOLDER [SET...]]      default: folder ../shared/data, where make looks; every set
 #
 # Sets, their authors and their terms:
 #   vessel-air-charge-discharge     HydDown by A. Andreasen, MIT. Air and nitrogen leave a vessel; points that he read
@@ -30,7 +29,7 @@
 set -eu
 
 here=$(dirname "$0")
-folder=${1:-measured}
+folder=${1:-../shared/data}
 [ $# -gt 0 ] && shift
 from=${FETCH_FROM:-https://raw.githubusercontent.com}
 tab=$(printf '\t')
