@@ -1,5 +1,6 @@
 /* Rubber, cloth and plastic give way slowly: beside the spring a second one of stiffness k, in series with a dashpot,
- * so that the force is k (x - y) with y' = (x - y)/tau. The state is y over the stroke; at rest y = x.
+ * so that the force is k (x - y) with y' = (x - y)/tau. The state is y over the stroke; at rest y = x. In less than
+ * 0.2 s it is damping.
  * Size: of soft bellows 0.13 times the spring's rate over 4 s, of a soft arm 1.4 times over 0.6 s
  * (results/measured). */
 #include "../internal.h"
@@ -8,7 +9,7 @@ enum { STIFFNESS, TIME };
 
 static const pneu_param_info params[] = {
     {"creep_stiffness", "N/m", 0, PNEU_C(1e9), PNEU_C(1e4), 0, 0, "by which quick strokes are stiffer than slow ones"},
-    {"creep_time", "s", PNEU_C(0.01), PNEU_C(1e5), PNEU_C(10.0), PNEU_C(10.0), 1,
+    {"creep_time", "s", PNEU_C(0.2), PNEU_C(1e5), PNEU_C(10.0), PNEU_C(10.0), 1,
      "time constant with which that dies out"}};
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
