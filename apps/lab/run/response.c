@@ -219,8 +219,7 @@ static int stretch(engine *e, pneu_state *state, double duration, lab_error *err
   }
   pneu_options_default(&options);
   options.tol = e->tol;
-  if (max_steps > 0)
-    options.max_steps = max_steps;
+  options.max_steps = (int)fmin((max_steps > 0 ? max_steps : options.max_steps) * (1 + duration / 10), 1e9);
   status = pneu_run(e->model, state, sampler->input, duration, &options,
                     e->vary || sampler->next < sampler->n ? &observer : NULL, &e->work);
   if (status == PNEU_OK)

@@ -42,7 +42,8 @@ typedef struct lab_response_options {
   int integrator; /* enum lab_integrator */
   double tol; /* relative to full scale: 1e-4 .. 1e-10; 0: 1e-7, that of `simulate` and of errors on held-out logs */
   int shown_only; /* not 0: only p, x, T and force of the trace are filled, in a third of the time */
-  int max_steps;  /* of the stepper from one change of input to the next; 0: as pneu_options_default */
+  int max_steps;  /* of the stepper after a change of input, and in every ten seconds from there on; 0: as
+                     pneu_options_default */
 } lab_response_options;
 
 /* What is run. */

@@ -9,7 +9,7 @@
 #include "response.h"
 #include "start.h"
 
-static const int most_steps = 20000; /* from one change of input to the next: a model that takes more chatters */
+static const int most_steps = 20000; /* in ten seconds under one command: a model that takes more chatters */
 static const double pi = 3.141592653589793;
 
 static int is_predicted(int channel)

@@ -185,6 +185,56 @@ static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
   check_ramp(&m);
 }
 
+/* A valve signature: an actuator of 677 cm2 follows a set position that rises in 100 s, in and out of the dead band of
+ * its positioner some ninety times a second. A fit lets a model take 20000 steps in ten seconds. */
+static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(void **state)
+{
+  static const double row[] = {0, 100}, at[] = {0, 20, 40, 60, 80, 100};
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_model m;
+  pneu_input input[2];
+  pneu_state start;
+  pneu_stats stats = {0};
+  lab_schedule schedule = {0};
+  lab_simulation task = {.start = &start, .schedule = &schedule, .t = at, .n = 6, .t_end = 100, .stats = &stats};
+  lab_response r;
+  lab_error error;
+  int i;
+  (void)state;
+  if (absent("positioner"))
+    skip();
+  p.area = (pneu_real)677e-4;
+  p.dead_volume = (pneu_real)1.2e-3;
+  p.stroke = (pneu_real)38e-3;
+  p.spring_rate = (pneu_real)145e3;
+  p.spring_preload = (pneu_real)10.5e-3;
+  p.moving_mass = 8;
+  p.dry_friction = 350;
+  p.damping = 2500;
+  p.supply_pressure = (pneu_real)2e5;
+  p.fill_area = p.vent_area = (pneu_real)4.5e-6;
+  fixture_set(&p, "gain", 20);
+  fixture_set(&p, "dead_band", 0.003);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  for (i = 0; i < 2; i++) {
+    input[i] = fixture_input(&m, i);
+    input[i].set_position = 1;
+    input[i].u_rate = (pneu_real)(i ? 0 : 0.01);
+  }
+  start = fixture_rest(&m, 0, 0, &input[0]);
+  schedule.n = 2;
+  schedule.t = row;
+  schedule.input = input;
+  task.options = (lab_response_options){.max_steps = 20000};
+  if (lab_response_run(&m, &task, &r, &error))
+    fail_msg("%s", error.text);
+  check_note("%ld steps", stats.steps);
+  assert_true(stats.steps > 20000);
+  for (i = 1; i < 5; i++)
+    assert_close(r.x[i], 0.01 * at[i] * 38e-3, 0.006 * 38e-3, 0);
+  lab_response_free(&r);
+}
+
 /* Position as it was `skew` ago; before the start, as at the start; a younger one from beyond the end of the log. */
 static void check_skew(double skew, int integrator)
 {
@@ -411,6 +461,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_response_run__ramp__is_a_staircase_of_small_steps),
       cmocka_unit_test(test_lab_response_run__ramp_that_comes_late__the_same),
+      cmocka_unit_test(test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed),
       cmocka_unit_test(test_lab_response_run__dead_time__delays_the_command_and_nothing_else),
       cmocka_unit_test(test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them),
       cmocka_unit_test(test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order),
