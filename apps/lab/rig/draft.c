@@ -416,16 +416,18 @@ static void put_group(FILE *file, const draft *d, const char *group)
   fputs("};\n", file);
 }
 
-/* The laws. Unless the sheet says which, flow is that of a real orifice: of a nozzle, or where the sheet sizes orifices
- * that of ISO 6358, whose b of 0.3 is within 4.2 % of IEC 60534-2-1; a nozzle passes up to 17 % more where pressures
- * are near. */
+/* Whether the flow law is the draft's: that of ISO 6358, whose b of 0.3 is within 4.2 % of IEC 60534-2-1. A nozzle passes
+ * up to 17 % more where pressures are near, which a log tells as another b; what the law of a nozzle lacks it does not. */
+static int drafts_flow(const draft *d)
+{
+  return !find_word(d, "laws", "flow");
+}
+
 static void put_laws(FILE *file, const draft *d)
 {
-  const int sized = find_word(d, "transducer.fill", NULL) || find_word(d, "transducer.vent", NULL);
-  const char *flow = sized ? "flow = \"iso6358\"; " : "flow = \"choked\"; ";
   char members[SHEET_TEXT] = "";
   put_members(d, "laws", members, sizeof members);
-  fprintf(file, "laws = { %s%s};\n", find_word(d, "laws", "flow") ? "" : flow, members);
+  fprintf(file, "laws = { %s%s};\n", drafts_flow(d) ? "flow = \"iso6358\"; " : "", members);
 }
 
 /* To be away from a start of the fit, up to ten times, or from a default that nobody knows, is no deviation. Only what
@@ -440,6 +442,8 @@ static void put_tolerances(FILE *file, const draft *d, const int fitted[NEEDED])
     fprintf(file, "%s %s = \"%s %%\";", any++ ? "" : "tolerance = {", lab_param_info(needed[i]).name,
             fitted[i] ? "1000" : "100");
   }
+  if (drafts_flow(d) && !is_param_said(d, PNEU_PARAM_critical_ratio))
+    fprintf(file, "%s critical_ratio = \"100 %%\";", any++ ? "" : "tolerance = {");
   if (any)
     fputs(" }; // starts and defaults: to be away from them is no deviation\n", file);
 }

@@ -57,7 +57,8 @@ static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **st
   assert_close((double)rig.params.dry_friction, 500, 0, 0.5);
   assert_close((double)rig.params.fill_area, 0.893e-6, 0, 0.3);
   assert_close((double)rig.params.vent_area, 0.893e-6, 0, 0.3);
-  assert_int_equal(rig.laws.flow, PNEU_FLOW_CHOKED);
+  assert_int_equal(rig.laws.flow, PNEU_FLOW_ISO6358);
+  assert_contains(text, " critical_ratio = \"100 %\";"); /* a nozzle has 0.528 */
   assert_true(is_fitted(&rig, "spring_rate") && is_fitted(&rig, "fill_area") && is_fitted(&rig, "dry_friction"));
   assert_contains(text, "area = \"400 cm^2\"; // sheet");
   assert_contains(text, "1001 rows in 10 s, one each 0.01 s (100 Hz)");
@@ -83,6 +84,7 @@ static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **stat
   assert_int_equal(rig.laws.flow, PNEU_FLOW_ISO6358);
   assert_false(is_fitted(&rig, "spring_rate") || is_fitted(&rig, "fill_area") || is_fitted(&rig, "vent_area"));
   assert_true(is_fitted(&rig, "dry_friction"));
+  assert_null(strstr(text, " critical_ratio = \"100 %\";"));
   free(text);
 }
 
