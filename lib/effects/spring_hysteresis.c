@@ -1,12 +1,12 @@
 /* Friction within the spring (coils, diaphragm fabric) that builds up over a travel d and keeps its sense at rest:
- * force F_h z with z' = (v - |v| z)/d, -1 < z < 1. */
+ * force F_h z with z' = (v - |v| z)/d, -1 < z < 1. What builds up in less than 0.1 mm is dry friction. */
 #include "../internal.h"
 
 enum { FORCE, LENGTH };
 
 static const pneu_param_info params[] = {
     {"hysteresis_force", "N", 0, PNEU_C(1e6), PNEU_C(200.0), 0, 0, "half width of the loop, fully built up"},
-    {"hysteresis_length", "m", PNEU_C(1e-6), PNEU_C(10.0), PNEU_C(1e-3), PNEU_C(1e-3), 1,
+    {"hysteresis_length", "m", PNEU_C(1e-4), PNEU_C(10.0), PNEU_C(1e-3), PNEU_C(1e-3), 1,
      "travel in which it builds up"}};
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)

@@ -1,11 +1,12 @@
 /* Stribeck: dry friction is higher near rest, F(v) = F (1 + s exp(-(v/v_s)^2)). The same level must be
- * overcome to break away. */
+ * overcome to break away. Up to 2.5 times the friction while sliding is asked for: more, at all speeds of a log, is
+ * more friction. */
 #include "../internal.h"
 
 enum { EXCESS, VELOCITY };
 
 static const pneu_param_info params[] = {
-    {"stribeck_excess", "1", 0, 10, PNEU_C(0.3), 0, 0, "static over Coulomb friction, less one"},
+    {"stribeck_excess", "1", 0, PNEU_C(1.5), PNEU_C(0.3), 0, 0, "static over Coulomb friction, less one"},
     {"stribeck_velocity", "m/s", PNEU_C(1e-5), 1, PNEU_C(1e-3), PNEU_C(1e-3), 1,
      "velocity at which the excess has fallen to 1/e"}};
 

@@ -416,8 +416,9 @@ static void put_group(FILE *file, const draft *d, const char *group)
   fputs("};\n", file);
 }
 
-/* Whether the flow law is the draft's: that of ISO 6358, whose b of 0.3 is within 4.2 % of IEC 60534-2-1. A nozzle passes
- * up to 17 % more where pressures are near, which a log tells as another b; what the law of a nozzle lacks it does not. */
+/* Whether the flow law is the draft's: that of ISO 6358, whose b of 0.3 is within 4.2 % of IEC 60534-2-1. A nozzle
+ * passes up to 17 % more where pressures are near, which a log tells as another b; what the law of a nozzle lacks it
+ * does not. */
 static int drafts_flow(const draft *d)
 {
   return !find_word(d, "laws", "flow");
