@@ -1,6 +1,6 @@
 /* Stribeck: dry friction is higher near rest, F(v) = F (1 + s exp(-(v/v_s)^2)). The same level must be
- * overcome to break away. Up to 2.5 times the friction while sliding is asked for: more, at all speeds of a log, is
- * more friction. */
+ * overcome to break away. Up to 2.5 times the friction while sliding is asked for, by judgement: more, at all speeds of
+ * a log, is more friction. */
 #include "../internal.h"
 
 enum { EXCESS, VELOCITY };

@@ -13,7 +13,7 @@
  * power of two thirds. */
 static const double floor_of_singular = 10 * 2.154434690031884e-7;
 
-/* Chi-square over degrees of freedom up to which a model leaves noise. */
+/* Chi-square over degrees of freedom up to which a model leaves noise: NOISE_SLIP of the search. */
 static const double noise = 1.05 * 1.05;
 
 /* A fit where it ended. Slopes are in units of what matters. */
@@ -270,19 +270,27 @@ enum {
   SHORTEST = 8    /* residuals of one */
 };
 
-/* Variance in z of member a where what is left comes in stretches of a sign: that of the sum over stretches, each taken
- * for one value (Liang and Zeger 1986). */
-static double variance_by_stretches(const place *at, const spectrum *s, int a)
+/* Out: along  Q' r of each stretch */
+static void sum_stretches(const place *at, const spectrum *s, double along[STRETCHES][LAB_FIT_MAX])
 {
   const size_t m = at->problem->m;
-  double influence[LAB_FIT_MAX], sum = 0;
   int i, l;
-  find_influence(s, a, influence);
   for (i = 0; i < STRETCHES; i++) {
     const size_t first = m * (size_t)i / STRETCHES, n = m * (size_t)(i + 1) / STRETCHES - first;
-    double change = 0;
     for (l = 0; l < s->k; l++)
-      change += influence[l] * lab_dot(s->column[l] + first, at->r + first, n);
+      along[i][l] = lab_dot(s->column[l] + first, at->r + first, n);
+  }
+}
+
+/* Variance in z of member a where what is left comes in stretches of a sign: that of the sum over stretches, each taken
+ * for one value (Liang and Zeger 1986). */
+static double variance_by_stretches(const spectrum *s, double along[STRETCHES][LAB_FIT_MAX], int a)
+{
+  double influence[LAB_FIT_MAX], sum = 0;
+  int i;
+  find_influence(s, a, influence);
+  for (i = 0; i < STRETCHES; i++) {
+    const double change = lab_dot(influence, along[i], (size_t)s->k);
     sum += change * change;
   }
   return sum;
@@ -291,12 +299,13 @@ static double variance_by_stretches(const place *at, const spectrum *s, int a)
 /* Where more than noise is left the covariance grows by as much as stretches ask for. */
 static void widen_by_stretches(const place *at, const spectrum *s, lab_fit_result *result)
 {
-  double wider[LAB_FIT_MAX];
+  double wider[LAB_FIT_MAX], along[STRETCHES][LAB_FIT_MAX];
   int a, b;
+  sum_stretches(at, s, along);
   for (a = 0; a < s->k; a++) {
     const int i = s->of[a];
     const double own = result->covariance[i][i] / (at->unit[i] * at->unit[i]);
-    wider[a] = own > 0 ? sqrt(fmax(1, variance_by_stretches(at, s, a) / own)) : 1;
+    wider[a] = own > 0 ? sqrt(fmax(1, variance_by_stretches(s, along, a) / own)) : 1;
   }
   for (a = 0; a < s->k; a++)
     for (b = 0; b < s->k; b++)
