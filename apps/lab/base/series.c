@@ -22,7 +22,7 @@ void lab_series_rows(FILE *file, const lab_series_column *column, int n_columns,
   int i;
   for (row = 0; row < n_rows; row++)
     for (i = 0; i < n_columns; i++) {
-      write_number(file, column[i].scale * column[i].value[row]);
+      write_number(file, column[i].scale * column[i].value[row] + column[i].offset);
       fputc(i + 1 < n_columns ? ',' : '\n', file);
     }
 }

@@ -8,8 +8,9 @@
 
 typedef struct lab_series_column {
   const char *title;   /* "p [kPa]" */
-  double scale;        /* what is written is scale * value */
+  double scale;        /* what is written is scale * value + offset */
   const double *value; /* as many as there are rows */
+  double offset;
 } lab_series_column;
 
 /* Write the header line, titles joined by commas. Errors of the stream are left to lab_out_close. */

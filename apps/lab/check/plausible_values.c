@@ -378,12 +378,19 @@ int lab_check_unused(const lab_log_view *s, lab_check_result *f)
   return 0;
 }
 
+/* Whether the stem begins off its lower stop, where no chamber without pressure holds it. */
+static int begins_off_stop(const lab_log_view *s)
+{
+  const double off = 0.05 * (double)s->rig->params.stroke;
+  return s->y[LAB_CHANNEL_X] && off > 0 && lab_log_view_value(s->y[LAB_CHANNEL_X], 0, s->n, 0) > off;
+}
+
 int lab_check_absolute(const lab_log_view *s, lab_check_result *f)
 {
   const double ambient = (double)s->rig->params.ambient_pressure;
   const double start = lab_log_view_value(s->y[LAB_CHANNEL_P], 0, s->n, 0);
   if (s->rig->input[LAB_CHANNEL_P] || s->cells[LAB_CHANNEL_P].low < 0.9 * ambient ||
-      fabs(start - ambient) > 0.03 * ambient)
+      fabs(start - ambient) > 0.03 * ambient || begins_off_stop(s))
     return 0;
   return lab_check_fail(
       f, 0,

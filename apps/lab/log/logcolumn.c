@@ -77,8 +77,11 @@ int lab_column_of(const char *text, int channel, int absolute, const char *unit,
                   lab_column *column, lab_error *error)
 {
   const char *si = lab_channel_unit(channel, format->command_is_pressure);
+  static const lab_signal current_loop = {.unit = "mA", .from = 4, .to = 20, .low = 0, .high = 1};
   const lab_signal *signal = &format->signal[channel];
   *column = (lab_column){.channel = channel, .scale = 1};
+  if (signal->from == signal->to && channel == LAB_CHANNEL_SP && strcmp(unit, "mA") == 0)
+    signal = &current_loop; /* what a positioner takes: 4 to 20 mA for 0 to 100 % (IEC 60381-1, 1982) */
   if (signal->from != signal->to) {
     if (read_signal(unit, signal, column, error))
       return lab_fail_in(error, "column \"%s\"", text);

@@ -1,5 +1,7 @@
 #include "simulation.h"
 
+#include <string.h>
+
 #include "../base/series.h"
 #include "predict.h"
 #include "response.h"
@@ -13,17 +15,17 @@ static int columns(const pneu_model *model, const lab_response *response, const 
                    int x, int T, lab_series_column *column)
 {
   int n = 0, opening = model->p.proportional_band == 0;
-  column[n++] = (lab_series_column){"t [s]", 1, response->t};
+  column[n++] = (lab_series_column){"t [s]", 1, response->t, 0};
   if (u)
-    column[n++] = opening ? (lab_series_column){"u [1]", 1, u} : (lab_series_column){"u [kPa]", 1e-3, u};
+    column[n++] = opening ? (lab_series_column){"u [1]", 1, u, 0} : (lab_series_column){"u [kPa]", 1e-3, u, 0};
   if (sp)
-    column[n++] = (lab_series_column){"sp [%]", 100, sp};
+    column[n++] = (lab_series_column){"sp [%]", 100, sp, 0};
   if (p)
-    column[n++] = (lab_series_column){"p [kPa]", 1e-3, response->p};
+    column[n++] = (lab_series_column){"p [kPa]", 1e-3, response->p, 0};
   if (x)
-    column[n++] = (lab_series_column){"x [mm]", 1e3, response->x};
+    column[n++] = (lab_series_column){"x [mm]", 1e3, response->x, 0};
   if (T)
-    column[n++] = (lab_series_column){"T [K]", 1, response->T};
+    column[n++] = (lab_series_column){"T [K]", 1, response->T, 0};
   return n;
 }
 
@@ -47,6 +49,17 @@ static const double *rows_of(const lab_log *log, int channel, size_t run)
   return log->value[channel] ? log->value[channel] + log->run[run] : NULL;
 }
 
+/* Columns of a valve that air closes say how far it is open, as its log does. */
+static void turn(const lab_log_format *format, int channel, const char *title, lab_series_column *column, int n)
+{
+  int i;
+  for (i = 0; i < n && format->scale[channel] < 0; i++)
+    if (strncmp(column[i].title, title, strlen(title)) == 0) {
+      column[i].offset = column[i].scale * format->offset[channel];
+      column[i].scale = -column[i].scale;
+    }
+}
+
 int lab_simulation_write(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
 {
   double *const *value = log->value;
@@ -62,6 +75,8 @@ int lab_simulation_write(const pneu_model *model, const lab_rig *rig, const lab_
       return error->status;
     n = columns(model, &response, rows_of(log, LAB_CHANNEL_U, run), rows_of(log, LAB_CHANNEL_SP, run),
                 nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
+    turn(&rig->log, LAB_CHANNEL_X, "x ", column, n);
+    turn(&rig->log, LAB_CHANNEL_SP, "sp ", column, n);
     if (run == 0)
       lab_series_header(file, column, n);
     lab_series_rows(file, column, n, response.n);

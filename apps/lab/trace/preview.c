@@ -5,7 +5,7 @@
 #include "../base/clock.h"
 #include "../fit/beginning.h"
 #include "contest.h"
-#include "rivals.h"
+#include "resume.h"
 
 int lab_preview_is_asked(const lab_unknowns *u)
 {
@@ -46,33 +46,16 @@ static void widen(const lab_unknowns *u, lab_candidate *c)
   lab_unknowns_view(&c->u, 0);
 }
 
-/* What the whole run does not ask for goes, and each effect is put against those that may stand in its place. */
-static int put_to_test(lab_candidate *c, lab_error *error)
+/* What was tried on the first n rows is what is told of. */
+static void keep_scores(const lab_run *x, size_t n, const lab_finding *first, lab_finding *whole)
 {
-  int changed, status = lab_candidate_drop_needless(c, c->n_found, error);
-  return status == LAB_OK && c->n_found > 0 ? lab_rivals_try(c, &changed, error) : status;
-}
-
-/* The search of the whole run from there.
- * In:      n      first rows, of which `first` is
- * Out:     whole  room, then what was found */
-static int go_on(const lab_unknowns *u, size_t n, const lab_search_options *options, lab_finding *first,
-                 lab_finding *whole, lab_error *error)
-{
-  const double *t = &u->run->log->value[LAB_CHANNEL_TIME][u->run->first];
-  const int any = first->best.n_found > 0 || lab_candidate_begins(&first->best);
-  whole->exact = NULL;
-  whole->declared = any ? first->declared : first->best;
-  if (first->result.scores.n > 0) {
-    whole->result.scores = first->result.scores;
-    whole->result.level = first->result.level;
-    whole->result.score_s = first->result.score_s;
-    whole->result.preview = t[n - 1] - t[0];
-  }
-  widen(u, &whole->declared);
-  if (any && lab_candidate_fit(&whole->declared, 1, error))
-    return error->status;
-  return lab_rounds_run(whole, any ? first : NULL, NULL, options, error);
+  const double *t = &x->log->value[LAB_CHANNEL_TIME][x->first];
+  if (first->result.scores.n == 0)
+    return;
+  whole->result.scores = first->result.scores;
+  whole->result.level = first->result.level;
+  whole->result.score_s = first->result.score_s;
+  whole->result.preview = t[n - 1] - t[0];
 }
 
 int lab_preview_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
@@ -90,10 +73,9 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     widen(u, &first->best);
     status = lab_candidate_fit_held(&first->best, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
+    keep_scores(u->run, n, first, whole);
     if (*done)
-      status = put_to_test(&first->best, error);
-    if (*done && status == LAB_OK)
-      status = go_on(u, n, options, first, whole, error);
+      status = lab_resume(u, options, first, whole, error);
     *done &= status == LAB_OK;
     if (*done)
       *f = *whole;

@@ -14,6 +14,7 @@
 #include "carry.h"
 #include "contest.h"
 #include "preview.h"
+#include "refill.h"
 #include "rivals.h"
 
 /* Whether declared values within tolerances leave only noise, row by row: a valve that is worn or set otherwise is far
@@ -274,7 +275,9 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     *declared = *u;
     status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
   }
-  if (status == LAB_OK)
+  if (status == LAB_OK && lab_refill_is_asked(u))
+    status = lab_refill_search(u, options, f, &done, error);
+  if (status == LAB_OK && !done)
     status = search_coarsely(u, options, f, &done, error);
   if (status == LAB_OK && !done)
     status = search_row_by_row(u, options, f, error);

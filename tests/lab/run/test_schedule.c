@@ -579,7 +579,7 @@ static void test_lab_standard_experiment__default_model__fills_and_vents(void **
 static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **state)
 {
   const double t[] = {0, 0.005}, p[] = {-0.0, 101325}, gap[] = {NAN, 1};
-  const lab_series_column columns[] = {{"t [s]", 1, t}, {"p [kPa]", 1e-3, p}, {"x [mm]", 1e3, gap}};
+  const lab_series_column columns[] = {{"t [s]", 1, t, 0}, {"p [kPa]", 1e-3, p, 0}, {"x [mm]", 1e3, gap, 0}};
   const char *path = scratch_path("table.csv");
   FILE *file = fopen(path, "w");
   char *got;

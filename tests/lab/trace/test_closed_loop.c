@@ -215,6 +215,21 @@ static void test_lab_search_run__leak_while_the_set_position_changes__is_named_a
   assert_found("chamber_leak", "chamber_leak.leak_area", 3e-8, 5e-2);
 }
 
+/* The positioner fills for as long as the chamber leaks, about once a second: from no leak no slope tells that. */
+static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it(void **state)
+{
+  static const double level[] = {0.5, 0.47, 0.45, 0.51, 0.62, 0.6, 0.55, 0.4, 0.43, 0.48};
+  size_t i;
+  (void)state;
+  for (i = 0; i < n_set; i++)
+    set[i] = level[i];
+  g.leak_area = 6e-8;
+  g.dead_volume = 3e-5;
+  g.spring_rate = 0.96 * 4e5;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("chamber_leak", "chamber_leak.leak_area", 6e-8, 5e-2);
+}
+
 /* ---- Output of the positioner at every row ---- */
 
 static void test_lab_search_run__opening_at_every_row__nothing_is_missing(void **state)
@@ -248,6 +263,7 @@ int main(void)
       CASE(test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis),
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
+      CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
       CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing),
       CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing),
   };

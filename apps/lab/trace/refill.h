@@ -1,0 +1,22 @@
+/* A leak that a positioner makes up for.
+ *
+ * It fills again and again, and how often depends on the leak. From no leak no slope tells that: leaks of many sizes
+ * are simulated, and those that come nearest to the logs are fitted.
+ * SPDX-License-Identifier: MIT */
+#ifndef LAB_REFILL_H
+#define LAB_REFILL_H
+
+#include "rounds.h"
+
+/* Whether there is one run with a set position, seen row by row. */
+int lab_refill_is_asked(const lab_unknowns *u);
+
+/* Look for such a leak where values within their tolerances leave plainly more than noise, and go on from it.
+ * In:      u     the declared model, fitted
+ * In/out:  f     with the errors of that; if done, what was found
+ * Out:     done  whether a leak leaves only noise; else f is as it was
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
+                      lab_error *error);
+
+#endif
