@@ -63,6 +63,11 @@ for inputs in '"u", "x"' '"x", "p"'; do
 done
 
 # logs
+# of a valve that air closes the travel comes back as the log has it: open at rest
+printf 't [s],u [1],x [mm]\n0,0,20\n1,0,20\n' >"$folder/open.csv"
+printf 'actuator = { stroke = "20 mm"; fail = "open"; };\n' >"$folder/open.cfg"
+expect_words 0 "" "$BUILD/bin/simulate" "$folder/open.cfg" "$folder/open.csv" --out "$folder/open_x.csv"
+grep -q '^1,0,20$' "$folder/open_x.csv" || complain "simulate turns the travel of a valve that air closes: $(cat "$folder/open_x.csv")"
 expect_words 1 "missing.csv" "$BUILD/bin/simulate" "$model" "$folder/missing.csv"
 : >"$folder/empty.csv"
 expect_words 1 "empty" "$BUILD/bin/simulate" "$model" "$folder/empty.csv"

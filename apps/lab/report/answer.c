@@ -231,16 +231,24 @@ static void remark_moved(lab_answer *a)
     lab_limitation(&a->now.logs.limitations, "model.cfg also has what the log does not tell by itself: %s.", text);
 }
 
+/* How far off its sheet a value may be to be told, in tolerances: beside something that is missing it is bent to make
+ * up for that, and beside much that is missing none is told. */
+static double trusted(const lab_search_result *r)
+{
+  const double left = lab_report_in_noise(&r->after);
+  return r->verdict != LAB_VERDICT_UNDECIDED      ? (double)INFINITY
+         : left < lab_constant(LAB_VALUES_TRUSTED) ? lab_constant(LAB_FAR_OFF)
+                                                   : 0;
+}
+
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
   const lab_search_result *r = &a->now.result;
-  const int undecided = r->verdict == LAB_VERDICT_UNDECIDED;
   lab_deviations *all = &a->report.deviations;
-  if (lab_deviations_find(&a->rig, &a->now.completed, &r->fit, undecided ? lab_constant(LAB_FAR_OFF) : (double)INFINITY,
-                          all, error))
+  if (lab_deviations_find(&a->rig, &a->now.completed, &r->fit, trusted(r), all, error))
     return error->status;
-  if (undecided && all->condition == LAB_CONDITION_AS_DECLARED)
+  if (r->verdict == LAB_VERDICT_UNDECIDED && all->condition == LAB_CONDITION_AS_DECLARED)
     all->condition = LAB_CONDITION_CANNOT_TELL;
   if (!lab_values_stand_in(r->verdict, r->fit.reduced_chi2))
     remark_moved(a);

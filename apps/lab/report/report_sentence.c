@@ -283,7 +283,7 @@ static void add_ratio(char *text, const lab_rig *rig, const lab_deviation *d, co
     ADD(text, "%.2g %% in place of %.2g %%", 100 * d->found, 100 * d->declared);
   else if (!isfinite(d->ratio))
     ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
-  else if (d->ratio >= 2 || d->ratio < 0.5)
+  else if (d->ratio >= 1.995 || d->ratio < 0.5)
     ADD(text, d->ratio < 99.5 ? "%.2g times %s" : "%.0f times %s", d->ratio, sheet);
   else if (less)
     ADD(text, "%.2g %% %s", fabs(percent), percent < 0 ? less : more);
@@ -327,12 +327,14 @@ void lab_report_deviation(const lab_report *report, const lab_deviation *d, char
 }
 
 /* Those beyond their tolerance, and those that begin.  Returns: their number */
-static int add_deviations(char *text, const lab_report *report)
+static int add_deviations(char *text, const lab_report *report, int is_hedged)
 {
   const lab_deviations *all = &report->deviations;
   const int n = lab_report_count_told(report);
-  char *begin = text + strlen(text);
+  char *begin;
   int i, told = 0;
+  ADD(text, "%s", is_hedged && n > 0 ? " As far as it tells, " : "");
+  begin = text + strlen(text);
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
     if (lab_report_is_told(report, &all->of[i])) {
       ADD(text, "%s", told ? ", " : "");
@@ -340,7 +342,8 @@ static int add_deviations(char *text, const lab_report *report)
     }
   if (n > told)
     ADD(text, ", and %d more", n - told);
-  *begin = (char)toupper((unsigned char)*begin);
+  if (!is_hedged)
+    *begin = (char)toupper((unsigned char)*begin);
   return n;
 }
 
@@ -411,16 +414,20 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     ADD(text, "Undecided: %s", lab_report_doubt(report));
     return;
   }
-  deviates = add_deviations(text, report) > 0;
+  if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
+    ADD(text, "Something is missing, but the log does not say what.");
+    if (add_deviations(text, report, 1))
+      ADD(text, ".");
+    return;
+  }
+  deviates = add_deviations(text, report, 0) > 0;
   if (r->verdict == LAB_VERDICT_NONE) {
     ADD(text, "%s", nothing(report, deviates));
     return;
   }
   ADD(text, deviates ? ". " : "");
-  if (lab_report_is_unfinished(r))
+  if (r->verdict == LAB_VERDICT_UNDECIDED)
     ADD(text, "Whether anything%s is missing, the search had no time to say.", deviates ? " else" : "");
-  else if (r->verdict == LAB_VERDICT_UNDECIDED)
-    ADD(text, "Something%s is missing, but the log does not say what.", deviates ? " else" : "");
   else
     add_found(text, report);
 }

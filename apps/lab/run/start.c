@@ -143,16 +143,27 @@ static double near_stop(const pneu_model *model)
   return 0.02 * (double)model->p.stroke;
 }
 
+/* How far the transducer is open while the stem rests at x; 0 where there is no such state. */
+static double opening_at(const pneu_model *model, const pneu_input *input, double p, double x)
+{
+  pneu_state state;
+  pneu_output out;
+  if (!input->set_position)
+    return (double)input->u;
+  if (pneu_state_rest(model, (pneu_real)p, model->p.ambient_temperature, (pneu_real)x, input, &state) != PNEU_OK ||
+      pneu_observe(model, &state, input, &out) != PNEU_OK)
+    return 0;
+  return (double)out.opening;
+}
+
 /* Pressure that holds the stem where it is seen: none on the lower stop, the supply on the upper one while the
- * transducer fills. */
+ * transducer fills, which a positioner does not that is content. */
 static double balanced_pressure(const pneu_model *model, const pneu_input *input, double x)
 {
-  const double near = near_stop(model);
+  const double near = near_stop(model), p = balance(model, x, input);
   if (!(x > near))
     return 0;
-  if (x > (double)model->travel - near && input->u > 0)
-    return (double)input->supply_pressure;
-  return balance(model, x, input);
+  return x > (double)model->travel - near && opening_at(model, input, p, x) > 0 ? (double)input->supply_pressure : p;
 }
 
 /* Pressure at rest at a set position: what holds the stem there; none or the supply beyond the positioner's cut-offs.
@@ -161,12 +172,8 @@ static double pressure_at_set(const pneu_model *model, const pneu_input *input)
 {
   const double x = fmin(fmax((double)input->u, 0), 1) * (double)model->p.stroke;
   const double p = fmin(fmax(balance(model, x, input), 0), (double)input->supply_pressure);
-  pneu_state state;
-  pneu_output out;
-  if (pneu_state_rest(model, (pneu_real)p, model->p.ambient_temperature, (pneu_real)x, input, &state) != PNEU_OK ||
-      pneu_observe(model, &state, input, &out) != PNEU_OK || !(out.opening != 0))
-    return p;
-  return out.opening < 0 ? 0 : (double)input->supply_pressure;
+  const double opening = opening_at(model, input, p, x);
+  return opening == 0 ? p : opening < 0 ? 0 : (double)input->supply_pressure;
 }
 
 /* Pressure at a start that shows none: what the stem says; without a stem, the set position of one that is positioned,

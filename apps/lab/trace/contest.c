@@ -121,6 +121,17 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
+/* What more than one search asks for.  In/out: within  with its time */
+static int take_held(const lab_unknowns *u, lab_candidate *held, lab_candidate *within, lab_error *error)
+{
+  const double until = within->u.until;
+  const int status = lab_candidate_hold_once(u, held, error);
+  within->u = held->u;
+  within->u.until = until;
+  within->quality = held->quality;
+  return status;
+}
+
 /* The declared model within its tolerances, or what begins within the logs where that explains them.
  * In:      u       the declared model, fitted
  * In/out:  begun   with the errors of the declared model; then what begins
@@ -138,8 +149,9 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   within->u = *u;
   within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
   *begins = within->quality.fitted = 0;
-  status = lab_unknowns_hold(&within->u, error);
-  if (status == LAB_OK && lab_is_plainly_off(&left) && lab_rounds_may_begin(&within->u, options)) {
+  status = begun->held ? take_held(u, begun->held, within, error) : lab_candidate_hold(within, error);
+  if (status == LAB_OK && lab_is_plainly_off(&left) && lab_is_plainly_off(&within->quality) &&
+      lab_rounds_may_begin(&within->u, options)) {
     status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
     begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
@@ -149,8 +161,6 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
     within->u = *u;
     return lab_candidate_fit(within, 1, error);
   }
-  if (status == LAB_OK && !within->quality.fitted)
-    status = lab_candidate_fit_held(within, error);
   return status == LAB_OK ? lab_candidate_let_go(within, error) : status;
 }
 

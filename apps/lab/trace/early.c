@@ -1,4 +1,5 @@
 #include "early.h"
+#include "refill.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -147,7 +148,7 @@ static int thaw(const lab_candidate *base, lab_candidate *c, lab_error *error)
   c->quality.fitted = 0;
   if (lab_unknowns_add_onset(&c->u, begins.param, begins.from, begins.value, error))
     return LAB_OK; /* no room */
-  if (lab_candidate_fit_held(c, error))
+  if (lab_refill_is_asked(&c->u) ? lab_refill_fit(c, error) : lab_candidate_fit_held(c, error))
     return error->status;
   return c->quality.fitted ? lab_candidate_place_again(c, error) : LAB_OK;
 }
@@ -167,6 +168,8 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], do
   lab_projection_close(&p);
   if (status != LAB_OK)
     return status;
+  if (lab_refill_is_asked(&frozen->u))
+    lab_refill_score(frozen, between[0], begins);
   return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), between[0], c, n, error);
 }
 
@@ -219,9 +222,9 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
   const size_t n = within->u.run->n;
   lab_candidate *c = malloc(sizeof *c);
   size_t between[2] = {0, 0};
-  int status = c ? lab_candidate_fit_held(within, error) : lab_fail_memory(error, "the beginning of a run");
+  int status = c ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
   onset->quality.fitted = 0;
-  if (status == LAB_OK && lab_is_plainly_off(&within->quality)) {
+  if (status == LAB_OK) {
     *c = *within;
     lab_unknowns_undo_fit(&c->u);
     status = find_beginning(c, between, error);

@@ -67,6 +67,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
   *done = 0;
   if (status == LAB_OK) {
     *first = *whole = *f;
+    first->held = NULL;
     status = search_first(u, n, options, first, &cut_short, error);
   }
   if (status == LAB_OK && (first->result.verdict != LAB_VERDICT_UNDECIDED || cut_short)) {

@@ -2,8 +2,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/clock.h"
+#include "../base/quantile.h"
 #include "../fit/beginning.h"
 #include "resume.h"
 
@@ -24,6 +26,11 @@ static int by_chi2(const void *x, const void *y)
 {
   const double a = ((const trial *)x)->chi2, b = ((const trial *)y)->chi2;
   return a < b ? -1 : a > b;
+}
+
+static double size_of(const lab_candidate *c, int k)
+{
+  return (double)c->u.rig.params.fill_area * pow(2, SMALLEST + 0.5 * k);
 }
 
 static int add_leak(lab_candidate *c, double size, lab_error *error)
@@ -54,24 +61,35 @@ static void try_sizes(const lab_candidate *declared, trial *t)
   int k;
   for (k = 0; k < SIZES; k++) {
     c = *declared;
-    t[k].size = (double)c.u.rig.params.fill_area * pow(2, SMALLEST + 0.5 * k);
+    t[k].size = size_of(&c, k);
     if (add_leak(&c, t[k].size, &ignored) || lab_unknowns_chi2(&c.u, &t[k].chi2, &ignored))
       t[k].chi2 = HUGE_VAL;
   }
   qsort(t, SIZES, sizeof *t, by_chi2);
 }
 
-/* Fit to ever longer beginnings: over a long run a leak of a wrong size falls out of step.
- * Returns: LAB_OK, also where there is no fit; LAB_WORLD */
-static int fit_beginnings(lab_candidate *c, lab_error *error)
+/* The row from which all acts that a candidate has. */
+static size_t row_of_last(const lab_candidate *c)
+{
+  const lab_run *x = c->u.run;
+  const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
+  const int n = c->u.rig.n_onsets;
+  size_t row = 0;
+  while (n > 0 && row < x->n && t[row] < c->u.rig.onset[n - 1].from)
+    row++;
+  return row;
+}
+
+int lab_refill_fit(lab_candidate *c, lab_error *error)
 {
   static const double share[] = {0.12, 0.25, 0.5};
   const lab_run *whole = c->u.run;
+  const size_t row = row_of_last(c);
   int status = LAB_OK;
   size_t i;
   for (i = 0; i < sizeof share / sizeof *share && status == LAB_OK; i++) {
     lab_run part = {0};
-    status = lab_beginning_open(whole, (size_t)(share[i] * (double)whole->n), &part, error);
+    status = lab_beginning_open(whole, row + (size_t)(share[i] * (double)(whole->n - row)), &part, error);
     c->u.run = &part;
     lab_unknowns_view(&c->u, 0);
     if (status == LAB_OK)
@@ -107,7 +125,7 @@ static int fit_sizes(const lab_quality *within, const lab_candidate *declared, c
     c = *declared;
     c.quality.fitted = 0;
     if (isfinite(t[k].chi2) && add_leak(&c, t[k].size, error) == LAB_OK)
-      status = fit_beginnings(&c, error);
+      status = lab_refill_fit(&c, error);
     if (is_better(&c.quality, within) && lab_candidate_by_bic(&c, leaks) < 0)
       *leaks = c;
   }
@@ -154,12 +172,11 @@ int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, 
   lab_finding *leaks = malloc(sizeof *leaks), *whole = malloc(sizeof *whole);
   int status = leaks && whole ? LAB_OK : lab_fail_memory(error, "the search");
   *done = 0;
-  if (status == LAB_OK) {
+  if (status == LAB_OK)
+    status = lab_candidate_hold_once(u, f->held, error);
+  if (status == LAB_OK && is_off(&f->held->quality)) {
     *leaks = *whole = *f;
-    leaks->declared.u = *u;
-    status = lab_candidate_hold(&leaks->declared, error);
-  }
-  if (status == LAB_OK && is_off(&leaks->declared.quality)) {
+    leaks->declared = *f->held;
     status = find(&leaks->declared, &leaks->best, error);
     if (status == LAB_OK && leaks->best.quality.fitted) {
       status = lab_resume(u, options, leaks, whole, error);
@@ -171,4 +188,46 @@ int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, 
   free(leaks);
   free(whole);
   return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* Chi-square with a leak that begins at some time [s]. */
+static double chi2_since(const lab_candidate *base, double size, double from)
+{
+  lab_candidate c = *base;
+  lab_error ignored;
+  double chi2;
+  if (lab_unknowns_add_onset(&c.u, pneu_param_find("leak_area"), from, size, &ignored) ||
+      lab_unknowns_chi2(&c.u, &chi2, &ignored))
+    return HUGE_VAL;
+  return chi2;
+}
+
+void lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *begins)
+{
+  const lab_run *x = base->u.run;
+  const double from = x->log->value[LAB_CHANNEL_TIME][x->first + row];
+  const int leak = pneu_param_find("leak_area");
+  lab_score *score = NULL, first;
+  lab_error ignored;
+  double none, least;
+  int i, k;
+  if (lab_unknowns_chi2(&base->u, &none, &ignored))
+    return;
+  for (i = 0, least = none; i < begins->n; i++)
+    score = begins->of[i].param == leak ? &begins->of[i] : score;
+  for (k = 0; score && k < SIZES; k++) {
+    const double chi2 = chi2_since(base, size_of(base, k), from);
+    if (chi2 < least) {
+      least = chi2;
+      score->size = size_of(base, k);
+    }
+  }
+  if (!score || !(none - least > begins->of[0].statistic))
+    return;
+  score->statistic = none - least;
+  score->p_value = lab_chi2_tail(score->statistic, 1);
+  score->onset = row;
+  first = *score;
+  memmove(begins->of + 1, begins->of, (size_t)(score - begins->of) * sizeof first);
+  begins->of[0] = first;
 }

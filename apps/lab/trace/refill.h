@@ -19,4 +19,13 @@ int lab_refill_is_asked(const lab_unknowns *u);
 int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                       lab_error *error);
 
+/* Fit to ever longer beginnings, from where something begins: over a long run a leak of a wrong size falls out of step.
+ * Returns: LAB_OK, also where there is no fit, as quality.fitted says; LAB_WORLD. */
+int lab_refill_fit(lab_candidate *c, lab_error *error);
+
+/* Score a leak that begins at a row by the size that comes nearest, if that is more than any other score.
+ * In:      base    with what has been until then, not fitted to the rest
+ * In/out:  begins  scores of what may begin */
+void lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *begins);
+
 #endif

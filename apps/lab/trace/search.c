@@ -17,17 +17,6 @@
 #include "refill.h"
 #include "rivals.h"
 
-/* Whether declared values within tolerances leave only noise, row by row: a valve that is worn or set otherwise is far
- * from its declared model, but need not stick and slip. */
-static int try_tolerances(const lab_unknowns *u, lab_candidate *within, int *enough, lab_error *error)
-{
-  int status;
-  within->u = *u;
-  status = lab_candidate_hold(within, error);
-  *enough = status == LAB_OK && within->quality.fitted && lab_is_noise(&within->quality);
-  return status == LAB_WORLD ? status : LAB_OK;
-}
-
 /* What was found coarsely, row by row, where that leaves only noise as well: then no slip asked for the coarse view. */
 static int see_row_by_row(lab_finding *coarse, lab_error *error)
 {
@@ -57,22 +46,23 @@ static int is_of_slips(const lab_candidate *c)
   return any;
 }
 
-/* The search seen coarsely, if the log is rough.
+/* The search seen coarsely, if the log is rough and values within tolerances do not explain it row by row: a valve that
+ * is worn or set otherwise is far from its declared model, but need not stick and slip.
  * Out:     done  1 if it found why stems slip and left only noise; else
  *          f     is as it was */
 static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                            lab_error *error)
 {
   lab_finding *coarse = malloc(sizeof *coarse);
-  int status, enough = 0;
+  int status;
   *done = 0;
   if (!coarse)
     return lab_fail_memory(error, "the search");
   *coarse = *f;
   status = lab_unknowns_sticks_and_slips(u, &coarse->result.window, error);
   if (status == LAB_OK && coarse->result.window > 0)
-    status = try_tolerances(u, &coarse->best, &enough, error);
-  if (status == LAB_OK && coarse->result.window > 0 && !enough) {
+    status = lab_candidate_hold_once(u, f->held, error);
+  if (status == LAB_OK && coarse->result.window > 0 && !lab_is_noise(&f->held->quality)) {
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
     status = lab_rounds_run(coarse, NULL, NULL, options, error);
@@ -270,9 +260,11 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
 {
   lab_finding *f = calloc(1, sizeof *f);
   lab_unknowns *declared = malloc(sizeof *declared);
-  int done = 0, status = f && declared ? LAB_OK : lab_fail_memory(error, "the search");
+  lab_candidate *held = calloc(1, sizeof *held);
+  int done = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *declared = *u;
+    f->held = held;
     status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
   }
   if (status == LAB_OK && lab_refill_is_asked(u))
@@ -293,6 +285,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     give_up(f, declared);
     status = conclude(f, u, result, error);
   }
+  free(held);
   free(declared);
   free(f);
   return status;

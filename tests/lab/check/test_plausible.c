@@ -280,6 +280,25 @@ static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(v
   assert_contains(error.text, "the column is p_abs");
 }
 
+/* A chamber that reads ambient without a gauge would leave its stem on the stop. */
+static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **state)
+{
+  char text[8192] = "t [s],u [1],p [kPa],x [mm]\n", path[512];
+  size_t used = strlen(text);
+  int i;
+  (void)state;
+  for (i = 0; i < 200; i++) {
+    const double p = i < 20 ? 101.3 : 215 - 113.7 * exp(-0.05 * (i - 19));
+    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%d,%.5g,%.5g\n", 0.1 * i, i >= 20,
+                             p + 0.2 * (i % 3 - 1), (p - 20) / 10 + 0.01 * (i % 3 - 1));
+  }
+  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
+  read_files(bad_rig("rig.cfg", ""), path);
+  rig.params.spring_preload = (pneu_real)0.002;
+  if (judge() != LAB_OK)
+    fail_msg("%s", error.text);
+}
+
 static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **state)
 {
   (void)state;
@@ -766,6 +785,7 @@ int main(void)
       TEST(test_lab_plausible__temperature_in_other_degrees__is_refused),
       TEST(test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used),
       TEST(test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused),
+      TEST(test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge),
       TEST(test_lab_plausible__half_that_is_shut__is_told),
       TEST(test_lab_plausible__pressure_lost_while_filling_or_shut__is_told),
       TEST(test_lab_plausible__declared_noise_too_small__is_a_remark),

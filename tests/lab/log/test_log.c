@@ -412,6 +412,16 @@ static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **sta
   assert_refused("t [s],sp [mm]\n0,1\n", "sp [mm]", "mm");
 }
 
+static void test_lab_log_read__set_position_as_a_current__is_4_to_20_mA(void **state)
+{
+  lab_log log = read_log("t [s],sp [mA],x [mm]\n0,4,0\n1,8,0\n2,20,1\n");
+  (void)state;
+  assert_close(log.value[LAB_CHANNEL_SP][0], 0, 1e-12, 0);
+  assert_close(log.value[LAB_CHANNEL_SP][1], 0.25, 1e-12, 0);
+  assert_close(log.value[LAB_CHANNEL_SP][2], 1, 1e-12, 0);
+  lab_log_free(&log);
+}
+
 static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void **state)
 {
   lab_log log = read_log("t [s],sp [%],u [1],x [mm]\n0,10,0,0\n1,,1,0\n2,20,1,0\n");
@@ -800,7 +810,7 @@ static void test_lab_log_read__unit_of_other_dimension__names_both(void **state)
   (void)state;
   assert_refused("t [s],p [mm]\n0,0\n", "log.csv:1: column 2", "expected a unit like Pa");
   assert_refused("t [s],u [kPa]\n0,0\n", "log.csv:1: column 2", "expected a unit like 1");
-  assert_refused("t [s],sp [mA]\n0,0\n", "log.csv:1: column 2", "range = { sp = [\"0 %\", \"100 %\"]");
+  assert_refused("t [s],sp [V]\n0,0\n", "log.csv:1: column 2", "range = { sp = [\"0 %\", \"100 %\"]");
   assert_refused("t [s],x [mA]\n0,0\n", "log.csv:1: column 2",
                  "scale = { x = \"4..20 mA\"; }; range = { x = [\"0 mm\"");
 }
@@ -969,6 +979,7 @@ int main(void)
       CASE(test_lab_log_read__long_format_with_command__holds_it),
       CASE(test_lab_log_read__position_in_percent__is_of_the_stroke),
       CASE(test_lab_log_read__set_position__is_a_share_of_the_stroke),
+      CASE(test_lab_log_read__set_position_as_a_current__is_4_to_20_mA),
       CASE(test_lab_log_read__set_position_beside_a_command__is_only_shown),
       CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one),
       CASE(test_lab_log_read__weights__add_columns_up),

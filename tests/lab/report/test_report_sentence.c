@@ -252,6 +252,23 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   assert_string_equal(text, "With all of this the error falls from 3.00 to 1.00 times the noise.");
 }
 
+/* Beside something that is missing, values are what makes up for it as well as it can. */
+static void test_lab_report_headline__undecided__tells_values_last_and_with_care(void **state)
+{
+  lab_report report = answer(LAB_VERDICT_UNDECIDED, 0);
+  lab_deviations *d = &report.deviations;
+  (void)state;
+  result.cut_short = 0;
+  result.after.chi2 = 9 * (double)result.after.n;
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "Something is missing, but the log does not say what.");
+  d->of[d->n++] = deviation("dry_friction", 1.997, 1);
+  d->of[d->n++] = deviation("spring_rate", 0.75, 1);
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "Something is missing, but the log does not say what. As far as it tells, friction is 2 "
+                            "times its sheet, the spring 25 % soft.");
+}
+
 /* A value that changes within the log is told, though it stays within its tolerance. */
 static void test_lab_report_headline__value_that_changes__is_told_within_its_tolerance(void **state)
 {
@@ -331,6 +348,7 @@ int main(void)
       cmocka_unit_test(test_lab_report_sentence__search_that_was_ended__claims_nothing),
       cmocka_unit_test(test_lab_report_limits__effects_scored_by_a_beginning__says_so),
       cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
+      cmocka_unit_test(test_lab_report_headline__undecided__tells_values_last_and_with_care),
       cmocka_unit_test(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance),
       cmocka_unit_test(test_inspect_def__each_line__is_of_an_effect),
       cmocka_unit_test(test_lab_report_chance__cycle__counts_what_was_looked_at),

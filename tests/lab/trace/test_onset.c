@@ -172,7 +172,7 @@ static void fit_early(const second_rig *first, const second_rig *later, double c
   open_log(first, later, change);
   within.u = u;
   within.n_found = within.quality.fitted = 0;
-  assert_int_equal(lab_unknowns_hold(&within.u, &error), LAB_OK);
+  assert_int_equal(lab_candidate_hold(&within, &error), LAB_OK);
   assert_int_equal(lab_early_fit(&within, 0.01, &onset, &begins, &error), LAB_OK);
 }
 
