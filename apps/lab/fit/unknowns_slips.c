@@ -10,7 +10,14 @@
  * stems that stick and slip from 0.28. */
 static const double rough_share = 0.2;
 
-/* Share of the windows in which pressure or position of an experiment is rougher than the model's.
+/* Whether a channel shows how the stem moves: its position, or where that is not measured the pressure. A positioner
+ * that makes up for a leak moves the pressure alone. */
+static int shows_stem(const lab_run *x, int channel)
+{
+  return channel == LAB_CHANNEL_X || (channel == LAB_CHANNEL_P && !x->log->value[LAB_CHANNEL_X]);
+}
+
+/* Share of the windows in which an experiment is rougher than the model's.
  * In/out:  r  its errors over noise; then what the model predicts */
 static double roughness(const lab_run *x, double *r, size_t window)
 {
@@ -19,7 +26,7 @@ static double roughness(const lab_run *x, double *r, size_t window)
   size_t i;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
     const double *measured = x->log->value[x->channel[c]] + x->first;
-    if (x->channel[c] == LAB_CHANNEL_T)
+    if (!shows_stem(x, x->channel[c]))
       continue;
     for (i = 0; i < x->n; i++)
       r[i] = measured[i] - r[i] * x->sigma[c];

@@ -236,7 +236,7 @@ static void remark_moved(lab_answer *a)
 static double trusted(const lab_search_result *r)
 {
   const double left = lab_report_in_noise(&r->after);
-  return r->verdict != LAB_VERDICT_UNDECIDED      ? (double)INFINITY
+  return r->verdict != LAB_VERDICT_UNDECIDED       ? (double)INFINITY
          : left < lab_constant(LAB_VALUES_TRUSTED) ? lab_constant(LAB_FAR_OFF)
                                                    : 0;
 }

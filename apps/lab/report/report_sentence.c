@@ -415,7 +415,11 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     return;
   }
   if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
-    ADD(text, "Something is missing, but the log does not say what.");
+    ADD(text, "%s",
+        r->jerks
+            ? "The stem moves by jerks and the model's does not: friction that sticks, or a force that shakes it, is "
+              "missing."
+            : "Something is missing, but the log does not say what.");
     if (add_deviations(text, report, 1))
       ADD(text, ".");
     return;

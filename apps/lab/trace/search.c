@@ -243,6 +243,11 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   lab_unknowns_view(u, 0);
   if (status == LAB_OK)
     status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
+  if (status == LAB_OK && result->verdict == LAB_VERDICT_UNDECIDED) {
+    size_t window;
+    status = lab_unknowns_sticks_and_slips(u, &window, error);
+    result->jerks = window > 0;
+  }
   if (status == LAB_OK && result->n_path > 0) {
     result->path[result->n_path - 1].rig = lab_unknowns_expected(u);
     result->path[result->n_path - 1].errors = result->after;

@@ -61,6 +61,7 @@ typedef struct lab_search_result {
   lab_path_model path[LAB_SEARCH_PATH];
   size_t window; /* rows of a window if the log is rough and was seen coarsely (windowed.h); else 0 */
   double level;  /* p-value that a single score has to pass */
+  int jerks;     /* not 0: the verdict is undecided, and the stem moves by jerks where the model's does not */
 } lab_search_result;
 
 /* As the table of constants says. */
