@@ -378,7 +378,7 @@ int lab_check_unused(const lab_log_view *s, lab_check_result *f)
   return 0;
 }
 
-/* Whether the stem begins off its lower stop, where no chamber without pressure holds it. */
+/* Whether the stem begins off its lower stop: a chamber without pressure cannot hold it there. */
 static int begins_off_stop(const lab_log_view *s)
 {
   const double off = 0.05 * (double)s->rig->params.stroke;

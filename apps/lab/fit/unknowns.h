@@ -238,6 +238,10 @@ void lab_unknowns_view(lab_unknowns *u, size_t window);
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_error *error);
 
+/* The same by the position of the stem alone: a positioner that makes up for a leak moves the pressure, and no stem.
+ * Out:     jerks  whether it does */
+int lab_unknowns_jerks(const lab_unknowns *u, int *jerks, lab_error *error);
+
 /* What is left on one channel for the present unknowns. */
 typedef struct lab_residual_stats {
   lab_whiteness whiteness; /* of the residuals as they are fitted: whitened where the noise has memory; n is 0 where the

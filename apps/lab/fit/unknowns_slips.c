@@ -10,23 +10,16 @@
  * stems that stick and slip from 0.28. */
 static const double rough_share = 0.2;
 
-/* Whether a channel shows how the stem moves: its position, or where that is not measured the pressure. A positioner
- * that makes up for a leak moves the pressure alone. */
-static int shows_stem(const lab_run *x, int channel)
-{
-  return channel == LAB_CHANNEL_X || (channel == LAB_CHANNEL_P && !x->log->value[LAB_CHANNEL_X]);
-}
-
-/* Share of the windows in which an experiment is rougher than the model's.
+/* Share of the windows in which pressure or position of an experiment is rougher than what the model predicts.
  * In/out:  r  its errors over noise; then what the model predicts */
-static double roughness(const lab_run *x, double *r, size_t window)
+static double roughness(const lab_run *x, int by_stem, double *r, size_t window)
 {
   double share = 0;
   int c;
   size_t i;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
     const double *measured = x->log->value[x->channel[c]] + x->first;
-    if (!shows_stem(x, x->channel[c]))
+    if (x->channel[c] == LAB_CHANNEL_T || (by_stem && x->channel[c] != LAB_CHANNEL_X))
       continue;
     for (i = 0; i < x->n; i++)
       r[i] = measured[i] - r[i] * x->sigma[c];
@@ -37,21 +30,22 @@ static double roughness(const lab_run *x, double *r, size_t window)
 }
 
 /* The window of the first experiment that is rough; 0 if none is. */
-static size_t rough_window(const lab_unknowns *u, double *r)
+static size_t rough_window(const lab_unknowns *u, int by_stem, double *r)
 {
   enum { WINDOWS = 90, SHORTEST = 30, LONGEST = 200 };
   int e;
   for (e = 0; e < u->n_runs; e++) {
     const lab_run *x = &u->run[e];
     const size_t fair = x->n / WINDOWS, w = fair < SHORTEST ? SHORTEST : fair > LONGEST ? LONGEST : fair;
-    if (roughness(x, r, w) > rough_share)
+    if (roughness(x, by_stem, r, w) > rough_share)
       return w;
     r += x->n * (size_t)x->n_channels;
   }
   return 0;
 }
 
-int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_error *error)
+/* In:      by_stem  by its position alone */
+static int find_window(const lab_unknowns *u, int by_stem, size_t *window, lab_error *error)
 {
   double *errors;
   int status;
@@ -61,7 +55,20 @@ int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_err
   errors = malloc((u->n_rows + 1) * sizeof *errors);
   status = errors ? lab_unknowns_errors(u, errors, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK)
-    *window = rough_window(u, errors);
+    *window = rough_window(u, by_stem, errors);
   free(errors);
   return status == LAB_WORLD ? status : LAB_OK;
+}
+
+int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_error *error)
+{
+  return find_window(u, 0, window, error);
+}
+
+int lab_unknowns_jerks(const lab_unknowns *u, int *jerks, lab_error *error)
+{
+  size_t window;
+  const int status = find_window(u, 1, &window, error);
+  *jerks = window > 0;
+  return status;
 }

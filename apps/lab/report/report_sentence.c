@@ -333,7 +333,7 @@ static int add_deviations(char *text, const lab_report *report, int is_hedged)
   const int n = lab_report_count_told(report);
   char *begin;
   int i, told = 0;
-  ADD(text, "%s", is_hedged && n > 0 ? " As far as it tells, " : "");
+  ADD(text, "%s", is_hedged && n > 0 ? " As far as the log tells, " : "");
   begin = text + strlen(text);
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
     if (lab_report_is_told(report, &all->of[i])) {
@@ -416,10 +416,10 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   }
   if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
     ADD(text, "%s",
-        r->jerks
-            ? "The stem moves by jerks and the model's does not: friction that sticks, or a force that shakes it, is "
-              "missing."
-            : "Something is missing, but the log does not say what.");
+        r->jerks ? "The stem moves by jerks and the model's does not: something is missing, perhaps friction that "
+                   "sticks or a "
+                   "force that shakes it."
+                 : "Something is missing, but the log does not say what.");
     if (add_deviations(text, report, 1))
       ADD(text, ".");
     return;

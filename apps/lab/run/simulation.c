@@ -49,7 +49,8 @@ static const double *rows_of(const lab_log *log, int channel, size_t run)
   return log->value[channel] ? log->value[channel] + log->run[run] : NULL;
 }
 
-/* Columns of a valve that air closes say how far it is open, as its log does. */
+/* Columns that the log counts the other way, as of a valve that air closes, are turned back; in SI, without the factor
+ * of log.scale. */
 static void turn(const lab_log_format *format, int channel, const char *title, lab_series_column *column, int n)
 {
   int i;

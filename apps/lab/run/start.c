@@ -143,7 +143,8 @@ static double near_stop(const pneu_model *model)
   return 0.02 * (double)model->p.stroke;
 }
 
-/* How far the transducer is open while the stem rests at x; 0 where there is no such state. */
+/* What the transducer is told: the command, or what a positioner makes of a set position while the stem rests at x; 0
+ * where there is no such state. */
 static double opening_at(const pneu_model *model, const pneu_input *input, double p, double x)
 {
   pneu_state state;
@@ -160,10 +161,11 @@ static double opening_at(const pneu_model *model, const pneu_input *input, doubl
  * transducer fills, which a positioner does not that is content. */
 static double balanced_pressure(const pneu_model *model, const pneu_input *input, double x)
 {
-  const double near = near_stop(model), p = balance(model, x, input);
+  const double near = near_stop(model), supply = (double)input->supply_pressure, p = balance(model, x, input);
+  const double at = fmin(x, (double)model->travel), held = fmin(fmax(balance(model, at, input), 0), supply);
   if (!(x > near))
     return 0;
-  return x > (double)model->travel - near && opening_at(model, input, p, x) > 0 ? (double)input->supply_pressure : p;
+  return x > (double)model->travel - near && opening_at(model, input, held, at) > 0 ? supply : p;
 }
 
 /* Pressure at rest at a set position: what holds the stem there; none or the supply beyond the positioner's cut-offs.

@@ -134,15 +134,6 @@ int lab_candidate_hold(lab_candidate *c, lab_error *error)
   return lab_unknowns_hold(&c->u, error) ? error->status : lab_candidate_fit_held(c, error);
 }
 
-int lab_candidate_hold_once(const lab_unknowns *u, lab_candidate *held, lab_error *error)
-{
-  if (held->u.run == u->run && held->u.window == u->window)
-    return LAB_OK;
-  memset(held, 0, sizeof *held);
-  held->u = *u;
-  return lab_candidate_hold(held, error);
-}
-
 int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error)
 {
   int i, k;

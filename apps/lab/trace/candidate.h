@@ -46,12 +46,6 @@ int lab_candidate_let_go(lab_candidate *c, lab_error *error);
  * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_DATA if there is no room; LAB_WORLD. */
 int lab_candidate_hold(lab_candidate *c, lab_error *error);
 
-/* The same of a declared model, unless it was done for these runs in this view.
- * In:      u     the declared model, fitted
- * In/out:  held  cleared at first
- * Returns: as lab_candidate_hold. */
-int lab_candidate_hold_once(const lab_unknowns *u, lab_candidate *held, lab_error *error);
-
 /* The same effects from the declared values: fitted with these exactly as they are, and then within their tolerances.
  * In:      declared  with nothing held and nothing added, fitted
  * Returns: LAB_OK; LAB_DATA if there is no room; as lab_unknowns_fit. */

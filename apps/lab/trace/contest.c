@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/clock.h"
 #include "../fit/nuisance.h"
@@ -121,14 +122,31 @@ static int tolerate_onset(lab_candidate *c, const lab_quality *tolerant, int *be
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* What more than one search asks for.  In/out: within  with its time */
-static int take_held(const lab_unknowns *u, lab_candidate *held, lab_candidate *within, lab_error *error)
+int lab_contest_hold(const lab_unknowns *u, lab_finding *f, lab_error *error)
+{
+  const double start = lab_cpu_time();
+  int status;
+  if (f->held->u.run == u->run)
+    return LAB_OK;
+  memset(f->held, 0, sizeof *f->held);
+  f->held->u = *u;
+  status = lab_candidate_hold(f->held, error);
+  if (status != LAB_OK)
+    f->held->u.run = NULL; /* not to be taken for one that is fitted */
+  f->held_s = lab_cpu_time() - start;
+  return status;
+}
+
+/* `within` becomes the declared model held to its tolerances, fitted; its time stays. */
+static int take_held(lab_finding *f, lab_candidate *within, lab_error *error)
 {
   const double until = within->u.until;
-  const int status = lab_candidate_hold_once(u, held, error);
-  within->u = held->u;
-  within->u.until = until;
-  within->quality = held->quality;
+  const int status = lab_contest_hold(&within->u, f, error);
+  if (status == LAB_OK) {
+    within->u = f->held->u;
+    within->u.until = until;
+    within->quality = f->held->quality;
+  }
   return status;
 }
 
@@ -149,7 +167,7 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   within->u = *u;
   within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
   *begins = within->quality.fitted = 0;
-  status = begun->held ? take_held(u, begun->held, within, error) : lab_candidate_hold(within, error);
+  status = begun->held ? take_held(begun, within, error) : lab_candidate_hold(within, error);
   if (status == LAB_OK && lab_is_plainly_off(&left) && lab_is_plainly_off(&within->quality) &&
       lab_rounds_may_begin(&within->u, options)) {
     status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, error);
@@ -281,7 +299,7 @@ int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_option
     return lab_fail_memory(error, "the search");
   c->exact = c->early = *f;
   c->is_exact = c->begins = 0;
-  c->start = lab_cpu_time();
+  c->start = lab_cpu_time() - (f->held && f->held->u.run == u->run ? f->held_s : 0);
   f->exact = u;
   status = fit_within(u, options, &f->best, &c->early, &c->begins, error);
   c->until = before_the_end(u->until, c->start);

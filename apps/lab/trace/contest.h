@@ -7,6 +7,12 @@
 
 #include "rounds.h"
 
+/* The declared model within its tolerances, fitted once for all searches of a whole run, row by row.
+ * In:      u  it, fitted
+ * In/out:  f  held
+ * Returns: as lab_candidate_hold. */
+int lab_contest_hold(const lab_unknowns *u, lab_finding *f, lab_error *error);
+
 /* In:      u         the declared model, fitted
  *          is_brief  not 0: if tolerances alone leave only noise, look for nothing else
  * In/out:  f         with the errors of that; then what is taken for the answer

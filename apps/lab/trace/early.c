@@ -1,5 +1,4 @@
 #include "early.h"
-#include "refill.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,6 +6,7 @@
 #include "../base/array.h"
 #include "../fit/beginning.h"
 #include "../fit/nuisance.h"
+#include "refill.h"
 
 enum {
   SHORTEST = 4, /* the first beginning is one such part of the run */
@@ -148,7 +148,8 @@ static int thaw(const lab_candidate *base, lab_candidate *c, lab_error *error)
   c->quality.fitted = 0;
   if (lab_unknowns_add_onset(&c->u, begins.param, begins.from, begins.value, error))
     return LAB_OK; /* no room */
-  if (lab_refill_is_asked(&c->u) ? lab_refill_fit(c, error) : lab_candidate_fit_held(c, error))
+  if (lab_refill_loops(&c->u) && begins.param == pneu_param_find("leak_area") ? lab_refill_fit(c, error)
+                                                                              : lab_candidate_fit_held(c, error))
     return error->status;
   return c->quality.fitted ? lab_candidate_place_again(c, error) : LAB_OK;
 }
@@ -168,8 +169,8 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], do
   lab_projection_close(&p);
   if (status != LAB_OK)
     return status;
-  if (lab_refill_is_asked(&frozen->u))
-    lab_refill_score(frozen, between[0], begins);
+  if (lab_refill_is_asked(&frozen->u) && lab_refill_score(frozen, between[0], begins, error))
+    return error->status;
   return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), between[0], c, n, error);
 }
 

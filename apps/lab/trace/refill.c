@@ -7,30 +7,31 @@
 #include "../base/clock.h"
 #include "../base/quantile.h"
 #include "../fit/beginning.h"
+#include "contest.h"
 #include "resume.h"
 
 /* Sizes that are tried, as shares of the fill orifice: from 1/2048 to 1/2, each 1.4 times the one before. */
 enum { SIZES = 21, SMALLEST = -11, FITTED = 4, STEPS = 30 };
 
 typedef struct trial {
-  double size, chi2; /* [m2] of the leak; of the declared model with it */
+  double size, chi2; /* [m2] of the leak; of the model with it, infinite where it was not tried */
 } trial;
+
+int lab_refill_loops(const lab_unknowns *u)
+{
+  return u->n_runs == 1 && u->window == 0 && lab_log_command(u->run->log) == LAB_CHANNEL_SP &&
+         lab_rig_has_positioner(&u->rig) && pneu_effect_find("chamber_leak") >= 0;
+}
 
 int lab_refill_is_asked(const lab_unknowns *u)
 {
-  return u->n_runs == 1 && u->window == 0 && u->run->log->value[LAB_CHANNEL_SP] && lab_rig_has_positioner(&u->rig) &&
-         pneu_effect_find("chamber_leak") >= 0;
+  return lab_refill_loops(u) && lab_score_lacks(u, pneu_effect_find("chamber_leak"));
 }
 
 static int by_chi2(const void *x, const void *y)
 {
   const double a = ((const trial *)x)->chi2, b = ((const trial *)y)->chi2;
   return a < b ? -1 : a > b;
-}
-
-static double size_of(const lab_candidate *c, int k)
-{
-  return (double)c->u.rig.params.fill_area * pow(2, SMALLEST + 0.5 * k);
 }
 
 static int add_leak(lab_candidate *c, double size, lab_error *error)
@@ -53,19 +54,37 @@ static double share_of_time(double until, double share)
   return until > 0 ? now + share * (until - now) : 0;
 }
 
-/* All sizes, the nearest first. */
-static void try_sizes(const lab_candidate *declared, trial *t)
+/* Chi-square of a model with a leak from some time [s] on.
+ * In:      since  infinite: from the start
+ * Out:     chi2   infinite where the model cannot be simulated
+ * Returns: LAB_OK, LAB_WORLD */
+static int try_leak(const lab_unknowns *model, double size, double since, double *chi2, lab_error *error)
 {
-  lab_candidate c;
-  lab_error ignored;
-  int k;
-  for (k = 0; k < SIZES; k++) {
-    c = *declared;
-    t[k].size = size_of(&c, k);
-    if (add_leak(&c, t[k].size, &ignored) || lab_unknowns_chi2(&c.u, &t[k].chi2, &ignored))
-      t[k].chi2 = HUGE_VAL;
+  const int leak = pneu_param_find("leak_area");
+  lab_unknowns u = *model;
+  int status =
+      isfinite(since) ? lab_unknowns_add_onset(&u, leak, since, size, error) : lab_unknowns_add(&u, leak, size, error);
+  if (status == LAB_OK) {
+    lab_unknowns_take(&u);
+    status = lab_unknowns_chi2(&u, chi2, error);
   }
-  qsort(t, SIZES, sizeof *t, by_chi2);
+  if (status != LAB_OK)
+    *chi2 = HUGE_VAL;
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* All sizes, the nearest first; as far as there is time. */
+static int try_sizes(const lab_unknowns *model, double since, trial *t, lab_error *error)
+{
+  int k, status = LAB_OK;
+  for (k = 0; k < SIZES && status == LAB_OK; k++) {
+    t[k] = (trial){(double)model->rig.params.fill_area * pow(2, SMALLEST + 0.5 * k), HUGE_VAL};
+    if (!lab_cpu_is_spent(model->until))
+      status = try_leak(model, t[k].size, since, &t[k].chi2, error);
+  }
+  if (status == LAB_OK)
+    qsort(t, SIZES, sizeof *t, by_chi2);
+  return status;
 }
 
 /* The row from which all acts that a candidate has. */
@@ -80,27 +99,32 @@ static size_t row_of_last(const lab_candidate *c)
   return row;
 }
 
-int lab_refill_fit(lab_candidate *c, lab_error *error)
+/* Fit to the first n rows; where that fails, values stay.  Returns: LAB_OK, LAB_WORLD */
+static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
 {
-  static const double share[] = {0.12, 0.25, 0.5};
   const lab_run *whole = c->u.run;
-  const size_t row = row_of_last(c);
-  int status = LAB_OK;
-  size_t i;
-  for (i = 0; i < sizeof share / sizeof *share && status == LAB_OK; i++) {
-    lab_run part = {0};
-    status = lab_beginning_open(whole, row + (size_t)(share[i] * (double)(whole->n - row)), &part, error);
+  lab_run part = {0};
+  int status = lab_beginning_open(whole, n, &part, error);
+  if (status == LAB_OK) {
     c->u.run = &part;
     lab_unknowns_view(&c->u, 0);
-    if (status == LAB_OK)
-      status = lab_candidate_fit(c, STEPS, error);
-    lab_beginning_close(&part);
+    status = lab_candidate_fit(c, STEPS, error);
     c->u.run = whole;
     lab_unknowns_view(&c->u, 0);
   }
-  if (status == LAB_OK)
-    status = lab_candidate_fit_held(c, error);
+  lab_beginning_close(&part);
   return status == LAB_WORLD ? status : LAB_OK;
+}
+
+int lab_refill_fit(lab_candidate *c, lab_error *error)
+{
+  static const double share[] = {0.12, 0.25, 0.5};
+  const size_t from = row_of_last(c), rest = c->u.run->n - from;
+  int status = LAB_OK;
+  size_t i;
+  for (i = 0; i < sizeof share / sizeof *share && status == LAB_OK; i++)
+    status = fit_beginning(c, from + (size_t)ceil(share[i] * (double)rest), error);
+  return status == LAB_OK ? lab_candidate_fit_held(c, error) : status;
 }
 
 /* Whether a leak explains the logs, or nearly all of what values off their sheet leave. */
@@ -111,10 +135,18 @@ static int is_better(const lab_quality *leaks, const lab_quality *within)
   return leaks->fitted && leaks->bic < within->bic && explains && (!lab_is_noise(within) || !lab_is_strained(leaks));
 }
 
+/* What the leak takes off chi-square is the best of many sizes. */
+static void note_score(const lab_quality *within, lab_candidate *leaks)
+{
+  lab_found *found = &leaks->found[leaks->n_found - 1];
+  found->statistic = fmax(within->chi2 - leaks->quality.chi2, 0);
+  found->p_value = fmin(1, SIZES * lab_chi2_tail(found->statistic, 1));
+}
+
 /* The best from the nearest sizes, until one leaves clearly no more than noise.
  * In:      within    the declared model within its tolerances, fitted
  *          declared  it before any fit
- * Out:     leaks     not fitted if none explains the logs */
+ * In/out:  leaks     not fitted; so it stays where none explains the logs, or nearly */
 static int fit_sizes(const lab_quality *within, const lab_candidate *declared, const trial *t, lab_candidate *leaks,
                      lab_error *error)
 {
@@ -132,37 +164,48 @@ static int fit_sizes(const lab_quality *within, const lab_candidate *declared, c
   return status;
 }
 
-/* Whether any leak comes nearer to the logs than none.
- * In:      declared  within its tolerances, as they were before any fit
- * Out:     t         all sizes, the nearest first */
-static int comes_nearer(const lab_candidate *declared, trial *t, lab_error *error)
-{
-  static const double nearer = 0.98;
-  double none;
-  if (lab_unknowns_chi2(&declared->u, &none, error))
-    return 0;
-  try_sizes(declared, t);
-  return t[0].chi2 < nearer * none;
-}
-
-/* Look for a leak.
+/* Look for a leak where one comes nearer to the logs than none.
  * In:      within  the declared model within its tolerances, fitted
- * Out:     leaks   not fitted where no leak leaves only noise */
+ * Out:     leaks   not fitted where none explains the logs, or nearly */
 static int find(const lab_candidate *within, lab_candidate *leaks, lab_error *error)
 {
+  static const double nearer = 0.98;
   trial t[SIZES];
   lab_candidate *declared = malloc(sizeof *declared);
+  double none = 0;
   int status = declared ? LAB_OK : lab_fail_memory(error, "a candidate");
   leaks->quality.fitted = 0;
   if (status == LAB_OK) {
     *declared = *within;
     lab_unknowns_undo_fit(&declared->u);
     declared->u.until = share_of_time(within->u.until, 0.25);
-    if (comes_nearer(declared, t, error))
-      status = fit_sizes(&within->quality, declared, t, leaks, error);
+    status = lab_unknowns_chi2(&declared->u, &none, error);
+  }
+  if (status == LAB_OK)
+    status = try_sizes(&declared->u, HUGE_VAL, t, error);
+  if (status == LAB_OK && t[0].chi2 < nearer * none)
+    status = fit_sizes(&within->quality, declared, t, leaks, error);
+  if (status == LAB_OK && leaks->quality.fitted) {
+    note_score(&within->quality, leaks);
     leaks->u.until = lab_is_noise(&leaks->quality) ? within->u.until : share_of_time(within->u.until, 0.5);
   }
   free(declared);
+  return status;
+}
+
+/* What else was tried on the declared model, by score. */
+static int score_declared(const lab_unknowns *within, const lab_search_options *options, lab_search_result *result,
+                          lab_error *error)
+{
+  const double start = lab_clock();
+  lab_unknowns u = *within;
+  lab_projection p;
+  int status = lab_projection_open(&u, &p, error);
+  if (status == LAB_OK)
+    status = lab_score_effects(&p, &result->scores, error);
+  lab_projection_close(&p);
+  result->level = result->scores.tests > 0 ? options->alpha / result->scores.tests : 0;
+  result->score_s = lab_clock() - start;
   return status;
 }
 
@@ -173,61 +216,47 @@ int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, 
   int status = leaks && whole ? LAB_OK : lab_fail_memory(error, "the search");
   *done = 0;
   if (status == LAB_OK)
-    status = lab_candidate_hold_once(u, f->held, error);
+    status = lab_contest_hold(u, f, error);
   if (status == LAB_OK && is_off(&f->held->quality)) {
     *leaks = *whole = *f;
     leaks->declared = *f->held;
-    status = find(&leaks->declared, &leaks->best, error);
+    status = find(f->held, &leaks->best, error);
     if (status == LAB_OK && leaks->best.quality.fitted) {
-      status = lab_resume(u, options, leaks, whole, error);
+      status = score_declared(&f->held->u, options, &whole->result, error);
+      if (status == LAB_OK)
+        status = lab_resume(u, options, leaks, whole, error);
       *done = status == LAB_OK && lab_is_noise(&whole->best.quality);
     }
   }
-  if (*done)
+  if (*done) {
     *f = *whole;
+    f->best.u.until = f->declared.u.until = u->until;
+  }
   free(leaks);
   free(whole);
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* Chi-square with a leak that begins at some time [s]. */
-static double chi2_since(const lab_candidate *base, double size, double from)
-{
-  lab_candidate c = *base;
-  lab_error ignored;
-  double chi2;
-  if (lab_unknowns_add_onset(&c.u, pneu_param_find("leak_area"), from, size, &ignored) ||
-      lab_unknowns_chi2(&c.u, &chi2, &ignored))
-    return HUGE_VAL;
-  return chi2;
-}
-
-void lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *begins)
+int lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *begins, lab_error *error)
 {
   const lab_run *x = base->u.run;
-  const double from = x->log->value[LAB_CHANNEL_TIME][x->first + row];
-  const int leak = pneu_param_find("leak_area");
-  lab_score *score = NULL, first;
-  lab_error ignored;
-  double none, least;
-  int i, k;
-  if (lab_unknowns_chi2(&base->u, &none, &ignored))
-    return;
-  for (i = 0, least = none; i < begins->n; i++)
-    score = begins->of[i].param == leak ? &begins->of[i] : score;
-  for (k = 0; score && k < SIZES; k++) {
-    const double chi2 = chi2_since(base, size_of(base, k), from);
-    if (chi2 < least) {
-      least = chi2;
-      score->size = size_of(base, k);
-    }
-  }
-  if (!score || !(none - least > begins->of[0].statistic))
-    return;
-  score->statistic = none - least;
-  score->p_value = lab_chi2_tail(score->statistic, 1);
-  score->onset = row;
-  first = *score;
-  memmove(begins->of + 1, begins->of, (size_t)(score - begins->of) * sizeof first);
+  trial t[SIZES];
+  lab_score first;
+  double none = 0;
+  int i = 0, status = lab_unknowns_chi2(&base->u, &none, error);
+  while (i < begins->n && begins->of[i].param != pneu_param_find("leak_area"))
+    i++;
+  if (status == LAB_OK && i < begins->n)
+    status = try_sizes(&base->u, x->log->value[LAB_CHANNEL_TIME][x->first + row], t, error);
+  if (status != LAB_OK || i == begins->n || !(none - t[0].chi2 > begins->of[0].statistic))
+    return status == LAB_WORLD ? status : LAB_OK;
+  first = begins->of[i];
+  first.size = t[0].size;
+  first.statistic = none - t[0].chi2;
+  first.p_value = lab_chi2_tail(first.statistic, 1);
+  first.onset = row;
+  begins->tests += SIZES;
+  memmove(begins->of + 1, begins->of, (size_t)i * sizeof first);
   begins->of[0] = first;
+  return LAB_OK;
 }

@@ -7,7 +7,7 @@
 
 /* Drop what the model does not need, put each of its effects against those that may stand in its place, and go on.
  * In:      u      the declared model, fitted
- * In/out:  begun  declared, and best: the model, fitted, whose time the search has
+ * In/out:  begun  declared, and best: the model, fitted to the runs of u; its `until` ends the search
  *          whole  with the errors of u; then what was found
  * Returns: as lab_rounds_run. */
 int lab_resume(const lab_unknowns *u, const lab_search_options *options, lab_finding *begun, lab_finding *whole,

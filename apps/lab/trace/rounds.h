@@ -11,7 +11,8 @@ typedef struct lab_finding {
   lab_candidate declared; /* with what is held */
   lab_candidate best;
   const lab_unknowns *exact; /* the declared model with nothing held, fitted; NULL: there is none */
-  lab_candidate *held;       /* room for it within its tolerances, which more than one search asks for; may be NULL */
+  lab_candidate *held;       /* room for it within its tolerances (lab_contest_hold); NULL: of a part of a run */
+  double held_s;             /* [s] of CPU that its fit took */
   double gain;               /* of chi-square, by tolerances after the search */
   lab_onset_scores begins;   /* what may begin */
   lab_search_result result;

@@ -233,6 +233,13 @@ static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
   return 1;
 }
 
+int lab_score_lacks(const lab_unknowns *u, int effect)
+{
+  int count, shape;
+  const int first = pneu_effect_params(effect, &count);
+  return is_absent(u, first, count, &shape);
+}
+
 int lab_score_can_be_missing(const lab_rig *rig, int effect)
 {
   const char *name = pneu_effect_at(effect)->name;

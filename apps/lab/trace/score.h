@@ -66,6 +66,9 @@ typedef struct lab_scores {
   int tests;                    /* slopes tried in all */
 } lab_scores;
 
+/* Whether a model does not have an effect: all of it is neutral, and nothing of it is fitted. */
+int lab_score_lacks(const lab_unknowns *u, int effect);
+
 /* Whether a rig can have an effect that it does not declare: a positioner is declared, and what can be wrong with it is
  * looked for only where there is one. */
 int lab_score_can_be_missing(const lab_rig *rig, int effect);

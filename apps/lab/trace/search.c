@@ -61,7 +61,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   *coarse = *f;
   status = lab_unknowns_sticks_and_slips(u, &coarse->result.window, error);
   if (status == LAB_OK && coarse->result.window > 0)
-    status = lab_candidate_hold_once(u, f->held, error);
+    status = lab_contest_hold(u, coarse, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
   if (status == LAB_OK && coarse->result.window > 0 && !lab_is_noise(&f->held->quality)) {
     coarse->declared.u = *u;
     lab_unknowns_view(&coarse->declared.u, coarse->result.window);
@@ -223,7 +223,7 @@ static int find_intervals(lab_finding *f, lab_error *error)
   return status;
 }
 
-/* Intervals and errors of the model that was found.
+/* Intervals and errors of the model that was found, and whether the stem moves by jerks beside it.
  * Out:     u, result */
 static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, lab_error *error)
 {
@@ -244,9 +244,7 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   if (status == LAB_OK)
     status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
   if (status == LAB_OK && result->verdict == LAB_VERDICT_UNDECIDED) {
-    size_t window;
-    status = lab_unknowns_sticks_and_slips(u, &window, error);
-    result->jerks = window > 0;
+    status = lab_unknowns_jerks(u, &result->jerks, error);
   }
   if (status == LAB_OK && result->n_path > 0) {
     result->path[result->n_path - 1].rig = lab_unknowns_expected(u);
@@ -266,7 +264,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   lab_finding *f = calloc(1, sizeof *f);
   lab_unknowns *declared = malloc(sizeof *declared);
   lab_candidate *held = calloc(1, sizeof *held);
-  int done = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
+  int done = 0, coarse = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *declared = *u;
     f->held = held;
@@ -275,14 +273,15 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   if (status == LAB_OK && lab_refill_is_asked(u))
     status = lab_refill_search(u, options, f, &done, error);
   if (status == LAB_OK && !done)
-    status = search_coarsely(u, options, f, &done, error);
+    status = search_coarsely(u, options, f, &coarse, error);
+  done |= coarse;
   if (status == LAB_OK && !done)
     status = search_row_by_row(u, options, f, error);
   if (status == LAB_OK && !done)
     status = try_rivals(f, error);
   if (status == LAB_OK && !done)
     status = take_out_what_harms(f, error);
-  if (status == LAB_OK && !done)
+  if (status == LAB_OK && !coarse)
     status = rest_what_is_absent(f, error);
   if (status == LAB_OK)
     status = conclude(f, u, result, error);

@@ -265,12 +265,12 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
   d->of[d->n++] = deviation("dry_friction", 1.997, 1);
   d->of[d->n++] = deviation("spring_rate", 0.75, 1);
   lab_report_headline(&report, text);
-  assert_string_equal(text, "Something is missing, but the log does not say what. As far as it tells, friction is 2 "
+  assert_string_equal(text, "Something is missing, but the log does not say what. As far as the log tells, friction is 2 "
                             "times its sheet, the spring 25 % soft.");
   result.jerks = 1;
   d->n = 0;
   lab_report_headline(&report, text);
-  assert_contains(text, "The stem moves by jerks and the model's does not: friction that sticks,");
+  assert_contains(text, "The stem moves by jerks and the model's does not: something is missing, perhaps friction");
 }
 
 /* A value that changes within the log is told, though it stays within its tolerance. */
