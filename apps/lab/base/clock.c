@@ -29,6 +29,12 @@ int lab_cpu_is_spent(double until)
   return stopped || (until > 0 && lab_cpu_time() >= until);
 }
 
+double lab_cpu_share(double until, double share)
+{
+  const double now = lab_cpu_time();
+  return until > 0 ? now + share * (until - now) : 0;
+}
+
 void lab_cpu_stop(int stop)
 {
   stopped = stop;

@@ -15,20 +15,13 @@ static int explains(const lab_finding *f)
   return (f->best.n_found > 0 || lab_candidate_begins(&f->best)) && lab_is_noise(&f->best.quality);
 }
 
-/* When the first of two searches ends, so that most of the time is left to the other: no rig is just as declared. */
-static double share_of_time(double until)
-{
-  static const double share = 0.35;
-  const double now = lab_cpu_time();
-  return until > 0 ? now + share * (until - now) : 0;
-}
-
 /* The search from the declared values as they stand; what it finds is then fitted with tolerances. */
 static int search_exactly(const lab_unknowns *u, const lab_quality *within, const lab_search_options *options,
                           lab_finding *f, lab_error *error)
 {
+  static const double share = 0.35;
   f->declared.u = *u;
-  f->declared.u.until = share_of_time(u->until);
+  f->declared.u.until = lab_cpu_share(u->until, share); /* most of it is for the other: no rig is just as declared */
   if (lab_rounds_run(f, NULL, within, options, error))
     return error->status;
   if (!explains(f))
@@ -160,12 +153,11 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
                       lab_finding *begun, int *begins, lab_error *error)
 {
   static const double most = 0.8; /* of the time: if nothing begins the rest has to do */
-  const double now = lab_cpu_time();
   const lab_errors *declared = &begun->result.before;
   const lab_quality left = {.fitted = 1, .chi2 = declared->chi2, .values = (double)declared->n};
   int status;
   within->u = *u;
-  within->u.until = u->until > 0 ? now + most * (u->until - now) : 0;
+  within->u.until = lab_cpu_share(u->until, most);
   *begins = within->quality.fitted = 0;
   status = begun->held ? take_held(begun, within, error) : lab_candidate_hold(within, error);
   if (status == LAB_OK && lab_is_plainly_off(&left) && lab_is_plainly_off(&within->quality) &&

@@ -19,14 +19,13 @@ int lab_preview_is_asked(const lab_unknowns *u)
 static int search_first(const lab_unknowns *u, size_t n, const lab_search_options *options, lab_finding *f,
                         int *cut_short, lab_error *error)
 {
-  const double now = lab_cpu_time();
   lab_unknowns *first = malloc(sizeof *first);
   lab_run part = {0};
   int status = first ? lab_beginning_open(u->run, n, &part, error) : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *first = *u;
     first->run = &part;
-    first->until = u->until > 0 ? now + lab_constant(LAB_PREVIEW_TIME) * (u->until - now) : 0;
+    first->until = lab_cpu_share(u->until, lab_constant(LAB_PREVIEW_TIME));
     lab_unknowns_view(first, 0);
     status = lab_unknowns_fit(first, LAB_ROUNDS_ALL, NULL, error);
     if (status == LAB_OK)

@@ -47,13 +47,6 @@ static int is_off(const lab_quality *within)
   return within->fitted && (lab_is_plainly_off(within) || lab_is_strained(within));
 }
 
-/* When a share of the time is spent: what else may be missing needs the rest. */
-static double share_of_time(double until, double share)
-{
-  const double now = lab_cpu_time();
-  return until > 0 ? now + share * (until - now) : 0;
-}
-
 /* Chi-square of a model with a leak from some time [s] on.
  * In:      since  infinite: from the start
  * Out:     chi2   infinite where the model cannot be simulated
@@ -178,7 +171,7 @@ static int find(const lab_candidate *within, lab_candidate *leaks, lab_error *er
   if (status == LAB_OK) {
     *declared = *within;
     lab_unknowns_undo_fit(&declared->u);
-    declared->u.until = share_of_time(within->u.until, 0.25);
+    declared->u.until = lab_cpu_share(within->u.until, 0.25); /* what else may be missing needs the rest */
     status = lab_unknowns_chi2(&declared->u, &none, error);
   }
   if (status == LAB_OK)
@@ -187,7 +180,7 @@ static int find(const lab_candidate *within, lab_candidate *leaks, lab_error *er
     status = fit_sizes(&within->quality, declared, t, leaks, error);
   if (status == LAB_OK && leaks->quality.fitted) {
     note_score(&within->quality, leaks);
-    leaks->u.until = lab_is_noise(&leaks->quality) ? within->u.until : share_of_time(within->u.until, 0.5);
+    leaks->u.until = lab_is_noise(&leaks->quality) ? within->u.until : lab_cpu_share(within->u.until, 0.5);
   }
   free(declared);
   return status;

@@ -44,7 +44,6 @@ int lab_refit_begin(const lab_candidate *base, int steps, lab_candidate *c, lab_
 
 lab_refit_starts *lab_refit_open_starts(const lab_candidate *base, lab_error *error)
 {
-  const double now = lab_cpu_time();
   lab_refit_starts *s = calloc(1, sizeof *s);
   error->status = LAB_OK;
   if (!s) {
@@ -53,8 +52,7 @@ lab_refit_starts *lab_refit_open_starts(const lab_candidate *base, lab_error *er
   }
   s->of[0].base = s->of[1].base = *base;
   lab_unknowns_undo_fit(&s->of[1].base.u);
-  if (base->u.until > 0)
-    s->until = now + lab_constant(LAB_BEGIN_TIME) * (base->u.until - now);
+  s->until = lab_cpu_share(base->u.until, lab_constant(LAB_BEGIN_TIME));
   return s;
 }
 
