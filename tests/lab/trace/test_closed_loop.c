@@ -114,6 +114,7 @@ static void open_loop(int columns)
   memcpy(text, declared, sizeof declared);
   if (fits_nothing)
     memcpy(strstr(text, "fit"), "// ", 3);
+  text[strstr(text, "0.2 %") - text + 2] = (char)('0' + (int)(1000 * k.dead_band + 0.5)); /* is known */
   memset(&logs, 0, sizeof logs);
   if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error) ||
       lab_logs_add(&logs, &rig, write_log(columns), &error) || lab_unknowns_open(&rig, logs.run, logs.n, &u, &error) ||
@@ -232,6 +233,7 @@ static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_ma
   (void)state;
   for (i = 0; i < n_set; i++)
     set[i] = level[i];
+  k.dead_band = 0.003;
   g.leak_area = 6e-8;
   g.dead_volume = 3e-5;
   g.spring_rate = 0.96 * 4e5;
