@@ -161,11 +161,10 @@ static double opening_at(const pneu_model *model, const pneu_input *input, doubl
  * transducer fills, which a positioner does not that is content. */
 static double balanced_pressure(const pneu_model *model, const pneu_input *input, double x)
 {
-  const double near = near_stop(model), supply = (double)input->supply_pressure, p = balance(model, x, input);
-  const double at = fmin(x, (double)model->travel), held = fmin(fmax(balance(model, at, input), 0), supply);
+  const double near = near_stop(model), at = fmin(x, (double)model->travel), p = balance(model, at, input);
   if (!(x > near))
     return 0;
-  return x > (double)model->travel - near && opening_at(model, input, held, at) > 0 ? supply : p;
+  return x > (double)model->travel - near && opening_at(model, input, p, at) > 0 ? (double)input->supply_pressure : p;
 }
 
 /* Pressure at rest at a set position: what holds the stem there; none or the supply beyond the positioner's cut-offs.

@@ -162,6 +162,7 @@ static int fit_sizes(const lab_quality *within, const lab_candidate *declared, c
  * Out:     leaks   not fitted where none explains the logs, or nearly */
 static int find(const lab_candidate *within, lab_candidate *leaks, lab_error *error)
 {
+  /* sixteen logs behind a positioner: 0.05 to 0.93 times as much with a leak, 0.89 to 1.04 without */
   static const double nearer = 0.98;
   trial t[SIZES];
   lab_candidate *declared = malloc(sizeof *declared);
