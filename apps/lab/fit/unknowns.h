@@ -234,13 +234,10 @@ int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *model, int n
 void lab_unknowns_view(lab_unknowns *u, size_t window);
 
 /* Whether the stem of an experiment sticks and slips where the present model's does not.
+ * In:      by_stem  not 0: by its position alone; a positioner that makes up for a leak moves the pressure, and no stem
  * Out:     window  rows in which to see the experiments coarsely if one does; else 0
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_error *error);
-
-/* The same by the position of the stem alone: a positioner that makes up for a leak moves the pressure, and no stem.
- * Out:     jerks  whether it does */
-int lab_unknowns_jerks(const lab_unknowns *u, int *jerks, lab_error *error);
+int lab_unknowns_sticks_and_slips(const lab_unknowns *u, int by_stem, size_t *window, lab_error *error);
 
 /* What is left on one channel for the present unknowns. */
 typedef struct lab_residual_stats {

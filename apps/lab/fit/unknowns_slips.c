@@ -44,8 +44,7 @@ static size_t rough_window(const lab_unknowns *u, int by_stem, double *r)
   return 0;
 }
 
-/* In:      by_stem  by its position alone */
-static int find_window(const lab_unknowns *u, int by_stem, size_t *window, lab_error *error)
+int lab_unknowns_sticks_and_slips(const lab_unknowns *u, int by_stem, size_t *window, lab_error *error)
 {
   double *errors;
   int status;
@@ -58,17 +57,4 @@ static int find_window(const lab_unknowns *u, int by_stem, size_t *window, lab_e
     *window = rough_window(u, by_stem, errors);
   free(errors);
   return status == LAB_WORLD ? status : LAB_OK;
-}
-
-int lab_unknowns_sticks_and_slips(const lab_unknowns *u, size_t *window, lab_error *error)
-{
-  return find_window(u, 0, window, error);
-}
-
-int lab_unknowns_jerks(const lab_unknowns *u, int *jerks, lab_error *error)
-{
-  size_t window;
-  const int status = find_window(u, 1, &window, error);
-  *jerks = window > 0;
-  return status;
 }

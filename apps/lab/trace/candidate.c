@@ -7,6 +7,7 @@
 
 #include "../base/clock.h"
 #include "../base/quantile.h"
+#include "../fit/beginning.h"
 #include "../fit/nuisance.h"
 
 /* ---- Fits ---- */
@@ -84,6 +85,22 @@ int lab_candidate_fit_held(lab_candidate *c, lab_error *error)
   if (status == LAB_OK && lab_misfit_has_fallen(before, c->u.misfit))
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+int lab_candidate_fit_beginning(lab_candidate *c, size_t n, int steps, lab_error *error)
+{
+  const lab_run *whole = c->u.run;
+  lab_run part = {0};
+  int status = lab_beginning_open(whole, n, &part, error);
+  if (status == LAB_OK) {
+    c->u.run = &part;
+    lab_unknowns_view(&c->u, 0);
+    status = steps == LAB_ROUNDS_ALL ? lab_candidate_fit_held(c, error) : lab_candidate_fit(c, steps, error);
+  }
+  lab_beginning_close(&part);
+  c->u.run = whole;
+  lab_unknowns_view(&c->u, 0);
+  return status == LAB_WORLD ? status : LAB_OK;
 }
 
 /* What the prior of something that is held adds to chi-square. */

@@ -36,6 +36,12 @@ int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error);
  * Returns: LAB_OK, also where it cannot be fitted, as quality.fitted says; LAB_WORLD. */
 int lab_candidate_fit_held(lab_candidate *c, lab_error *error);
 
+/* Fit to the first n rows of the only run; where that fails, values stay.
+ * In:      steps   as for lab_unknowns_fit; LAB_ROUNDS_ALL: as lab_candidate_fit_held
+ * In/out:  c       as a model of the whole run, row by row; its quality is that of the beginning
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_candidate_fit_beginning(lab_candidate *c, size_t n, int steps, lab_error *error);
+
 /* Let values go that are held far from where the logs want them, one after the other, while BIC falls: many values that
  * are each off a little, at the cost of a square, pass for one that is off by much. It is the one that is told. Where
  * much more is left than noise, something is missing, for which these values would make up: none is let go.

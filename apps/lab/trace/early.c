@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "../base/array.h"
-#include "../fit/beginning.h"
 #include "../fit/nuisance.h"
 #include "refill.h"
 
@@ -16,21 +15,10 @@ enum {
 
 /* ---- The beginning of a run ---- */
 
-/* Fit the first n rows.  In/out: c  as a model of the whole run  Returns: LAB_OK, LAB_WORLD */
+/* Fit the first n rows. */
 static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
 {
-  const lab_run *whole = c->u.run;
-  lab_run part;
-  int status = lab_beginning_open(whole, n, &part, error);
-  if (status == LAB_OK) {
-    c->u.run = &part;
-    lab_unknowns_view(&c->u, 0);
-    status = lab_candidate_fit_held(c, error);
-  }
-  lab_beginning_close(&part);
-  c->u.run = whole;
-  lab_unknowns_view(&c->u, 0);
-  return status;
+  return lab_candidate_fit_beginning(c, n, LAB_ROUNDS_ALL, error);
 }
 
 /* The same from the declared values as well, unless only noise is left: a short beginning may have led astray. */

@@ -6,7 +6,6 @@
 
 #include "../base/clock.h"
 #include "../base/quantile.h"
-#include "../fit/beginning.h"
 #include "contest.h"
 #include "resume.h"
 
@@ -92,23 +91,6 @@ static size_t row_of_last(const lab_candidate *c)
   return row;
 }
 
-/* Fit to the first n rows; where that fails, values stay.  Returns: LAB_OK, LAB_WORLD */
-static int fit_beginning(lab_candidate *c, size_t n, lab_error *error)
-{
-  const lab_run *whole = c->u.run;
-  lab_run part = {0};
-  int status = lab_beginning_open(whole, n, &part, error);
-  if (status == LAB_OK) {
-    c->u.run = &part;
-    lab_unknowns_view(&c->u, 0);
-    status = lab_candidate_fit(c, STEPS, error);
-    c->u.run = whole;
-    lab_unknowns_view(&c->u, 0);
-  }
-  lab_beginning_close(&part);
-  return status == LAB_WORLD ? status : LAB_OK;
-}
-
 int lab_refill_fit(lab_candidate *c, lab_error *error)
 {
   static const double share[] = {0.12, 0.25, 0.5};
@@ -116,7 +98,7 @@ int lab_refill_fit(lab_candidate *c, lab_error *error)
   int status = LAB_OK;
   size_t i;
   for (i = 0; i < sizeof share / sizeof *share && status == LAB_OK; i++)
-    status = fit_beginning(c, from + (size_t)ceil(share[i] * (double)rest), error);
+    status = lab_candidate_fit_beginning(c, from + (size_t)ceil(share[i] * (double)rest), STEPS, error);
   return status == LAB_OK ? lab_candidate_fit_held(c, error) : status;
 }
 

@@ -59,7 +59,7 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   if (!coarse)
     return lab_fail_memory(error, "the search");
   *coarse = *f;
-  status = lab_unknowns_sticks_and_slips(u, &coarse->result.window, error);
+  status = lab_unknowns_sticks_and_slips(u, 0, &coarse->result.window, error);
   if (status == LAB_OK && coarse->result.window > 0)
     status = lab_contest_hold(u, coarse, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
   if (status == LAB_OK && coarse->result.window > 0 && !lab_is_noise(&f->held->quality)) {
@@ -244,7 +244,9 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   if (status == LAB_OK)
     status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
   if (status == LAB_OK && result->verdict == LAB_VERDICT_UNDECIDED) {
-    status = lab_unknowns_jerks(u, &result->jerks, error);
+    size_t window;
+    status = lab_unknowns_sticks_and_slips(u, 1, &window, error);
+    result->jerks = window > 0;
   }
   if (status == LAB_OK && result->n_path > 0) {
     result->path[result->n_path - 1].rig = lab_unknowns_expected(u);

@@ -803,7 +803,7 @@ static void test_lab_unknowns_residuals__log_of_the_model_itself__are_zero(void 
   assert_all_zero(r, u.m);
   assert_int_equal(lab_unknowns_errors(&u, r, &error), LAB_OK);
   assert_all_zero(r, u.n_rows);
-  assert_int_equal(lab_unknowns_sticks_and_slips(&u, &window, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 0, &window, &error), LAB_OK);
   assert_int_equal(window, 0);
 }
 
