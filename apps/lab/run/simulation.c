@@ -1,7 +1,5 @@
 #include "simulation.h"
 
-#include <string.h>
-
 #include "../base/series.h"
 #include "predict.h"
 #include "response.h"
@@ -10,20 +8,31 @@
 
 enum { COLUMNS = 6 };
 
+/* A column that the log counts the other way, as of a valve that air closes, is turned back; in SI, without the factor
+ * of log.scale. */
+static lab_series_column turned(const lab_log_format *format, int channel, lab_series_column c)
+{
+  if (format->scale[channel] < 0) {
+    c.offset = c.scale * format->offset[channel];
+    c.scale = -c.scale;
+  }
+  return c;
+}
+
 /* Time, commands, and those channels that are asked for; `u` and `sp` may be NULL.  Returns: the number of columns. */
-static int columns(const pneu_model *model, const lab_response *response, const double *u, const double *sp, int p,
-                   int x, int T, lab_series_column *column)
+static int columns(const pneu_model *model, const lab_log_format *format, const lab_response *response, const double *u,
+                   const double *sp, int p, int x, int T, lab_series_column *column)
 {
   int n = 0, opening = model->p.proportional_band == 0;
   column[n++] = (lab_series_column){"t [s]", 1, response->t, 0};
   if (u)
     column[n++] = opening ? (lab_series_column){"u [1]", 1, u, 0} : (lab_series_column){"u [kPa]", 1e-3, u, 0};
   if (sp)
-    column[n++] = (lab_series_column){"sp [%]", 100, sp, 0};
+    column[n++] = turned(format, LAB_CHANNEL_SP, (lab_series_column){"sp [%]", 100, sp, 0});
   if (p)
     column[n++] = (lab_series_column){"p [kPa]", 1e-3, response->p, 0};
   if (x)
-    column[n++] = (lab_series_column){"x [mm]", 1e3, response->x, 0};
+    column[n++] = turned(format, LAB_CHANNEL_X, (lab_series_column){"x [mm]", 1e3, response->x, 0});
   if (T)
     column[n++] = (lab_series_column){"T [K]", 1, response->T, 0};
   return n;
@@ -32,11 +41,13 @@ static int columns(const pneu_model *model, const lab_response *response, const 
 int lab_simulation_write_standard(const pneu_model *model, FILE *file, lab_error *error)
 {
   lab_series_column column[COLUMNS];
+  lab_log_format format;
   lab_response response;
   int n;
+  lab_log_format_default(&format);
   if (lab_standard_experiment(model, &(lab_response_options){0}, &response, error))
     return error->status;
-  n = columns(model, &response, response.u, NULL, 1, 1, 0, column);
+  n = columns(model, &format, &response, response.u, NULL, 1, 1, 0, column);
   lab_series_header(file, column, n);
   lab_series_rows(file, column, n, response.n);
   lab_response_free(&response);
@@ -47,18 +58,6 @@ int lab_simulation_write_standard(const pneu_model *model, FILE *file, lab_error
 static const double *rows_of(const lab_log *log, int channel, size_t run)
 {
   return log->value[channel] ? log->value[channel] + log->run[run] : NULL;
-}
-
-/* Columns that the log counts the other way, as of a valve that air closes, are turned back; in SI, without the factor
- * of log.scale. */
-static void turn(const lab_log_format *format, int channel, const char *title, lab_series_column *column, int n)
-{
-  int i;
-  for (i = 0; i < n && format->scale[channel] < 0; i++)
-    if (strncmp(column[i].title, title, strlen(title)) == 0) {
-      column[i].offset = column[i].scale * format->offset[channel];
-      column[i].scale = -column[i].scale;
-    }
 }
 
 int lab_simulation_write(const pneu_model *model, const lab_rig *rig, const lab_log *log, FILE *file, lab_error *error)
@@ -74,10 +73,8 @@ int lab_simulation_write(const pneu_model *model, const lab_rig *rig, const lab_
     int n;
     if (lab_predict_log(model, &(lab_prediction){.rig = rig, .log = log, .run = run}, &response, error))
       return error->status;
-    n = columns(model, &response, rows_of(log, LAB_CHANNEL_U, run), rows_of(log, LAB_CHANNEL_SP, run),
+    n = columns(model, &rig->log, &response, rows_of(log, LAB_CHANNEL_U, run), rows_of(log, LAB_CHANNEL_SP, run),
                 nothing || value[LAB_CHANNEL_P], nothing || value[LAB_CHANNEL_X], value[LAB_CHANNEL_T] != NULL, column);
-    turn(&rig->log, LAB_CHANNEL_X, "x ", column, n);
-    turn(&rig->log, LAB_CHANNEL_SP, "sp ", column, n);
     if (run == 0)
       lab_series_header(file, column, n);
     lab_series_rows(file, column, n, response.n);

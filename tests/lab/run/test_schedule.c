@@ -410,6 +410,29 @@ static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_re
   assert_true(start_of(text, 0).p == 0 && start_of(text, 0).x == 0);
 }
 
+/* Without a cut-off a positioner ends where its dead band does, and what holds the stem there is all that the chamber
+ * has; with one it fills on, also where the sensor sees the stem beyond its stop. */
+static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_or_full(void **state)
+{
+  const char *text = "t [s],sp [%],x [mm]\n0,100,20\n1,50,20\n",
+             *beyond = "t [s],sp [%],x [mm]\n0,100,20.02\n1,50,20.02\n";
+  const int gain = pneu_param_find("positioner.gain"), band = pneu_param_find("positioner.dead_band"),
+            high = pneu_param_find("positioner.cutoff_high");
+  (void)state;
+  if (gain < 0)
+    skip();
+  *pneu_param_at(&rig.params, gain) = 20;
+  *pneu_param_at(&rig.params, band) = (pneu_real)0.005;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  is_set = 1;
+  assert_close(start_of(text, 1).p, 4e5 * (0.01 + 0.02) / 0.04, 1e-3, 0);
+  assert_close(start_of(beyond, 1).p, 4e5 * (0.01 + 0.02) / 0.04, 1e-3, 0);
+  *pneu_param_at(&rig.params, high) = (pneu_real)0.99;
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  assert_close(start_of(text, 1).p, (double)rig.params.supply_pressure, 1e-3, 0);
+  assert_close(start_of(beyond, 1).p, (double)rig.params.supply_pressure, 1e-3, 0);
+}
+
 /* A sensor that swings by 2 kPa every 10 s: the log begins at its highest, a quarter of a cycle after a zero of time.
  */
 static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log(void **state)
@@ -663,6 +686,7 @@ int main(void)
       CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position),
       CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills),
       CASE(test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests),
+      CASE(test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_or_full),
       CASE(test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log),
       CASE(test_lab_run_initial_state__down_and_near_ambient__is_vented),
       CASE(test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it),

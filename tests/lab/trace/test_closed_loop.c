@@ -18,6 +18,7 @@ enum { WITH_U = 1, WITH_SP = 2, WITH_P = 4 };
 static second_rig g;
 static second_positioner k;
 static double t_set[CHANGES], set[CHANGES];
+static double leaks_since, leak_since; /* [s], [m2]: a leak that begins; 0: none */
 static size_t n_set;
 
 static int fits_nothing; /* all is as the sheet says, to its tolerance */
@@ -59,6 +60,7 @@ static int begin(void **state)
   g.seed = 1;
   k = (second_positioner){.gain = 20, .dead_band = 0.002, .cutoff_low = 0.01, .cutoff_high = 0.99};
   fits_nothing = 0;
+  leak_since = leaks_since = 0;
   set_stairs();
   return 0;
 }
@@ -74,11 +76,18 @@ static double set_at(double t)
 static const char *write_log(int columns)
 {
   static double t[ROWS], sent[ROWS], p[ROWS], x[ROWS];
-  const second_course course = {.t_cmd = t_set, .u_cmd = set, .n = n_set, .positioner = &k};
+  second_rig later = g;
+  const second_course course = {.t_cmd = t_set,
+                                .u_cmd = set,
+                                .n = n_set,
+                                .positioner = &k,
+                                .later = leak_since > 0 ? &later : NULL,
+                                .change = leaks_since};
   second_log log = {.t = t, .u = sent, .p = p, .x = x};
   const char *path = scratch_path("log.csv");
   FILE *file = fopen(path, "w");
   int i;
+  later.leak_area += leak_since;
   assert_non_null(file);
   assert_int_equal(second_samples(lasting, spacing), ROWS);
   assert_int_equal(second_follow(&g, &course, lasting, spacing, &log, NULL), 0);
@@ -226,20 +235,40 @@ static void test_lab_search_run__leak_while_the_set_position_changes__is_named_a
 }
 
 /* The positioner fills for as long as the chamber leaks, about once a second: from no leak no slope tells that. */
-static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it(void **state)
+static void hold_within_a_wider_band(void)
 {
   static const double level[] = {0.5, 0.47, 0.45, 0.51, 0.62, 0.6, 0.55, 0.4, 0.43, 0.48};
   size_t i;
-  (void)state;
   for (i = 0; i < n_set; i++)
     set[i] = level[i];
   k.dead_band = 0.003;
-  g.leak_area = 6e-8;
   g.dead_volume = 3e-5;
   g.spring_rate = 0.96 * 4e5;
+}
+
+static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it(void **state)
+{
+  (void)state;
+  hold_within_a_wider_band();
+  g.leak_area = 6e-8;
   close_loop(WITH_SP | WITH_P);
   assert_found("chamber_leak", "chamber_leak.leak_area", 6e-8, 5e-2);
   assert_true(result.found[0].statistic > 1e4 && result.scores.n > 0);
+}
+
+static void test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant(void **state)
+{
+  (void)state;
+  hold_within_a_wider_band();
+  leak_since = 6e-8;
+  leaks_since = 22.3;
+  close_loop(WITH_SP | WITH_P);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_int_equal(result.n_found, 1);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, "chamber_leak");
+  assert_int_equal(u.rig.n_onsets, 1);
+  assert_close(u.rig.onset[0].value, 6e-8, 0, 0.1);
+  assert_close(u.rig.onset[0].from, 22.3, 0.1, 0);
 }
 
 /* Whether the stem of the log sticks and slips where the declared model's does not. */
@@ -297,6 +326,7 @@ int main(void)
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
       CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
+      CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant),
       CASE(test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks),
       CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing),
       CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing),
