@@ -807,6 +807,21 @@ static void test_lab_unknowns_residuals__log_of_the_model_itself__are_zero(void 
   assert_int_equal(window, 0);
 }
 
+static void test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_stem(void **state)
+{
+  size_t window;
+  int i;
+  (void)state;
+  open_usual();
+  measure(&rig);
+  for (i = 0; i < ROWS; i++)
+    p[i] += i / 3 % 2 ? 1e5 : -1e5;
+  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 0, &window, &error), LAB_OK);
+  assert_true(window > 0);
+  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 1, &window, &error), LAB_OK);
+  assert_int_equal(window, 0);
+}
+
 /* Measured less predicted, over noise, channel by channel, run after run. */
 static void test_lab_unknowns_residuals__known_errors__are_over_the_noise(void **state)
 {
@@ -1388,6 +1403,7 @@ int main(void)
       cmocka_unit_test(test_lab_unknowns_apply__all_experiments__has_shared_values_only),
       cmocka_unit_test(test_lab_unknowns_apply__one_experiment__has_its_own_values_too),
       cmocka_unit_test(test_lab_unknowns_residuals__log_of_the_model_itself__are_zero),
+      cmocka_unit_test(test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_stem),
       cmocka_unit_test(test_lab_unknowns_residuals__known_errors__are_over_the_noise),
       cmocka_unit_test(test_lab_unknowns_residuals__gap__counts_nothing),
       cmocka_unit_test(test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_there),
