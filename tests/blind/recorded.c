@@ -163,6 +163,7 @@ static second_rig shifted(const blind_recorded *r, int but)
   for (i = 0; i < BLIND_VALUES; i++)
     if (i != but)
       blind_value_shift(&g, i, r->off[i]);
+  g.vent_area *= r->vent;
   return g;
 }
 
@@ -382,6 +383,7 @@ static void draw_loop(blind_chance *c, blind_recorded *r)
 void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_recorded *r)
 {
   blind_chance c = blind_chance_of(seed + 1000003, (uint64_t)number);
+  blind_chance of_vent = blind_chance_of(seed + 2000003, (uint64_t)number);
   double clean_time, at;
   memset(r, 0, sizeof *r);
   blind_draw(seed, number, &r->t);
@@ -389,6 +391,7 @@ void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_reco
   draw_kinds(&c, without, r);
   draw_loop(&c, r);
   draw_told(&c, r);
+  r->vent = 1 + BLIND_VENT_KNOWN * normal(&of_vent);
   draw_values(&c, r);
   r->spacing = draw_spacing(&c, r->loop);
   draw_positioner(&c, &r->positioner);

@@ -45,6 +45,9 @@ typedef struct blind_value {
 } blind_value;
 extern const blind_value blind_values[BLIND_VALUES];
 
+/* Standard deviation of the ratio of both orifices, of which one factor is fitted: a quarter of their tolerance. */
+#define BLIND_VENT_KNOWN 0.05
+
 /* -1: there is none of that name. */
 int blind_value_named(const char *name);
 
@@ -71,6 +74,7 @@ typedef struct blind_recorded {
   unsigned has;                 /* bits of enum blind_imperfection */
   int loop;                     /* enum blind_loop */
   double off[BLIND_VALUES];     /* true less or over declared, at the end of the log */
+  double vent;                  /* true vent over fill area, less or over declared; known to BLIND_VENT_KNOWN */
   int beyond;                   /* which value is far off, -1: none */
   double told[BLIND_VALUES];    /* tolerances in the rig file; 0: the default */
   double onset;                 /* s; NaN: all is from the start */

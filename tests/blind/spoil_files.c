@@ -128,6 +128,7 @@ static void write_offs(FILE *file, const blind_recorded *r)
   for (i = 0; i < BLIND_VALUES; i++)
     fprintf(file, blind_values[i].absolute ? "%s%s %+.4g" : "%s%s x%.4g", i ? "; " : "", blind_values[i].name,
             r->off[i]);
+  fprintf(file, "; vent over fill x%.4g", r->vent);
 }
 
 static void write_two(FILE *file, const char *name, const double of[BLIND_SENSORS], double scale, const char *unit)

@@ -79,6 +79,20 @@ static void test_blind_draw_recorded__many__values_are_off_by_their_tolerance(vo
   }
 }
 
+static void test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth(void **state)
+{
+  enum { MANY = 1000 };
+  double squares = 0;
+  int k;
+  (void)state;
+  for (k = 0; k < MANY; k++) {
+    const blind_recorded r = draw(k);
+    assert_close(r.t.base.vent_area / r.t.base.fill_area, r.vent, 0, 1e-12);
+    squares += (r.vent - 1) * (r.vent - 1);
+  }
+  assert_between(sqrt(squares / MANY) / 0.05, 0.84, 0.92);
+}
+
 static void test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off(void **state)
 {
   int k, seen = 0, more = 0;
@@ -418,6 +432,7 @@ int main(void)
       cmocka_unit_test(test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial),
       cmocka_unit_test(test_blind_draw_recorded__many__imperfections_have_their_share),
       cmocka_unit_test(test_blind_draw_recorded__many__values_are_off_by_their_tolerance),
+      cmocka_unit_test(test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth),
       cmocka_unit_test(test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off),
       cmocka_unit_test(test_blind_draw_recorded__without__has_none_of_it),
       cmocka_unit_test(test_blind_spoil__nothing__shows_what_is_there),

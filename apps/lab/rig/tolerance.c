@@ -8,7 +8,7 @@
 #include "../base/number.h"
 
 /* What a share is one of. */
-enum span { OF_VALUE, OF_SUPPLY, OF_STROKE };
+enum span { OF_VALUE, OF_SUPPLY, OF_STROKE, OF_VENT };
 
 /* Defaults: a share, or a quantity where that is not 0. */
 static const struct kind {
@@ -40,6 +40,7 @@ static const struct kind {
     BASE(ambient_temperature, 0, 0),
 #undef BASE
     {"orifice_area", NULL, LAB_PARAM_ORIFICE_AREA, OF_VALUE, 0.2, 0},
+    {"vent_restriction", "vent_restriction", 0, OF_VENT, 0, 0},
     {"pressure_bias", "pressure_bias", 0, OF_SUPPLY, 0.0025, 0},
     {"pressure_gain", "pressure_gain", 0, OF_VALUE, 0, 0.0025},
     {"pressure_lag", "pressure_lag", 0, OF_VALUE, 0, 5e-3},
@@ -68,6 +69,19 @@ static int param_of(const struct kind *k)
   return effect < 0 ? -1 : pneu_effect_params(effect, NULL) + k->param;
 }
 
+/* How well the ratio of both areas is known where one factor of them is fitted, a share; else 0, for each is then known
+ * by itself.  Orifices of one make differ less from each other than from their sheet. */
+static double ratio_known(const lab_rig *rig)
+{
+  static const double of_one_make = 0.25; /* of the vent area's own tolerance */
+  int i, is_fitted = 0;
+  for (i = 0; i < rig->n_fit; i++)
+    is_fitted |= rig->fit[i] == LAB_PARAM_ORIFICE_AREA;
+  return is_fitted && rig->params.vent_area > 0
+             ? of_one_make * lab_tolerance(rig, PNEU_PARAM_vent_area) / (double)rig->params.vent_area
+             : 0;
+}
+
 /* What a share of a kind's tolerance is a share of. */
 static double whole_of(const struct kind *k, const lab_rig *rig)
 {
@@ -92,7 +106,7 @@ static const char *unit_of(const struct kind *k)
 
 static double usual(const struct kind *k, const lab_rig *rig)
 {
-  return k->quantity > 0 ? k->quantity : k->share * whole_of(k, rig);
+  return k->span == OF_VENT ? ratio_known(rig) : k->quantity > 0 ? k->quantity : k->share * whole_of(k, rig);
 }
 
 const char *lab_tolerance_name(int param)

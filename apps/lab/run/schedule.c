@@ -96,7 +96,7 @@ int lab_input_jumps(const pneu_input *before, double elapsed, const pneu_input *
 {
   static const double rounding = 1e-9; /* of the command */
   const pneu_input end = lab_input_after(before, elapsed);
-  return fabs((double)(next->u - end.u)) > rounding * fabs((double)next->u);
+  return fabs((double)(next->u - end.u)) > rounding * fmax(fabs((double)next->u), fabs((double)before->u));
 }
 
 /* ---- Ramps of the command ---- */
@@ -204,12 +204,24 @@ static void add_input(double t, const pneu_input *input, lab_inputs *to)
   to->input[(*n)++] = *input;
 }
 
-/* A command from row i to the next, along a line that may begin and end between them. */
+/* Whether an input jumps away from what drives the model then. */
+static int jumps(double t, const pneu_input *input, const lab_inputs *to)
+{
+  const size_t n = to->schedule.n;
+  return n > 0 && lab_input_jumps(&to->input[n - 1], t - to->t[n - 1], input);
+}
+
+/* A command from row i to the next, along a line that may begin and end between them. One that jumps and runs at once
+ * jumps somewhere in the row before, and holds until it runs. */
 static void add_line(const course *c, const line *l, size_t i, pneu_input *input, lab_inputs *to)
 {
   const double t[] = {c->t[i], l->begin, l->end};
   const double next = i + 1 < c->end ? c->t[i + 1] : c->t[i];
   int k;
+  input->u = (pneu_real)l->u;
+  input->u_rate = 0;
+  if (i == l->from && jumps(t[0], input, to))
+    add_input(t[0], input, to);
   for (k = 0; k < 3; k++)
     if (k == 0 || (t[k] > t[0] && t[k] < next)) {
       input->u = (pneu_real)(l->u + l->rate * (fmin(fmax(t[k], l->begin), l->end) - l->begin));
@@ -275,7 +287,7 @@ static void fill(const pneu_model *model, const lab_rig *rig, const lab_log *log
 int lab_inputs_from_log(const pneu_model *model, const lab_rig *rig, const lab_log *log, size_t run, lab_inputs *inputs,
                         lab_error *error)
 {
-  const size_t first = log->run[run], end = log->run[run + 1], room = 3 * (end - first);
+  const size_t first = log->run[run], end = log->run[run + 1], room = 4 * (end - first);
   if (check_inputs(rig, log, error))
     return error->status;
   inputs->t = malloc(room * sizeof *inputs->t);

@@ -248,6 +248,11 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   lab_report_headline(&report, text);
   assert_string_equal(text, "The external force is 12.0 N in place of 0 N. Every command acts 20.0 ms late "
                             "(dead_time).");
+  report.deviations.of[0] = deviation("vent_restriction", (double)NAN, 1);
+  report.deviations.of[0].declared = 0;
+  report.deviations.of[0].found = -0.06;
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "The vent is 6 % wider. Every command acts 20.0 ms late (dead_time).");
   lab_report_evidence(&report, text); /* which not one of the two alone has done */
   assert_string_equal(text, "With all of this the error falls from 3.00 to 1.00 times the noise.");
 }
@@ -265,8 +270,9 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
   d->of[d->n++] = deviation("dry_friction", 1.997, 1);
   d->of[d->n++] = deviation("spring_rate", 0.75, 1);
   lab_report_headline(&report, text);
-  assert_string_equal(text, "Something is missing, but the log does not say what. As far as the log tells, friction is 2 "
-                            "times its sheet, the spring 25 % soft.");
+  assert_string_equal(text,
+                      "Something is missing, but the log does not say what. As far as the log tells, friction is 2 "
+                      "times its sheet, the spring 25 % soft.");
   result.jerks = 1;
   d->n = 0;
   lab_report_headline(&report, text);

@@ -37,6 +37,31 @@ static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **stat
   assert_close(lab_tolerance(&rig, bias()), 0.0025 * 4e5, 0, 1e-12);
 }
 
+/* Where one factor of both areas is fitted, the vent is still off beside the fill orifice. */
+static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter(void **state)
+{
+  const int vent = pneu_param_find("vent_restriction");
+  const char *areas = "transducer = { fill_area = \"1 mm^2\"; vent_area = \"2 mm^2\"; };\n";
+  char text[256];
+  (void)state;
+  if (vent < 0)
+    skip();
+  assert_int_equal(read_rig(areas), LAB_OK);
+  assert_close(lab_tolerance(&rig, vent), 0, 0, 0);
+  snprintf(text, sizeof text, "%sfit = (\"orifice_area\");", areas);
+  assert_int_equal(read_rig(text), LAB_OK);
+  assert_close(lab_tolerance(&rig, vent), 0.05, 0, 1e-12);
+  snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { vent_area = \"0.4 mm^2\"; };", areas);
+  assert_int_equal(read_rig(text), LAB_OK);
+  assert_close(lab_tolerance(&rig, vent), 0.05, 0, 1e-12);
+  snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { vent_restriction = \"10 %%\"; };", areas);
+  assert_int_equal(read_rig(text), LAB_OK);
+  assert_close(lab_tolerance(&rig, vent), 0.1, 0, 1e-12);
+  snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { others = 0; };", areas);
+  assert_int_equal(read_rig(text), LAB_OK);
+  assert_close(lab_tolerance(&rig, vent), 0, 0, 0);
+}
+
 static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 {
   (void)state;
@@ -109,6 +134,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_tolerance__no_group__is_the_default_of_the_kind),
+      cmocka_unit_test(test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter),
       cmocka_unit_test(test_lab_tolerance_read__share_and_quantity__are_in_si),
       cmocka_unit_test(test_lab_tolerance_read__positioner__is_a_share_of_its_own_value),
       cmocka_unit_test(test_lab_tolerance_read__others__are_exact),

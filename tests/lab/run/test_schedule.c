@@ -151,6 +151,29 @@ static void test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace(void **s
                 0.8);
 }
 
+/* What a positioner sends: it jumps somewhere in the row before, holds, and then runs along with the stem. */
+static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows(void **state)
+{
+  static const double row[][3] = {{0, 0, 0}, {3, -1, 0}, {3, -1, 0.3}, {4, -0.7, 0.2}, {6, -0.3, 0}}; /* t, u, u_rate */
+  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0,0\n3,-1,0\n4,-0.7,0\n5,-0.5,0\n6,-0.3,0\n7,-0.3,0\n");
+  lab_run run;
+  const lab_schedule *s = &run.inputs.schedule;
+  int i;
+  (void)state;
+  rig.noise[LAB_CHANNEL_P] = 100;
+  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+  assert_int_equal(s->n, (int)(sizeof row / sizeof *row));
+  for (i = 0; i < (int)(sizeof row / sizeof *row); i++) {
+    assert_close(s->t[i], row[i][0], 0, 0);
+    assert_close(s->input[i].u, row[i][1], 1e-15, 0);
+    assert_close(s->input[i].u_rate, row[i][2], 1e-15, 0);
+    if (i > 0)
+      assert_close(run.bracket[i - 1], i == 1, 0, 0);
+  }
+  lab_run_close(&run);
+  lab_log_free(&log);
+}
+
 /* Rounded to steps of 0.01: one line within a step; where the supply is measured too, all rows of it. */
 static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
 {
@@ -671,6 +694,7 @@ int main(void)
       CASE(test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there),
       CASE(test_lab_inputs_from_log__short_ramp__is_no_jump),
       CASE(test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace),
+      CASE(test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows),
       CASE(test_lab_inputs_from_log__rounded_ramp__is_one_line),
       CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold),
       CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),

@@ -199,6 +199,21 @@ static void test_lab_search_run__another_gain__is_a_value_that_is_off(void **sta
   assert_close(*pneu_param_at(&u.rig.params, pneu_param_find("gain")), 14, 0, 2e-2);
 }
 
+/* One factor of both orifices is fitted: the vent is off beside the other by what orifices of one make are, or is
+ * blocked. */
+static void test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance(void **state)
+{
+  (void)state;
+  g.vent_area = 0.95 * g.fill_area;
+  close_loop(WITH_SP | WITH_P);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_close((double)u.rig.params.ambient_pressure, 101325, 1000, 0);
+  begin(NULL);
+  g.vent_area = 0.6 * g.fill_area;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("vent_restriction", "vent_restriction", 0.4, 2e-2);
+}
+
 /* A partial stroke test tells friction of three times its sheet from a spring that gives back less: that would have to
  * do so within a micron. */
 static void test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis(void **state)
@@ -322,6 +337,7 @@ int main(void)
       CASE(test_lab_search_run__set_position_in_many_small_steps__is_no_hum),
       CASE(test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized),
       CASE(test_lab_search_run__another_gain__is_a_value_that_is_off),
+      CASE(test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance),
       CASE(test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis),
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
