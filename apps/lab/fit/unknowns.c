@@ -365,12 +365,29 @@ static void add_switches(lab_unknowns *u, int e)
   const size_t n = count_bracketed(x, 0), jumps = count_bracketed(x, 1);
   const int few = n * ROWS_A_SWITCH <= x->n && (size_t)u->n + n <= SWITCHES_END;
   size_t k;
+  if (x->on_rows)
+    return;
   if (!few && u->n < SWITCHES_END)
     add_switch(u, e, LAB_ALL_INSTANTS, 1, "1");
   for (k = 0; k < x->n_instants && (few || (jumps * ROWS_A_SWITCH <= x->n && (size_t)u->n + jumps <= SWITCHES_END));
        k++)
     if (x->bracket[k] > 0 && (few || is_jump(x, k)))
       add_switch(u, e, (int)k, x->bracket[k], "s");
+}
+
+int lab_unknowns_are_at_ends(const lab_unknowns *u)
+{
+  static const double of_any = 1.2;
+  double sum = 0;
+  int j, n = 0;
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    if (x->kind != LAB_UNKNOWN_INSTANT)
+      continue;
+    sum += (x->value - x->prior) * (x->value - x->prior) / (x->spread * x->spread);
+    n++;
+  }
+  return sum > of_any * n;
 }
 
 /* A parameter that each experiment has for itself, from one on. Where the rig file gives it a tolerance it is known to

@@ -265,14 +265,54 @@ static double for_search(double budget, double fit)
   return fmax(fmin(most * budget, budget - fit), least * budget);
 }
 
+static void place_on_rows(lab_logs *logs, int on_rows)
+{
+  int e;
+  for (e = 0; e < logs->n; e++)
+    logs->run[e].on_rows = on_rows;
+}
+
+/* A controller makes its commands at the rows that it logs. Where a fit asks for that, the declared model is fitted so,
+ * and stays so if that is plainly the better fit beside what it leaves.
+ * In/out:  declared  fitted
+ *          chi2      of that */
+static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_error *error)
+{
+  const double plainly = lab_constant(LAB_ALIKE_BIC) * fmax(chi2 / (double)declared->m, 1);
+  lab_unknowns *u;
+  double on_rows;
+  int status;
+  if (!lab_unknowns_are_at_ends(declared))
+    return LAB_OK;
+  u = malloc(sizeof *u);
+  if (!u)
+    return lab_fail_memory(error, "a fit");
+  place_on_rows(logs, 1);
+  status = lab_unknowns_open(logs->run[0].rig, logs->run, logs->n, u, error);
+  u->until = declared->until;
+  if (status == LAB_OK)
+    status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, &on_rows, error);
+  if (status == LAB_OK && on_rows + plainly < chi2) {
+    *declared = *u;
+    lab_limitation(&logs->limitations,
+                   "Commands change at the rows that show them, and not between two: that fits better.");
+  } else {
+    place_on_rows(logs, 0);
+  }
+  free(u);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* Fit the declared model; once more where the logs show another noise or clock than is declared. */
 static int fit_declared(lab_logs *logs, lab_unknowns *declared, lab_error *error)
 {
+  double chi2;
   int e, any;
   for (e = 0; e < logs->n; e++)
     if (lab_drift_open(&logs->run[e], error))
       return error->status;
-  if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) || lab_weigh_runs(declared, logs->run, &any, error))
+  if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, &chi2, error) || fit_on_rows(logs, declared, chi2, error) ||
+      lab_weigh_runs(declared, logs->run, &any, error))
     return error->status;
   lab_weights_say(logs->run, logs->n, &logs->limitations);
   return any ? lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;

@@ -23,6 +23,7 @@ typedef struct lab_run {
   double *drift;                   /* n_channels * n: what a drift of the sensor adds (drift.h); NULL: there is none */
   lab_inputs inputs;               /* schedule of inputs, as the log shows them */
   size_t n_instants;               /* changes of the command whose instant the log brackets; 0 if other inputs change */
+  int on_rows;     /* not 0: they are made at the rows that show them (lab_unknowns_open asks) */
   double *bracket; /* [s] n_instants: time from the row before each change to the row that shows it; 0 on a ramp */
 } lab_run;
 

@@ -41,6 +41,8 @@ static const recorder coloured = {"coloured noise", 0.007, 0, 0, 0, 0, 1, 0.7, 0
 static const recorder noisier = {"a third of the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1. / 3};
 static const recorder quieter = {"three times the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 3};
 
+static const recorder controller = {"commands at its rows, ten a second", 0.1, 0, 0, 0, 0, 1, 0, 0, 1};
+
 /* ---- Recording ---- */
 
 static double at(const double *value, double t)
@@ -87,7 +89,7 @@ static void write_log(const recorder *r)
     p = converted(p + noise_p * (r->quiet * coloured_p + swing), rig.supply, r->bits);
     x = converted(x + noise_x * (r->quiet * coloured_x + swing), rig.stroke, r->bits);
     fprintf(file, "%.5f,%g,%.5f,%.6f\n", r->rounding > 0 ? r->rounding * nearbyint(shown / r->rounding) : shown,
-            truth.u[(int)(t / fine)], p * 1e-3, x * 1e3);
+            truth.u[(int)(t / fine + 1e-6)], p * 1e-3, x * 1e3);
   }
   fclose(file);
 }
@@ -129,8 +131,8 @@ static lab_answer *answer_to(const recorder *r)
   return answer;
 }
 
-static const recorder *const recorders[] = {&as_declared, &rounded, &late,     &stamped, &ten_bits,
-                                            &plain_steps, &humming, &coloured, &noisier, &quieter};
+static const recorder *const recorders[] = {&as_declared, &rounded,  &late,    &stamped, &ten_bits,  &plain_steps,
+                                            &humming,     &coloured, &noisier, &quieter, &controller};
 
 /* ---- Verdicts ---- */
 
@@ -194,6 +196,12 @@ static void test_lab_answer_find__each_recorder__is_recognised(void **state)
   assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_P].frequency, 50, 0.01, 0);
   assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_P].amplitude, 3 * noise_p, 0, 0.05);
   assert_close(a->now.logs.log[0].hum[LAB_CHANNEL_X].amplitude, 3 * noise_x, 0, 0.05);
+  lab_answer_free(a);
+  a = answer_to(&controller);
+  assert_true(a->now.logs.run[0].on_rows);
+  lab_answer_free(a);
+  a = answer_to(&as_declared);
+  assert_false(a->now.logs.run[0].on_rows);
   lab_answer_free(a);
   a = answer_to(&noisier);
   assert_close(a->now.logs.run[0].level[P], 3, 0, 0.1);
