@@ -46,11 +46,15 @@ static void read_files(const char *rig_path, const char *log_path)
     fail_msg("%s", error.text);
 }
 
+/* In: columns  header of the log  more  of the rig file */
+static void read_columns(const char *columns, const bad_log *b, const char *more)
+{
+  read_files(bad_rig("rig.cfg", more), bad_write("log.csv", columns, b));
+}
+
 static void read_log(const bad_log *b)
 {
-  char path[512];
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", header, b));
-  read_files(bad_rig("rig.cfg", ""), path);
+  read_columns(header, b, "");
 }
 
 /* All that closeloop asks before a fit.  Returns: status */
@@ -63,11 +67,22 @@ static int judge(void)
   return lab_plausible_content(&rig, &content, &limitations, &error);
 }
 
-/* A sound log: no error, no doubt, and no remark. */
-static void assert_quiet(void)
+static void assert_passes(void)
 {
   if (judge() != LAB_OK)
     fail_msg("%s", error.text);
+}
+
+static void assert_judged_wrong(const char *words)
+{
+  assert_int_equal(judge(), LAB_DATA);
+  assert_contains(error.text, words);
+}
+
+/* A sound log: no error, no doubt, and no remark. */
+static void assert_quiet(void)
+{
+  assert_passes();
   if (limitations.n > 0)
     fail_msg("%s", limitations.text[0]);
   assert_int_equal(limitations.doubt, 0);
@@ -95,66 +110,57 @@ static void test_lab_plausible__leak__is_quiet(void **state)
 
 static void test_lab_plausible__position_only__is_quiet(void **state)
 {
-  char path[512];
   (void)state;
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],-,x [mm]", &sound));
-  read_files(bad_rig("rig.cfg", ""), path);
+  read_columns("t [s],u [1],-,x [mm]", &sound, "");
   assert_quiet();
 }
 
 static void test_lab_plausible__pressure_only__is_quiet(void **state)
 {
-  char path[512];
   (void)state;
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],p [kPa],-", &sound));
-  read_files(bad_rig("rig.cfg", ""), path);
+  read_columns("t [s],u [1],p [kPa],-", &sound, "");
   assert_quiet();
 }
 
 static void test_lab_plausible__pressure_as_input__is_quiet(void **state)
 {
-  char path[512];
   (void)state;
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],-,p [kPa],x [mm]", &sound));
-  read_files(bad_rig("rig.cfg", "inputs = [\"p\"];\n"), path);
+  read_columns("t [s],-,p [kPa],x [mm]", &sound, "inputs = [\"p\"];\n");
   assert_quiet();
 }
 
 /* Closed and charged, 21 rows of a pressure that sinks: no command, no stem. */
 static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
 {
-  char text[2048] = "t [s],p [kPa]\n", path[512];
+  char text[2048] = "t [s],p [kPa]\n";
   size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i <= 20; i++)
     used += (size_t)snprintf(text + used, sizeof text - used, "%d,%.4g\n", i, 300 * exp(-0.1 * i) + 0.3 * (i % 3 - 1));
-  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
   read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                                      "supply = { pressure = \"400 kPa\"; };\nlog = { constants = { u = 0; }; };\n"
                                      "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
-             path);
+             scratch_text("log.csv", text));
   assert_quiet();
 }
 
 /* A weak pump and a sensor that is off by its declared noise: more than the supply, and not by enough to refuse it. */
 static void test_lab_plausible__more_than_the_supply_by_less_than_noise__passes(void **state)
 {
-  char text[4096] = "t [s],p [kPa]\n", path[512];
+  char text[4096] = "t [s],p [kPa]\n";
   size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i <= 60; i++)
     used += (size_t)snprintf(text + used, sizeof text - used, "%.1f,%.4g\n", 0.1 * i,
                              7.2 * (1 - exp(-1.5 * i / 10)) + 0.2 * (i % 3 - 1));
-  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
   read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                                      "transducer = { fill_area = \"3 mm^2\"; };\n"
                                      "supply = { pressure = \"5 kPa\"; };\nlog = { constants = { u = 1; }; };\n"
                                      "noise = { pressure = \"1 kPa\"; };\nfit = (\"fill_area\");\n"),
-             path);
-  if (judge() != LAB_OK)
-    fail_msg("%s", error.text);
+             scratch_text("log.csv", text));
+  assert_passes();
 }
 
 /* An area wrong by a factor of five is what fits are for. */
@@ -169,7 +175,6 @@ static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **stat
     rig.params.fill_area *= (pneu_real)factors[i];
     rig.params.vent_area *= (pneu_real)factors[i];
     assert_quiet();
-    lab_log_free(&log_read);
   }
 }
 
@@ -215,7 +220,6 @@ static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
       snprintf(csv, sizeof csv, "%s/rig/%s/%s.csv", folder ? folder : "../shared/data", names[i], logs[k]);
       read_files(cfg, csv);
       assert_quiet();
-      lab_log_free(&log_read);
     }
 }
 
@@ -226,11 +230,10 @@ static void test_lab_plausible_content__one_still_run_of_two__passes(void **stat
   bad_log b = sound;
   (void)state;
   read_log(&sound);
-  assert_int_equal(judge(), LAB_OK);
-  lab_log_free(&log_read);
+  assert_passes();
   b.n = 40;
   read_log(&b);
-  assert_int_equal(judge(), LAB_OK);
+  assert_passes();
   assert_int_equal(content.runs, 2);
   assert_int_equal(content.still, 1);
 }
@@ -241,8 +244,7 @@ static void test_lab_plausible_content__nothing_but_still_runs__is_refused(void 
   (void)state;
   b.n = 40;
   read_log(&b);
-  assert_int_equal(judge(), LAB_DATA);
-  assert_contains(error.text, "nothing moves");
+  assert_judged_wrong("nothing moves");
 }
 
 /* ---- Checks that the processes do not reach ---- */
@@ -250,40 +252,35 @@ static void test_lab_plausible_content__nothing_but_still_runs__is_refused(void 
 static void test_lab_plausible__temperature_in_other_degrees__is_refused(void **state)
 {
   bad_log b = sound;
-  char path[512];
   size_t i;
   (void)state;
   for (i = 0; i < b.n; i++)
     b.x[i] = 25 + 0.1 * (double)(i % 7);
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],p [kPa],T [K]", &b));
-  read_files(bad_rig("rig.cfg", ""), path);
-  assert_int_equal(judge(), LAB_DATA);
-  assert_contains(error.text, "degC and K");
+  read_columns("t [s],u [1],p [kPa],T [K]", &b, "");
+  assert_judged_wrong("degC and K");
 }
 
 static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(void **state)
 {
-  char text[8192] = "t [s],u [1],p [kPa]\n", path[512];
+  char text[8192] = "t [s],u [1],p [kPa]\n";
   size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i < 200; i++)
     used += (size_t)snprintf(text + used, sizeof text - used, "%g,%d,%.5g\n", 0.1 * i, i < 2 ? 0 : -1,
                              i < 2 ? 390.0 : 101.3 + 288.7 * exp(-0.5 * 0.1 * (i - 1)) + 0.2 * (i % 3 - 1));
-  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
   read_files(scratch_text("rig.cfg",
                           "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                           "transducer = { vent_area = \"3 mm^2\"; };\nsupply = { pressure = \"400 kPa\"; };\n"
                           "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
-             path);
-  assert_int_equal(judge(), LAB_DATA);
-  assert_contains(error.text, "the column is p_abs");
+             scratch_text("log.csv", text));
+  assert_judged_wrong("the column is p_abs");
 }
 
 /* A chamber that reads ambient without a gauge would leave its stem on the stop. */
 static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **state)
 {
-  char text[8192] = "t [s],u [1],p [kPa],x [mm]\n", path[512];
+  char text[8192] = "t [s],u [1],p [kPa],x [mm]\n";
   size_t used = strlen(text);
   int i;
   (void)state;
@@ -292,11 +289,9 @@ static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **st
     used += (size_t)snprintf(text + used, sizeof text - used, "%g,%d,%.5g,%.5g\n", 0.1 * i, i >= 20,
                              p + 0.2 * (i % 3 - 1), (p - 20) / 10 + 0.01 * (i % 3 - 1));
   }
-  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
-  read_files(bad_rig("rig.cfg", ""), path);
+  read_files(bad_rig("rig.cfg", ""), scratch_text("log.csv", text));
   rig.params.spring_preload = (pneu_real)0.002;
-  if (judge() != LAB_OK)
-    fail_msg("%s", error.text);
+  assert_passes();
   for (i = 0; i < limitations.n; i++)
     if (strstr(limitations.text[i], "p_abs"))
       fail_msg("%s", limitations.text[i]);
@@ -307,13 +302,12 @@ static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **sta
   (void)state;
   read_log(&sound);
   rig.noise[LAB_CHANNEL_P] = 32;
-  assert_int_equal(judge(), LAB_OK);
+  assert_passes();
   assert_int_equal(limitations.n, 1);
   assert_contains(limitations.text[0], "the noise of p is about 0.3");
   assert_int_equal(limitations.doubt, 0);
 }
 
-/* A control system's output bar: 50 % is shut. */
 static void test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used(void **state)
 {
   static const struct {
@@ -334,6 +328,7 @@ static void test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_u
   free((char *)path);
 }
 
+/* A control system's output bar: 50 % is shut. */
 static void test_lab_plausible__half_that_is_shut__is_told(void **state)
 {
   static const struct {
@@ -347,15 +342,12 @@ static void test_lab_plausible__half_that_is_shut__is_told(void **state)
   size_t k, i;
   for (k = 0; k < sizeof cases / sizeof *cases; k++) {
     bad_log b = sound;
-    char path[512];
     check_note("%s", cases[k].header);
     fresh(state);
     for (i = 0; i < b.n; i++)
       b.u[i] = 0.5 + cases[k].sign * sound.u[i];
-    snprintf(path, sizeof path, "%s", bad_write("log.csv", cases[k].header, &b));
-    read_files(bad_rig("rig.cfg", ""), path);
-    assert_int_equal(judge(), LAB_DATA);
-    assert_contains(error.text, cases[k].channel);
+    read_columns(cases[k].header, &b, "");
+    assert_judged_wrong(cases[k].channel);
     assert_contains(error.text, cases[k].remedy);
   }
 }
@@ -363,33 +355,32 @@ static void test_lab_plausible__half_that_is_shut__is_told(void **state)
 /* Filled for 2 s, then at a command of `after` it sinks: more than any orifice of the model would let it. */
 static void read_sinking_vessel(double after)
 {
-  char text[8192] = "t [s],u [1],p [kPa]\n", path[512];
+  char text[8192] = "t [s],u [1],p [kPa]\n";
   size_t used = strlen(text);
   int i;
   for (i = 0; i < 200; i++)
     used += (size_t)snprintf(text + used, sizeof text - used, "%g,%g,%.5g\n", 0.1 * i, i < 20 ? 1 : after,
                              (i < 20 ? 15.0 * i : 300 * exp(-0.005 * (i - 20))) + 0.3 * (i % 3 - 1));
-  snprintf(path, sizeof path, "%s", scratch_text("log.csv", text));
   read_files(scratch_text("rig.cfg",
                           "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                           "transducer = { fill_area = \"1.5 mm^2\"; };\nsupply = { pressure = \"400 kPa\"; };\n"
                           "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
-             path);
+             scratch_text("log.csv", text));
 }
 
 static void test_lab_plausible__pressure_lost_while_filling_or_shut__is_told(void **state)
 {
   read_sinking_vessel(0);
-  assert_int_equal(judge(), LAB_OK);
+  assert_passes();
   assert_int_equal(limitations.doubt, 0);
   assert_contains(limitations.text[0], "from t = 2 s to 19.9 s while u = 0 shuts both orifices: the chamber leaks");
   fresh(state);
   read_sinking_vessel(0.2);
-  assert_int_equal(judge(), LAB_OK);
+  assert_passes();
   assert_contains(limitations.text[0], "while u = 0.2 fills: the chamber leaks more than the orifice lets in");
   fresh(state);
   read_sinking_vessel(-0.1);
-  assert_int_equal(judge(), LAB_OK);
+  assert_passes();
   assert_true(limitations.n == 0 || !strstr(limitations.text[0], "leaks"));
 }
 
@@ -465,16 +456,12 @@ static void test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less(void **
 
 static void test_lab_plausible__stem_that_rises_without_supply__is_refused(void **state)
 {
-  char path[512];
   (void)state;
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],u [1],-,x [mm]", &sound));
-  read_files(bad_rig("rig.cfg", ""), path);
+  read_columns("t [s],u [1],-,x [mm]", &sound, "");
   rig.params.supply_pressure = (pneu_real)2.5;
-  assert_int_equal(judge(), LAB_DATA);
-  assert_contains(error.text, "x rises, but the model's stem cannot leave its stop: supply.pressure is 2.5 Pa");
+  assert_judged_wrong("x rises, but the model's stem cannot leave its stop: supply.pressure is 2.5 Pa");
 }
 
-/* A decay of pressure below the bench set: the stem rests in the log as in the model. */
 /* A recorder of 0.1 mm, whose last digit turns: what hardly moves is stuck. */
 static void test_lab_plausible__stem_that_hardly_moves__is_stuck(void **state)
 {
@@ -484,15 +471,14 @@ static void test_lab_plausible__stem_that_hardly_moves__is_stuck(void **state)
   for (i = 0; i < b.n; i++)
     b.x[i] = i % 7 ? 8e-3 : 8.1e-3;
   read_log(&b);
-  assert_int_equal(judge(), LAB_DATA);
-  assert_contains(error.text, "channel x stays constant within");
+  assert_judged_wrong("channel x stays constant within");
   assert_contains(error.text, "is the stem stuck");
 }
 
+/* A decay of pressure below the bench set: the stem rests in the log as in the model. */
 static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(void **state)
 {
   bad_log b = sound;
-  char path[512];
   size_t i;
   (void)state;
   for (i = 0; i < b.n; i++) {
@@ -503,12 +489,10 @@ static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(vo
              0.3 * (double)(i % 3) - 0.3;
     b.x[i] = 0.02 * (double)(i % 3) - 0.02;
   }
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", header, &b));
-  read_files(bad_rig("rig.cfg", ""), path);
+  read_log(&b);
   rig.n_fit = 0;
   rig.params.supply_pressure = 80e3;
-  if (judge() != LAB_OK)
-    fail_msg("%s", error.text);
+  assert_passes();
   assert_int_equal(limitations.doubt, 0);
   assert_contains(limitations.text[limitations.n - 1], "cannot leave its stop: supply.pressure is 80.00 kPa");
 }
@@ -518,15 +502,12 @@ static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(vo
 static void test_lab_log_clean__pressure_input_that_saturates__is_refused(void **state)
 {
   bad_log b = sound;
-  char path[512];
   size_t i;
   (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] = fmin(sound.p[i], 180);
-  snprintf(path, sizeof path, "%s", bad_write("log.csv", "t [s],-,p [kPa],x [mm]", &b));
-  read_files(bad_rig("rig.cfg", "inputs = [\"p\"];\n"), path);
-  assert_int_equal(judge(), LAB_DATA);
-  assert_contains(error.text, "drives the model");
+  read_columns("t [s],-,p [kPa],x [mm]", &b, "inputs = [\"p\"];\n");
+  assert_judged_wrong("drives the model");
 }
 
 /* Without noise a plateau that is reached at speed gives it away; one that follows a command does not. */
@@ -540,7 +521,6 @@ static void test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abr
   read_log(&b);
   assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
   assert_int_equal(limitations.n, 0);
-  lab_log_free(&log_read);
   for (i = 0; i < b.n; i++)
     b.p[i] = fmin(b.p[i], 120);
   read_log(&b);
