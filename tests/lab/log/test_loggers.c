@@ -1,8 +1,7 @@
 /* Files as loggers write them (tests/loggers/README.md): each is read at once, or its message says what to write into
  * the rig file, which is done here to the letter. All hold the same eight rows. */
-#include "../../scratch.h"
+#include "../../rigfile.h"
 
-#include "../../../apps/lab/rig/rig.h"
 #include "../../../apps/lab/log/log.h"
 
 enum { ROWS = 8, ROUNDS = 4 };
@@ -52,8 +51,7 @@ static int read_as(const char *group, const char *path, lab_log *log, lab_error 
   char text[2048];
   lab_rig rig;
   snprintf(text, sizeof text, "actuator = { stroke = \"20 mm\"; };\npositioner = { gain = 20; };\n%s\n", group);
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, error))
-    fail_msg("%s", error->text);
+  rig = read_rig(text);
   return lab_log_read(path, &rig.log, (double)rig.params.ambient_pressure, log, error);
 }
 
@@ -158,30 +156,15 @@ static void test_lab_log_read__map_of_no_column__names_the_nearest(void **state)
 
 static void test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns(void **state)
 {
-  lab_error error;
-  lab_rig rig;
   (void)state;
-  assert_int_equal(lab_rig_read(scratch_text("r.cfg", "log = { map = { q = \"a\"; }; };"), &rig, &error), LAB_DATA);
-  assert_contains(error.text, "log.map.q");
-  assert_int_equal(
-      lab_rig_read(scratch_text("r.cfg", "log = { columns = ( \"t [s]\" ); map = { p = \"a\"; }; };"), &rig, &error),
-      LAB_DATA);
-  assert_contains(error.text, "give one");
+  assert_rig_refused("log = { map = { q = \"a\"; }; };", "log.map.q", "unknown key");
+  assert_rig_refused("log = { columns = ( \"t [s]\" ); map = { p = \"a\"; }; };", "log", "give one");
 }
 
 /* Written and read again, a group is the same. */
 static void assert_same_again(const char *group)
 {
-  static lab_rig rig, again;
-  FILE *file = fopen(scratch_path("again.cfg"), "w");
-  lab_error error;
-  assert_non_null(file);
-  if (lab_rig_read(scratch_text("r.cfg", group), &rig, &error))
-    fail_msg("%s", error.text);
-  lab_rig_write(file, &rig, NULL);
-  assert_int_equal(fclose(file), 0);
-  if (lab_rig_read(scratch_path("again.cfg"), &again, &error))
-    fail_msg("%s", error.text);
+  const lab_rig rig = read_rig(group), again = write_and_read(&rig, NULL);
   assert_memory_equal(&rig.log, &again.log, sizeof rig.log);
 }
 
@@ -241,11 +224,8 @@ static void test_lab_rig_read__signals_that_are_none__are_refused(void **state)
   (void)state;
   for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     char text[256];
-    lab_error error;
-    lab_rig rig;
     snprintf(text, sizeof text, "log = { %s };", bad[i].group);
-    assert_int_equal(lab_rig_read(scratch_text("r.cfg", text), &rig, &error), LAB_DATA);
-    assert_contains(error.text, bad[i].words);
+    assert_rig_refused(text, "log", bad[i].words);
   }
 }
 

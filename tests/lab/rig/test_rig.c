@@ -1,7 +1,6 @@
 /* apps/lab/rig/rig, and through it rigkeys, rigwrite, config, and the log group of logformat */
-#include "../../scratch.h"
+#include "../../rigfile.h"
 
-#include "../../../apps/lab/rig/rig.h"
 #include "../../../apps/lab/rig/rigkeys.h"
 
 static lab_error error;
@@ -26,30 +25,11 @@ static const char declared[] =
     "fit = ( \"orifice_area\", \"dry_friction\", \"damping\" );\n"
     "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; };\n";
 
-static lab_rig read_rig(const char *text)
-{
-  lab_rig rig;
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error))
-    fail_msg("%s", error.text);
-  return rig;
-}
-
 /* Skip a test that needs an effect which this build has trimmed away. */
 static void need_effect(const char *name)
 {
   if (pneu_effect_find(name) < 0)
     skip();
-}
-
-/* A file that must be refused, with LAB_DATA, its place and some words. */
-static void assert_refused(const char *text, const char *place, const char *words)
-{
-  lab_rig rig;
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error) == LAB_OK)
-    fail_msg("\"%s\" was read; it should say \"%s\"", text, words);
-  assert_int_equal(error.status, LAB_DATA);
-  assert_contains(error.text, place);
-  assert_contains(error.text, words);
 }
 
 static double param(const lab_rig *rig, const char *effect, const char *name)
@@ -270,13 +250,8 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
       "  name = { x = \"_l [dm]\"; }; holdout = { window = ( \"5 s\", \"6 s\" ); first = 3; };\n"
       "  new_run = \"t drops\"; runs = \"mean\";\n"
       "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; ps = \"last p\"; x = \"first x\"; }, { t = 0; u = 1; } ); };");
-  FILE *file = fopen(scratch_path("again.cfg"), "w");
   (void)state;
-  assert_non_null(file);
-  lab_rig_write(file, &rig, NULL);
-  fclose(file);
-  if (lab_rig_read(scratch_path("again.cfg"), &rig, &error))
-    fail_msg("%s", error.text);
+  rig = write_and_read(&rig, NULL);
   assert_int_equal(rig.log.weighted, 3);
   assert_close(rig.log.weight[2], -0.25, 0, 0);
   assert_int_equal(rig.log.every, 7);
@@ -297,12 +272,7 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
   assert_close(rig.log.lead[1][LAB_CHANNEL_U], 1, 0, 0);
   rig = read_rig("log = { columns = ( \"p [kPa]\", \"x [mm]\" ); time_step = 10; way_back = \"p\"; };");
   assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
-  file = fopen(scratch_path("again.cfg"), "w");
-  assert_non_null(file);
-  lab_rig_write(file, &rig, NULL);
-  fclose(file);
-  if (lab_rig_read(scratch_path("again.cfg"), &rig, &error))
-    fail_msg("%s", error.text);
+  rig = write_and_read(&rig, NULL);
   assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
 }
 
@@ -342,12 +312,6 @@ static void test_lab_rig_read__missing_file__says_so(void **state)
   assert_contains(error.text, "none.cfg: there is no such file");
 }
 
-static void test_lab_rig_read__empty_file__says_so(void **state)
-{
-  (void)state;
-  assert_refused("", "rig.cfg", "empty");
-}
-
 static void test_lab_rig_read__binary_file__is_refused(void **state)
 {
   const char bytes[] = "\x7f"
@@ -358,97 +322,104 @@ static void test_lab_rig_read__binary_file__is_refused(void **state)
   assert_contains(error.text, "rig.cfg:1:");
 }
 
-static void test_lab_rig_read__syntax_error__has_its_line(void **state)
+static void test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where(void **state)
 {
+  static const struct {
+    const char *text, *place, *words;
+  } bad[] = {
+      {"", "rig.cfg", "empty"},
+      {"actuator = {\n  area = \"1 m2\";\n  stroke = ;\n};\n", "rig.cfg:3:", "syntax error"},
+      {"actuator = {\n  area = 1;\n  area = 2;\n};\n", "rig.cfg:3:", "duplicate"},
+      {"actuator = {\n  spring_rat = \"4 kN/m\";\n};\n",
+       "rig.cfg:2: actuator.spring_rat:", "nearest known one is \"spring_rate\""},
+      {"actuator = { fill_area = 0; };\n", "actuator.fill_area", "belongs to the group transducer"},
+      {"\nactuater = { area = 1; };\n", "rig.cfg:2: actuater:", "nearest known one is \"actuator\""},
+      {"actuator = 5;\n", "rig.cfg:1: actuator:", "expected a group { ... }, found 5"},
+      {"actuator = {\n area = \"40 cm\";\n};\n",
+       "rig.cfg:2: actuator.area:", "expected a unit like m2 (m2), found \"cm\""},
+      {"supply = { pressure = \"4 barr\"; };\n", "supply.pressure", "unknown unit \"barr\""},
+      {"actuator = { area = true; };\n", "actuator.area", "found true"},
+      {"actuator = { area = [1, 2]; };\n", "actuator.area", "found a list of 2 entries"},
+      {"actuator = { name = 5; };\n", "actuator.name", "expected a text in quotes, found 5"},
+      {"laws = { gas = 1; };\n", "laws.gas", "expected a word in quotes, found 1"},
+      {"actuator = { area = \"big\"; };\n", "actuator.area", "expected a number"},
+      {"actuator = { area = \"nan m2\"; };\n", "actuator.area", "expected a number"},
+      {"actuator = {\n area = \"-400 cm^2\";\n};\n",
+       "rig.cfg:2: actuator.area:", "expected 1e-06 to 10 m2, found \"-400 cm^2\", which is -0.04 m2"},
+      {"ambient = { pressure = \"0 Pa\"; };\n", "ambient.pressure", "expected 100 to 1e+07 Pa"},
+      {"actuator = { dead_volume = -1; };\n", "actuator.dead_volume", "found -1"},
+      {"actuator = { area = 1e999; };\n", "actuator.area", "expected"},
+      {"supply = {\n pressure = \"0 kPa\";\n};\n", "rig.cfg:2: supply.pressure:", "supply above ambient"},
+      {"laws = { gas = \"isotermal\"; };\n", "laws.gas", "nearest known one is \"isothermal\""},
+      {"laws = { flow = \"ISO6358\"; };\n", "laws.flow", "nearest known one is \"iso6358\""},
+      {"laws = { friction = \"lugree\"; };\n", "laws.friction", "nearest known one is \"lugre\""},
+      {"actuator = { action = \"revers\"; };\n", "actuator.action", "\"reverse\""},
+      {"fit = ( \"dry_frction\" );\n", "fit[0]", "nearest known one is \"dry_friction\""},
+      {"fit = ( \"area\",\n \"area\" );\n", "rig.cfg:2: fit[1]:", "twice"},
+      {"fit = ( \"orifice_area\", \"vent_area\" );\n", "fit[1]", "orifice_area scales"},
+      {"fit = ( \"fill_area\", \"orifice_area\" );\n", "fit[1]", "orifice_area scales"},
+      {"fit = ( 5 );\n", "fit[0]", "expected a word"},
+      {"fit = \"area\";\n", "fit", "expected a list"},
+      {"fit_per_log = ( \"dry_frction\" );\n", "fit_per_log[0]", "nearest known one is \"dry_friction\""},
+      {"fit = ( \"area\" );\nfit_per_log = ( \"area\" );\n", "rig.cfg:2: fit_per_log[0]:", "twice"},
+      {"fit = ( \"fill_area\" ); fit_per_log = ( \"orifice_area\" );\n", "fit_per_log[0]", "orifice_area scales"},
+      /* control characters do not reach the message */
+      {"laws = { gas = \"a\\n\\x1b[2Jb\"; };\n", "laws.gas", "unknown word \"a??[2Jb\""},
+      {"log = { decimal = 5; };\n", "log.decimal", "expected one character"},
+      {"log = { scale = { p = true; }; };\n", "log.scale.p", "expected"},
+      {"log = { scale = { p = 0; }; };\n", "log.scale.p", "other than 0"},
+      {"log = { quantities = {\n a12345678901234567890123456789012345678901234567890123456789012345 = \"-\"; }; };",
+       "log.quantities.a1234", "a word of less than 64 bytes"},
+      {"log = { holdout = { first = -1; }; };\n", "log.holdout.first", "0 to"},
+      {"log = { holdout = { window = ( \"2 s\", \"1 s\" ); }; };\n", "log.holdout.window", "from 2 s to 1 s"},
+      {"log = { lead = ( { t = \"0 s\"; p = \"2e15 Pa\"; } ); };\n", "log.lead[0].p", "-5e+14 to 5e+14"},
+      {"noise = { presure = 1; };\n", "noise.presure", "\"pressure\""},
+      {"noise = { pressure = 0; };\n", "noise.pressure", "above 0"},
+      {"noise = { pressure = \"-1 kPa\"; };\n", "noise.pressure", "above 0"},
+      {"noise = { pressure = \"1 mm\"; };\n", "noise.pressure", "expected a unit like Pa"},
+      {"noise = { command = 1; };\n", "noise.command", "unknown key"},
+      {"inputs = [ \"v\" ];\n", "inputs[0]", "unknown word \"v\""},
+      {"inputs = [ \"T\" ];\n", "inputs[0]", "unknown word \"T\""},
+      {"inputs = [ ];\n", "inputs", "expected a list"},
+      {"log = { delimeter = \";\"; };\n", "log.delimeter", "\"delimiter\""},
+      {"log = { delimiter = \"ab\"; };\n", "log.delimiter", "one character"},
+      {"log = { delimiter = 5; };\n", "log.delimiter", "one character"},
+      {"log = { decimal = \";\"; };\n", "log.decimal", "expected \".\" or \",\""},
+      {"log = { delimiter = \",\"; decimal = \",\"; };\n", "log:", "delimiter and decimal"},
+      {"log = { delimiter = \",\"; thousands = \",\"; };\n", "log:", "delimiter and thousands"},
+      {"log = { skip_lines = -1; };\n", "log.skip_lines", "whole number"},
+      {"log = { skip_lines = 1.5; };\n", "log.skip_lines", "whole number"},
+      {"log = { columns = \"t [s]\"; };\n", "log.columns", "expected a list"},
+      {"log = { columns = ( \"t [s]\", 5 ); };\n", "log.columns[1]", "expected a text"},
+      {"log = { columns = ( \"t [s]\", \"q [s]\" ); };\n", "log.columns", "unknown channel \"q\""},
+      {"log = { window = ( 1 ); };\n", "log.window", "2 to 2 entries"},
+      {"log = { window = ( 2, 1 ); };\n", "log.window", "(from, to)"},
+      {"log = { window = ( 0, \"2 m\" ); };\n", "log.window[1]", "expected a unit like s"},
+      {"log = { new_run = \"t rises\"; };\n", "log.new_run", "\"t drops\""},
+      {"log = { damaged = \"keep\"; };\n", "log.damaged", "unknown word"},
+      {"log = { columns = ( \"t [s]\" ); weights = ( 1, 2 ); };\n", "log:", "a weight for each of the 1"},
+      {"log = { every = 0; };\n", "log.every", "whole number"},
+      {"log = { name = { x = \"_l\"; }; };\n", "log.name.x", "mark [unit]"},
+      {"log = { name = { q = \"_l [m]\"; }; };\n", "log.name.q", "unknown key"},
+      {"log = { holdout = { rows = 1; }; };\n", "log.holdout.rows", "unknown key"},
+      {"log = { way_back = \"p\"; };\n", "log:", "way_back needs time_step"},
+      {"log = { way_back = \"q\"; };\n", "log.way_back", "unknown word"},
+      {"log = { runs = \"mean\"; };\n", "log:", "needs new_run"},
+      {"log = { lead = ( { t = 0; p = \"last q\"; } ); };\n", "log.lead[0].p", "\"first p\""},
+      {"log = { lead = ( { u = 1; } ); };\n", "log.lead[0]", "its time t"},
+      {"log = { lead = ( { t = 1; }, { t = 1; } ); };\n", "log.lead[1]", "after that of the row before"},
+      {"log = { time_step = 0; };\n", "log.time_step", "expected"},
+      {"log = { scale = { q = 1; }; };\n", "log.scale.q", "unknown key"},
+      {"log = { scale = { x = 0; }; };\n", "log.scale.x", "other than 0"},
+      {"log = { constants = { t = 0; }; };\n", "log.constants", "time_step"},
+      {"log = { quantities = { a = \"b [Pa]\"; }; };\n", "log.quantities", "unknown channel \"b\""},
+      {"log = { quantities = { a = \"p [Pa]\"; }; new_run = \"t drops\"; };\n", "log:", "neither"},
+      {"actuator = { name = \"\"; };\n", "actuator.name", "expected a name"},
+  };
+  size_t i;
   (void)state;
-  assert_refused("actuator = {\n  area = \"1 m2\";\n  stroke = ;\n};\n", "rig.cfg:3:", "syntax error");
-}
-
-static void test_lab_rig_read__key_twice__has_its_line(void **state)
-{
-  (void)state;
-  assert_refused("actuator = {\n  area = 1;\n  area = 2;\n};\n", "rig.cfg:3:", "duplicate");
-}
-
-/* ---- Bad keys and values ---- */
-
-static void test_lab_rig_read__unknown_key__names_the_nearest(void **state)
-{
-  (void)state;
-  assert_refused("actuator = {\n  spring_rat = \"4 kN/m\";\n};\n",
-                 "rig.cfg:2: actuator.spring_rat:", "nearest known one is \"spring_rate\"");
-}
-
-static void test_lab_rig_read__key_of_another_group__says_where_it_belongs(void **state)
-{
-  (void)state;
-  assert_refused("actuator = { fill_area = 0; };\n", "actuator.fill_area", "belongs to the group transducer");
-}
-
-static void test_lab_rig_read__unknown_group__names_the_nearest(void **state)
-{
-  (void)state;
-  assert_refused("\nactuater = { area = 1; };\n", "rig.cfg:2: actuater:", "nearest known one is \"actuator\"");
-}
-
-static void test_lab_rig_read__value_for_a_group__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("actuator = 5;\n", "rig.cfg:1: actuator:", "expected a group { ... }, found 5");
-}
-
-static void test_lab_rig_read__wrong_unit__names_both(void **state)
-{
-  (void)state;
-  assert_refused("actuator = {\n area = \"40 cm\";\n};\n",
-                 "rig.cfg:2: actuator.area:", "expected a unit like m2 (m2), found \"cm\"");
-  assert_refused("supply = { pressure = \"4 barr\"; };\n", "supply.pressure", "unknown unit \"barr\"");
-}
-
-static void test_lab_rig_read__wrong_type__names_both(void **state)
-{
-  (void)state;
-  assert_refused("actuator = { area = true; };\n", "actuator.area", "found true");
-  assert_refused("actuator = { area = [1, 2]; };\n", "actuator.area", "found a list of 2 entries");
-  assert_refused("actuator = { name = 5; };\n", "actuator.name", "expected a text in quotes, found 5");
-  assert_refused("laws = { gas = 1; };\n", "laws.gas", "expected a word in quotes, found 1");
-}
-
-static void test_lab_rig_read__no_number__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("actuator = { area = \"big\"; };\n", "actuator.area", "expected a number");
-  assert_refused("actuator = { area = \"nan m2\"; };\n", "actuator.area", "expected a number");
-}
-
-static void test_lab_rig_read__out_of_bounds__gives_the_bounds(void **state)
-{
-  (void)state;
-  assert_refused("actuator = {\n area = \"-400 cm^2\";\n};\n",
-                 "rig.cfg:2: actuator.area:", "expected 1e-06 to 10 m2, found \"-400 cm^2\", which is -0.04 m2");
-  assert_refused("ambient = { pressure = \"0 Pa\"; };\n", "ambient.pressure", "expected 100 to 1e+07 Pa");
-  assert_refused("actuator = { dead_volume = -1; };\n", "actuator.dead_volume", "found -1");
-  assert_refused("actuator = { area = 1e999; };\n", "actuator.area", "expected");
-}
-
-static void test_lab_rig_read__supply_at_ambient__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("supply = {\n pressure = \"0 kPa\";\n};\n", "rig.cfg:2: supply.pressure:", "supply above ambient");
-}
-
-static void test_lab_rig_read__unknown_law__names_the_nearest(void **state)
-{
-  (void)state;
-  assert_refused("laws = { gas = \"isotermal\"; };\n", "laws.gas", "nearest known one is \"isothermal\"");
-  assert_refused("laws = { flow = \"ISO6358\"; };\n", "laws.flow", "nearest known one is \"iso6358\"");
-  assert_refused("laws = { friction = \"lugree\"; };\n", "laws.friction", "nearest known one is \"lugre\"");
-}
-
-static void test_lab_rig_read__unknown_action__names_the_nearest(void **state)
-{
-  (void)state;
-  assert_refused("actuator = { action = \"revers\"; };\n", "actuator.action", "\"reverse\"");
+  for (i = 0; i < sizeof bad / sizeof *bad; i++)
+    assert_rig_refused(bad[i].text, bad[i].place, bad[i].words);
 }
 
 static void test_lab_rig_read__long_name__is_refused(void **state)
@@ -457,130 +428,40 @@ static void test_lab_rig_read__long_name__is_refused(void **state)
   (void)state;
   memset(text + strlen(text), 'n', 100);
   strcat(text, "\"; };\n");
-  assert_refused(text, "actuator.name", "at most 63 bytes, found 100");
-}
-
-static void test_lab_rig_read__bad_fit__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("fit = ( \"dry_frction\" );\n", "fit[0]", "nearest known one is \"dry_friction\"");
-  assert_refused("fit = ( \"area\",\n \"area\" );\n", "rig.cfg:2: fit[1]:", "twice");
-  assert_refused("fit = ( \"orifice_area\", \"vent_area\" );\n", "fit[1]", "orifice_area scales");
-  assert_refused("fit = ( \"fill_area\", \"orifice_area\" );\n", "fit[1]", "orifice_area scales");
-  assert_refused("fit = ( 5 );\n", "fit[0]", "expected a word");
-  assert_refused("fit = \"area\";\n", "fit", "expected a list");
-  assert_refused("fit_per_log = ( \"dry_frction\" );\n", "fit_per_log[0]", "nearest known one is \"dry_friction\"");
-  assert_refused("fit = ( \"area\" );\nfit_per_log = ( \"area\" );\n", "rig.cfg:2: fit_per_log[0]:", "twice");
-  assert_refused("fit = ( \"fill_area\" ); fit_per_log = ( \"orifice_area\" );\n", "fit_per_log[0]",
-                 "orifice_area scales");
+  assert_rig_refused(text, "actuator.name", "at most 63 bytes, found 100");
 }
 
 static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
 {
   (void)state;
   need_effect("heat_transfer");
-  assert_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
-                 "effects.heat_transfer.free_convection", "does nothing with the other laws");
+  assert_rig_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
+                     "effects.heat_transfer.free_convection", "does nothing with the other laws");
 }
 
 static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **state)
 {
   (void)state;
   need_effect("positioner");
-  assert_refused("fit = ( \"positioner.gain\" );\n", "positioner.gain is to be fitted", "no positioner is declared");
-  assert_refused("positioner = { cutoff_low = \"99 %\"; cutoff_high = \"1 %\"; };\n", "rig.cfg:1: positioner",
-                 "cutoff_low, 99 %, is not below cutoff_high, 1 %");
-}
-
-static void test_lab_rig_read__control_characters__do_not_reach_the_message(void **state)
-{
-  (void)state;
-  assert_refused("laws = { gas = \"a\\n\\x1b[2Jb\"; };\n", "laws.gas", "unknown word \"a??[2Jb\"");
-}
-
-static void test_lab_rig_read__bad_keys_of_logs__are_refused(void **state)
-{
-  (void)state;
-  assert_refused("log = { decimal = 5; };\n", "log.decimal", "expected one character");
-  assert_refused("log = { scale = { p = true; }; };\n", "log.scale.p", "expected");
-  assert_refused("log = { scale = { p = 0; }; };\n", "log.scale.p", "other than 0");
-  assert_refused(
-      "log = { quantities = {\n a12345678901234567890123456789012345678901234567890123456789012345 = \"-\"; }; };",
-      "log.quantities.a1234", "a word of less than 64 bytes");
-  assert_refused("log = { holdout = { first = -1; }; };\n", "log.holdout.first", "0 to");
-  assert_refused("log = { holdout = { window = ( \"2 s\", \"1 s\" ); }; };\n", "log.holdout.window", "from 2 s to 1 s");
-  assert_refused("log = { lead = ( { t = \"0 s\"; p = \"2e15 Pa\"; } ); };\n", "log.lead[0].p", "-5e+14 to 5e+14");
-}
-
-static void test_lab_rig_read__bad_noise__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("noise = { presure = 1; };\n", "noise.presure", "\"pressure\"");
-  assert_refused("noise = { pressure = 0; };\n", "noise.pressure", "above 0");
-  assert_refused("noise = { pressure = \"-1 kPa\"; };\n", "noise.pressure", "above 0");
-  assert_refused("noise = { pressure = \"1 mm\"; };\n", "noise.pressure", "expected a unit like Pa");
-  assert_refused("noise = { command = 1; };\n", "noise.command", "unknown key");
-}
-
-static void test_lab_rig_read__bad_inputs__are_refused(void **state)
-{
-  (void)state;
-  assert_refused("inputs = [ \"v\" ];\n", "inputs[0]", "unknown word \"v\"");
-  assert_refused("inputs = [ \"T\" ];\n", "inputs[0]", "unknown word \"T\"");
-  assert_refused("inputs = [ ];\n", "inputs", "expected a list");
+  assert_rig_refused("fit = ( \"positioner.gain\" );\n", "positioner.gain is to be fitted",
+                     "no positioner is declared");
+  assert_rig_refused("positioner = { cutoff_low = \"99 %\"; cutoff_high = \"1 %\"; };\n", "rig.cfg:1: positioner",
+                     "cutoff_low, 99 %, is not below cutoff_high, 1 %");
 }
 
 static void test_lab_rig_read__bad_effects__are_refused(void **state)
 {
   (void)state;
   need_effect("chamber_leak");
-  assert_refused("effects = { chamber_leek = { leak_area = 0; }; };\n", "effects.chamber_leek", "\"chamber_leak\"");
-  assert_refused("effects = { chamber_leak = { leek_area = 0; }; };\n", "effects.chamber_leak.leek_area",
-                 "\"leak_area\"");
-  assert_refused("effects = { chamber_leak = { leak_area = \"1 kPa\"; }; };\n", "effects.chamber_leak.leak_area",
-                 "expected a unit like m2");
-  assert_refused("effects = { chamber_leak = { leak_area = -1; }; };\n", "effects.chamber_leak.leak_area",
-                 "expected 0 to");
-  assert_refused("effects = { chamber_leak = 1; };\n", "effects.chamber_leak", "expected a group");
-  assert_refused("effects = 1;\n", "effects", "expected a group");
-}
-
-static void test_lab_rig_read__bad_log_group__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("log = { delimeter = \";\"; };\n", "log.delimeter", "\"delimiter\"");
-  assert_refused("log = { delimiter = \"ab\"; };\n", "log.delimiter", "one character");
-  assert_refused("log = { delimiter = 5; };\n", "log.delimiter", "one character");
-  assert_refused("log = { decimal = \";\"; };\n", "log.decimal", "expected \".\" or \",\"");
-  assert_refused("log = { delimiter = \",\"; decimal = \",\"; };\n", "log:", "delimiter and decimal");
-  assert_refused("log = { delimiter = \",\"; thousands = \",\"; };\n", "log:", "delimiter and thousands");
-  assert_refused("log = { skip_lines = -1; };\n", "log.skip_lines", "whole number");
-  assert_refused("log = { skip_lines = 1.5; };\n", "log.skip_lines", "whole number");
-  assert_refused("log = { columns = \"t [s]\"; };\n", "log.columns", "expected a list");
-  assert_refused("log = { columns = ( \"t [s]\", 5 ); };\n", "log.columns[1]", "expected a text");
-  assert_refused("log = { columns = ( \"t [s]\", \"q [s]\" ); };\n", "log.columns", "unknown channel \"q\"");
-  assert_refused("log = { window = ( 1 ); };\n", "log.window", "2 to 2 entries");
-  assert_refused("log = { window = ( 2, 1 ); };\n", "log.window", "(from, to)");
-  assert_refused("log = { window = ( 0, \"2 m\" ); };\n", "log.window[1]", "expected a unit like s");
-  assert_refused("log = { new_run = \"t rises\"; };\n", "log.new_run", "\"t drops\"");
-  assert_refused("log = { damaged = \"keep\"; };\n", "log.damaged", "unknown word");
-  assert_refused("log = { columns = ( \"t [s]\" ); weights = ( 1, 2 ); };\n", "log:", "a weight for each of the 1");
-  assert_refused("log = { every = 0; };\n", "log.every", "whole number");
-  assert_refused("log = { name = { x = \"_l\"; }; };\n", "log.name.x", "mark [unit]");
-  assert_refused("log = { name = { q = \"_l [m]\"; }; };\n", "log.name.q", "unknown key");
-  assert_refused("log = { holdout = { rows = 1; }; };\n", "log.holdout.rows", "unknown key");
-  assert_refused("log = { way_back = \"p\"; };\n", "log:", "way_back needs time_step");
-  assert_refused("log = { way_back = \"q\"; };\n", "log.way_back", "unknown word");
-  assert_refused("log = { runs = \"mean\"; };\n", "log:", "needs new_run");
-  assert_refused("log = { lead = ( { t = 0; p = \"last q\"; } ); };\n", "log.lead[0].p", "\"first p\"");
-  assert_refused("log = { lead = ( { u = 1; } ); };\n", "log.lead[0]", "its time t");
-  assert_refused("log = { lead = ( { t = 1; }, { t = 1; } ); };\n", "log.lead[1]", "after that of the row before");
-  assert_refused("log = { time_step = 0; };\n", "log.time_step", "expected");
-  assert_refused("log = { scale = { q = 1; }; };\n", "log.scale.q", "unknown key");
-  assert_refused("log = { scale = { x = 0; }; };\n", "log.scale.x", "other than 0");
-  assert_refused("log = { constants = { t = 0; }; };\n", "log.constants", "time_step");
-  assert_refused("log = { quantities = { a = \"b [Pa]\"; }; };\n", "log.quantities", "unknown channel \"b\"");
-  assert_refused("log = { quantities = { a = \"p [Pa]\"; }; new_run = \"t drops\"; };\n", "log:", "neither");
+  assert_rig_refused("effects = { chamber_leek = { leak_area = 0; }; };\n", "effects.chamber_leek", "\"chamber_leak\"");
+  assert_rig_refused("effects = { chamber_leak = { leek_area = 0; }; };\n", "effects.chamber_leak.leek_area",
+                     "\"leak_area\"");
+  assert_rig_refused("effects = { chamber_leak = { leak_area = \"1 kPa\"; }; };\n", "effects.chamber_leak.leak_area",
+                     "expected a unit like m2");
+  assert_rig_refused("effects = { chamber_leak = { leak_area = -1; }; };\n", "effects.chamber_leak.leak_area",
+                     "expected 0 to");
+  assert_rig_refused("effects = { chamber_leak = 1; };\n", "effects.chamber_leak", "expected a group");
+  assert_rig_refused("effects = 1;\n", "effects", "expected a group");
 }
 
 /* ---- Writing ---- */
@@ -603,29 +484,22 @@ static void assert_same(const lab_rig *a, const lab_rig *b)
   assert_memory_equal(&a->log, &b->log, sizeof a->log);
 }
 
-static lab_rig write_and_read(const lab_rig *rig)
+static void assert_comes_back(const lab_rig *rig)
 {
-  const char *path = scratch_path("model.cfg");
-  FILE *file = fopen(path, "w");
-  lab_rig again;
-  assert_non_null(file);
-  lab_rig_write(file, rig, "two lines\nof remark");
-  assert_int_equal(fclose(file), 0);
-  if (lab_rig_read(path, &again, &error))
-    fail_msg("%s", error.text);
-  return again;
+  const lab_rig again = write_and_read(rig, "two lines\nof remark");
+  assert_same(rig, &again);
 }
 
 static void test_lab_rig_write__declared_rig__comes_back_bit_for_bit(void **state)
 {
-  lab_rig rig = read_rig(declared), again = write_and_read(&rig);
+  lab_rig rig = read_rig(declared);
   (void)state;
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
 {
-  lab_rig rig, again;
+  lab_rig rig;
   need_effect("positioner");
   (void)state;
   rig =
@@ -641,29 +515,26 @@ static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
   assert_close(param(&rig, "positioner", "cutoff_high"), 0.99, 1e-15, 0);
   assert_int_equal(rig.n_fit, 2);
   assert_int_equal(lab_rig_has_positioner(&rig), 1);
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
   rig = read_rig("positioner = { };\n");
   assert_close(param(&rig, "positioner", "gain"), 20, 0, 0);
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
   rig = read_rig("positioner = { gain = 0; dead_band = 0.01; };\n");
   assert_int_equal(lab_rig_has_positioner(&rig), 0);
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state)
 {
   need_effect("positioner");
   (void)state;
-  assert_refused("positioner = { gian = 20; };\n", "positioner.gian", "\"gain\"");
-  assert_refused("positioner = { gain = -1; };\n", "positioner.gain", "0");
-  assert_refused("effects = { positioner = { gain = 20; }; };\n", "effects.positioner", "unknown");
-  assert_refused("positioner = { gain = 20; };\ntransducer = { proportional_band = \"1 bar\"; };\n", "positioner.gain",
-                 "does nothing");
-  assert_refused("positioner = { gain = 20; };\nactuator = { stroke = \"0 mm\"; };\n", "positioner.gain",
-                 "does nothing");
+  assert_rig_refused("positioner = { gian = 20; };\n", "positioner.gian", "\"gain\"");
+  assert_rig_refused("positioner = { gain = -1; };\n", "positioner.gain", "0");
+  assert_rig_refused("effects = { positioner = { gain = 20; }; };\n", "effects.positioner", "unknown");
+  assert_rig_refused("positioner = { gain = 20; };\ntransducer = { proportional_band = \"1 bar\"; };\n",
+                     "positioner.gain", "does nothing");
+  assert_rig_refused("positioner = { gain = 20; };\nactuator = { stroke = \"0 mm\"; };\n", "positioner.gain",
+                     "does nothing");
 }
 
 static void test_lab_rig_write__remark__heads_the_file(void **state)
@@ -671,16 +542,10 @@ static void test_lab_rig_write__remark__heads_the_file(void **state)
   lab_rig rig = read_rig(declared);
   char *text;
   (void)state;
-  write_and_read(&rig);
-  text = scratch_read(scratch_path("model.cfg"));
+  write_and_read(&rig, "two lines\nof remark");
+  text = scratch_read(scratch_path("again.cfg"));
   assert_int_equal(strncmp(text, "// two lines\n// of remark\nactuator = {\n", 39), 0);
   free(text);
-}
-
-static void test_lab_rig_read__no_name__is_refused(void **state)
-{
-  (void)state;
-  assert_refused("actuator = { name = \"\"; };\n", "actuator.name", "expected a name");
 }
 
 static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
@@ -693,12 +558,12 @@ static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
     strcat(text, one);
   }
   strcat(text, " }; };\n");
-  assert_refused(text, "log.quantities", "at most 32 quantities");
+  assert_rig_refused(text, "log.quantities", "at most 32 quantities");
 }
 
 static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(void **state)
 {
-  lab_rig rig, again;
+  lab_rig rig;
   int i;
   (void)state;
   lab_rig_default(&rig);
@@ -712,18 +577,16 @@ static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(vo
     *pneu_param_at(&rig.params, pneu_param_find("positioner.gain")) = 0;
   rig.log.command_is_pressure = 1;
   rig.log.stroke = (double)rig.params.stroke;
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_write__name_with_quotes__comes_back(void **state)
 {
-  lab_rig rig, again;
+  lab_rig rig;
   (void)state;
   lab_rig_default(&rig);
   strcpy(rig.name, "the \"old\" back\\slash");
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void **state)
@@ -733,7 +596,7 @@ static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void *
   need_effect("stribeck_friction");
   rig = read_rig("laws = { friction = \"stribeck\"; };\n"
                  "effects = { stribeck_friction = { stribeck_excess = 0; }; };");
-  again = write_and_read(&rig);
+  again = write_and_read(&rig, NULL);
   assert_close(param(&again, "stribeck_friction", "stribeck_excess"), 0, 0, 0);
   assert_same(&rig, &again);
 }
@@ -745,34 +608,30 @@ static void test_lab_rig_write__log_group__comes_back(void **state)
                          "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
                          "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
                          "  scale = { x = -0.1; }; offset = { T = \"0.1 degC\"; }; constants = { u = \"10 %\"; }; };");
-  lab_rig again = write_and_read(&rig);
   (void)state;
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_write__long_log__comes_back(void **state)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
                          "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
-  lab_rig again = write_and_read(&rig);
   (void)state;
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
   rig = read_rig("log = { time_step = \"1 ms\"; };");
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
 {
-  lab_rig rig, again;
+  lab_rig rig;
   int i;
   (void)state;
   rig = read_rig(pneu_param_find("positioner.gain") >= 0 ? "positioner = { };\n" : "");
   for (i = 0; i < LAB_PARAM_COUNT; i++)
     if (i != PNEU_PARAM_fill_area && i != PNEU_PARAM_vent_area)
       rig.fit[rig.n_fit++] = i;
-  again = write_and_read(&rig);
-  assert_same(&rig, &again);
+  assert_comes_back(&rig);
 }
 
 static void test_lab_rig_write__each_its_own__comes_back(void **state)
@@ -780,14 +639,14 @@ static void test_lab_rig_write__each_its_own__comes_back(void **state)
   lab_rig rig = read_rig("fit_per_log = ( \"supply_pressure\", \"orifice_area\" ); fit = ( \"spring_rate\" );\n"
                          "unlisted = ( { equation = \"friction\"; argument = \"x\"; from = 0; to = \"20 mm\";\n"
                          "  values = [ 0.0, 0.1, 0.0 ]; } );\n"),
-          again = write_and_read(&rig);
+          again = write_and_read(&rig, NULL);
   (void)state;
   assert_int_equal(again.fit_per_log[0], 0);
   assert_int_equal(again.fit_per_log[1], 1);
   assert_int_equal(again.n_terms, 1);
   assert_same(&rig, &again);
   rig = read_rig("fit_per_log = ( \"damping\" );\n"); /* and none is shared */
-  again = write_and_read(&rig);
+  again = write_and_read(&rig, NULL);
   assert_int_equal(again.n_fit, 1);
   assert_int_equal(again.fit_per_log[0], 1);
   assert_same(&rig, &again);
@@ -834,32 +693,12 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__proportional_band__makes_the_command_a_pressure),
       cmocka_unit_test(test_lab_rig_read__no_fill_area__needs_no_supply),
       cmocka_unit_test(test_lab_rig_read__missing_file__says_so),
-      cmocka_unit_test(test_lab_rig_read__empty_file__says_so),
       cmocka_unit_test(test_lab_rig_read__binary_file__is_refused),
-      cmocka_unit_test(test_lab_rig_read__syntax_error__has_its_line),
-      cmocka_unit_test(test_lab_rig_read__key_twice__has_its_line),
-      cmocka_unit_test(test_lab_rig_read__unknown_key__names_the_nearest),
-      cmocka_unit_test(test_lab_rig_read__key_of_another_group__says_where_it_belongs),
-      cmocka_unit_test(test_lab_rig_read__unknown_group__names_the_nearest),
-      cmocka_unit_test(test_lab_rig_read__value_for_a_group__is_refused),
-      cmocka_unit_test(test_lab_rig_read__wrong_unit__names_both),
-      cmocka_unit_test(test_lab_rig_read__wrong_type__names_both),
-      cmocka_unit_test(test_lab_rig_read__no_number__is_refused),
-      cmocka_unit_test(test_lab_rig_read__out_of_bounds__gives_the_bounds),
-      cmocka_unit_test(test_lab_rig_read__supply_at_ambient__is_refused),
-      cmocka_unit_test(test_lab_rig_read__unknown_law__names_the_nearest),
-      cmocka_unit_test(test_lab_rig_read__unknown_action__names_the_nearest),
+      cmocka_unit_test(test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where),
       cmocka_unit_test(test_lab_rig_read__long_name__is_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_fit__is_refused),
       cmocka_unit_test(test_lab_rig_read__effect_that_cannot_act__is_refused),
       cmocka_unit_test(test_lab_rig_read__positioner_that_cannot_act__is_refused),
-      cmocka_unit_test(test_lab_rig_read__control_characters__do_not_reach_the_message),
-      cmocka_unit_test(test_lab_rig_read__bad_keys_of_logs__are_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_noise__is_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_inputs__are_refused),
       cmocka_unit_test(test_lab_rig_read__bad_effects__are_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_log_group__is_refused),
-      cmocka_unit_test(test_lab_rig_read__no_name__is_refused),
       cmocka_unit_test(test_lab_rig_write__declared_rig__comes_back_bit_for_bit),
       cmocka_unit_test(test_lab_rig_read__positioner__is_read_and_comes_back),
       cmocka_unit_test(test_lab_rig_read__positioner_that_is_wrong__is_refused),

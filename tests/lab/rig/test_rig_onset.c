@@ -1,32 +1,9 @@
 /* What begins within a log, in a rig file. */
-#include <math.h>
-
-#include "../../check.h"
-#include "../../scratch.h"
-
-#include "../../../apps/lab/rig/rig.h"
-
-static lab_error error;
+#include "../../rigfile.h"
 
 static const char two[] =
     "onset = ( { parameter = \"chamber_leak.leak_area\"; from = \"40.2 s\"; value = \"0.02 mm^2\"; },\n"
     "          { parameter = \"orifice_area\"; from = \"2 min\"; value = 0.6; } );\n";
-
-static lab_rig read_rig(const char *text)
-{
-  lab_rig rig;
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error))
-    fail_msg("%s", error.text);
-  return rig;
-}
-
-static void assert_refused(const char *text, const char *words)
-{
-  lab_rig rig;
-  assert_int_equal(lab_rig_read(scratch_text("rig.cfg", text), &rig, &error), LAB_DATA);
-  if (!strstr(error.text, words))
-    fail_msg("\"%s\" does not say \"%s\"", error.text, words);
-}
 
 static double leak_of(lab_rig rig)
 {
@@ -53,16 +30,9 @@ static void test_lab_rig_at__onsets__act_from_their_times_on(void **state)
 
 static void test_lab_rig_write__onsets__come_back_bit_for_bit(void **state)
 {
-  const lab_rig rig = read_rig(two);
-  const char *path = scratch_path("again.cfg");
-  FILE *file = fopen(path, "w");
-  lab_rig again;
+  const lab_rig rig = read_rig(two), again = write_and_read(&rig, NULL);
   int i;
   (void)state;
-  assert_non_null(file);
-  lab_rig_write(file, &rig, NULL);
-  fclose(file);
-  assert_int_equal(lab_rig_read(path, &again, &error), LAB_OK);
   assert_int_equal(again.n_onsets, 2);
   for (i = 0; i < 2; i++) {
     assert_int_equal(again.onset[i].param, rig.onset[i].param);
@@ -74,14 +44,14 @@ static void test_lab_rig_write__onsets__come_back_bit_for_bit(void **state)
 static void test_lab_rig_read__onset_that_is_wrong__is_refused(void **state)
 {
   (void)state;
-  assert_refused("onset = ( { parameter = \"dry_friction\"; from = 3; } );", "value is missing");
-  assert_refused("onset = ( { parameter = \"dry_fricton\"; from = 3; value = 4; } );", "dry_friction");
-  assert_refused("onset = ( { parameter = \"dry_friction\"; from = \"3 m\"; value = 4; } );", "onset");
-  assert_refused("onset = ( { parameter = \"dry_friction\"; from = 3; value = \"-4 N\"; } );", "value");
-  assert_refused("onset = ( { parameter = \"dry_friction\"; from = 3; value = 4; },\n"
-                 "          { parameter = \"dry_friction\"; from = 2; value = 4; } );",
-                 "no earlier time");
-  assert_refused("onset = ( { parameter = \"dry_friction\"; since = 3; value = 4; } );", "unknown key");
+  assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = 3; } );", "onset", "value is missing");
+  assert_rig_refused("onset = ( { parameter = \"dry_fricton\"; from = 3; value = 4; } );", "onset", "dry_friction");
+  assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = \"3 m\"; value = 4; } );", "onset", "onset");
+  assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = 3; value = \"-4 N\"; } );", "onset", "value");
+  assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = 3; value = 4; },\n"
+                     "          { parameter = \"dry_friction\"; from = 2; value = 4; } );",
+                     "onset", "no earlier time");
+  assert_rig_refused("onset = ( { parameter = \"dry_friction\"; since = 3; value = 4; } );", "onset", "unknown key");
 }
 
 int main(void)

@@ -1,5 +1,5 @@
 /* apps/lab/rig/rigterm: free terms in rig files and as C initialisers, and what models do with them */
-#include "../../scratch.h"
+#include "../../rigfile.h"
 
 #include "../../../apps/lab/run/run.h"
 #include "../../../apps/lab/run/response.h"
@@ -19,14 +19,6 @@ static const char declared[] =
     "    values = [ 0.5, 1.5 ]; },\n"
     "  { equation = \"heat\"; argument = \"u\"; from = -1; to = 1; values = [ 1e-3, 2e99 ]; }\n"
     ");\n";
-
-static lab_rig read_rig(const char *text)
-{
-  lab_rig rig;
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error))
-    fail_msg("%s", error.text);
-  return rig;
-}
 
 /* ---- Reading ---- */
 
@@ -105,14 +97,9 @@ static void assert_refused(const char *part, const char *by, const char *place, 
                              "    to = \"20 mm\";\n    unit = \"N\"; values = [ 1, 2 ]; } );\n";
   const char *at = strstr(good, part);
   char text[1000];
-  lab_rig rig;
   assert_non_null(at);
   snprintf(text, sizeof text, "%.*s%s%s", (int)(at - good), good, by, at + strlen(part));
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error) == LAB_OK)
-    fail_msg("\"%s\" was read; it should say \"%s\"", text, words);
-  assert_int_equal(error.status, LAB_DATA);
-  assert_contains(error.text, place);
-  assert_contains(error.text, words);
+  assert_rig_refused(text, place, words);
 }
 
 static void test_lab_rig_read__bad_words__name_the_nearest(void **state)
@@ -162,15 +149,10 @@ static void test_lab_rig_read__bad_values__are_refused(void **state)
 /* A cosine goes with its sine. */
 static void test_lab_rig_read__odd_number_over_a_cycle__is_refused(void **state)
 {
-  lab_rig rig;
   (void)state;
-  assert_int_equal(
-      lab_rig_read(scratch_text("rig.cfg", "unlisted = ( { equation = \"force\"; argument = \"t\"; from = 0;\n"
-                                           "  to = 2; values = [ 1, 2, 3 ]; } );\n"),
-                   &rig, &error),
-      LAB_DATA);
-  assert_contains(error.text, "rig.cfg:2: unlisted[0].values: expected an even number of values");
-  assert_contains(error.text, "a list of 3 entries");
+  assert_rig_refused("unlisted = ( { equation = \"force\"; argument = \"t\"; from = 0;\n"
+                     "  to = 2; values = [ 1, 2, 3 ]; } );\n",
+                     "rig.cfg:2: unlisted[0].values: expected an even number of values", "a list of 3 entries");
 }
 
 static void test_lab_rig_read__bad_unit__is_refused(void **state)
@@ -184,15 +166,11 @@ static void test_lab_rig_read__no_list_of_groups_or_too_many__is_refused(void **
 {
   static const char one[] = "{ equation = \"force\"; argument = \"x\"; from = 0; to = 1; values = [ 1, 2 ]; }";
   char text[1000];
-  lab_rig rig;
   (void)state;
-  assert_int_equal(lab_rig_read(scratch_text("rig.cfg", "unlisted = { };\n"), &rig, &error), LAB_DATA);
-  assert_contains(error.text, "rig.cfg:1: unlisted: expected a list");
-  assert_int_equal(lab_rig_read(scratch_text("rig.cfg", "unlisted = ( 3 );\n"), &rig, &error), LAB_DATA);
-  assert_contains(error.text, "expected a group");
+  assert_rig_refused("unlisted = { };\n", "rig.cfg:1: unlisted:", "expected a list");
+  assert_rig_refused("unlisted = ( 3 );\n", "unlisted[0]", "expected a group");
   snprintf(text, sizeof text, "unlisted = ( %s, %s, %s, %s, %s );\n", one, one, one, one, one);
-  assert_int_equal(lab_rig_read(scratch_text("rig.cfg", text), &rig, &error), LAB_DATA);
-  assert_contains(error.text, "0 to 4 entries");
+  assert_rig_refused(text, "unlisted", "0 to 4 entries");
 }
 
 static void test_lab_rig_read__heat_that_cannot_act__is_refused(void **state)
@@ -200,32 +178,17 @@ static void test_lab_rig_read__heat_that_cannot_act__is_refused(void **state)
   static const char *const laws[] = {"laws = { gas = \"isothermal\"; };", "laws = { gas = \"polytropic\"; };",
                                      "laws = { gas = \"energy\"; }; inputs = [ \"p\" ];"};
   char text[300];
-  lab_rig rig;
   int i;
   (void)state;
   for (i = 0; i < 3; i++) {
     snprintf(text, sizeof text,
              "%s unlisted = ( { equation = \"heat\"; argument = \"p\"; from = 0; to = 1; values = [ 1, 2 ]; } );",
              laws[i]);
-    assert_int_equal(lab_rig_read(scratch_text("rig.cfg", text), &rig, &error), LAB_DATA);
-    assert_contains(error.text, "unlisted[0]: heat does nothing");
+    assert_rig_refused(text, "unlisted[0]:", "heat does nothing");
   }
 }
 
 /* ---- Writing ---- */
-
-static lab_rig write_and_read(const lab_rig *rig)
-{
-  const char *path = scratch_path("model.cfg");
-  FILE *file = fopen(path, "w");
-  lab_rig again;
-  assert_non_null(file);
-  lab_rig_write(file, rig, NULL);
-  assert_int_equal(fclose(file), 0);
-  if (lab_rig_read(path, &again, &error))
-    fail_msg("%s", error.text);
-  return again;
-}
 
 /* Terms of every size, with numbers that no short text gives. */
 static lab_rig odd_rig(void)
@@ -252,7 +215,7 @@ static lab_rig odd_rig(void)
 
 static void test_lab_rig_write__terms__come_back_bit_for_bit(void **state)
 {
-  const lab_rig rig = odd_rig(), again = write_and_read(&rig);
+  const lab_rig rig = odd_rig(), again = write_and_read(&rig, NULL);
   (void)state;
   assert_int_equal(again.n_terms, LAB_TERM_MAX);
   assert_memory_equal(rig.term, again.term, sizeof rig.term);
@@ -260,7 +223,7 @@ static void test_lab_rig_write__terms__come_back_bit_for_bit(void **state)
 
 static void test_lab_rig_write__declared_terms__come_back_bit_for_bit(void **state)
 {
-  const lab_rig rig = read_rig(declared), again = write_and_read(&rig);
+  const lab_rig rig = read_rig(declared), again = write_and_read(&rig, NULL);
   (void)state;
   assert_int_equal(again.n_terms, rig.n_terms);
   assert_memory_equal(rig.term, again.term, sizeof rig.term);

@@ -1,44 +1,36 @@
 /* apps/lab/rig/sheet: words of a data sheet against numbers that a Python script computed from the sources in sheet.h.
  */
-#include "../../scratch.h"
+#include "../../rigfile.h"
 
 #include "../../../apps/lab/log/log.h"
-#include "../../../apps/lab/rig/rig.h"
 
 static lab_error error;
 
 static const char *const sheet =
     "actuator = { area = \"400 cm^2\"; stroke = \"20 mm\"; };\nsupply = { pressure = \"4 bar\"; };\n";
 
-static int read_text(const char *more, const char *law, lab_rig *rig)
+/* The words behind what they refer to, unless they declare an actuator.  Returns: text, good until the next call */
+static const char *with_sheet(const char *more, const char *law)
 {
-  char text[2048];
+  static char text[2048];
   snprintf(text, sizeof text, "%s%s\nlaws = { flow = \"%s\"; };\n", strstr(more, "actuator") ? "" : sheet, more, law);
-  return lab_rig_read(scratch_text("rig.cfg", text), rig, &error);
+  return text;
 }
 
-static lab_rig read_rig(const char *more, const char *law)
+static lab_rig read_sheet(const char *more, const char *law)
 {
-  lab_rig rig;
-  if (read_text(more, law, &rig))
-    fail_msg("%s", error.text);
-  return rig;
+  return read_rig(with_sheet(more, law));
 }
 
 static void assert_refused(const char *more, const char *place, const char *words)
 {
-  lab_rig rig;
-  if (read_text(more, "choked", &rig) == LAB_OK)
-    fail_msg("\"%s\" was read; it should say \"%s\"", more, words);
-  assert_int_equal(error.status, LAB_DATA);
-  assert_contains(error.text, place);
-  assert_contains(error.text, words);
+  assert_rig_refused(with_sheet(more, "choked"), place, words);
 }
 
 /* In any order of the keys. */
 static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
 {
-  lab_rig rig = read_rig(
+  lab_rig rig = read_sheet(
       "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; area = \"400 cm^2\"; stroke = \"20 mm\"; };", "choked");
   (void)state;
   assert_close((double)rig.params.spring_rate, 160000, 0, TOL(1e-12, 1e-6));
@@ -48,7 +40,7 @@ static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
 /* pi/4 (226 mm)^2, which the bench set takes. */
 static void test_lab_sheet_read__diameter__is_an_area(void **state)
 {
-  lab_rig rig = read_rig(
+  lab_rig rig = read_sheet(
       "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; diameter = \"226 mm\"; stroke = \"20 mm\"; };", "choked");
   (void)state;
   assert_close((double)rig.params.area, 0.0401149959, 0, 1e-6);
@@ -62,21 +54,16 @@ static void read_opening(const char *fail, double x[2], double sp[2])
   char text[256];
   const char *log_path = scratch_text("open.csv", "t [s],sp [%],x [%]\n0,0,1\n1,75,50\n2,100,100\n");
   lab_log log;
-  FILE *file;
   int again;
   snprintf(text, sizeof text, "actuator = { area = \"400 cm^2\"; stroke = \"20 mm\"; %s };", fail);
-  rig = read_rig(text, "choked");
+  rig = read_sheet(text, "choked");
   for (again = 0; again < 2; again++) {
     assert_int_equal(lab_log_read(log_path, &rig.log, 101325, &log, &error), LAB_OK);
     x[again] = log.value[LAB_CHANNEL_X][0];
     sp[again] = log.value[LAB_CHANNEL_SP][1];
     assert_close(log.value[LAB_CHANNEL_X][1], 0.01, 0, 1e-12);
     lab_log_free(&log);
-    file = fopen(scratch_path("again.cfg"), "w");
-    assert_non_null(file);
-    lab_rig_write(file, &rig, NULL);
-    assert_int_equal(fclose(file), 0);
-    assert_int_equal(lab_rig_read(scratch_path("again.cfg"), &rig, &error), LAB_OK);
+    rig = write_and_read(&rig, NULL);
   }
 }
 
@@ -120,10 +107,10 @@ static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state
     lab_rig rig;
     check_note("%s, %s", row[i].words, row[i].law);
     snprintf(text, sizeof text, "transducer = { fill = %s; };", row[i].words);
-    rig = read_rig(text, row[i].law);
+    rig = read_sheet(text, row[i].law);
     assert_close((double)rig.params.fill_area, row[i].area, 0, 1e-6);
     snprintf(text, sizeof text, "transducer = { vent = %s; };", row[i].words);
-    rig = read_rig(text, row[i].law);
+    rig = read_sheet(text, row[i].law);
     assert_close((double)rig.params.vent_area, row[i].area, 0, 1e-6);
   }
 }
@@ -131,7 +118,7 @@ static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state
 /* The library's own sonic conductance of the area is the sheet's. */
 static void test_lab_sheet_read__C__comes_back_from_the_library(void **state)
 {
-  lab_rig rig = read_rig("transducer = { fill = { C = 5e-9; b = 0.25; }; vent = { Kv = 0.1; }; };", "iso6358");
+  lab_rig rig = read_sheet("transducer = { fill = { C = 5e-9; b = 0.25; }; vent = { Kv = 0.1; }; };", "iso6358");
   pneu_model model;
   (void)state;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
@@ -149,12 +136,12 @@ static void test_lab_sheet_read__tube__is_a_volume_and_a_resistance(void **state
   (void)state;
   if (resistance < 0)
     skip();
-  rig = read_rig("transducer = { fill_area = \"0.02 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
-                 "choked");
+  rig = read_sheet("transducer = { fill_area = \"0.02 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
+                   "choked");
   assert_close((double)*pneu_param_at(&rig.params, volume), 2.5132741228718347e-05, 0, 1e-6);
   assert_close((double)*pneu_param_at(&rig.params, resistance), 1645427.3619244916, 0, 1e-6);
-  rig = read_rig("transducer = { fill_area = \"0.893 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
-                 "choked");
+  rig = read_sheet("transducer = { fill_area = \"0.893 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
+                   "choked");
   assert_close((double)*pneu_param_at(&rig.params, resistance), 12811831.903400254, 0, 1e-6);
 }
 
@@ -201,18 +188,13 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
 /* model.cfg holds the numbers. */
 static void test_lab_rig_write__of_words__gives_the_same_model(void **state)
 {
-  static lab_rig rig, again;
-  FILE *file;
+  lab_rig rig, again;
   (void)state;
-  rig = read_rig(
+  rig = read_sheet(
       "actuator = { stroke = \"20 mm\"; area = \"400 cm^2\"; bench_set = [\"0.2 bar\", \"1 bar\"]; };\n"
       "transducer = { fill = { Kv = 0.1; }; vent = { Cv = 0.2; }; };\ntube = { length = \"1 m\"; bore = \"4 mm\"; };",
       "choked");
-  file = fopen(scratch_path("again.cfg"), "w");
-  assert_non_null(file);
-  lab_rig_write(file, &rig, NULL);
-  assert_int_equal(fclose(file), 0);
-  assert_int_equal(lab_rig_read(scratch_path("again.cfg"), &again, &error), LAB_OK);
+  again = write_and_read(&rig, NULL);
   assert_memory_equal(&rig.params, &again.params, sizeof rig.params);
 }
 

@@ -1,19 +1,19 @@
 /* apps/lab/rig/tolerance: how well declared values are known */
-#include "../../scratch.h"
+#include "../../rigfile.h"
 
 #include "../../../apps/lab/rig/tolerance.h"
 
 static lab_rig rig;
-static lab_error error;
 
-static int read_rig(const char *group)
+/* A rig file with this group, good until the next call. */
+static const char *with(const char *group)
 {
-  char text[512];
+  static char text[512];
   snprintf(text, sizeof text,
            "actuator = { spring_rate = \"400 kN/m\"; stroke = \"20 mm\"; };\n"
            "supply = { pressure = \"4 bar\"; };\n%s",
            group);
-  return lab_rig_read(scratch_text("rig.cfg", text), &rig, &error);
+  return text;
 }
 
 static int bias(void)
@@ -29,7 +29,7 @@ static int bias(void)
 static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **state)
 {
   (void)state;
-  assert_int_equal(read_rig(""), LAB_OK);
+  rig = read_rig(with(""));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 0.1 * 4e5, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_ambient_pressure), 2000, 0, 0);
   assert_close(lab_tolerance(&rig, LAB_PARAM_ORIFICE_AREA), 0.2, 0, 0);
@@ -46,27 +46,26 @@ static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_
   (void)state;
   if (vent < 0)
     skip();
-  assert_int_equal(read_rig(areas), LAB_OK);
+  rig = read_rig(with(areas));
   assert_close(lab_tolerance(&rig, vent), 0, 0, 0);
   snprintf(text, sizeof text, "%sfit = (\"orifice_area\");", areas);
-  assert_int_equal(read_rig(text), LAB_OK);
+  rig = read_rig(with(text));
   assert_close(lab_tolerance(&rig, vent), 0.05, 0, 1e-12);
   snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { vent_area = \"0.4 mm^2\"; };", areas);
-  assert_int_equal(read_rig(text), LAB_OK);
+  rig = read_rig(with(text));
   assert_close(lab_tolerance(&rig, vent), 0.05, 0, 1e-12);
   snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { vent_restriction = \"10 %%\"; };", areas);
-  assert_int_equal(read_rig(text), LAB_OK);
+  rig = read_rig(with(text));
   assert_close(lab_tolerance(&rig, vent), 0.1, 0, 1e-12);
   snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { others = 0; };", areas);
-  assert_int_equal(read_rig(text), LAB_OK);
+  rig = read_rig(with(text));
   assert_close(lab_tolerance(&rig, vent), 0, 0, 0);
 }
 
 static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 {
   (void)state;
-  assert_int_equal(
-      read_rig("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"), LAB_OK);
+  rig = read_rig(with("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dead_volume), 20e-6, 0, 1e-12);
   assert_close(lab_tolerance(&rig, bias()), 4e3, 0, 1e-12);
@@ -77,21 +76,21 @@ static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(voi
 {
   const int gain = pneu_param_find("gain");
   (void)state;
-  assert_int_equal(read_rig("positioner = { gain = 30; };"), LAB_OK);
+  rig = read_rig(with("positioner = { gain = 30; };"));
   assert_close(lab_tolerance(&rig, gain), 0.2 * 30, 0, 1e-12);
   assert_string_equal(lab_tolerance_name(gain), "positioner.gain");
-  assert_int_equal(read_rig("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };"), LAB_OK);
+  rig = read_rig(with("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };"));
   assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
-  assert_int_equal(read_rig("positioner = { gain = 30; }; tolerance = { positioner_gain = \"10 %\"; };"), LAB_OK);
+  rig = read_rig(with("positioner = { gain = 30; }; tolerance = { positioner_gain = \"10 %\"; };"));
   assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
-  assert_int_equal(read_rig(""), LAB_OK);
+  rig = read_rig(with(""));
   assert_close(lab_tolerance(&rig, gain), 0, 0, 0);
 }
 
 static void test_lab_tolerance_read__others__are_exact(void **state)
 {
   (void)state;
-  assert_int_equal(read_rig("tolerance = { others = 0; spring_rate = \"5 %\"; };"), LAB_OK);
+  rig = read_rig(with("tolerance = { others = 0; spring_rate = \"5 %\"; };"));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
 }
@@ -99,7 +98,7 @@ static void test_lab_tolerance_read__others__are_exact(void **state)
 static void test_lab_tolerance_read__resolution__is_none_unless_given(void **state)
 {
   (void)state;
-  assert_int_equal(read_rig("tolerance = { pressure_resolution = \"1 kPa\"; };"), LAB_OK);
+  rig = read_rig(with("tolerance = { pressure_resolution = \"1 kPa\"; };"));
   assert_close(lab_tolerance(&rig, LAB_PRESSURE_RESOLUTION), 1000, 0, 1e-12);
   assert_close(lab_tolerance(&rig, LAB_POSITION_RESOLUTION), 0, 0, 0);
 }
@@ -107,25 +106,17 @@ static void test_lab_tolerance_read__resolution__is_none_unless_given(void **sta
 static void test_lab_tolerance_read__mistakes__are_named(void **state)
 {
   (void)state;
-  assert_int_equal(read_rig("tolerance = { sprig_rate = \"5 %\"; };"), LAB_DATA);
-  assert_contains(error.text, "spring_rate");
-  assert_int_equal(read_rig("tolerance = { spring_rate = \"-5 %\"; };"), LAB_DATA);
-  assert_contains(error.text, "tolerance.spring_rate: expected a standard deviation, 0 or more, found \"-5 %\"");
-  assert_int_equal(read_rig("tolerance = { dead_volume = \"5 s\"; };"), LAB_DATA);
-  assert_contains(error.text, "tolerance.dead_volume");
+  assert_rig_refused(with("tolerance = { sprig_rate = \"5 %\"; };"), "tolerance.sprig_rate:", "spring_rate");
+  assert_rig_refused(with("tolerance = { spring_rate = \"-5 %\"; };"),
+                     "tolerance.spring_rate:", "expected a standard deviation, 0 or more, found \"-5 %\"");
+  assert_rig_refused(with("tolerance = { dead_volume = \"5 s\"; };"), "tolerance.dead_volume:", "unit");
 }
 
 static void test_lab_tolerance_write__given_ones__are_read_again(void **state)
 {
-  const char *path = scratch_path("again.cfg");
-  FILE *file;
   (void)state;
-  assert_int_equal(read_rig("tolerance = { others = 0; clock = \"5 ms\"; spring_rate = \"5 %\"; };"), LAB_OK);
-  file = fopen(path, "w");
-  assert_non_null(file);
-  lab_rig_write(file, &rig, NULL);
-  fclose(file);
-  assert_int_equal(lab_rig_read(path, &rig, &error), LAB_OK);
+  rig = read_rig(with("tolerance = { others = 0; clock = \"5 ms\"; spring_rate = \"5 %\"; };"));
+  rig = write_and_read(&rig, NULL);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
 }

@@ -1,0 +1,47 @@
+/* Rig files of a test: read, refused, written and read again.
+ * SPDX-License-Identifier: MIT */
+#ifndef TESTS_RIGFILE_H
+#define TESTS_RIGFILE_H
+
+#include "scratch.h"
+
+#include "../apps/lab/rig/rig.h"
+
+/* A rig file that must be good. */
+static inline lab_rig read_rig(const char *text)
+{
+  lab_error error;
+  lab_rig rig;
+  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error))
+    fail_msg("%s", error.text);
+  return rig;
+}
+
+/* A rig file that must be refused, with LAB_DATA, its place and some words. */
+static inline void assert_rig_refused(const char *text, const char *place, const char *words)
+{
+  lab_error error;
+  lab_rig rig;
+  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error) == LAB_OK)
+    fail_msg("\"%s\" was read; it should say \"%s\"", text, words);
+  assert_int_equal(error.status, LAB_DATA);
+  assert_contains(error.text, place);
+  assert_contains(error.text, words);
+}
+
+/* What a written rig is when it is read again.  In: remark  above it; NULL: none */
+static inline lab_rig write_and_read(const lab_rig *rig, const char *remark)
+{
+  const char *path = scratch_path("again.cfg");
+  FILE *file = fopen(path, "w");
+  lab_error error;
+  lab_rig again;
+  assert_non_null(file);
+  lab_rig_write(file, rig, remark);
+  assert_int_equal(fclose(file), 0);
+  if (lab_rig_read(path, &again, &error))
+    fail_msg("%s", error.text);
+  return again;
+}
+
+#endif
