@@ -63,6 +63,20 @@ pneu_model fixture_model(const pneu_params *p, int gas, int flow)
   return fixture_model_roles(p, gas, flow, 0, 0);
 }
 
+pneu_model fixture_r1_400(int gas, int flow)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  return fixture_model(&p, gas, flow);
+}
+
+pneu_options fixture_options(double tol)
+{
+  pneu_options options;
+  pneu_options_default(&options);
+  options.tol = (pneu_real)tol;
+  return options;
+}
+
 pneu_input fixture_input(const pneu_model *model, double u)
 {
   pneu_input input;
@@ -122,13 +136,10 @@ void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *i
                  fixture_events *events)
 {
   pneu_observer observer = {NULL, record_event, NULL};
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(tol);
+  pneu_workspace work = {0};
   pneu_delay late;
   pneu_input own = *input;
-  memset(&work, 0, sizeof work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)tol;
   observer.context = events;
   if (events)
     events->n = 0;
@@ -167,14 +178,11 @@ int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stre
 {
   recorder r = {NULL, 0, 0, 0, 0};
   pneu_observer observer = {record_step, NULL, NULL};
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(tol);
+  pneu_workspace work = {0};
   pneu_late slot[64];
   pneu_delay late;
   int i;
-  memset(&work, 0, sizeof work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)tol;
   observer.context = &r;
   r.sample = sample;
   r.capacity = capacity;
@@ -203,13 +211,10 @@ void fixture_standard(const pneu_model *model, fixture_stretch *stretch)
 long fixture_steps(const pneu_model *model)
 {
   fixture_stretch stretch[3];
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
+  pneu_workspace work = {0};
   pneu_state state;
   int i;
-  memset(&work, 0, sizeof work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)TOL(1e-6, 1e-4);
   fixture_standard(model, stretch);
   state = fixture_rest(model, 0, 0, &stretch[0].input);
   for (i = 0; i < 3; i++)

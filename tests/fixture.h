@@ -46,12 +46,16 @@ void fixture_set(pneu_params *p, const char *name, double value);
 
 /* Initialised model; fails the test on error. */
 pneu_model fixture_model(const pneu_params *p, int gas, int flow);
+pneu_model fixture_r1_400(int gas, int flow);
 pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input);
 
 /* The R1-400 with quick orifices of 4 mm2, choked, and one parameter set; name NULL: none. */
 pneu_model fixture_quick(int gas, const char *name, double value);
 
 pneu_input fixture_input(const pneu_model *model, double u);
+
+/* The default ones but for the tolerance. */
+pneu_options fixture_options(double tol);
 
 /* At rest at ambient temperature. */
 pneu_state fixture_rest(const pneu_model *model, double pressure, double position, const pneu_input *input);

@@ -66,16 +66,13 @@ static audit run(const pneu_model *m, pneu_state *s)
   static const double duration[] = {1.0, 0.5, 2.0, 0.7, 20}, u[] = {1, 0, 1, -0.3, -1}, force[] = {0, 700, 0, 0, -200};
   audit a;
   pneu_observer observer = {at_step, at_event, NULL};
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(TOL(1e-9, 1e-5));
+  pneu_workspace work = {0};
   int i;
   memset(&a, 0, sizeof a);
-  memset(&work, 0, sizeof work);
   a.model = m;
   a.T_in = (double)m->p.supply_temperature;
   observer.context = &a;
-  pneu_options_default(&options);
-  options.tol = (pneu_real)TOL(1e-9, 1e-5);
   for (i = 0; i < COUNT(u); i++) {
     pneu_input input = fixture_input(m, u[i]);
     input.force = (pneu_real)force[i];
@@ -240,8 +237,7 @@ static void test_free_terms__run__keep_mass_and_energy(void **state)
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (n = 1; n <= COUNT(term); n++) {
-      const pneu_params p = fixture_params(FIXTURE_R1_400);
-      pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+      pneu_model m = fixture_r1_400(gas, PNEU_FLOW_CHOKED);
       assert_int_equal(pneu_model_terms(&m, term, n), PNEU_OK);
       check_note("%d terms, %s", n, pneu_gas_key(gas));
       check_model(&m);

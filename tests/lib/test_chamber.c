@@ -440,8 +440,7 @@ static void test_pneu_state_rest__outside_the_domain__is_refused(void **state)
 static void test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step(void **state)
 {
   static const double bad[][3] = {{-2e5, 300, 0.01}, {NAN, 300, 0.01}, {0, -1, 0.01}, {0, NAN, 0.01}, {0, 300, -0.01}};
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_input input = fixture_input(&m, 1);
   pneu_state s = fixture_rest(&m, 1e5, 0.01, &input);
   pneu_output out;

@@ -30,9 +30,7 @@ static void begin(loop *l, double dead_time, int room, double u)
 
 static int run(loop *l, double u, double duration)
 {
-  pneu_options options;
-  pneu_options_default(&options);
-  options.tol = (pneu_real)TOL(1e-9, 1e-5);
+  const pneu_options options = fixture_options(TOL(1e-9, 1e-5));
   l->input.u = (pneu_real)u;
   return pneu_run(&l->model, &l->state, &l->input, (pneu_real)duration, &options, NULL, &l->work);
 }

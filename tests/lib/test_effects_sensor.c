@@ -230,8 +230,7 @@ static void test_pneu_show__no_effect__is_the_truth(void **state)
   int gas;
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
-    const pneu_params p = fixture_params(FIXTURE_R1_400);
-    const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_PAPER);
+    const pneu_model m = fixture_r1_400(gas, PNEU_FLOW_PAPER);
     pneu_input input;
     pneu_state s = filling(&m, &input);
     check_note("%s", pneu_gas_key(gas));
@@ -270,8 +269,7 @@ static void test_pneu_show__free_terms__are_as_observed(void **state)
   int i;
   (void)state;
   for (i = 0; i < COUNT(term); i++) {
-    const pneu_params p = fixture_params(FIXTURE_R1_400);
-    pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+    pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
     pneu_input input;
     pneu_state s;
     assert_int_equal(pneu_model_terms(&m, &term[i], 1), PNEU_OK);

@@ -241,8 +241,8 @@ static void test_presliding__at_rest__takes_few_steps(void **state)
     skip();
   for (i = 0; i < COUNT(length); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
-    pneu_options options;
-    pneu_workspace work;
+    const pneu_options options = fixture_options(TOL(1e-5, 1e-4));
+    pneu_workspace work = {0};
     pneu_model m;
     pneu_input input;
     pneu_state s;
@@ -253,9 +253,6 @@ static void test_presliding__at_rest__takes_few_steps(void **state)
     fixture_run(&m, &s, &input, 2, TOL(1e-6, 1e-4), NULL);
     assert_true((double)s.x > 0.005 && (double)s.v > 0);
     input = fixture_input(&m, 0);
-    memset(&work, 0, sizeof work);
-    pneu_options_default(&options);
-    options.tol = (pneu_real)TOL(1e-5, 1e-4);
     assert_int_equal(pneu_run(&m, &s, &input, 20, &options, NULL, &work), PNEU_OK);
     check_note("length %g: %ld steps, %ld refused", length[i], work.stats.steps, work.stats.rejected);
     assert_between((double)work.stats.steps, 10, 400);

@@ -75,8 +75,7 @@ static void test_pneu_orifice__each_law__follows_its_formula(void **state)
 
 static void test_pneu_orifice__area__is_a_factor(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   int law;
   (void)state;
   for (law = 0; law < PNEU_FLOW_COUNT; law++) {
@@ -211,8 +210,7 @@ static void test_pneu_orifice__edge_of_the_blend__value_slope_and_curvature_are_
 
 static void test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the_law(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double pu = 4e5;
   int law, i;
   (void)state;
@@ -236,8 +234,7 @@ static void test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the
 
 static void test_pneu_orifice__at_choking__value_and_slope_are_continuous(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double critical[PNEU_FLOW_COUNT] = {0, pow(1 / 1.2, 3.5), 0.3};
   int law;
   (void)state;
@@ -259,8 +256,7 @@ static void test_pneu_orifice__at_choking__value_and_slope_are_continuous(void *
 static void test_pneu_orifice__below_choking__flow_ignores_the_far_side(void **state)
 {
   static const int laws[] = {PNEU_FLOW_CHOKED, PNEU_FLOW_ISO6358};
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   int i;
   (void)state;
   for (i = 0; i < COUNT(laws); i++) {

@@ -225,10 +225,9 @@ static void test_pneu_step_try__singular_matrix__is_refused(void **state)
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 1);
   const pneu_state s = fixture_rest(&m, 1e5, 0, &input);
-  pneu_workspace work;
+  pneu_workspace work = {0};
   pneu_real error;
   (void)state;
-  memset(&work, 0, sizeof work);
   pneu_pack(&m, &s, work.y0);
   assert_int_equal(pneu_step_prepare(&m, &s, &input, &work), PNEU_OK);
   assert_int_equal(pneu_step_try(&m, &s, &input, h, &work, &error), PNEU_OK);

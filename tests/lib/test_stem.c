@@ -306,8 +306,7 @@ static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_t
 
 static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   (void)state;
   assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 0), 0.005, 0, 1e-6);
   assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 1), 0.015, 0, 1e-6);
@@ -414,8 +413,7 @@ static void test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_fo
       {PNEU_MODE_DOWN, 1, 0, -1e-7, PNEU_MODE_LOWER, 0},
       {PNEU_MODE_DOWN, 1, 300e3, -1e-7, PNEU_MODE_UP, 0},
   };
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 0);
   int i;
   (void)state;
@@ -435,8 +433,7 @@ static void test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_fo
 
 static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 0);
   pneu_state s = fixture_rest(&m, 200e3, 0.01, &input);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
@@ -458,8 +455,7 @@ static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(voi
 /* A chamber without air has no balance of forces: nothing to tell of the stem. */
 static void test_pneu_settle__chamber_without_air__stem_stays(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 0);
   pneu_state s = fixture_rest(&m, 213e3, 0.01, &input);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
@@ -517,15 +513,12 @@ static void run_at_random(const pneu_model *m, uint64_t seed)
 {
   double stroke = (double)m->p.stroke;
   pneu_observer observer = {at_step, at_event, NULL};
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(TOL(1e-7, 1e-5));
+  pneu_workspace work = {0};
   pneu_input input = fixture_input(m, 0);
   pneu_state s = fixture_rest(m, 0, 0, &input);
   int i;
   observer.context = &stroke;
-  memset(&work, 0, sizeof work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)TOL(1e-7, 1e-5);
   for (i = 0; i < 60; i++) {
     const double u = fixture_random(&seed, -1.5, 1.5);
     input.u = (pneu_real)(u > 1 ? 1 : u < -1 ? -1 : u);

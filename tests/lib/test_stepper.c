@@ -1,11 +1,6 @@
 /* Rodas5P, runs, single steps, dense output and event location. */
 #include "../fixture.h"
 
-static void clear(pneu_workspace *work)
-{
-  memset(work, 0, sizeof *work);
-}
-
 /* ---- order ---- */
 
 /* A stretch without events: the stem slides up in mid-stroke. */
@@ -53,11 +48,10 @@ static smooth flying(int gas, int flow)
 
 static pneu_state in_steps(const smooth *s, double time, int n)
 {
-  pneu_workspace work;
+  pneu_workspace work = {0};
   pneu_state at = s->start;
   pneu_input input = s->input;
   int i;
-  clear(&work);
   for (i = 0; i < n; i++) {
     input.elapsed = s->input.elapsed + (pneu_real)(time * i / n);
     assert_int_equal(pneu_step(&s->model, &at, &input, (pneu_real)(time / n), &work), PNEU_OK);
@@ -123,17 +117,14 @@ static void test_pneu_dense__smooth_stretch__has_its_order(void **state)
   const smooth s = flying(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   smooth context = s;
   pneu_observer observer = {look_inside, NULL, NULL};
-  pneu_options options;
-  pneu_workspace work;
+  pneu_options options = fixture_options(1e-2);
   double error[3];
   int i;
   (void)state;
   observer.context = &context;
-  pneu_options_default(&options);
-  options.tol = 1e-2;
   for (i = 0; i < 3; i++) {
+    pneu_workspace work = {0};
     pneu_state at = s.start;
-    clear(&work);
     options.h_max = work.h = longest / (1 << i);
     assert_int_equal(pneu_run(&s.model, &at, &s.input, 1, &options, &observer, &work), PNEU_E_STOPPED);
     error[i] = dense_error;
@@ -165,10 +156,9 @@ static void test_pneu_dense__at_the_ends__is_the_step_itself(void **state)
   const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_observer observer = {ends_meet, NULL, NULL};
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   pneu_state at = s.start;
   (void)state;
-  clear(&work);
   pneu_options_default(&options);
   assert_int_equal(pneu_run(&s.model, &at, &s.input, 5, &options, &observer, &work), PNEU_OK);
 }
@@ -180,7 +170,7 @@ static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
   p.spring_rate = p.dry_friction = 0;
   p.moving_mass = (pneu_real)1e-4;
@@ -191,7 +181,6 @@ static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 1e4, 0.5, &input);
   s.v = 1;
-  clear(&work);
   assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_OK);
   assert_close(s.v, 1e4 * 0.04 / (1e5 + 500), 1e-5, 1e-2);
 }
@@ -262,8 +251,7 @@ static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state
     const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
     const pneu_input input = fixture_input(&m, 0);
     pneu_state s = fixture_rest(&m, w * w * 2 * 0.018 / 0.04, 0.018, &input);
-    pneu_workspace work;
-    clear(&work);
+    pneu_workspace work = {0};
     s.v = (pneu_real)(0.005 * w);
     check_note("w dt = %g", turn);
     assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)(turn / w), &work), PNEU_OK);
@@ -273,13 +261,11 @@ static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state
 
 static void test_pneu_step__force_jumps__stem_moves_at_once_in_one_step(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   pneu_input input = fixture_input(&m, 0);
   pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   input.force = 1000;
   assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-4, &work), PNEU_OK);
   assert_int_equal(s.mode, PNEU_MODE_DOWN);
@@ -295,9 +281,8 @@ static void test_pneu_step__break_away_within_a_step__is_located(void **state)
   const pneu_input input = fixture_input(&m, 1);
   const double t = break_away_time(&p);
   pneu_state before = fixture_rest(&m, 0, 0, &input), after;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   fixture_run(&m, &before, &input, 0.95 * t, FIXTURE_TOL, NULL);
   after = before;
   assert_int_equal(pneu_step(&m, &before, &input, (pneu_real)(0.05 * t - TOL(2e-9, 3e-6)), &work), PNEU_OK);
@@ -334,15 +319,11 @@ static void test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics(vo
 #ifndef PNEU_SINGLE
 static pneu_state fill_for(double time, double tol, double h_max, pneu_stats *stats)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_input input = fixture_input(&m, 1);
   pneu_state s = fixture_rest(&m, 0, 0, &input);
-  pneu_options options;
-  pneu_workspace work;
-  clear(&work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)tol;
+  pneu_options options = fixture_options(tol);
+  pneu_workspace work = {0};
   options.h_max = (pneu_real)h_max;
   assert_int_equal(pneu_run(&m, &s, &input, (pneu_real)time, &options, NULL, &work), PNEU_OK);
   if (stats)
@@ -357,11 +338,10 @@ static double error_in_steps(int gas, int flow, double dt)
   const pneu_model m = fixture_model(&p, gas, flow);
   pneu_input input = fixture_input(&m, 1);
   pneu_state at = fixture_rest(&m, 0, 0, &input), exact = at;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   const int n = (int)(6 / dt + 0.5);
   double worst = 0;
   int i;
-  clear(&work);
   for (i = 0; i < 2 * n; i++) {
     input.u = i < n ? 1 : -1;
     assert_int_equal(pneu_step(&m, &at, &input, (pneu_real)dt, &work), PNEU_OK);
@@ -435,8 +415,8 @@ static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
+  pneu_workspace work = {0};
   (void)state;
   if (pneu_effect_find("transducer_lag") < 0)
     skip();
@@ -445,9 +425,6 @@ static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **
   input = fixture_input(&m, 1);
   s = fixture_rest(&m, 4e5 - 0.1, 0.02, &input);
   input.u = -1;
-  clear(&work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)TOL(1e-6, 1e-4);
   assert_int_equal(pneu_run(&m, &s, &input, 15, &options, NULL, &work), PNEU_OK);
   assert_between(work.stats.steps, 10, 400);
 }
@@ -465,8 +442,7 @@ static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
 
 static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   pneu_input input = fixture_input(&m, 1);
   pneu_state s = fixture_rest(&m, 2e5, 0.01, &input), was = s;
   (void)state;
@@ -480,8 +456,7 @@ static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
 /* Every end of a run is reached, whatever its length: sums of steps round. */
 static void test_pneu_run__any_duration__reaches_its_end(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   uint64_t seed = 3;
   int i;
   (void)state;
@@ -518,18 +493,14 @@ static int stop_at_event(void *context, pneu_real t, const pneu_state *state, in
 
 static int run_observed(walk *w, double duration, int stop_event)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 1);
   pneu_state s = fixture_rest(&m, 0, 0, &input);
   pneu_observer observer = {follow, NULL, NULL};
-  pneu_options options;
-  pneu_workspace work;
-  clear(&work);
+  pneu_options options = fixture_options(1e-4);
+  pneu_workspace work = {0};
   observer.context = w;
   observer.event = stop_event ? stop_at_event : NULL;
-  pneu_options_default(&options);
-  options.tol = (pneu_real)1e-4;
   options.h_max = (pneu_real)w->h_max;
   return pneu_run(&m, &s, &input, (pneu_real)duration, &options, &observer, &work);
 }
@@ -561,18 +532,14 @@ static int look_at_bend(void *context, const pneu_step_view *view)
 /* With order 4 position and velocity inside a step tell the same story. */
 static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_input input = fixture_input(&m, 1);
   pneu_state s = fixture_rest(&m, 0, 0, &input);
   bend b = {0, 0};
   const pneu_observer observer = {look_at_bend, NULL, &b};
-  pneu_options options;
-  pneu_workspace work;
+  const pneu_options options = fixture_options(1e-3);
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)1e-3;
   assert_int_equal(pneu_run(&m, &s, &input, 3, &options, &observer, &work), PNEU_OK);
   check_note("off by %g of %g m", b.off, b.bent);
   assert_between(b.bent, 1e-6, 1e-2);
@@ -605,10 +572,9 @@ static void test_pneu_run__step_to_try_first__is_tried_and_forgotten(void **stat
   const smooth s = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_observer observer = {note_first, NULL, NULL};
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   pneu_state at = s.start;
   (void)state;
-  clear(&work);
   pneu_options_default(&options);
   work.h = (pneu_real)1e-5;
   assert_int_equal(pneu_run(&s.model, &at, &s.input, 1, &options, &observer, &work), PNEU_OK);
@@ -630,11 +596,10 @@ static void test_pneu_run__observer_stops__says_so(void **state)
 static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
 {
   const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  pneu_workspace clean, dirty;
+  pneu_workspace clean = {0}, dirty;
   pneu_options options;
   pneu_state a = s.start, b = s.start;
   (void)state;
-  clear(&clean);
   memset(&dirty, 0xff, sizeof dirty);
   dirty.h = 0;
   dirty.stats = clean.stats;
@@ -660,8 +625,7 @@ static void test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run(vo
       const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
       pneu_input input = fixture_input(&m, 1);
       pneu_state fixed = fixture_rest(&m, 0, 0, &input), adaptive = fixed;
-      pneu_workspace work;
-      clear(&work);
+      pneu_workspace work = {0};
       check_note("actuator %d, %s", actuator, pneu_gas_key(gas));
       for (i = 1; i <= 12000; i++) {
         if (i == 6001)
@@ -692,9 +656,8 @@ static void test_pneu_step__anywhere__work_is_bounded(void **state)
     const pneu_model m = fixture_model(&p, i % PNEU_GAS_COUNT, i % PNEU_FLOW_COUNT);
     pneu_input input = fixture_input(&m, fixture_random(&seed, -1, 1));
     pneu_state s = fixture_rest(&m, fixture_random(&seed, 0, 4e5), fixture_random(&seed, 0, (double)p.stroke), &input);
-    pneu_workspace work;
+    pneu_workspace work = {0};
     int status;
-    clear(&work);
     input.force = (pneu_real)fixture_random(&seed, -5e3, 5e3);
     s.v = (pneu_real)(i % 3 ? 0 : fixture_random(&seed, -0.2, 0.2));
     status = pneu_step(&m, &s, &input, (pneu_real)(i % 4 ? 1e-3 : 2e-4), &work);
@@ -747,9 +710,8 @@ static int check_odd_step(const pneu_model *m, uint64_t *seed, int i, pneu_delay
   pneu_state before;
   const int most = m->command_delay > 0 ? 2 : 1; /* steps that a command coming out of its delay makes of one */
   pneu_input input = fixture_input(m, m->p.proportional_band > 0 ? draw(seed, 0, 4e5) : draw(seed, -1, 1));
-  pneu_workspace work;
+  pneu_workspace work = {0};
   int status;
-  clear(&work);
   input.delay = late;
   input.supply_pressure = (pneu_real)draw(seed, 0, 6e5);
   input.force = (pneu_real)(i % 5 ? 0 : fixture_random(seed, -5e3, 5e3));
@@ -799,9 +761,8 @@ static void test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_t
 static pneu_state in_small_steps(const pneu_model *m, const pneu_state *start, const pneu_input *input, double dt)
 {
   pneu_state at = *start;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   int i;
-  clear(&work);
   for (i = 0; i < 64; i++)
     assert_int_equal(pneu_step(m, &at, input, (pneu_real)(dt / 64), &work), PNEU_OK);
   return at;
@@ -840,10 +801,9 @@ static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void 
   pneu_model m;
   pneu_input input;
   pneu_state s, small;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   int status;
   (void)state;
-  clear(&work);
   ringing_bristles(1e3, &m, &input, &s);
   small = in_small_steps(&m, &s, &input, dt);
   status = pneu_step(&m, &s, &input, (pneu_real)dt, &work);
@@ -859,12 +819,11 @@ static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **s
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   pneu_flow inflow;
   double mass;
   int i;
   (void)state;
-  clear(&work);
   ringing_bristles(0, &m, &input, &s);
   for (i = 0; i < 100; i++) {
     const pneu_real supply = input.supply_pressure + m.p.ambient_pressure;
@@ -890,10 +849,9 @@ static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_
   pneu_model m;
   pneu_input input;
   pneu_state s, before;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   int i, held = 0, refused = 0;
   (void)state;
-  clear(&work);
   ringing_bristles(0, &m, &input, &s);
   m.p.fill_area *= 9;
   m.p.vent_area *= 9;
@@ -921,15 +879,12 @@ static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_
 static void test_pneu_run__stem_caught_again__stays_between_its_stops(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_options options;
+  const pneu_options options = fixture_options(1e-4);
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
-  pneu_options_default(&options);
-  options.tol = (pneu_real)1e-4;
   fixture_set(&p, "area", 0.0144458394);
   fixture_set(&p, "dead_volume", 0.000307301321);
   fixture_set(&p, "stroke", 0.0282713436);
@@ -971,8 +926,7 @@ static void test_pneu_step__filled_in_it__ends_at_the_supply(void **state)
     pneu_model m;
     pneu_input input;
     pneu_state s;
-    pneu_workspace work;
-    clear(&work);
+    pneu_workspace work = {0};
     fixture_set(&p, "stroke", 0);
     fixture_set(&p, "dead_volume", fill[i].volume);
     fixture_set(&p, "fill_area", fill[i].orifice);
@@ -1009,8 +963,7 @@ static void test_pneu_step__stribeck_friction_lets_go_in_it__as_small_steps(void
       const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
       pneu_input input = fixture_input(&m, 1);
       pneu_state s, small;
-      pneu_workspace work;
-      clear(&work);
+      pneu_workspace work = {0};
       input.force = (pneu_real)(-1297.07874 + 0.25 * k);
       s = fixture_rest(&m, 176798.656, 0.00937204715, &input);
       small = in_small_steps(&m, &s, &input, dt);
@@ -1032,8 +985,7 @@ static void test_pneu_step__starts_into_a_stop__is_at_rest_there(void **state)
     const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
     const pneu_input input = fixture_input(&m, upper ? -1 : 1);
     pneu_state s = fixture_rest(&m, upper ? 0 : 3e5, upper ? (double)p.stroke : 0, &input), still = s;
-    pneu_workspace work;
-    clear(&work);
+    pneu_workspace work = {0};
     s.v = (pneu_real)(upper ? 0.5 : -0.5);
     assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_OK);
     assert_int_equal(pneu_step(&m, &still, &input, (pneu_real)1e-3, &work), PNEU_OK);
@@ -1063,9 +1015,8 @@ static void check_spoilt_step(const pneu_model *m, const scene *at, int i, doubl
 {
   pneu_input input = fixture_input(m, 1);
   pneu_state s = fixture_rest(m, at->p, at->x, &input), was;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   int status;
-  clear(&work);
   s.v = (pneu_real)at->v;
   spoil(i, value, &input, &s);
   was = s;
@@ -1080,9 +1031,8 @@ static void check_spoilt_run(const pneu_model *m, const scene *at, int i, double
   pneu_input input = fixture_input(m, 1);
   pneu_state s = fixture_rest(m, at->p, at->x, &input);
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   int status;
-  clear(&work);
   pneu_options_default(&options);
   s.v = (pneu_real)at->v;
   spoil(i, value, &input, &s);
@@ -1095,8 +1045,7 @@ typedef void spoilt(const pneu_model *, const scene *, int, double);
 
 static void check_all_spoilt(spoilt *check, double value)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   pneu_input input;
   pneu_state s;
   int i, j;
@@ -1131,9 +1080,8 @@ static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **
   (void)state;
   for (i = 0; i < COUNT(dt); i++) {
     pneu_state at = s.start;
-    pneu_workspace work;
+    pneu_workspace work = {0};
     int status;
-    clear(&work);
     status = pneu_step(&s.model, &at, &s.input, (pneu_real)dt[i], &work);
     check_note("dt = %g: %s", dt[i], pneu_status_text(status));
     assert_between(status, -99, -1);
@@ -1150,12 +1098,9 @@ static void test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_st
   (void)state;
   for (i = 0; i < COUNT(bad); i++) {
     pneu_state at = s.start;
-    pneu_options options;
-    pneu_workspace work;
+    const pneu_options options = fixture_options(bad[i][1]);
+    pneu_workspace work = {0};
     int status;
-    clear(&work);
-    pneu_options_default(&options);
-    options.tol = (pneu_real)bad[i][1];
     status = pneu_run(&s.model, &at, &s.input, (pneu_real)bad[i][0], &options, NULL, &work);
     check_note("duration %g, tol %g: %s", bad[i][0], bad[i][1], pneu_status_text(status));
     assert_int_equal(status, PNEU_E_NONFINITE);
@@ -1171,11 +1116,8 @@ static void test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_tak
   (void)state;
   for (i = 0; i < COUNT(good); i++) {
     pneu_state at = s.start;
-    pneu_options options;
-    pneu_workspace work;
-    clear(&work);
-    pneu_options_default(&options);
-    options.tol = (pneu_real)good[i][1];
+    const pneu_options options = fixture_options(good[i][1]);
+    pneu_workspace work = {0};
     check_note("duration %g, tol %g", good[i][0], good[i][1]);
     assert_int_equal(pneu_run(&s.model, &at, &s.input, (pneu_real)good[i][0], &options, NULL, &work), PNEU_OK);
     assert_true((at.x != s.start.x) == (good[i][0] > 0));
@@ -1187,9 +1129,8 @@ static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void *
   const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   pneu_state at = s.start;
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   pneu_options_default(&options);
   options.max_steps = 3;
   assert_int_equal(pneu_run(&s.model, &at, &s.input, 10, &options, NULL, &work), PNEU_E_STEP_COUNT);
@@ -1205,9 +1146,8 @@ static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void *
   const pneu_input input = fixture_input(&m, 1);
   pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   pneu_options_default(&options);
   s.x = -1;
   before = s;
@@ -1264,15 +1204,13 @@ static int turn_force(void *context, pneu_real t, const pneu_state *state, int b
 
 static void test_pneu_run__event_after_event_at_one_time__is_ended(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   pneu_input input = fixture_input(&m, 0);
   pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
   const pneu_observer observer = {NULL, turn_force, &input};
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   pneu_options_default(&options);
   input.force = 1e9;
   s.v = (pneu_real)1e-6;
@@ -1287,9 +1225,8 @@ static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
   const pneu_input input = fixture_input(&m, -1);
   pneu_state s = fixture_rest(&m, 1e5, 0, &input);
   pneu_options options;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   pneu_options_default(&options);
   s.p = s.T = (pneu_real)TOL(1e300, 1e37);
   assert_int_equal(pneu_run(&m, &s, &input, 1, &options, NULL, &work), PNEU_E_STEP_SIZE);
@@ -1297,13 +1234,11 @@ static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
 
 static void test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_input input = fixture_input(&m, -1);
   pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;
-  pneu_workspace work;
+  pneu_workspace work = {0};
   (void)state;
-  clear(&work);
   s.p = s.T = (pneu_real)TOL(1e300, 1e37);
   before = s;
   assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_E_SINGULAR);
@@ -1323,11 +1258,8 @@ static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
   input = fixture_input(&m, -1);
   for (h = 0.1; h < 1e4; h *= 1.1) {
     pneu_state s = fixture_rest(&m, 9e5, 0, &input);
-    pneu_options options;
-    pneu_workspace work;
-    clear(&work);
-    pneu_options_default(&options);
-    options.tol = (pneu_real)1e-2;
+    const pneu_options options = fixture_options(1e-2);
+    pneu_workspace work = {0};
     work.h = (pneu_real)h;
     check_note("h = %g", h);
     assert_int_equal(pneu_run(&m, &s, &input, (pneu_real)1e4, &options, NULL, &work), PNEU_OK);
@@ -1338,15 +1270,13 @@ static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
 /* Numbers, but outside the ranges that the header gives. */
 static void test_pneu_step__outside_documented_ranges__is_refused_and_state_kept(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   int i;
   (void)state;
   for (i = 0; i < 6; i++) {
     pneu_input input = fixture_input(&m, 1);
     pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;
-    pneu_workspace work;
-    clear(&work);
+    pneu_workspace work = {0};
     if (i == 0)
       input.u = 5;
     if (i == 1)

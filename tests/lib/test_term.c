@@ -161,8 +161,7 @@ static double shown_at(const pneu_model *m, double x)
 
 static void test_pneu_add_terms__knots_middles_and_beyond__lie_on_the_lines(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   pneu_term term = sampled(PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 9, 0.004, 0.016, zigzag);
   const double h = 0.012 / 8, tol = TOL(1e-9, 0.1);
   int i;
@@ -591,8 +590,7 @@ static void test_pneu_run__rough_tables__take_a_bounded_number_of_steps(void **s
   (void)state;
   for (i = 0; i < COUNT(term); i++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
-      const pneu_params p = fixture_params(FIXTURE_R1_400);
-      pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+      pneu_model m = fixture_r1_400(gas, PNEU_FLOW_CHOKED);
       const long base = fixture_steps(&m);
       add(&m, &term[i], 1);
       check_note("term %d, %s", i, pneu_gas_key(gas));
