@@ -28,12 +28,8 @@ static inline void bad_run(double leak, double spacing, const second_log *log)
 static inline bad_log bad_log_of(double leak)
 {
   static bad_log b;
-  second_log log = {0};
+  const second_log log = {.t = b.t, .u = b.u, .p = b.p, .x = b.x};
   size_t i;
-  log.t = b.t;
-  log.u = b.u;
-  log.p = b.p;
-  log.x = b.x;
   b.n = second_samples(10, bad_spacing);
   assert_int_equal(b.n, BAD_ROWS);
   bad_run(leak, bad_spacing, &log);

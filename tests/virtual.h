@@ -8,6 +8,7 @@
 
 #include "../apps/lab/log/log.h"
 #include "../apps/lab/rig/rig.h"
+#include "../apps/lab/run/run.h"
 #include "check.h"
 #include "second/rig.h"
 
@@ -71,6 +72,20 @@ static inline void virtual_declare(lab_rig *rig)
   rig->params.dead_volume = (pneu_real)4e-5;
   rig->noise[LAB_CHANNEL_P] = 320;
   rig->noise[LAB_CHANNEL_X] = 2e-5;
+}
+
+/* Read a log of one run and open it; to be closed. */
+static inline void virtual_open(const lab_rig *rig, const char *path, lab_log *log, lab_run *run)
+{
+  lab_error error;
+  if (lab_log_read(path, &rig->log, 101325, log, &error) || lab_run_open(rig, log, 0, run, &error))
+    fail_msg("%s", error.text);
+}
+
+static inline void virtual_close(lab_log *log, lab_run *run)
+{
+  lab_run_close(run);
+  lab_log_free(log);
 }
 
 #endif

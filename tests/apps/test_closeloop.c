@@ -555,16 +555,12 @@ static void test_closeloop__many_rows__are_thinned_and_said(void **state)
 {
   enum { MANY = 50001 };
   static double t[MANY], u[MANY], p[MANY], x[MANY];
-  second_log log = {0};
+  const second_log log = {.t = t, .u = u, .p = p, .x = x};
   const char *path = scratch_path("many.csv");
   char *report;
   FILE *file;
   int i;
   (void)state;
-  log.t = t;
-  log.u = u;
-  log.p = p;
-  log.x = x;
   bad_run(0, 10.0 / (MANY - 1), &log);
   file = fopen(path, "w");
   assert_non_null(file);

@@ -40,15 +40,13 @@ static lab_changes compare_logs(const lab_rig *rig, const char *const path[2])
   lab_error error = {0, ""};
   int i;
   for (i = 0; i < 2; i++) {
-    assert_int_equal(lab_log_read(path[i], &rig->log, (double)rig->params.ambient_pressure, &log[i], &error), LAB_OK);
-    assert_int_equal(lab_run_open(rig, &log[i], 0, &run[i], &error), LAB_OK);
+    virtual_open(rig, path[i], &log[i], &run[i]);
   }
   assert_int_equal(lab_unknowns_open(rig, run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   assert_int_equal(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error), LAB_OK);
   for (i = 0; i < 2; i++) {
-    lab_run_close(&run[i]);
-    lab_log_free(&log[i]);
+    virtual_close(&log[i], &run[i]);
   }
   return changes;
 }

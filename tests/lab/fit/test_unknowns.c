@@ -43,9 +43,7 @@ static void fit_list(const char *name, int per_log)
 /* The R1-400 with 40 cm3 of dead volume. */
 static void declare(void)
 {
-  lab_rig_default(&rig);
-  rig.laws.flow = PNEU_FLOW_CHOKED;
-  rig.params.dead_volume = (pneu_real)4e-5;
+  virtual_declare(&rig);
   rig.noise[LAB_CHANNEL_P] = sigma_p;
   rig.noise[LAB_CHANNEL_X] = sigma_x;
 }

@@ -44,8 +44,7 @@ static int measure_strokes(void **state)
   rig.laws.flow = PNEU_FLOW_CHOKED;
   rig.params.dead_volume = (pneu_real)4e-5;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  succeed(lab_log_read(write_log(), &rig.log, 101325, &logged, &error));
-  succeed(lab_run_open(&rig, &logged, 0, &run, &error));
+  virtual_open(&rig, write_log(), &logged, &run);
   succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
   succeed(lab_metrics_compare(&u, &measured, &predicted, &error));
   return 0;
@@ -53,8 +52,7 @@ static int measure_strokes(void **state)
 
 static int forget_strokes(void **state)
 {
-  lab_run_close(&run);
-  lab_log_free(&logged);
+  virtual_close(&logged, &run);
   return scratch_close(state);
 }
 

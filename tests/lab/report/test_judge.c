@@ -25,14 +25,12 @@ static void open_log(double rest)
   virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &seen, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, path, &seen, &run);
 }
 
 static void close_log(void)
 {
-  lab_run_close(&run);
-  lab_log_free(&seen);
+  virtual_close(&seen, &run);
 }
 
 /* The instants of commands are not fitted there, so that more than noise is left either way. */

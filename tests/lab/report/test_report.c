@@ -1,7 +1,7 @@
 /* From a log of the independent rig to report.html and its figures. */
 #include "../../fixture.h"
 #include "../../scratch.h"
-#include "../../second/rig.h"
+#include "../../virtual.h"
 
 #include "../../../apps/lab/metrics/recording.h"
 #include "../../../apps/lab/fit/weights.h"
@@ -26,22 +26,12 @@ static const char *write_log(const char *name)
 {
   static const double t_cmd[] = {0.402, 2.503, 4.001, 5.507, 7.204}, u_cmd[] = {1, 0, -1, 0.5, -0.5};
   static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  const second_log samples = {.t = t, .u = u, .p = p, .x = x};
   const char *path = scratch_path(name);
-  second_rig g = second_rig_default_r1_400();
-  second_log samples = {0};
+  second_rig g = virtual_rig(7);
   FILE *file = fopen(path, "w");
   int i;
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
   g.leak_area = 1.5e-8;
-  g.pressure_noise = 320;
-  g.position_noise = 2e-5;
-  g.step = 5e-5;
-  g.seed = 7;
-  samples.t = t;
-  samples.u = u;
-  samples.p = p;
-  samples.x = x;
   assert_int_equal(second_run(&g, t_cmd, u_cmd, 5, 10, spacing, &samples, NULL), 0);
   assert_non_null(file);
   fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
@@ -56,13 +46,9 @@ static const char *write_log(const char *name)
 
 static void declare(void)
 {
-  lab_rig_default(&rig);
+  virtual_declare(&rig);
   strcpy(rig.name, "R1 <script>alert(\"1\")</script> & co");
-  rig.laws.flow = PNEU_FLOW_CHOKED;
-  rig.params.dead_volume = (pneu_real)4e-5;
   rig.params.spring_rate = (pneu_real)3.9e5;
-  rig.noise[LAB_CHANNEL_P] = 320;
-  rig.noise[LAB_CHANNEL_X] = 2e-5;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   rig.fit[rig.n_fit++] = PNEU_PARAM_spring_rate;
 }
@@ -76,8 +62,7 @@ static int begin_report(void **state)
   declare();
   lab_search_options_default(&options);
   options.max_effects = 1;
-  assert_int_equal(lab_log_read(write_log("a&b.csv"), &rig.log, 101325, &logged, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &logged, 0, &run[0], &error), LAB_OK);
+  virtual_open(&rig, write_log("a&b.csv"), &logged, &run[0]);
   assert_int_equal(lab_unknowns_open(&rig, run, 1, &declared, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   completed = declared;
@@ -95,8 +80,7 @@ static int begin_report(void **state)
 static int forget_report(void **state)
 {
   free(page);
-  lab_run_close(&run[0]);
-  lab_log_free(&logged);
+  virtual_close(&logged, &run[0]);
   return scratch_close(state);
 }
 
@@ -518,8 +502,7 @@ static void test_lab_report_html__pressure_not_measured__is_said(void **state)
   }
   fclose(from);
   fclose(to);
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log, 0, &travel, &error), LAB_OK);
+  virtual_open(&rig, path, &log, &travel);
   lab_unknowns_none(&rig, &travel, 1, &one);
   assert_int_equal(lab_search_measure(&one, LAB_STAGE_BEFORE, &nothing, &error), LAB_OK);
   assert_int_equal(lab_search_measure(&one, LAB_STAGE_AFTER, &nothing, &error), LAB_OK);
@@ -531,8 +514,7 @@ static void test_lab_report_html__pressure_not_measured__is_said(void **state)
   assert_contains(text, "The model&#39;s pressure, for it was not measured");
   assert_contains(text, "\"signature\":[{\"name\":\"Pressure p\"");
   free(text);
-  lab_run_close(&travel);
-  lab_log_free(&log);
+  virtual_close(&log, &travel);
 }
 
 /* ---- Noise with memory ---- */
@@ -554,19 +536,13 @@ static const char *write_log_with_memory(const char *name)
 {
   static const double t_cmd[] = {3.502, 5.501, 6.507}, u_cmd[] = {1, 0, -1};
   static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+  const second_log samples = {.t = t, .u = u, .p = p, .x = x};
   const char *path = scratch_path(name);
-  second_rig g = second_rig_default_r1_400();
-  second_log samples = {0};
+  second_rig g = virtual_rig(1);
   uint64_t seed = 3;
   FILE *file = fopen(path, "w");
   int i;
-  g.flow = SECOND_CHOKED;
-  g.dead_volume = 4e-5;
-  g.step = 5e-5;
-  samples.t = t;
-  samples.u = u;
-  samples.p = p;
-  samples.x = x;
+  g.pressure_noise = g.position_noise = 0; /* what is added has a memory */
   assert_int_equal(second_run(&g, t_cmd, u_cmd, 3, 10, spacing, &samples, NULL), 0);
   add_noise(p, 320, &seed);
   add_noise(x, 2e-5, &seed);
@@ -591,8 +567,7 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   int any;
   (void)state;
   lab_search_options_default(&options);
-  assert_int_equal(lab_log_read(write_log_with_memory("memory.csv"), &rig.log, 101325, &log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log, 0, &own, &error), LAB_OK);
+  virtual_open(&rig, write_log_with_memory("memory.csv"), &log, &own);
   assert_int_equal(lab_unknowns_open(&rig, &own, 1, &fitted, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   assert_int_equal(lab_weigh_runs(&fitted, &own, &any, &error), LAB_OK);
@@ -617,8 +592,7 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   assert_contains(text, "\"whiteness\":");
   assert_null(strstr(text, "\"white\":\tfalse"));
   free(text);
-  lab_run_close(&own);
-  lab_log_free(&log);
+  virtual_close(&log, &own);
 }
 
 /* One key, one meaning: what the refit of a candidate explains, found or not; before what is found is fitted to the

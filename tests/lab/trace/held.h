@@ -25,8 +25,7 @@ static inline void held_open(held_log *h, const second_rig *truth)
   virtual_write(truth, &course, 14, 0.01, scratch_path("log.csv"));
   virtual_declare(&h->rig);
   h->rig.fit[h->rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  assert_int_equal(lab_log_read(scratch_path("log.csv"), &h->rig.log, 101325, &h->log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&h->rig, &h->log, 0, &h->run, &error), LAB_OK);
+  virtual_open(&h->rig, scratch_path("log.csv"), &h->log, &h->run);
   assert_int_equal(lab_unknowns_open(&h->rig, &h->run, 1, &h->c.u, &error), LAB_OK);
   assert_int_equal(lab_candidate_hold(&h->c, &error), LAB_OK);
   assert_true(h->c.quality.fitted);
@@ -44,8 +43,7 @@ static inline void held_add(held_log *h, const char *param, double size)
 
 static inline void held_close(held_log *h)
 {
-  lab_run_close(&h->run);
-  lab_log_free(&h->log);
+  virtual_close(&h->log, &h->run);
 }
 
 #endif

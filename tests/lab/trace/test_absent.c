@@ -29,8 +29,7 @@ static void open_log(double leak)
   rig.fit[rig.n_fit++] = at;
   g.leak_area = leak * g.vent_area;
   virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &run_log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &run_log, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, path, &run_log, &run);
   memset(&c, 0, sizeof c);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);
   lab_unknowns_view(&c.u, 0);
@@ -44,8 +43,7 @@ static const lab_unknown *leak_of(void)
 
 static void close_log(void)
 {
-  lab_run_close(&run);
-  lab_log_free(&run_log);
+  virtual_close(&run_log, &run);
 }
 
 /* It rests at 0, costs nothing of BIC, and its interval says how large it may be. */

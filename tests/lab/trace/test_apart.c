@@ -29,8 +29,7 @@ static void open_logs(const second_rig *first, const second_rig *second, int n)
   for (i = 0; i < n; i++) {
     const char *path = scratch_path(i ? "second.csv" : "first.csv");
     virtual_write(of[i], &course, (ROWS - 1) * spacing, spacing, path);
-    assert_int_equal(lab_log_read(path, &rig.log, 101325, &logs[i], &error), LAB_OK);
-    assert_int_equal(lab_run_open(&rig, &logs[i], 0, &run[i], &error), LAB_OK);
+    virtual_open(&rig, path, &logs[i], &run[i]);
   }
   assert_int_equal(lab_unknowns_open(&rig, run, n, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
@@ -41,8 +40,7 @@ static void close_logs(int n)
 {
   int i;
   for (i = 0; i < n; i++) {
-    lab_run_close(&run[i]);
-    lab_log_free(&logs[i]);
+    virtual_close(&logs[i], &run[i]);
   }
 }
 

@@ -32,8 +32,7 @@ static void open_logs(const int leaks[LOGS], int n)
     g.spring_rate *= leaks[0] ? 1.02 : 1;
     g.leak_area = leaks[e] ? leak * g.vent_area : 0;
     virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
-    assert_int_equal(lab_log_read(path, &rig.log, 101325, &logs[e], &error), LAB_OK);
-    assert_int_equal(lab_run_open(&rig, &logs[e], 0, &run[e], &error), LAB_OK);
+    virtual_open(&rig, path, &logs[e], &run[e]);
   }
   memset(&c, 0, sizeof c);
   assert_int_equal(lab_unknowns_open(&rig, run, n, &c.u, &error), LAB_OK);
@@ -51,8 +50,7 @@ static void close_logs(int n)
 {
   int e;
   for (e = 0; e < n; e++) {
-    lab_run_close(&run[e]);
-    lab_log_free(&logs[e]);
+    virtual_close(&logs[e], &run[e]);
   }
 }
 

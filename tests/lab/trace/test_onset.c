@@ -50,8 +50,7 @@ static void open_log(const second_rig *first, const second_rig *later, double ch
   lab_error error = {0, ""};
   write_log(first, later, change);
   declare();
-  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log_read, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
 }
@@ -69,8 +68,7 @@ static void close_loop(const second_rig *first, const second_rig *later, double 
 
 static void close_log(void)
 {
-  lab_run_close(&run);
-  lab_log_free(&log_read);
+  virtual_close(&log_read, &run);
 }
 
 /* The only onset is that of a parameter: it holds the truth, and the fit of its value as well. */

@@ -28,8 +28,7 @@ static int preview(const second_rig *first, const second_rig *later, double chan
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   rig.fit[rig.n_fit++] = pneu_param_find("spring_rate");
-  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log_read, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   lab_search_options_default(&options);
@@ -42,8 +41,7 @@ static int preview(const second_rig *first, const second_rig *later, double chan
 
 static void close_log(void)
 {
-  lab_run_close(&run);
-  lab_log_free(&log_read);
+  virtual_close(&log_read, &run);
 }
 
 /* The answer is one of the whole run, and as close to it as noise lets it. */

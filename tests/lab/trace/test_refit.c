@@ -42,8 +42,7 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   write_log(0, path);
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &recorded, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &recorded, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, path, &recorded, &run);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &whole.u, &error), LAB_OK);
   assert_int_equal(whole.u.n, 1 + COMMANDS);
   assert_int_equal(lab_candidate_fit(&whole, LAB_ROUNDS_ALL, &error), LAB_OK);
@@ -69,8 +68,7 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   lab_unknowns_forget_slopes(&whole.u);
   lab_unknowns_forget_slopes(&folded.u);
   lab_nuisance_close(&nuisance);
-  lab_run_close(&run);
-  lab_log_free(&recorded);
+  virtual_close(&recorded, &run);
 }
 
 /* A clock is known to 5 ms: one that is 60 ms off is missing from what was declared, one that is 6 ms off is not. */
@@ -89,8 +87,7 @@ static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_
     write_log(skew[i], path);
     virtual_declare(&rig);
     rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
-    assert_int_equal(lab_log_read(path, &rig.log, 101325, &recorded, &error), LAB_OK);
-    assert_int_equal(lab_run_open(&rig, &recorded, 0, &run, &error), LAB_OK);
+    virtual_open(&rig, path, &recorded, &run);
     memset(&c, 0, sizeof c);
     assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);
     assert_int_equal(lab_unknowns_hold(&c.u, &error), LAB_OK);
@@ -98,8 +95,7 @@ static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_
     assert_int_equal(lab_candidate_take_instruments(&c, &any, &error), LAB_OK);
     assert_int_equal(any, i);
     assert_int_equal(c.n_found, i);
-    lab_run_close(&run);
-    lab_log_free(&recorded);
+    virtual_close(&recorded, &run);
   }
   assert_int_equal(c.found[0].effect, pneu_effect_find("channel_skew"));
   assert_close((double)*pneu_param_at(&c.u.rig.params, c.found[0].param), 0.06, 0, 0.02);
@@ -128,8 +124,7 @@ static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
   write_rig(&g, path);
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &recorded, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &recorded, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, path, &recorded, &run);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &declared, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   c.u = declared;
@@ -148,8 +143,7 @@ static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
   assert_close(staged.u.unknown[lab_unknowns_find(&staged.u, leak)].value, 2e-8, 0, 0.05);
   assert_close(staged.u.unknown[lab_unknowns_find(&staged.u, pneu_param_find("dead_volume"))].value, g.dead_volume, 0,
                0.05);
-  lab_run_close(&run);
-  lab_log_free(&recorded);
+  virtual_close(&recorded, &run);
 }
 
 /* A fitted candidate in which a parameter changes. */

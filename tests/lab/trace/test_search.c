@@ -52,8 +52,7 @@ static void open_log(const second_rig *g, const double *u_cmd, lab_unknowns *u, 
   lab_error error = {0, ""};
   write_log(g, u_cmd, path);
   declare(&rig);
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &log_read, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log_read, 0, &run, &error), LAB_OK);
+  virtual_open(&rig, path, &log_read, &run);
   assert_int_equal(run.n_instants, COMMANDS);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
@@ -65,8 +64,7 @@ static void open_log(const second_rig *g, const double *u_cmd, lab_unknowns *u, 
 
 static void close_log(void)
 {
-  lab_run_close(&run);
-  lab_log_free(&log_read);
+  virtual_close(&log_read, &run);
 }
 
 /* Run the loop on such a log; where `all` is given, with tolerances. */
