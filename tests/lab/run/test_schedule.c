@@ -11,8 +11,10 @@
 static lab_error error;
 static lab_rig rig;
 static pneu_model model;
-static double load; /* [N] force on the stem at a start */
-static int is_set;  /* whether the command is a set position then */
+static lab_log seen;      /* the log that was read last */
+static lab_inputs inputs; /* of a run of it */
+static double load;       /* [N] force on the stem at a start */
+static int is_set;        /* whether the command is a set position then */
 
 /* The default rig, R1-400: spring 400 kN/m compressed 10 mm, area 400 cm^2, dry friction 480 N. */
 static int fresh_rig(void **state)
@@ -22,6 +24,14 @@ static int fresh_rig(void **state)
   load = 0;
   is_set = 0;
   return lab_rig_model(&rig, &model, &error);
+}
+
+static int forget(void **state)
+{
+  (void)state;
+  lab_inputs_free(&inputs);
+  lab_log_free(&seen);
+  return 0;
 }
 
 static void set_inputs(int p, int x, int ps, int force)
@@ -35,20 +45,18 @@ static void set_inputs(int p, int x, int ps, int force)
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
 }
 
-static lab_log read_log(const char *text)
+static void read_log(const char *text)
 {
-  lab_log log;
-  if (lab_log_read(scratch_text("log.csv", text), &rig.log, 101325, &log, &error))
+  lab_log_free(&seen);
+  if (lab_log_read(scratch_text("log.csv", text), &rig.log, 101325, &seen, &error))
     fail_msg("%s", error.text);
-  return log;
 }
 
-static lab_inputs drive_of(const lab_log *log, size_t run)
+static void drive(size_t run)
 {
-  lab_inputs inputs;
-  if (lab_inputs_from_log(&model, &rig, log, run, &inputs, &error))
+  lab_inputs_free(&inputs);
+  if (lab_inputs_from_log(&model, &rig, &seen, run, &inputs, &error))
     fail_msg("%s", error.text);
-  return inputs;
 }
 
 /* ---- Schedules ---- */
@@ -56,29 +64,26 @@ static lab_inputs drive_of(const lab_log *log, size_t run)
 /* A pressure that turns between two rows goes to where it turns and on from there. */
 static void test_lab_inputs_from_log__bend__is_an_entry_of_its_own(void **state)
 {
-  lab_log log = read_log("t [s],p [kPa]\n0,0\n1,10\n2,12\n");
   const lab_bend bends[] = {{0.5, 8e3}, {NAN, NAN}, {NAN, NAN}};
-  lab_inputs inputs;
   (void)state;
-  log.bend[LAB_CHANNEL_P] = malloc(sizeof bends);
-  assert_non_null(log.bend[LAB_CHANNEL_P]);
-  memcpy(log.bend[LAB_CHANNEL_P], bends, sizeof bends);
+  read_log("t [s],p [kPa]\n0,0\n1,10\n2,12\n");
+  seen.bend[LAB_CHANNEL_P] = malloc(sizeof bends);
+  assert_non_null(seen.bend[LAB_CHANNEL_P]);
+  memcpy(seen.bend[LAB_CHANNEL_P], bends, sizeof bends);
   set_inputs(1, 0, 0, 0);
-  inputs = drive_of(&log, 0);
+  drive(0);
   assert_int_equal(inputs.schedule.n, 4);
   assert_close(inputs.schedule.t[1], 0.5, 0, 0);
   assert_close(inputs.schedule.input[0].pressure_rate, 16e3, 1e-9, 0);
   assert_close(inputs.schedule.input[1].pressure_rate, 4e3, 1e-9, 0);
   assert_close(inputs.schedule.input[2].pressure_rate, 2e3, 1e-9, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
 {
-  lab_log log = read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
-  lab_inputs inputs = drive_of(&log, 0);
   (void)state;
+  read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
+  drive(0);
   assert_int_equal(inputs.schedule.n, 3);
   assert_close(inputs.schedule.t[0], 0, 0, 0);
   assert_close(inputs.schedule.t[1], 2, 0, 0);
@@ -87,18 +92,16 @@ static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state
   assert_close(inputs.schedule.input[2].u, -0.5, 0, 0);
   assert_close(inputs.schedule.input[0].supply_pressure, 4e5, 0, 0);
   assert_close(inputs.schedule.input[0].pressure_rate, 0, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
 {
   static const double row[][3] = {{0, 0, 0}, {1, 0, 0.1}, {3.5, 0.25, 0}, {6, 1, 0}}; /* t, u, u_rate */
-  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.1,0\n3,0.2,0\n4,0.25,0\n5,0.25,0\n6,1,0\n");
-  lab_inputs inputs = drive_of(&log, 0);
   const lab_schedule *s = &inputs.schedule;
   int i;
   (void)state;
+  read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.1,0\n3,0.2,0\n4,0.25,0\n5,0.25,0\n6,1,0\n");
+  drive(0);
   assert_int_equal(s->n, (int)(sizeof row / sizeof *row));
   for (i = 0; i < (int)(sizeof row / sizeof *row); i++) {
     assert_close(s->t[i], row[i][0], 0, 0);
@@ -107,16 +110,14 @@ static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
   }
   for (i = 0; i < 3; i++) /* what runs does not jump */
     assert_int_equal(lab_input_jumps(&s->input[i], s->t[i + 1] - s->t[i], &s->input[i + 1]), i == 2);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 /* One ramp from 0, at other times than those of rows: its corners are where its line meets the levels. */
 static void check_corners(const char *rows, double begin, double end, double to)
 {
-  lab_log log = read_log(rows);
-  lab_inputs inputs = drive_of(&log, 0);
   const lab_schedule *s = &inputs.schedule;
+  read_log(rows);
+  drive(0);
   check_note("%s", rows);
   assert_int_equal(s->n, 3);
   assert_close(s->t[1], begin, 1e-12, 0);
@@ -125,8 +126,6 @@ static void check_corners(const char *rows, double begin, double end, double to)
   assert_close(s->t[2], end, 1e-12, 0);
   assert_close(s->input[2].u, to, 1e-12, 0);
   assert_close(s->input[2].u_rate, 0, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there(void **state)
@@ -155,13 +154,13 @@ static void test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace(void **s
 static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows(void **state)
 {
   static const double row[][3] = {{0, 0, 0}, {3, -1, 0}, {3, -1, 0.3}, {4, -0.7, 0.2}, {6, -0.3, 0}}; /* t, u, u_rate */
-  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0,0\n3,-1,0\n4,-0.7,0\n5,-0.5,0\n6,-0.3,0\n7,-0.3,0\n");
   lab_run run;
   const lab_schedule *s = &run.inputs.schedule;
   int i;
   (void)state;
+  read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0,0\n3,-1,0\n4,-0.7,0\n5,-0.5,0\n6,-0.3,0\n7,-0.3,0\n");
   rig.noise[LAB_CHANNEL_P] = 100;
-  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
   assert_int_equal(s->n, (int)(sizeof row / sizeof *row));
   for (i = 0; i < (int)(sizeof row / sizeof *row); i++) {
     assert_close(s->t[i], row[i][0], 0, 0);
@@ -171,7 +170,6 @@ static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_betwee
       assert_close(run.bracket[i - 1], i == 1, 0, 0);
   }
   lab_run_close(&run);
-  lab_log_free(&log);
 }
 
 /* Rounded to steps of 0.01: one line within a step; where the supply is measured too, all rows of it. */
@@ -183,33 +181,27 @@ static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
   static const char supplied[] = "t [s],u [1],ps [kPa],p "
                                  "[kPa]\n0,0,400,0\n1,0.01,401,0\n2,0.03,402,0\n3,0.04,403,0\n4,0.06,404,0\n5,0.07,405,"
                                  "0\n6,0.08,406,0\n7,0.1,407,0\n8,0.11,408,0\n9,0.11,408,0\n10,0.11,408,0\n";
-  lab_log log = read_log(plain);
-  lab_inputs inputs = drive_of(&log, 0);
   (void)state;
+  read_log(plain);
+  drive(0);
   assert_int_equal(inputs.schedule.n, 2);
   assert_close(inputs.schedule.input[0].u_rate, 0.11 / 8, 1e-15, 0);
   assert_close(inputs.schedule.t[1], 8, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
   rig.input[LAB_CHANNEL_PS] = 1;
-  log = read_log(supplied);
-  inputs = drive_of(&log, 0);
+  read_log(supplied);
+  drive(0);
   assert_int_equal(inputs.schedule.n, 9);
   assert_close(inputs.schedule.input[3].u, 0.33 / 8, 1e-15, 0);
   assert_close(inputs.schedule.input[3].u_rate, 0.11 / 8, 1e-15, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **state)
 {
-  lab_log log = read_log("t [s],u [1]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
-  lab_inputs inputs = drive_of(&log, 0);
   (void)state;
+  read_log("t [s],u [1]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
+  drive(0);
   assert_int_equal(inputs.schedule.n, 4);
   assert_close(inputs.schedule.t[3], 30, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void declare_positioner(void)
@@ -220,53 +212,42 @@ static void declare_positioner(void)
 
 static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_command(void **state)
 {
-  lab_log log = read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
-  lab_inputs inputs;
   (void)state;
-  assert_int_equal(lab_positioner_check(&rig, &log, &error), LAB_DATA);
+  read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
+  assert_int_equal(lab_positioner_check(&rig, &seen, &error), LAB_DATA);
   assert_contains(error.text, "positioner = { gain = 20; }");
-  inputs = drive_of(&log, 0); /* a fit may come to a gain of 0 */
-  lab_inputs_free(&inputs);
+  drive(0); /* a fit may come to a gain of 0 */
   declare_positioner();
-  assert_int_equal(lab_positioner_check(&rig, &log, &error), LAB_OK);
-  inputs = drive_of(&log, 0);
+  assert_int_equal(lab_positioner_check(&rig, &seen, &error), LAB_OK);
+  drive(0);
   assert_int_equal(inputs.schedule.n, 2);
   assert_close(inputs.schedule.t[1], 2, 0, 0);
   assert_close(inputs.schedule.input[1].u, 0.5, 1e-15, 0);
   assert_int_equal(inputs.schedule.input[1].set_position, 1);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
-  log = read_log("t [s],sp [%],u [1]\n0,0,0\n1,50,1\n2,,0.25\n");
-  inputs = drive_of(&log, 0);
+  read_log("t [s],sp [%],u [1]\n0,0,0\n1,50,1\n2,,0.25\n");
+  drive(0);
   assert_int_equal(inputs.schedule.n, 3);
   assert_close(inputs.schedule.input[2].u, 0.25, 0, 0);
   assert_int_equal(inputs.schedule.input[2].set_position, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__second_run__has_its_own_rows(void **state)
 {
-  lab_log log;
-  lab_inputs inputs;
   (void)state;
   rig.log.new_run = LAB_RUN_T_DROPS;
-  log = read_log("t [s],u [1]\n0,0\n1,1\n0.5,1\n2,-1\n");
-  inputs = drive_of(&log, 1);
+  read_log("t [s],u [1]\n0,0\n1,1\n0.5,1\n2,-1\n");
+  drive(1);
   assert_int_equal(inputs.schedule.n, 2);
   assert_close(inputs.schedule.t[0], 0.5, 0, 0);
   assert_close(inputs.schedule.input[1].u, -1, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps(void **state)
 {
-  lab_log log = read_log("t [s],p [kPa],x [mm]\n0,10,0\n1,,1\n3,40,1\n4,40,2\n");
-  lab_inputs inputs;
   (void)state;
+  read_log("t [s],p [kPa],x [mm]\n0,10,0\n1,,1\n3,40,1\n4,40,2\n");
   set_inputs(1, 1, 0, 0);
-  inputs = drive_of(&log, 0);
+  drive(0);
   assert_int_equal(inputs.schedule.n, 4);
   assert_close(inputs.schedule.input[0].pressure_rate, 1e4, 1e-6, 0);
   assert_close(inputs.schedule.input[1].pressure_rate, 1e4, 1e-6, 0);
@@ -274,64 +255,54 @@ static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps
   assert_close(inputs.schedule.input[0].position_rate, 1e-3, 1e-12, 0);
   assert_close(inputs.schedule.input[1].position_rate, 0, 0, 0);
   assert_close(inputs.schedule.input[3].position_rate, 0, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps(void **state)
 {
-  lab_log log = read_log("t [s],u [1],ps [kPa],force [N]\n0,0,300,5\n1,0,,5\n2,0,290,7\n");
-  lab_inputs inputs;
   (void)state;
+  read_log("t [s],u [1],ps [kPa],force [N]\n0,0,300,5\n1,0,,5\n2,0,290,7\n");
   set_inputs(0, 0, 1, 1);
-  inputs = drive_of(&log, 0);
+  drive(0);
   assert_int_equal(inputs.schedule.n, 2);
   assert_close(inputs.schedule.input[0].supply_pressure, 300e3, 1e-9, 0);
   assert_close(inputs.schedule.input[1].supply_pressure, 290e3, 1e-9, 0);
   assert_close(inputs.schedule.input[1].force, 7, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__measured_outputs__do_not_drive(void **state)
 {
-  lab_log log = read_log("t [s],u [1],p [kPa],ps [kPa],force [N]\n0,0,1,300,5\n1,0,2,290,7\n");
-  lab_inputs inputs = drive_of(&log, 0);
   (void)state;
+  read_log("t [s],u [1],p [kPa],ps [kPa],force [N]\n0,0,1,300,5\n1,0,2,290,7\n");
+  drive(0);
   assert_int_equal(inputs.schedule.n, 1);
   assert_close(inputs.schedule.input[0].supply_pressure, 4e5, 0, 0);
   assert_close(inputs.schedule.input[0].force, 0, 0, 0);
-  lab_inputs_free(&inputs);
-  lab_log_free(&log);
 }
 
 static void test_lab_inputs_from_log__missing_input__is_named(void **state)
 {
-  lab_log log = read_log("t [s],p [kPa]\n0,1\n");
-  lab_inputs inputs;
   (void)state;
-  assert_int_equal(lab_inputs_from_log(&model, &rig, &log, 0, &inputs, &error), LAB_DATA);
+  read_log("t [s],p [kPa]\n0,1\n");
+  assert_int_equal(lab_inputs_from_log(&model, &rig, &seen, 0, &inputs, &error), LAB_DATA);
   assert_contains(error.text, "log.csv: expected a column u");
   set_inputs(1, 1, 0, 0);
-  assert_int_equal(lab_inputs_from_log(&model, &rig, &log, 0, &inputs, &error), LAB_DATA);
+  assert_int_equal(lab_inputs_from_log(&model, &rig, &seen, 0, &inputs, &error), LAB_DATA);
   assert_contains(error.text, "expected a column x");
-  lab_log_free(&log);
 }
 
 /* ---- Starts ---- */
 
 static pneu_state start_of(const char *text, double u)
 {
-  lab_log log = read_log(text);
   pneu_input input;
   pneu_state start;
   pneu_input_default(&model, &input);
+  read_log(text);
   input.u = (pneu_real)u;
   input.force = (pneu_real)load;
   input.set_position = is_set;
-  if (lab_run_initial_state(&model, &input, &log, 0, &start, &error))
+  if (lab_run_initial_state(&model, &input, &seen, 0, &start, &error))
     fail_msg("%s", error.text);
-  lab_log_free(&log);
   return start;
 }
 
@@ -368,7 +339,6 @@ static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_fir
   assert_close(start.x, 0, 0, 0);
 }
 
-/* Down and up again, so that both halves of the curve have one mean. */
 /* A move in the first of many rows hardly shifts their mean, but it is where the run begins. */
 static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row(void **state)
 {
@@ -381,6 +351,7 @@ static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first
   assert_close(start_of(text, 0).p, 20e3, 1e-6, 0);
 }
 
+/* Down and up again, so that both halves of the curve have one mean. */
 static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(void **state)
 {
   char text[65536] = "t [s],u [1],p [kPa]\n", row[64];
@@ -586,15 +557,14 @@ static void test_lab_run_initial_state__driven_channels__start_at_their_first_va
 
 static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
 {
-  lab_log log = read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
   pneu_input input;
   pneu_state start;
   (void)state;
+  read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
   pneu_input_default(&model, &input);
-  assert_int_equal(lab_run_initial_state(&model, &input, &log, 0, &start, &error), LAB_DATA);
+  assert_int_equal(lab_run_initial_state(&model, &input, &seen, 0, &start, &error), LAB_DATA);
   assert_contains(error.text, "log.csv:2:");
   assert_contains(error.text, "-150000 Pa");
-  lab_log_free(&log);
 }
 
 /* ---- The standard experiment ---- */
@@ -639,7 +609,7 @@ static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **stat
   free(got);
 }
 
-#define CASE(name) cmocka_unit_test_setup(name, fresh_rig)
+#define CASE(name) cmocka_unit_test_setup_teardown(name, fresh_rig, forget)
 
 /* ---- Runs ---- */
 
@@ -651,21 +621,19 @@ static void test_lab_run_open__values_in_steps_without_noise__have_weights(void 
   int k, i;
   (void)state;
   for (k = 1; k <= 20; k++) {
-    lab_log log;
     lab_run run;
     strcpy(text, "t [s],u [1],p [kPa]\n");
     for (i = 0; i < 400; i++) {
       snprintf(row, sizeof row, "%d,%d,%g\n", i, i > 0, 0.1 * k * (double)(i * i / 4000));
       strcat(text, row);
     }
-    log = read_log(text);
-    assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+    read_log(text);
+    assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
     check_note("steps of %g kPa, sigma %g Pa", 0.1 * k, run.sigma[0]);
     assert_true(run.sigma[0] > 0);
     for (i = 0; i < 400; i++)
       assert_true(run.weight[i] > 0 && run.weight[i] <= 1);
     lab_run_close(&run);
-    lab_log_free(&log);
   }
 }
 
@@ -673,16 +641,15 @@ static void test_lab_run_open__values_in_steps_without_noise__have_weights(void 
 static void test_lab_run_open__declared_resolution__is_that_of_the_run(void **state)
 {
   const double q = 500, noise = 100; /* [Pa] */
-  lab_log log = read_log("t [s],u [1],p [kPa]\n0,1,0\n1,1,1.1\n2,1,2.3\n3,1,2.9\n");
   lab_run run;
   (void)state;
+  read_log("t [s],u [1],p [kPa]\n0,1,0\n1,1,1.1\n2,1,2.3\n3,1,2.9\n");
   rig.noise[LAB_CHANNEL_P] = noise;
   rig.tolerance[LAB_PRESSURE_RESOLUTION] = q;
-  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
   assert_close(run.resolution[0], q, 0, 0);
   assert_close(run.sigma[0], sqrt(noise * noise + q * q / 12), 0, 1e-12);
   lab_run_close(&run);
-  lab_log_free(&log);
 }
 
 int main(void)
