@@ -29,6 +29,12 @@ double blind_log_uniform(blind_chance *c, double lo, double hi)
   return lo * exp(log(hi / lo) * blind_uniform(c, 0, 1));
 }
 
+double blind_normal(blind_chance *c)
+{
+  const double a = blind_uniform(c, 1e-12, 1), b = blind_uniform(c, 0, 1);
+  return sqrt(-2 * log(a)) * cos(6.283185307179586 * b);
+}
+
 int blind_below(blind_chance *c, int n)
 {
   return (int)blind_uniform(c, 0, n);

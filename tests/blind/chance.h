@@ -20,6 +20,9 @@ double blind_uniform(blind_chance *c, double lo, double hi);
 /* Evenly in the logarithm, 0 < lo <= hi. */
 double blind_log_uniform(blind_chance *c, double lo, double hi);
 
+/* Standard normal, by Box and Muller. */
+double blind_normal(blind_chance *c);
+
 /* 0 .. n-1 */
 int blind_below(blind_chance *c, int n);
 

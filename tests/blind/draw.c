@@ -276,3 +276,22 @@ const char *blind_kind_text(int kind)
   static const char *const text[BLIND_KINDS] = {"nothing", "single", "pair", "unlisted"};
   return text[kind];
 }
+
+const char *blind_gas_text(int gas)
+{
+  static const char *const text[] = {[SECOND_ISOTHERMAL] = "isothermal", [SECOND_ENERGY] = "energy"};
+  return text[gas];
+}
+
+const char *blind_flow_text(int flow)
+{
+  static const char *const text[] = {
+      [SECOND_PAPER] = "paper", [SECOND_CHOKED] = "choked", [SECOND_ISO6358] = "iso6358"};
+  return text[flow];
+}
+
+const char *blind_channels_text(int channels)
+{
+  static const char *const text[] = {"", "p", "x", "px", "T", "pT", "xT", "pxT"};
+  return text[channels];
+}

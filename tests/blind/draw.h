@@ -61,4 +61,11 @@ int blind_kind_of(int number);
 
 const char *blind_kind_text(int kind);
 
+/* Words of a rig file for the laws of the virtual rig. */
+const char *blind_gas_text(int gas);
+const char *blind_flow_text(int flow);
+
+/* A letter for each channel: "px". */
+const char *blind_channels_text(int channels);
+
 #endif

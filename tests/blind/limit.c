@@ -48,19 +48,12 @@ double blind_projected(double *column, int n, double *s, size_t m)
 
 /* ---- Noise-free runs ---- */
 
-static second_rig silent(second_rig g, double step)
-{
-  g.pressure_noise = g.position_noise = g.temperature_noise = g.pressure_range = g.position_range = 0;
-  g.step = step;
-  return g;
-}
-
 /* Channels of a run, over their noise, one behind the other; behind them room for what is known of the instants. */
 static int respond(const blind_trial *t, const second_rig *rig, const blind_schedule *s, double step, double *y,
                    lab_error *error)
 {
   const double sigma[3] = {t->base.pressure_noise, t->base.position_noise, t->base.temperature_noise};
-  const second_rig g = silent(*rig, step);
+  const second_rig g = blind_silent(rig, step);
   blind_rows rows;
   int c;
   size_t i;
@@ -208,18 +201,13 @@ static int find_limit(work *w, int which, double *size, double *statistic, lab_e
   return LAB_OK;
 }
 
-static int channel_count(int channels)
-{
-  return !!(channels & BLIND_P) + !!(channels & BLIND_X) + !!(channels & BLIND_T);
-}
-
 int blind_limit(const blind_trial *t, int which, double *size, double *statistic, lab_error *error)
 {
   work w = {0};
   int status;
   w.t = t;
   w.reference = blind_truth(t, (unsigned)BLIND_ALL & ~(1u << which));
-  w.n = second_samples(t->fit.end, t->spacing) * (size_t)channel_count(t->channels);
+  w.n = second_samples(t->fit.end, t->spacing) * strlen(blind_channels_text(t->channels));
   w.m = w.n + BLIND_COMMANDS;
   w.base = calloc((COLUMNS_MAX + 2) * w.m, sizeof *w.base);
   if (!w.base)

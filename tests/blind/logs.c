@@ -6,22 +6,42 @@
 
 #include "../../apps/lab/base/outfile.h"
 
+int blind_rows_open(double end, double spacing, blind_rows *rows, lab_error *error)
+{
+  rows->n = second_samples(end, spacing);
+  rows->t = malloc(5 * rows->n * sizeof *rows->t);
+  if (!rows->t)
+    return lab_fail_memory(error, "a log");
+  rows->u = rows->t + rows->n;
+  rows->p = rows->u + rows->n;
+  rows->x = rows->p + rows->n;
+  rows->T = rows->x + rows->n;
+  return LAB_OK;
+}
+
+second_log blind_rows_log(const blind_rows *rows)
+{
+  return (second_log){.t = rows->t, .u = rows->u, .p = rows->p, .x = rows->x, .T = rows->T};
+}
+
+second_rig blind_silent(const second_rig *rig, double step)
+{
+  second_rig g = *rig;
+  g.pressure_noise = g.position_noise = g.temperature_noise = g.pressure_range = g.position_range = 0;
+  g.step = step;
+  return g;
+}
+
 int blind_simulate(const second_rig *rig, const blind_schedule *s, double spacing, blind_rows *rows, lab_error *error)
 {
   const int halvings = 6;
   second_rig g = *rig;
-  second_log log = {0};
+  second_log log;
   second_audit audit;
   int i;
-  rows->n = second_samples(s->end, spacing);
-  rows->t = malloc(5 * rows->n * sizeof *rows->t);
-  if (!rows->t)
-    return lab_fail_memory(error, "a log");
-  log.t = rows->t;
-  log.u = rows->u = log.t + rows->n;
-  log.p = rows->p = log.u + rows->n;
-  log.x = rows->x = log.p + rows->n;
-  log.T = rows->T = log.x + rows->n;
+  if (blind_rows_open(s->end, spacing, rows, error))
+    return error->status;
+  log = blind_rows_log(rows);
   for (i = 0; i <= halvings; i++, g.step /= 2)
     if (!second_run(&g, s->t, s->u, s->n, s->end, spacing, &log, &audit) && audit.forced == 0)
       return LAB_OK;
@@ -86,8 +106,6 @@ static int write_log(const blind_trial *t, const second_rig *rig, const blind_sc
 
 /* ---- The rig file ---- */
 
-static const char *const gas_words[] = {"isothermal", "energy"}, *const flow_words[] = {"paper", "choked", "iso6358"};
-
 void blind_write_declared(FILE *file, const second_rig *g, int channels, int tells_noise)
 {
   int i;
@@ -109,7 +127,8 @@ void blind_write_declared(FILE *file, const second_rig *g, int channels, int tel
           "};\nsupply     = { pressure = \"%.10g Pa\";  temperature = \"%.10g K\"; };\n"
           "ambient    = { pressure = \"%.10g Pa\";  temperature = \"%.10g K\"; };\n"
           "laws       = { gas = \"%s\";  flow = \"%s\";  friction = \"coulomb\"; };\n",
-          g->supply, g->supply_temperature, g->ambient, g->ambient_temperature, gas_words[g->gas], flow_words[g->flow]);
+          g->supply, g->supply_temperature, g->ambient, g->ambient_temperature, blind_gas_text(g->gas),
+          blind_flow_text(g->flow));
   for (i = 0; i < BLIND_FITTED; i++)
     fprintf(file, "%s\"%s\"", i ? ", " : "fit        = ( ", blind_fitted_of[i].name);
   fputs(" );\n", file);

@@ -14,6 +14,15 @@ typedef struct blind_rows {
   double *t, *u, *p, *x, *T;
 } blind_rows;
 
+/* Room for a run up to `end` [s].  Returns: LAB_OK; LAB_WORLD without memory */
+int blind_rows_open(double end, double spacing, blind_rows *rows, lab_error *error);
+
+/* The columns as the virtual rig fills them. */
+second_log blind_rows_log(const blind_rows *rows);
+
+/* A rig whose sensors neither scatter nor round, on another grid. */
+second_rig blind_silent(const second_rig *rig, double step);
+
 /* Run a rig under a schedule, with a shorter step where its own is too long for it.
  * Returns: LAB_OK; LAB_NUMERIC if the virtual rig leaves the physical range or gives up following its events. */
 int blind_simulate(const second_rig *rig, const blind_schedule *schedule, double spacing, blind_rows *rows,

@@ -101,8 +101,7 @@ static int has(const blind_recorded *r, int imperfection)
 static double normal(blind_chance *c)
 {
   for (;;) {
-    const double a = blind_uniform(c, 1e-12, 1), b = blind_uniform(c, 0, 1);
-    const double z = sqrt(-2 * log(a)) * cos(6.283185307179586 * b);
+    const double z = blind_normal(c);
     if (fabs(z) <= 2)
       return z;
   }

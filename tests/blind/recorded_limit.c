@@ -331,7 +331,7 @@ int blind_recorded_visible(const blind_recorded *r, blind_visible *v, lab_error 
   error->status = LAB_OK;
   memset(v, 0, sizeof *v);
   w.rows = second_samples(r->end, r->spacing);
-  w.n = w.rows * (size_t)(!!(r->t.channels & BLIND_P) + !!(r->t.channels & BLIND_X) + !!(r->t.channels & BLIND_T));
+  w.n = w.rows * strlen(blind_channels_text(r->t.channels));
   w.m = w.n + COLUMNS;
   w.y = calloc((COLUMNS + 3) * w.m, sizeof *w.y);
   if (!w.y)

@@ -142,15 +142,13 @@ static void note_answer(const blind_answer *a, blind_record *r)
 
 static void note_question(const blind_trial *t, const double *limit, blind_record *r)
 {
-  static const char *const gas[] = {"isothermal", "energy"}, *const flow[] = {"paper", "choked", "iso6358"};
   int i;
   r->trial = t->number;
   snprintf(r->kind, sizeof r->kind, "%s", blind_kind_text(t->kind));
-  snprintf(r->channels, sizeof r->channels, "%s%s%s", t->channels & BLIND_P ? "p" : "",
-           t->channels & BLIND_X ? "x" : "", t->channels & BLIND_T ? "T" : "");
+  snprintf(r->channels, sizeof r->channels, "%s", blind_channels_text(t->channels));
   snprintf(r->actuator, sizeof r->actuator, "%s", t->actuator);
-  snprintf(r->gas, sizeof r->gas, "%s", gas[t->declared.gas]);
-  snprintf(r->flow, sizeof r->flow, "%s", flow[t->declared.flow]);
+  snprintf(r->gas, sizeof r->gas, "%s", blind_gas_text(t->declared.gas));
+  snprintf(r->flow, sizeof r->flow, "%s", blind_flow_text(t->declared.flow));
   r->pressure_noise = t->declared.pressure_noise;
   r->position_noise = t->declared.position_noise;
   r->ratio = r->size[0] = r->size[1] = r->limit[0] = r->limit[1] = NAN;

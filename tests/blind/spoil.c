@@ -67,25 +67,8 @@ static double meant(const blind_recorded *r, double t)
 static int open_fine(const blind_recorded *r, blind_fine *f, lab_error *error)
 {
   const double longest = 1e-3;
-  blind_rows *rows = &f->rows;
   f->spacing = r->spacing / ceil(r->spacing / longest - 1e-9);
-  rows->n = second_samples(r->end, f->spacing);
-  rows->t = malloc(5 * rows->n * sizeof *rows->t);
-  if (!rows->t)
-    return lab_fail_memory(error, "a run");
-  rows->u = rows->t + rows->n;
-  rows->p = rows->u + rows->n;
-  rows->x = rows->p + rows->n;
-  rows->T = rows->x + rows->n;
-  return LAB_OK;
-}
-
-static second_rig silent(const second_rig *rig, double step)
-{
-  second_rig g = *rig;
-  g.pressure_noise = g.position_noise = g.temperature_noise = g.pressure_range = g.position_range = 0;
-  g.step = step;
-  return g;
+  return blind_rows_open(r->end, f->spacing, &f->rows, error);
 }
 
 int blind_run_recorded(const blind_recorded *r, const second_rig *first, const second_rig *later, double step,
@@ -102,10 +85,10 @@ int blind_run_recorded(const blind_recorded *r, const second_rig *first, const s
     free((double *)course.t_cmd);
     return error->status;
   }
-  log = (second_log){.t = f->rows.t, .u = f->rows.u, .p = f->rows.p, .x = f->rows.x, .T = f->rows.T};
+  log = blind_rows_log(&f->rows);
   course.positioner = r->loop == BLIND_OPEN ? NULL : &r->positioner;
   for (i = 0; i <= halvings && !done; i++, step /= 2) {
-    const second_rig a = silent(first, step), b = silent(later, step);
+    const second_rig a = blind_silent(first, step), b = blind_silent(later, step);
     course.later = isnan(r->onset) ? NULL : &b;
     done = !second_follow(&a, &course, r->end, f->spacing, &log, &audit) && audit.forced == 0;
   }
@@ -122,12 +105,6 @@ void blind_fine_free(blind_fine *f)
 }
 
 /* ---- Sensors ---- */
-
-static double normal(blind_chance *c)
-{
-  const double a = blind_uniform(c, 1e-12, 1), b = blind_uniform(c, 0, 1);
-  return sqrt(-2 * log(a)) * cos(6.283185307179586 * b);
-}
 
 /* First-order filter of samples between which the signal goes by straight lines: exact. */
 static void filter(double *y, size_t n, double spacing, double lag)
@@ -161,14 +138,14 @@ static void soil(const blind_recorded *r, int sensor, double span, double noise,
                  double *y)
 {
   const double keep = exp(-r->spacing / r->memory), phase = blind_uniform(c, 0, 6.283185307179586);
-  double slow = normal(c);
+  double slow = blind_normal(c);
   size_t i;
   for (i = 0; i < l->n; i++) {
-    y[i] += noise * (normal(c) + r->colour[sensor] * slow);
+    y[i] += noise * (blind_normal(c) + r->colour[sensor] * slow);
     y[i] += span * (r->hum[sensor] * sin(6.283185307179586 * r->mains * l->at[i] + phase) +
                     r->drift[sensor] * l->at[i] / r->end);
     y[i] = rounded(y[i], 1.25 * span / (double)(1L << r->bits));
-    slow = keep * slow + sqrt(1 - keep * keep) * normal(c);
+    slow = keep * slow + sqrt(1 - keep * keep) * blind_normal(c);
   }
 }
 
@@ -196,7 +173,7 @@ static void clock_in(const blind_recorded *r, blind_chance *c, blind_log *l)
   size_t i;
   for (i = 0; i < l->n; i++) {
     const double t = (double)i * r->spacing;
-    l->at[i] = i ? t + r->jitter * fmax(-2.4, fmin(2.4, normal(c))) : 0;
+    l->at[i] = i ? t + r->jitter * fmax(-2.4, fmin(2.4, blind_normal(c))) : 0;
     l->t[i] = rounded(t, r->rounding);
   }
 }
@@ -262,7 +239,7 @@ int blind_spoil(const blind_recorded *r, const blind_fine *f, blind_log *l, lab_
   soil(r, 0, g->supply, g->pressure_noise, &c, l, l->p);
   soil(r, 1, g->stroke, g->position_noise, &c, l, l->x);
   for (i = 0; i < l->n; i++)
-    l->T[i] += g->temperature_noise * normal(&c);
+    l->T[i] += g->temperature_noise * blind_normal(&c);
   drop_out(r, &c, l);
   return LAB_OK;
 }

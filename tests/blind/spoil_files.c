@@ -161,13 +161,12 @@ void blind_truth_header(FILE *file)
 
 void blind_truth_write(FILE *file, const blind_recorded *r, size_t n_rows)
 {
-  static const char *const gas[] = {"isothermal", "energy"}, *const flow[] = {"paper", "choked", "iso6358"};
   const blind_trial *t = &r->t;
   char text[256];
   int i;
-  fprintf(file, "%d,%s,%s,%s%s%s,%s,%s,%s,%zu,%.4g", t->number, blind_kind_text(t->kind), blind_loop_text(r->loop),
-          t->channels & BLIND_P ? "p" : "", t->channels & BLIND_X ? "x" : "", t->channels & BLIND_T ? "T" : "",
-          t->actuator, gas[t->declared.gas], flow[t->declared.flow], n_rows, r->spacing);
+  fprintf(file, "%d,%s,%s,%s,%s,%s,%s,%zu,%.4g", t->number, blind_kind_text(t->kind), blind_loop_text(r->loop),
+          blind_channels_text(t->channels), t->actuator, blind_gas_text(t->declared.gas),
+          blind_flow_text(t->declared.flow), n_rows, r->spacing);
   for (i = 0; i < BLIND_AT_ONCE; i++)
     if (i < t->n_missing)
       fprintf(file, ",%s,%.4g %s", t->missing[i].effect->name, t->missing[i].size, t->missing[i].effect->unit);

@@ -1,12 +1,12 @@
 /* tests/blind: what answers to logs "as recorded" are worth, and how they are counted. */
 #include "../scratch.h"
 
+#include "answers.h"
 #include "prepare.h"
 #include "recorded_score.h"
 #include "recorded_summary.h"
 
 static lab_error error;
-static blind_answer answer;
 static blind_record record;
 static blind_visible visible;
 
@@ -41,27 +41,6 @@ static blind_recorded trial_with(const char *missing)
              : *missing == 'u'    ? BLIND_UNLISTED
                                   : BLIND_SINGLE;
   return r;
-}
-
-/* An answer in short: found effects with "+" between them, each with what it states as alike after ":". */
-static void set_answer(const char *verdict, const char *found, const char *unlisted)
-{
-  char names[200], *name;
-  memset(&answer, 0, sizeof answer);
-  strcpy(answer.verdict, verdict);
-  snprintf(names, sizeof names, "%s", found);
-  for (name = strtok(names, "+"); name; name = strtok(NULL, "+")) {
-    blind_found *f = &answer.found[answer.n_found++];
-    char *alike = strchr(name, ':');
-    if (alike) {
-      *alike++ = '\0';
-      strcpy(f->alike[f->n_alike++], alike);
-    }
-    strcpy(f->effect, name);
-    f->since.t = f->since.low = f->since.high = NAN;
-  }
-  if (*unlisted)
-    strcpy(answer.unlisted[answer.n_unlisted++], unlisted);
 }
 
 static void say(const char *parameter, double ratio, double half)
@@ -293,16 +272,6 @@ static void test_blind_answer_read__deviations_and_onset__are_taken(void **state
   assert_true(isnan(answer.deviation[0].since.t));
 }
 
-static char *line_of(const blind_record *r)
-{
-  char *line = NULL;
-  size_t size;
-  FILE *memory = open_memstream(&line, &size);
-  blind_record_write(memory, r, 1);
-  fclose(memory);
-  return line;
-}
-
 static void test_blind_record_read__recorded__is_what_was_written(void **state)
 {
   const blind_recorded r = trial_with("chamber_leak+dead_time");
@@ -313,11 +282,11 @@ static void test_blind_record_read__recorded__is_what_was_written(void **state)
   say("spring_rate", 1.25, 0.1);
   answer.cpu = 1.5;
   blind_score_recorded(&r, &visible, &answer, 123, &record);
-  line = line_of(&record);
+  line = line_of(&record, 1);
   assert_int_equal(blind_record_read(line, 1, &back), 1);
   assert_int_equal(blind_record_read(line, 0, &back), 0);
   blind_record_read(line, 1, &back);
-  again = line_of(&back);
+  again = line_of(&back, 1);
   assert_string_equal(line, again);
   assert_string_equal(back.class, "partly");
   assert_close(back.rows, 123, 0, 0);

@@ -1,13 +1,13 @@
 /* tests/blind: what an answer is worth, and how it is counted and reported. */
 #include "../scratch.h"
 
+#include "answers.h"
 #include "journal.h"
 #include "score.h"
 #include "stats.h"
 #include "summary.h"
 
 static lab_error error;
-static blind_answer answer;
 static blind_record record;
 
 /* ---- Reports ---- */
@@ -70,26 +70,6 @@ static blind_trial trial_with(int kind, const char *missing)
     t.missing[t.n_missing++].size = -3;
   }
   return t;
-}
-
-/* An answer in short: found effects with "+" between them, each with what it states as alike after ":". */
-static void set_answer(const char *verdict, const char *found, const char *unlisted)
-{
-  char names[200], *name;
-  memset(&answer, 0, sizeof answer);
-  strcpy(answer.verdict, verdict);
-  snprintf(names, sizeof names, "%s", found);
-  for (name = strtok(names, "+"); name; name = strtok(NULL, "+")) {
-    blind_found *f = &answer.found[answer.n_found++];
-    char *alike = strchr(name, ':');
-    if (alike) {
-      *alike++ = '\0';
-      strcpy(f->alike[f->n_alike++], alike);
-    }
-    strcpy(f->effect, name);
-  }
-  if (*unlisted)
-    strcpy(answer.unlisted[answer.n_unlisted++], unlisted);
 }
 
 static const struct score_case {
@@ -235,24 +215,14 @@ static blind_record sample_record(int trial, const char *verdict, const char *fo
   return record;
 }
 
-static char *line_of(const blind_record *r)
-{
-  char *line = NULL;
-  size_t size;
-  FILE *memory = open_memstream(&line, &size);
-  blind_record_write(memory, r, 0);
-  fclose(memory);
-  return line;
-}
-
 static void test_blind_record_read__what_was_written__is_the_same(void **state)
 {
   const blind_record r = sample_record(12, "effect", "supply_droop:chamber_leak");
-  char *line = line_of(&r), *again;
+  char *line = line_of(&r, 0), *again;
   blind_record back;
   (void)state;
   assert_int_equal(blind_record_read(line, 0, &back), 1);
-  again = line_of(&back);
+  again = line_of(&back, 0);
   assert_string_equal(line, again);
   assert_int_equal(back.trial, 12);
   assert_string_equal(back.why, r.why);
@@ -265,7 +235,7 @@ static void test_blind_record_read__what_was_written__is_the_same(void **state)
 static void test_blind_record_read__line_cut_anywhere__is_refused(void **state)
 {
   const blind_record r = sample_record(12, "none", "");
-  char *line = line_of(&r);
+  char *line = line_of(&r, 0);
   blind_record back;
   size_t n;
   (void)state;
