@@ -13,6 +13,13 @@ enum { ROWS = 1001 };
 static const double spacing = 0.01; /* [s] */
 static double min_gain = 0.02;
 
+static lab_rig rig;
+static lab_log log_read;
+static lab_run run;
+static lab_unknowns u;
+static lab_search_result result;
+static lab_deviations all;
+
 /* The declaration of it is off by a few per cent in what is fitted. */
 static second_rig true_rig(void)
 {
@@ -29,36 +36,32 @@ static void write_log(const second_rig *g, const double *u_cmd, const char *path
   virtual_write(g, &course, 10, spacing, path);
 }
 
-static void declare(lab_rig *rig)
+static void declare(void)
 {
   static const char *const fitted[] = {"dry_friction", "spring_rate", "spring_preload"};
   int i;
-  virtual_declare(rig);
-  rig->params.spring_rate = (pneu_real)3.9e5;
-  rig->params.dry_friction = 500;
-  rig->fit[rig->n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  virtual_declare(&rig);
+  rig.params.spring_rate = (pneu_real)3.9e5;
+  rig.params.dry_friction = 500;
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   for (i = 0; i < 3; i++)
-    rig->fit[rig->n_fit++] = pneu_param_find(fitted[i]);
+    rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
 }
 
-static lab_rig rig;
-static lab_log log_read;
-static lab_run run;
-
 /* A log of the true rig under some commands, and the declared model fitted to it; within tolerances if `held`. */
-static void open_log(const second_rig *g, const double *u_cmd, lab_unknowns *u, int held)
+static void open_log(const second_rig *g, const double *u_cmd, int held)
 {
   const char *path = scratch_path("log.csv");
   lab_error error = {0, ""};
   write_log(g, u_cmd, path);
-  declare(&rig);
+  declare();
   virtual_open(&rig, path, &log_read, &run);
   assert_int_equal(run.n_instants, COMMANDS);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   if (held) {
-    assert_int_equal(lab_unknowns_hold(u, &error), LAB_OK);
-    assert_int_equal(lab_unknowns_fit(u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+    assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+    assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   }
 }
 
@@ -67,58 +70,49 @@ static void close_log(void)
   virtual_close(&log_read, &run);
 }
 
-/* Run the loop on such a log; where `all` is given, with tolerances. */
-static void run_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result,
-                     lab_deviations *all)
+/* Run the loop on such a log; where it is held, with what deviates. */
+static void run_loop(const second_rig *g, const double *u_cmd, int held)
 {
   lab_search_options options;
   lab_error error = {0, ""};
   lab_search_options_default(&options);
   options.max_effects = 1;
   options.min_gain = min_gain;
-  open_log(g, u_cmd, u, all != NULL);
-  assert_int_equal(lab_search_run(u, &options, result, &error), LAB_OK);
-  if (all)
-    assert_int_equal(lab_deviations_find(&rig, u, &result->fit, INFINITY, all, &error), LAB_OK);
+  open_log(g, u_cmd, held);
+  assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
+  if (held)
+    assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error), LAB_OK);
   close_log();
 }
 
-static void close_loop(const second_rig *g, const double *u_cmd, lab_unknowns *u, lab_search_result *result)
+/* The same of brisk commands, and what it names first. */
+static void assert_named(const second_rig *g, const char *name)
 {
-  run_loop(g, u_cmd, u, result, NULL);
+  run_loop(g, brisk, 0);
+  assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
+  assert_string_equal(pneu_effect_at(result.found[0].effect)->name, name);
 }
 
-/* The same, and what it names first. */
-static void assert_named(const second_rig *g, const char *name, lab_unknowns *u, lab_search_result *result)
-{
-  close_loop(g, brisk, u, result);
-  assert_int_equal(result->verdict, LAB_VERDICT_EFFECT);
-  assert_string_equal(pneu_effect_at(result->found[0].effect)->name, name);
-}
-
-static const lab_deviation *deviation(const lab_deviations *all, const char *name)
+static const lab_deviation *deviation(const char *name)
 {
   int i;
-  for (i = 0; i < all->n; i++)
-    if (!strcmp(all->of[i].name, name))
-      return &all->of[i];
+  for (i = 0; i < all.n; i++)
+    if (!strcmp(all.of[i].name, name))
+      return &all.of[i];
   return NULL;
 }
 
 /* A dead volume a fifth off is within its tolerance: nothing is missing, and what is off is told. */
 static void test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
-  static lab_deviations all;
   const lab_deviation *d;
   second_rig g = true_rig();
   (void)state;
   g.dead_volume *= 1.2;
-  run_loop(&g, brisk, &u, &result, &all);
+  run_loop(&g, brisk, 1);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(all.condition, LAB_CONDITION_AS_DECLARED);
-  assert_non_null(d = deviation(&all, "dead_volume"));
+  assert_non_null(d = deviation("dead_volume"));
   assert_between(1.2, d->lower / 4e-5, d->upper / 4e-5);
   assert_true(d->held && !d->beyond);
 }
@@ -126,17 +120,14 @@ static void test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviatio
 /* Friction of twice its declared value is wear, whatever explains the log. */
 static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
-  static lab_deviations all;
   const lab_deviation *d;
   second_rig g = true_rig();
   (void)state;
   g.dry_friction = 960;
-  run_loop(&g, brisk, &u, &result, &all);
+  run_loop(&g, brisk, 1);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(all.condition, LAB_CONDITION_DEVIATES);
-  assert_non_null(d = deviation(&all, "dry_friction"));
+  assert_non_null(d = deviation("dry_friction"));
   assert_close(d->ratio, 1.92, 0, 0.1);
   assert_true(d->beyond && !d->held);
 }
@@ -145,14 +136,13 @@ static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **
  * right stays. */
 static void test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says(void **state)
 {
-  static lab_unknowns u;
   static lab_fit_result fit;
   const second_rig g = true_rig();
   const double narrower[] = {1, 10};
   lab_error error;
   int i, j, k;
   (void)state;
-  open_log(&g, brisk, &u, 1);
+  open_log(&g, brisk, 1);
   j = lab_unknowns_find(&u, PNEU_PARAM_spring_rate);
   for (i = 0; i < 2; i++) {
     double wide;
@@ -171,12 +161,12 @@ static void test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says(void 
 }
 
 /* Whether an effect was found first, or is told as one that the log cannot tell from what was. */
-static int is_told(const lab_search_result *result, const char *name)
+static int is_told(const char *name)
 {
   const int effect = pneu_effect_find(name);
-  int i, any = result->found[0].effect == effect;
-  for (i = 0; i < result->found[0].n_alike; i++)
-    any |= result->found[0].alike[i] == effect;
+  int i, any = result.found[0].effect == effect;
+  for (i = 0; i < result.found[0].n_alike; i++)
+    any |= result.found[0].alike[i] == effect;
   return any;
 }
 
@@ -184,31 +174,25 @@ static int is_told(const lab_search_result *result, const char *name)
  * the other, do not tell them apart. */
 static void test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
-  static lab_deviations all;
   second_rig g = true_rig();
   (void)state;
   g.friction_position = 0.12;
   g.dead_volume *= 0.76;
   g.spring_rate *= 1.17;
-  run_loop(&g, brisk, &u, &result, &all);
+  run_loop(&g, brisk, 1);
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_int_equal(result.n_found, 1);
-  assert_true(is_told(&result, "friction_position") && is_told(&result, "friction_pressure"));
+  assert_true(is_told("friction_position") && is_told("friction_pressure"));
 }
 
 /* What no value within its tolerance does is named. */
 static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
-  static lab_deviations all;
   second_rig g = true_rig();
   (void)state;
   g.leak_area = 0.02 * g.vent_area;
   g.dead_volume *= 1.2;
-  run_loop(&g, brisk, &u, &result, &all);
+  run_loop(&g, brisk, 1);
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_int_equal(result.n_found, 1);
   assert_string_equal(pneu_effect_at(result.found[0].effect)->equation, "mass"); /* it may be the porous one */
@@ -216,11 +200,9 @@ static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(
 
 static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
   const second_rig g = true_rig();
   (void)state;
-  close_loop(&g, brisk, &u, &result);
+  run_loop(&g, brisk, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(result.n_found, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
@@ -231,13 +213,11 @@ static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parame
 
 static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   (void)state;
   g.pressure_noise *= 1.25;
   g.position_noise *= 1.25;
-  close_loop(&g, brisk, &u, &result);
+  run_loop(&g, brisk, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1.25, 0.1, 0);
 }
@@ -245,46 +225,40 @@ static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(vo
 /* The fit bends so far that the slope of the missing film has the wrong sign, and the truth is at its bound. */
 static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   (void)state;
   g.gas = SECOND_ENERGY;
   g.heat = 0;
-  assert_named(&g, "heat_transfer", &u, &result);
+  assert_named(&g, "heat_transfer");
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
 static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   (void)state;
   if (pneu_effect_find("chamber_exponent") < 0)
     skip();
   g.gas = SECOND_ENERGY;
   g.exponent = 1.2;
-  assert_named(&g, "chamber_exponent", &u, &result);
+  assert_named(&g, "chamber_exponent");
   assert_close((double)*pneu_param_at(&u.rig.params, result.found[0].param), 0.2, 0.01, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
   g = true_rig();
   g.rate_exponent = 1.2;
-  assert_named(&g, "chamber_exponent", &u, &result);
+  assert_named(&g, "chamber_exponent");
   assert_close((double)*pneu_param_at(&u.rig.params, result.found[0].param), 0.2, 0.01, 0);
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
 static void test_lab_search_run__leak__is_named_and_sized(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   (void)state;
   if (pneu_effect_find("chamber_leak") < 0)
     skip();
   g.leak_area = 1.5e-8;
-  assert_named(&g, "chamber_leak", &u, &result);
+  assert_named(&g, "chamber_leak");
   assert_int_equal(result.n_found, 1);
   assert_close(*pneu_param_at(&u.rig.params, result.found[0].param), 1.5e-8, 0, 0.05);
   assert_true(result.before.in_noise[LAB_CHANNEL_P] > 2 * result.after.in_noise[LAB_CHANNEL_P]);
@@ -294,11 +268,11 @@ static void test_lab_search_run__leak__is_named_and_sized(void **state)
   assert_close(result.path[1].errors.chi2, result.after.chi2, 0, 0);
 }
 
-static int is_listed(const lab_search_result *result, const char *name)
+static int is_listed(const char *name)
 {
   int i, any = 0;
-  for (i = 0; i < result->n_listed; i++)
-    any |= !strcmp(pneu_effect_at(result->listed[i])->name, name);
+  for (i = 0; i < result.n_listed; i++)
+    any |= !strcmp(pneu_effect_at(result.listed[i])->name, name);
   return any;
 }
 
@@ -308,21 +282,19 @@ static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **s
 {
   static const double share[] = {0.0013, 0.002, 0.0035};
   static const int plain[] = {0, 0, 1};
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   int i;
   (void)state;
   min_gain = 0.1;
   for (i = 0; i < 3; i++) {
     g.leak_area = share[i] * g.vent_area;
-    close_loop(&g, brisk, &u, &result);
+    run_loop(&g, brisk, 0);
     check_note("leak of %g of the vent orifice", share[i]);
     assert_int_equal(result.verdict, plain[i] ? LAB_VERDICT_EFFECT : LAB_VERDICT_NONE);
     assert_int_equal(result.n_found, plain[i]);
     assert_int_equal(result.n_listed > 0, !plain[i]);
     assert_int_equal(result.n_steps == 1, !plain[i]); /* no refit of what its score says is small */
-    assert_int_equal(is_listed(&result, "chamber_leak"), !plain[i]);
+    assert_int_equal(is_listed("chamber_leak"), !plain[i]);
   }
   min_gain = 0.02;
 }
@@ -330,13 +302,11 @@ static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **s
 /* Bonferroni: the level of a single score is that of all, shared by the slopes that were tried. */
 static void test_lab_search_run__many_slopes__share_the_level(void **state)
 {
-  static lab_unknowns u;
-  static lab_search_result result;
   const second_rig g = true_rig();
   lab_search_options options;
   (void)state;
   lab_search_options_default(&options);
-  close_loop(&g, brisk, &u, &result);
+  run_loop(&g, brisk, 0);
   assert_true(result.scores.tests >= result.scores.n && result.scores.n > 10);
   assert_close(result.level * result.scores.tests, options.alpha, 0, 1e-12);
 }
@@ -346,8 +316,6 @@ static void test_lab_search_run__many_slopes__share_the_level(void **state)
 static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **state)
 {
   static const double through[COMMANDS] = {1, 0.9, -1, 0.5, -0.5};
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   const pneu_term *term = &u.rig.term[0];
   char text[LAB_WHERE_TEXT];
@@ -356,7 +324,7 @@ static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **s
   g.bump = 300;
   g.bump_at = 12e-3;
   g.bump_width = 1.5e-3;
-  close_loop(&g, through, &u, &result);
+  run_loop(&g, through, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_UNLISTED);
   assert_int_equal(result.n_found, 1);
   assert_int_equal(result.found[0].effect, -1);
@@ -379,8 +347,6 @@ static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **s
 static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **state)
 {
   static const double slow[COMMANDS] = {0.06, 0.05, -0.05, 0.06, -0.05};
-  static lab_unknowns u;
-  static lab_search_result result;
   second_rig g = true_rig();
   (void)state;
   if (pneu_effect_find("stribeck_friction") < 0)
@@ -388,7 +354,7 @@ static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **s
   g.stribeck = 0.5;
   g.stribeck_velocity = 2e-3;
   g.step = 2e-5;
-  close_loop(&g, slow, &u, &result);
+  run_loop(&g, slow, 0);
   assert_true(result.window > 0);
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_int_equal(result.n_found, 1);
