@@ -21,11 +21,6 @@ typedef struct apart {
     fixture_set(p, name, g->field);                                                                                    \
   } while (0)
 
-static void set_area_variation(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("area_loss", area_slope, 0.08);
-}
-
 static void set_chamber_creep(pneu_params *p, second_rig *g, double size)
 {
   BOTH("volume_compliance", growth, 2e-6);
@@ -46,11 +41,6 @@ static void set_rate_exponent(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "rate_exponent_rise", 0.3 * size);
 }
 
-static void set_chamber_leak(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("leak_area", leak_area, 3e-8);
-}
-
 static void set_channel_skew(pneu_params *p, second_rig *g, double size)
 {
   BOTH("channel_skew", position_skew, size < 1 ? -0.013 : 0.037);
@@ -63,62 +53,11 @@ static void set_choked_flow(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "choked_share", 1);
 }
 
-static void set_connecting_tube(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("tube_resistance", tube_resistance, 2e7);
-  BOTH("tube_volume", tube_volume, 4e-5);
-}
-
-static void set_dead_time(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("dead_time", dead_time, 0.033);
-}
-
-static void set_exhaust_back_pressure(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("exhaust_resistance", back_pressure, 5e7);
-}
-
-static void set_friction_position(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("friction_slope", friction_position, 0.7);
-}
-
-static void set_friction_pressure(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("friction_per_pressure", friction_pressure, 1e-3);
-}
-
-static void set_heat_transfer(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("film_conductance", heat, 3);
-}
-
-static void set_laminar_leak(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("laminar_leak", laminar_leak, 2e-16);
-}
-
 static void set_porous_leak(pneu_params *p, second_rig *g, double size)
 {
   BOTH("porous_leak", porous_leak, 3e-16);
   g->crossover = 3e5;
   fixture_set(p, "crossover_pressure", g->crossover);
-}
-
-static void set_position_bias(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("position_bias", position_bias, -4e-4);
-}
-
-static void set_position_gain(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("position_gain", position_gain, 0.05);
-}
-
-static void set_position_lag(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("position_time", position_lag, 0.05);
 }
 
 static void set_presliding(pneu_params *p, second_rig *g, double size)
@@ -130,37 +69,11 @@ static void set_presliding(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "bristle_damping", g->bristle_damping);
 }
 
-static void set_pressure_bias(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("pressure_bias", pressure_bias, 6e3);
-}
-
-static void set_pressure_gain(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("pressure_gain", pressure_gain, -0.04);
-}
-
-static void set_pressure_lag(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("pressure_time", pressure_lag, 0.04);
-}
-
 static void set_spring_creep(pneu_params *p, second_rig *g, double size)
 {
   BOTH("creep_stiffness", creep, 8e4);
   g->creep_time = 0.4;
   fixture_set(p, "creep_time", g->creep_time);
-}
-
-static void set_spring_hardening(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("spring_cubic", spring_cubic, 8e7);
-}
-
-static void set_spring_hysteresis(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("hysteresis_force", hysteresis, 250);
-  BOTH("hysteresis_length", hysteresis_length, 2e-3);
 }
 
 static void set_start_temperature(pneu_params *p, second_rig *g, double size)
@@ -184,21 +97,6 @@ static void set_stribeck_friction(pneu_params *p, second_rig *g, double size)
   BOTH("stribeck_velocity", stribeck_velocity, 2e-3);
 }
 
-static void set_supply_droop(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("supply_resistance", supply_droop, 5e7);
-}
-
-static void set_temperature_lag(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("temperature_time", temperature_lag, 0.3);
-}
-
-static void set_transducer_lag(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("transducer_time", transducer_lag, 0.05);
-}
-
 static void set_travel_limit(pneu_params *p, second_rig *g, double size)
 {
   const double loss = 2e-3 * size;
@@ -216,7 +114,7 @@ static void set_vent_restriction(pneu_params *p, second_rig *g, double size)
 static void set_wall_temperature(pneu_params *p, second_rig *g, double size)
 {
   const double capacity = 20 / size;
-  set_heat_transfer(p, g, size);
+  BOTH("film_conductance", heat, 3);
   g->wall_capacity = capacity;
   fixture_set(p, "wall_compliance", 1 / capacity);
   BOTH("wall_loss", wall_loss, 0.5);
@@ -227,39 +125,59 @@ static void set_wall_temperature(pneu_params *p, second_rig *g, double size)
  * by 0.003 % on one side alone is seen. The place in the table gives an effect its commands: what is new comes last. */
 typedef struct effect_case {
   const char *name;
-  void (*set)(pneu_params *p, second_rig *g, double size);
   apart most;
+  void (*set)(pneu_params *p, second_rig *g, double size); /* NULL: only what is the same number on both sides, */
+  struct {
+    const char *param;
+    size_t field;
+    double value;
+  } same[2]; /* which are these, at size 1 */
 } effect_case;
 
+static void set_case(const effect_case *c, pneu_params *p, second_rig *g, double size)
+{
+  int i;
+  if (c->set)
+    c->set(p, g, size);
+  for (i = 0; i < COUNT(c->same) && c->same[i].param; i++) {
+    const double value = c->same[i].value * size;
+    *(double *)((char *)g + c->same[i].field) = value;
+    fixture_set(p, c->same[i].param, value);
+  }
+}
+
 /* clang-format off */
-#define CASE(name, p, x, T) {#name, set_##name, {p, x, T}}
+#define CASE(name, p, x, T) {#name, {p, x, T}, set_##name, {{NULL, 0, 0}}}
+#define SAME(param, field, value) {#param, offsetof(second_rig, field), value}
 static const effect_case cases[] = {
-    CASE(area_variation,        3e-6, 2e-7, 2e-6),
-    CASE(chamber_leak,          2e-6, 5e-8, 8e-7),
+    {"area_variation",         {3e-6, 2e-7, 2e-6}, NULL, {SAME(area_loss, area_slope, 0.08)}},
+    {"chamber_leak",           {2e-6, 5e-8, 8e-7}, NULL, {SAME(leak_area, leak_area, 3e-8)}},
     CASE(channel_skew,          3e-6, 5e-8, 2e-6),
     CASE(choked_flow,           2e-6, 7e-8, 2e-6),
-    CASE(connecting_tube,       6e-7, 3e-8, 1e-6),
-    CASE(dead_time,             7e-6, 3e-7, 4e-6),
-    CASE(exhaust_back_pressure, 4e-6, 2e-7, 3e-6),
-    CASE(friction_position,     3e-6, 2e-7, 2e-6),
-    CASE(friction_pressure,     4e-6, 2e-7, 3e-6),
-    CASE(heat_transfer,         3e-6, 2e-7, 2e-6),
-    CASE(laminar_leak,          2e-6, 7e-8, 2e-6),
+    {"connecting_tube",        {6e-7, 3e-8, 1e-6}, NULL, {SAME(tube_resistance, tube_resistance, 2e7),
+                                                          SAME(tube_volume, tube_volume, 4e-5)}},
+    {"dead_time",              {7e-6, 3e-7, 4e-6}, NULL, {SAME(dead_time, dead_time, 0.033)}},
+    {"exhaust_back_pressure",  {4e-6, 2e-7, 3e-6}, NULL, {SAME(exhaust_resistance, back_pressure, 5e7)}},
+    {"friction_position",      {3e-6, 2e-7, 2e-6}, NULL, {SAME(friction_slope, friction_position, 0.7)}},
+    {"friction_pressure",      {4e-6, 2e-7, 3e-6}, NULL, {SAME(friction_per_pressure, friction_pressure, 1e-3)}},
+    {"heat_transfer",          {3e-6, 2e-7, 2e-6}, NULL, {SAME(film_conductance, heat, 3)}},
+    {"laminar_leak",           {2e-6, 7e-8, 2e-6}, NULL, {SAME(laminar_leak, laminar_leak, 2e-16)}},
     CASE(porous_leak,           3e-6, 1e-7, 2e-6),
-    CASE(position_bias,         3e-6, 2e-7, 2e-6),
-    CASE(position_gain,         5e-6, 2e-7, 3e-6),
-    CASE(position_lag,          3e-6, 2e-9, 2e-6),
+    {"position_bias",          {3e-6, 2e-7, 2e-6}, NULL, {SAME(position_bias, position_bias, -4e-4)}},
+    {"position_gain",          {5e-6, 2e-7, 3e-6}, NULL, {SAME(position_gain, position_gain, 0.05)}},
+    {"position_lag",           {3e-6, 2e-9, 2e-6}, NULL, {SAME(position_time, position_lag, 0.05)}},
     CASE(presliding,            1e-6, 3e-7, 5e-7),
-    CASE(pressure_bias,         9e-7, 7e-8, 4e-7),
-    CASE(pressure_gain,         3e-6, 2e-7, 2e-6),
-    CASE(pressure_lag,          4e-8, 2e-7, 2e-6),
-    CASE(spring_hardening,      3e-6, 2e-7, 2e-6),
-    CASE(spring_hysteresis,     9e-7, 5e-8, 4e-7),
+    {"pressure_bias",          {9e-7, 7e-8, 4e-7}, NULL, {SAME(pressure_bias, pressure_bias, 6e3)}},
+    {"pressure_gain",          {3e-6, 2e-7, 2e-6}, NULL, {SAME(pressure_gain, pressure_gain, -0.04)}},
+    {"pressure_lag",           {4e-8, 2e-7, 2e-6}, NULL, {SAME(pressure_time, pressure_lag, 0.04)}},
+    {"spring_hardening",       {3e-6, 2e-7, 2e-6}, NULL, {SAME(spring_cubic, spring_cubic, 8e7)}},
+    {"spring_hysteresis",      {9e-7, 5e-8, 4e-7}, NULL, {SAME(hysteresis_force, hysteresis, 250),
+                                                          SAME(hysteresis_length, hysteresis_length, 2e-3)}},
     CASE(stop_compliance,       9e-6, 7e-6, 3e-6),
     CASE(stribeck_friction,     9e-6, 7e-6, 3e-6),
-    CASE(supply_droop,          4e-6, 2e-7, 3e-6),
-    CASE(temperature_lag,       3e-6, 2e-7, 2e-9),
-    CASE(transducer_lag,        6e-7, 3e-8, 4e-7),
+    {"supply_droop",           {4e-6, 2e-7, 3e-6}, NULL, {SAME(supply_resistance, supply_droop, 5e7)}},
+    {"temperature_lag",        {3e-6, 2e-7, 2e-9}, NULL, {SAME(temperature_time, temperature_lag, 0.3)}},
+    {"transducer_lag",         {6e-7, 3e-8, 4e-7}, NULL, {SAME(transducer_time, transducer_lag, 0.05)}},
     CASE(travel_limit,          4e-6, 2e-7, 2e-6),
     CASE(vent_restriction,      3e-6, 2e-7, 2e-6),
     CASE(wall_temperature,      2e-6, 8e-8, 2e-6),
@@ -270,7 +188,7 @@ static const effect_case cases[] = {
 
 /* In place of a chamber law. */
 static const effect_case exponent = CASE(chamber_exponent, 6e-7, 4e-8, 2e-7);
-static const effect_case rate_exponent = {"chamber_exponent", set_rate_exponent, {6e-7, 4e-8, 2e-7}};
+static const effect_case rate_exponent = {"chamber_exponent", {6e-7, 4e-8, 2e-7}, set_rate_exponent, {{NULL, 0, 0}}};
 
 /* Before anything happens. */
 static const effect_case begins = CASE(start_temperature, 3e-6, 2e-7, 2e-6);
@@ -343,9 +261,9 @@ static void set_positioner_beside_others(pneu_params *p, second_rig *g, double s
 {
   set_positioner(p, g, size);
   set_positioner_zero(p, g, size);
-  set_chamber_leak(p, g, size);
-  set_transducer_lag(p, g, size);
-  set_dead_time(p, g, size);
+  BOTH("leak_area", leak_area, 3e-8);
+  BOTH("transducer_time", transducer_lag, 0.05);
+  BOTH("dead_time", dead_time, 0.033);
   set_positioner_bend(p, g, size);
 }
 
@@ -528,7 +446,7 @@ static void test_lab_response_run__each_effect__is_that_of_the_second_implementa
       char what[80];
       if (!comparable(&cases[i], laws[law][0]))
         continue;
-      cases[i].set(&e.p, &e.g, law ? 0.8 : 1);
+      set_case(&cases[i], &e.p, &e.g, law ? 0.8 : 1);
       snprintf(what, sizeof what, "%s, %s", cases[i].name, pneu_gas_key(laws[law][0]));
       assert_agrees(&e, &cases[i].most, what);
     }
@@ -542,10 +460,10 @@ static void test_lab_response_run__exponent__is_that_of_the_second_implementatio
     skip();
   for (flow = 0; flow < 2; flow++) {
     run e = random_experiment((uint64_t)(70 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
-    exponent.set(&e.p, &e.g, flow ? 0.3 : 1);
+    set_case(&exponent, &e.p, &e.g, flow ? 0.3 : 1);
     assert_agrees(&e, &exponent.most, exponent.name);
     e = random_experiment((uint64_t)(72 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
-    rate_exponent.set(&e.p, &e.g, flow ? 0.3 : 1);
+    set_case(&rate_exponent, &e.p, &e.g, flow ? 0.3 : 1);
     assert_agrees(&e, &rate_exponent.most, "rate_exponent_rise");
   }
 }
@@ -558,7 +476,7 @@ static void test_lab_response_run__start_temperature__is_that_of_the_second_impl
     skip();
   for (i = 0; i < 2; i++) {
     run e = random_experiment((uint64_t)(74 + i), PNEU_GAS_ENERGY, i ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
-    begins.set(&e.p, &e.g, i ? -1 : 1);
+    set_case(&begins, &e.p, &e.g, i ? -1 : 1);
     assert_agrees(&e, &begins.most, begins.name);
   }
 }
@@ -576,7 +494,7 @@ static void test_lab_response_run__positioner__is_that_of_the_second_implementat
       random_set_positions(&e, (uint64_t)(50 + i));
       memset(&other, 0, sizeof other);
       other.cutoff_low = -1, other.cutoff_high = 2; /* none */
-      positioned[i].set(&e.p, &e.g, law ? 0.8 : 1);
+      set_case(&positioned[i], &e.p, &e.g, law ? 0.8 : 1);
       e.positioner = &other;
       snprintf(what, sizeof what, "%s, %s", positioned[i].name, pneu_gas_key(laws[law][0]));
       assert_agrees(&e, &positioned[i].most, what);
@@ -604,7 +522,7 @@ static void test_lab_response_run__random_sets_of_effects__agree_with_the_second
       const double size = fixture_random(&seed, 0.3, 1.5), chance = fixture_random(&seed, 0, 1);
       if (chance > 0.35 || !comparable(&cases[i], law[0]))
         continue;
-      cases[i].set(&e.p, &e.g, size);
+      set_case(&cases[i], &e.p, &e.g, size);
       at += snprintf(what + at, sizeof what - (size_t)at, " %s", cases[i].name);
     }
     assert_agrees(&e, &most[draw], what);
