@@ -28,6 +28,12 @@ pneu_params fixture_vessel(double volume)
   return p;
 }
 
+void fixture_need(const char *effect)
+{
+  if (pneu_effect_find(effect) < 0)
+    skip();
+}
+
 void fixture_set(pneu_params *p, const char *name, double value)
 {
   const int i = pneu_param_find(name);
@@ -196,6 +202,18 @@ int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stre
     r.origin += stretch[i].duration;
   }
   return r.n;
+}
+
+double fixture_apart(const fixture_sample *a, const fixture_sample *b, int n)
+{
+  double most = 0;
+  int i;
+  for (i = 0; i < n; i++) {
+    most = fmax(most, fabs(a[i].shown_x - b[i].shown_x) / 0.02);
+    most = fmax(most, fabs(a[i].shown_p - b[i].shown_p) / 4e5);
+    most = fmax(most, fabs(a[i].shown_T - b[i].shown_T) / 298.15);
+  }
+  return most;
 }
 
 void fixture_standard(const pneu_model *model, fixture_stretch *stretch)

@@ -41,6 +41,9 @@ pneu_params fixture_params(int actuator);
 /* A vessel of given volume [m3] with orifices of 1 mm2. */
 pneu_params fixture_vessel(double volume);
 
+/* Skip a test that needs an effect which this build has trimmed away. */
+void fixture_need(const char *effect);
+
 /* Set a parameter by its name; fails the test where there is none. */
 void fixture_set(pneu_params *p, const char *name, double value);
 
@@ -74,6 +77,9 @@ long fixture_steps(const pneu_model *model);
  * Returns: the number of samples, <= capacity. */
 int fixture_trace(const pneu_model *model, pneu_state *state, const fixture_stretch *stretch, int n, double dt,
                   double tol, fixture_sample *sample, int capacity);
+
+/* Largest difference of two traces, as the sensors show them, over stroke, supply and ambient temperature. */
+double fixture_apart(const fixture_sample *a, const fixture_sample *b, int n);
 
 /* The standard experiment: shut 0.5 s, fill 15 s, vent 15 s.  Out: 3 stretches */
 void fixture_standard(const pneu_model *model, fixture_stretch *stretch);

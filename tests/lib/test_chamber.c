@@ -295,8 +295,7 @@ static void test_pneu_run__film_resistance_to_zero__is_isothermal(void **state)
   double apart = 1;
   int i;
   (void)state;
-  if (pneu_effect_find("heat_transfer") < 0)
-    skip();
+  fixture_need("heat_transfer");
   for (i = 0; i < 3; i++) {
     pneu_model m;
     pneu_state s;
@@ -317,8 +316,7 @@ static void test_pneu_run__film_conductance_to_infinity__is_isothermal(void **st
   pneu_model m;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("heat_transfer") < 0)
-    skip();
+  fixture_need("heat_transfer");
   fixture_set(&p, "film_conductance", TOL(1e5, 1e3));
   m = fixture_model_roles(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 0, 1);
   assert_close(expand(&m, 0.5, &s), 0.5, 0, TOL(1e-5, 2e-3));
@@ -357,8 +355,7 @@ static void test_pneu_run__film_between__lies_between_isothermal_and_adiabatic(v
   double last = pow(2, -1.4);
   int i;
   (void)state;
-  if (pneu_effect_find("heat_transfer") < 0)
-    skip();
+  fixture_need("heat_transfer");
   for (i = 0; i < COUNT(G); i++) {
     pneu_model m;
     pneu_state s;

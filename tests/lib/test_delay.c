@@ -52,8 +52,7 @@ static void test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_ch
   loop l;
   pneu_state before;
   (void)state;
-  if (pneu_effect_find("dead_time") < 0)
-    skip();
+  fixture_need("dead_time");
   begin(&l, 0.02, SLOTS, 0);
   l.input.delay = NULL;
   before = l.state;
@@ -86,8 +85,7 @@ static void test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_comman
   loop late, prompt;
   int i;
   (void)state;
-  if (pneu_effect_find("dead_time") < 0)
-    skip();
+  fixture_need("dead_time");
   begin(&late, 0.0415, SLOTS, 0);
   begin(&prompt, 0, SLOTS, 0);
   for (i = 0; i < COUNT(u); i++)
@@ -108,8 +106,7 @@ static void test_pneu_step__dead_time__commands_act_to_the_instant(void **state)
   pneu_output out;
   int i;
   (void)state;
-  if (pneu_effect_find("dead_time") < 0)
-    skip();
+  fixture_need("dead_time");
   begin(&late, dead_time, SLOTS, 0);
   begin(&prompt, 0, SLOTS, 0);
   for (i = 0; i < 300; i++) {
@@ -131,8 +128,7 @@ static void test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing(v
   loop l, before;
   int i;
   (void)state;
-  if (pneu_effect_find("dead_time") < 0)
-    skip();
+  fixture_need("dead_time");
   begin(&l, 0.02, 5, 0);
   for (i = 0; i < 5; i++)
     assert_int_equal(step(&l, 0.1 * (i + 1), 1e-3), PNEU_OK);

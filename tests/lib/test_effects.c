@@ -131,19 +131,6 @@ static pneu_params ground(int e, int *gas)
 }
 
 #ifndef PNEU_SINGLE /* a millionth of an effect is below the rounding of float */
-/* By the sensors. */
-static double largest_difference(const fixture_sample *a, const fixture_sample *b, int n)
-{
-  double most = 0;
-  int i;
-  for (i = 0; i < n; i++) {
-    most = fmax(most, fabs(a[i].shown_x - b[i].shown_x) / 0.02);
-    most = fmax(most, fabs(a[i].shown_p - b[i].shown_p) / 4e5);
-    most = fmax(most, fabs(a[i].shown_T - b[i].shown_T) / 298.15);
-  }
-  return most;
-}
-
 /* Effect e at a share of its usual size; a short tube has little volume as well. */
 static void set_share(pneu_params *p, int e, double share)
 {
@@ -181,9 +168,9 @@ static void test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model(
     n = standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, base);
     assert_in_range(n, 305, 306);
     set_share(&p, e, 1);
-    far = largest_difference(base, small, fewer(n, standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small)));
+    far = fixture_apart(base, small, fewer(n, standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small)));
     set_share(&p, e, 1e-3);
-    near = largest_difference(base, small, fewer(n, standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small)));
+    near = fixture_apart(base, small, fewer(n, standard(&p, gas, PNEU_FLOW_PAPER, 1e-7, small)));
     check_note("%s: %g at full size, %g at a thousandth", names[e], far, near);
     assert_between(far, acts_in_run(e, gas) ? 1e-5 : 0, acts_in_run(e, gas) ? 2 : 1e-6);
     assert_between(near, 0, 0.02 * far + 1e-5);
@@ -256,8 +243,8 @@ static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **st
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("presliding") < 0 || pneu_effect_find("transducer_lag") < 0)
-    skip();
+  fixture_need("presliding");
+  fixture_need("transducer_lag");
   fixture_set(&p, "presliding_length", 2e-5);
   fixture_set(&p, "transducer_time", 0.5);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);

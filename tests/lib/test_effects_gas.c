@@ -328,8 +328,7 @@ static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void
   pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
   const double R = 3e7, q = 3e4 / R;
   (void)state;
-  if (pneu_effect_find("connecting_tube") < 0)
-    skip();
+  fixture_need("connecting_tube");
   fixture_set(&p, "tube_resistance", R);
   m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   input = fixture_input(&m, 0);
@@ -351,8 +350,7 @@ static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(vo
   pneu_params p = fixture_params(FIXTURE_37_13);
   int i;
   (void)state;
-  if (pneu_effect_find("connecting_tube") < 0)
-    skip();
+  fixture_need("connecting_tube");
   for (i = 0; i < COUNT(resistance); i++) {
     pneu_model m;
     fixture_set(&p, "tube_resistance", resistance[i]);
@@ -441,8 +439,7 @@ static void test_heat_transfer__parameter_of_another_law__does_not_act(void **st
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   (void)state;
-  if (pneu_effect_find("heat_transfer") < 0)
-    skip();
+  fixture_need("heat_transfer");
   fixture_set(&p, "film_conductance", 2);
   fixture_set(&p, "free_convection", 2);
   assert_int_equal(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).n_active, 0);
@@ -467,8 +464,7 @@ static void footprint_wall_temperature(void)
   fixture_set(&p, "wall_compliance", 1 / C);
   fixture_set(&p, "wall_loss", 0);
   assert_int_equal(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0); /* no film, no heat */
-  if (pneu_effect_find("heat_transfer") < 0)
-    skip();
+  fixture_need("heat_transfer");
   fixture_set(&p, "film_conductance", G);
   m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   shut = fixture_input(&m, 0);
@@ -545,8 +541,7 @@ static void test_transducer_lag__regulator_at_rest__starts_from_its_opening(void
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("transducer_lag") < 0)
-    skip();
+  fixture_need("transducer_lag");
   fixture_set(&p, "transducer_time", 0.02);
   p.proportional_band = (pneu_real)1e4;
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);

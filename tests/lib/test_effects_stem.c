@@ -156,8 +156,7 @@ static void check_bristle(double v, double z)
 static void test_presliding__moving__friction_is_that_of_lugre(void **state)
 {
   (void)state;
-  if (pneu_effect_find("presliding") < 0)
-    skip();
+  fixture_need("presliding");
   check_bristle(3e-3, 0.3);
   check_bristle(-3e-3, 0.3);
   check_bristle(0.05, -0.8);
@@ -172,8 +171,7 @@ static void test_presliding__no_friction__bristles_bend_all_the_way(void **state
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("presliding") < 0)
-    skip();
+  fixture_need("presliding");
   p.dry_friction = 0;
   fixture_set(&p, "presliding_length", 2e-5);
   m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
@@ -194,8 +192,7 @@ static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
   pneu_state s;
   fixture_events e;
   (void)state;
-  if (pneu_effect_find("presliding") < 0)
-    skip();
+  fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
   m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
   input = fixture_input(&m, 0);
@@ -237,8 +234,7 @@ static void test_presliding__at_rest__takes_few_steps(void **state)
   static const double length[] = {4e-7, 2e-5, 2e-4};
   int i;
   (void)state;
-  if (pneu_effect_find("presliding") < 0)
-    skip();
+  fixture_need("presliding");
   for (i = 0; i < COUNT(length); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     const pneu_options options = fixture_options(TOL(1e-5, 1e-4));
@@ -270,8 +266,7 @@ static void test_pneu_switch__bristles__turns_round(void **state)
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("presliding") < 0)
-    skip();
+  fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   input = fixture_input(&m, 0);
@@ -450,8 +445,7 @@ static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(vo
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("stop_compliance") < 0)
-    skip();
+  fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-6);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   input = fixture_input(&m, -1);
@@ -473,8 +467,7 @@ static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(voi
   pneu_model m;
   pneu_input input;
   (void)state;
-  if (pneu_effect_find("stop_compliance") < 0)
-    skip();
+  fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-4);
   p.swept_ratio = (pneu_real)0.5;
   p.spring_rate = (pneu_real)1e3;
@@ -499,8 +492,7 @@ static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int i;
   (void)state;
-  if (pneu_effect_find("stop_compliance") < 0)
-    skip();
+  fixture_need("stop_compliance");
   for (i = 0; i < COUNT(compliance); i++) {
     pneu_model m;
     fixture_set(&p, "stop_compliance", compliance[i]);
@@ -527,8 +519,7 @@ static void test_stop_compliance__very_stiff__stem_leaves_at_its_balance(void **
   pneu_state s;
   int i;
   (void)state;
-  if (pneu_effect_find("stop_compliance") < 0)
-    skip();
+  fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-9);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   input = fixture_input(&m, (double)1e-3);
@@ -551,8 +542,7 @@ static void test_stop_compliance__creeping_in__does_not_chatter(void **state)
                {79 * 1e-9, 43e4, 12 * 1e-5, PNEU_GAS_POLYTROPIC, PNEU_FLOW_CHOKED}};
   int i;
   (void)state;
-  if (pneu_effect_find("stop_compliance") < 0)
-    skip();
+  fixture_need("stop_compliance");
   for (i = 0; i < COUNT(creep); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     pneu_model m;

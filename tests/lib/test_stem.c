@@ -343,8 +343,7 @@ static void test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays(void *
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("transducer_lag") < 0)
-    skip();
+  fixture_need("transducer_lag");
   p.proportional_band = (pneu_real)5e4;
   fixture_set(&p, "transducer_time", 0.05);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);

@@ -418,8 +418,7 @@ static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   (void)state;
-  if (pneu_effect_find("transducer_lag") < 0)
-    skip();
+  fixture_need("transducer_lag");
   fixture_set(&p, "transducer_time", 0.02);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   input = fixture_input(&m, 1);
@@ -1166,8 +1165,8 @@ static void test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end(v
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("chamber_leak") < 0 || pneu_effect_find("position_lag") < 0)
-    skip();
+  fixture_need("chamber_leak");
+  fixture_need("position_lag");
   p.area = (pneu_real)0.039694711790763969;
   p.dead_volume = (pneu_real)5.0068059347266687e-05;
   p.spring_rate = (pneu_real)362465.28478728054;

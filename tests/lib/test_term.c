@@ -309,8 +309,7 @@ static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void 
   pneu_input input;
   pneu_state s;
   (void)state;
-  if (pneu_effect_find("presliding") < 0)
-    skip();
+  fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   input = fixture_input(&m, 0);
@@ -425,18 +424,6 @@ static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_b
     }
 }
 
-static double largest(const fixture_sample *a, const fixture_sample *b, int n)
-{
-  double most = 0;
-  int i;
-  for (i = 0; i < n; i++) {
-    most = fmax(most, fabs(a[i].shown_x - b[i].shown_x) / 0.02);
-    most = fmax(most, fabs(a[i].shown_p - b[i].shown_p) / 4e5);
-    most = fmax(most, fabs(a[i].shown_T - b[i].shown_T) / 298.15);
-  }
-  return most;
-}
-
 static void test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_tolerance(void **state)
 {
   static fixture_sample base[SAMPLES], nothing[SAMPLES];
@@ -453,7 +440,7 @@ static void test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_
     n = others < n ? others : n; /* rounding decides whether the end is a sample */
     assert_true(n >= 600);
     check_note("%s", pneu_gas_key(gas));
-    assert_between(largest(base, nothing, n), 0, TOL(1e-8, 1e-3));
+    assert_between(fixture_apart(base, nothing, n), 0, TOL(1e-8, 1e-3));
   }
 }
 
@@ -506,7 +493,7 @@ static double apart(const pneu_params *p, int n, int equation, int argument, dou
   samples = part_strokes(&with_effect, effect);
   assert_int_equal(part_strokes(&m, table), samples);
   assert_true(samples >= 600);
-  return largest(effect, table, samples);
+  return fixture_apart(effect, table, samples);
 }
 
 /* Twice the knots, a quarter of the error: down to 33, and to the tolerance of the stepper. */
@@ -530,8 +517,7 @@ static void test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   (void)state;
-  if (pneu_effect_find("spring_hardening") < 0)
-    skip();
+  fixture_need("spring_hardening");
   fixture_set(&p, "spring_cubic", cubic);
   assert_second_order(&p, PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 0, 0.02, hardening);
 }
@@ -540,8 +526,7 @@ static void test_pneu_run__leak_by_more_and_more_knots__converges_in_second_orde
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   (void)state;
-  if (pneu_effect_find("chamber_leak") < 0)
-    skip();
+  fixture_need("chamber_leak");
   fixture_set(&p, "leak_area", leak_area);
   assert_second_order(&p, PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 5e4, 3.9e5, leak);
 }
@@ -552,8 +537,7 @@ static void test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int n;
   (void)state;
-  if (pneu_effect_find("friction_position") < 0)
-    skip();
+  fixture_need("friction_position");
   fixture_set(&p, "friction_slope", slope);
   for (n = 2; n <= PNEU_TERM_KNOTS; n += 31) {
     check_note("%d knots", n);

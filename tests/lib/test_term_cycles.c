@@ -107,8 +107,8 @@ static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void
   pneu_state s;
   int i;
   (void)state;
-  if (pneu_effect_find("transducer_lag") < 0 || pneu_effect_find("position_lag") < 0)
-    skip();
+  fixture_need("transducer_lag");
+  fixture_need("position_lag");
   fixture_set(&p, "transducer_time", 0.02);
   fixture_set(&p, "position_time", 0.02);
   m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);

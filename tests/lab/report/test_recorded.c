@@ -153,8 +153,7 @@ static void test_lab_answer_find__leak__is_named_however_it_was_recorded(void **
 {
   int k;
   (void)state;
-  if (pneu_effect_find("chamber_leak") < 0)
-    skip();
+  fixture_need("chamber_leak");
   run_truth(0.02);
   for (k = 0; k < COUNT(recorders); k++) {
     lab_answer *a = answer_to(recorders[k]);

@@ -1,4 +1,5 @@
 /* apps/lab/rig/rig, and through it rigkeys, rigwrite, config, and the log group of logformat */
+#include "../../fixture.h"
 #include "../../rigfile.h"
 
 #include "../../../apps/lab/rig/rigkeys.h"
@@ -24,13 +25,6 @@ static const char declared[] =
     "laws = { gas = \"energy\";  flow = \"iso6358\";  friction = \"coulomb\"; };\n"
     "fit = ( \"orifice_area\", \"dry_friction\", \"damping\" );\n"
     "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; };\n";
-
-/* Skip a test that needs an effect which this build has trimmed away. */
-static void need_effect(const char *name)
-{
-  if (pneu_effect_find(name) < 0)
-    skip();
-}
 
 static double param(const lab_rig *rig, const char *effect, const char *name)
 {
@@ -168,7 +162,7 @@ static void test_lab_rig_read__fitted_effect__is_named_with_its_effect(void **st
   lab_rig rig;
   char name[LAB_PARAM_NAME_TEXT];
   (void)state;
-  need_effect("chamber_leak");
+  fixture_need("chamber_leak");
   rig = read_rig("fit = [ \"chamber_leak.leak_area\" ];");
   assert_int_equal(rig.fit[0], pneu_effect_params(pneu_effect_find("chamber_leak"), NULL));
   assert_string_equal(lab_fit_name(rig.fit[0], name), "chamber_leak.leak_area");
@@ -178,9 +172,9 @@ static void test_lab_rig_read__effects__are_set_by_name(void **state)
 {
   lab_rig rig;
   (void)state;
-  need_effect("chamber_leak");
-  need_effect("stribeck_friction");
-  need_effect("supply_droop");
+  fixture_need("chamber_leak");
+  fixture_need("stribeck_friction");
+  fixture_need("supply_droop");
   rig = read_rig("effects = { chamber_leak = { leak_area = \"0.02 mm^2\"; };\n"
                  "  stribeck_friction = { stribeck_excess = 0.25; }; };");
   assert_close(param(&rig, "chamber_leak", "leak_area"), 0.02e-6, 0, 1e-14);
@@ -192,7 +186,7 @@ static void test_lab_rig_read__stribeck_law__switches_its_effect_on(void **state
 {
   lab_rig rig;
   (void)state;
-  need_effect("stribeck_friction");
+  fixture_need("stribeck_friction");
   rig = read_rig("laws = { friction = \"stribeck\"; };");
   assert_int_equal(rig.friction, LAB_FRICTION_STRIBECK);
   assert_true(param(&rig, "stribeck_friction", "stribeck_excess") > 0);
@@ -202,7 +196,7 @@ static void test_lab_rig_read__lugre_law__switches_its_effect_on(void **state)
 {
   lab_rig rig;
   (void)state;
-  need_effect("presliding");
+  fixture_need("presliding");
   rig = read_rig("laws = { friction = \"lugre\"; };");
   assert_true(param(&rig, "presliding", "presliding_length") > 0);
 }
@@ -211,7 +205,7 @@ static void test_lab_rig_read__effects_before_laws__have_the_last_word(void **st
 {
   lab_rig rig;
   (void)state;
-  need_effect("stribeck_friction");
+  fixture_need("stribeck_friction");
   rig = read_rig("effects = { stribeck_friction = { stribeck_excess = 0.125; }; };\n"
                  "laws = { friction = \"stribeck\"; };");
   assert_close(param(&rig, "stribeck_friction", "stribeck_excess"), 0.125, 0, 0);
@@ -434,7 +428,7 @@ static void test_lab_rig_read__long_name__is_refused(void **state)
 static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
 {
   (void)state;
-  need_effect("heat_transfer");
+  fixture_need("heat_transfer");
   assert_rig_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
                      "effects.heat_transfer.free_convection", "does nothing with the other laws");
 }
@@ -442,7 +436,7 @@ static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
 static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **state)
 {
   (void)state;
-  need_effect("positioner");
+  fixture_need("positioner");
   assert_rig_refused("fit = ( \"positioner.gain\" );\n", "positioner.gain is to be fitted",
                      "no positioner is declared");
   assert_rig_refused("positioner = { cutoff_low = \"99 %\"; cutoff_high = \"1 %\"; };\n", "rig.cfg:1: positioner",
@@ -452,7 +446,7 @@ static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **sta
 static void test_lab_rig_read__bad_effects__are_refused(void **state)
 {
   (void)state;
-  need_effect("chamber_leak");
+  fixture_need("chamber_leak");
   assert_rig_refused("effects = { chamber_leek = { leak_area = 0; }; };\n", "effects.chamber_leek", "\"chamber_leak\"");
   assert_rig_refused("effects = { chamber_leak = { leek_area = 0; }; };\n", "effects.chamber_leak.leek_area",
                      "\"leak_area\"");
@@ -500,7 +494,7 @@ static void test_lab_rig_write__declared_rig__comes_back_bit_for_bit(void **stat
 static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
 {
   lab_rig rig;
-  need_effect("positioner");
+  fixture_need("positioner");
   (void)state;
   rig =
       read_rig("positioner = { gain = 30; integral_time = \"5 s\"; derivative_time = \"20 ms\"; dead_band = \"0.2 %\"; "
@@ -526,7 +520,7 @@ static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
 
 static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state)
 {
-  need_effect("positioner");
+  fixture_need("positioner");
   (void)state;
   assert_rig_refused("positioner = { gian = 20; };\n", "positioner.gian", "\"gain\"");
   assert_rig_refused("positioner = { gain = -1; };\n", "positioner.gain", "0");
@@ -593,7 +587,7 @@ static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void *
 {
   lab_rig rig, again;
   (void)state;
-  need_effect("stribeck_friction");
+  fixture_need("stribeck_friction");
   rig = read_rig("laws = { friction = \"stribeck\"; };\n"
                  "effects = { stribeck_friction = { stribeck_excess = 0; }; };");
   again = write_and_read(&rig, NULL);

@@ -456,8 +456,7 @@ static void test_lab_response_run__exponent__is_that_of_the_second_implementatio
 {
   int flow;
   (void)state;
-  if (pneu_effect_find(exponent.name) < 0)
-    skip();
+  fixture_need(exponent.name);
   for (flow = 0; flow < 2; flow++) {
     run e = random_experiment((uint64_t)(70 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
     set_case(&exponent, &e.p, &e.g, flow ? 0.3 : 1);
@@ -472,8 +471,7 @@ static void test_lab_response_run__start_temperature__is_that_of_the_second_impl
 {
   int i;
   (void)state;
-  if (pneu_effect_find(begins.name) < 0)
-    skip();
+  fixture_need(begins.name);
   for (i = 0; i < 2; i++) {
     run e = random_experiment((uint64_t)(74 + i), PNEU_GAS_ENERGY, i ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
     set_case(&begins, &e.p, &e.g, i ? -1 : 1);
@@ -485,8 +483,7 @@ static void test_lab_response_run__positioner__is_that_of_the_second_implementat
 {
   int law, i;
   (void)state;
-  if (pneu_effect_find("positioner") < 0)
-    skip();
+  fixture_need("positioner");
   for (i = 0; i < COUNT(positioned); i++)
     for (law = 0; law < COUNT(laws); law++) {
       run e = random_experiment(1, laws[law][0], laws[law][1]);

@@ -1,7 +1,5 @@
 /* From a log of the independent rig to the effect that the declared model lacks. */
-#include <math.h>
-
-#include "../../check.h"
+#include "../../fixture.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 
@@ -237,8 +235,7 @@ static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **s
 {
   second_rig g = true_rig();
   (void)state;
-  if (pneu_effect_find("chamber_exponent") < 0)
-    skip();
+  fixture_need("chamber_exponent");
   g.gas = SECOND_ENERGY;
   g.exponent = 1.2;
   assert_named(&g, "chamber_exponent");
@@ -255,8 +252,7 @@ static void test_lab_search_run__leak__is_named_and_sized(void **state)
 {
   second_rig g = true_rig();
   (void)state;
-  if (pneu_effect_find("chamber_leak") < 0)
-    skip();
+  fixture_need("chamber_leak");
   g.leak_area = 1.5e-8;
   assert_named(&g, "chamber_leak");
   assert_int_equal(result.n_found, 1);
@@ -349,8 +345,7 @@ static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **s
   static const double slow[COMMANDS] = {0.06, 0.05, -0.05, 0.06, -0.05};
   second_rig g = true_rig();
   (void)state;
-  if (pneu_effect_find("stribeck_friction") < 0)
-    skip();
+  fixture_need("stribeck_friction");
   g.stribeck = 0.5;
   g.stribeck_velocity = 2e-3;
   g.step = 2e-5;
