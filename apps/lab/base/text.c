@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "escape.h"
+#include "names.h"
 
 /* Files that hold a log and are no text, by the bytes they begin with, and what makes a CSV of them. */
 static const struct binary {
@@ -238,10 +239,8 @@ void lab_text_give(const lab_text_given *text, int n)
 
 static int read_given(const char *name, lab_text *text, lab_error *error)
 {
-  int i;
-  for (i = 0; i < given.n && strcmp(given.text[i].name, name) != 0; i++)
-    continue;
-  if (i == given.n)
+  const int i = lab_name_index(name, given.text, (size_t)given.n, sizeof *given.text);
+  if (i < 0)
     return lab_fail(error, LAB_DATA, "%s: no text of that name was given", name);
   text->size = given.text[i].size;
   text->data = malloc(text->size + 1);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../base/format.h"
+#include "../base/names.h"
 #include "../base/quantile.h"
 #include "../base/text.h"
 #include "../trace/freeterms.h"
@@ -170,14 +171,13 @@ static void put_effect(const lab_sources *t, const lab_found *found, cJSON *item
                    {"sensor", "reading of a sensor"}};
   const pneu_effect *effect = pneu_effect_at(found->effect);
   cJSON *sizes = cJSON_AddArrayToObject(item, "sizes");
+  const int i = lab_name_index(effect->equation, equations, sizeof equations / sizeof *equations, sizeof *equations);
   int k, count, first = pneu_effect_params(found->effect, &count);
-  size_t i;
   lab_json_put(item, "code", "%s", effect->name);
   lab_json_put(item, "footprint", "%s", effect->footprint);
   lab_json_put(item, "source", "%s", effect->source);
-  for (i = 0; i < sizeof equations / sizeof *equations; i++)
-    if (!strcmp(equations[i].key, effect->equation))
-      lab_json_put(item, "equation", "%s: %s", effect->equation, equations[i].words);
+  if (i >= 0)
+    lab_json_put(item, "equation", "%s: %s", effect->equation, equations[i].words);
   for (k = first; k < first + count; k++)
     lab_page_put_size(t, k, sizes);
 }

@@ -13,11 +13,14 @@ static void add_unit_and_interval(cJSON *to, const char *unit, double low, doubl
   lab_json_range(to, "ci95", low, high);
 }
 
-static cJSON *add_interval(cJSON *to, const char *name, double value, const char *unit, double low, double high)
+/* Unknown j of the completed model, as it was fitted. */
+static cJSON *add_fitted(cJSON *to, const char *name, const lab_report *report, int j)
 {
+  const lab_unknown *x = &report->completed->unknown[j];
+  const lab_fit_result *fit = &report->result->fit;
   cJSON *o = cJSON_AddObjectToObject(to, name);
-  cJSON_AddNumberToObject(o, "value", value);
-  add_unit_and_interval(o, unit, low, high);
+  cJSON_AddNumberToObject(o, "value", x->value);
+  add_unit_and_interval(o, x->unit, fit->low[j], fit->high[j]);
   return o;
 }
 
@@ -29,8 +32,7 @@ static void add_onset(cJSON *o, const char *name, const lab_onset *onset)
     return;
   at = cJSON_AddObjectToObject(o, name);
   cJSON_AddNumberToObject(at, "t", onset->t);
-  cJSON_AddStringToObject(at, "unit", "s");
-  lab_json_range(at, "ci95", onset->low, onset->high);
+  add_unit_and_interval(at, "s", onset->low, onset->high);
 }
 
 static void add_change(cJSON *list, const lab_change *change)
@@ -41,8 +43,7 @@ static void add_change(cJSON *list, const lab_change *change)
   cJSON_AddStringToObject(o, "what", lab_change_name(change->param, name));
   cJSON_AddStringToObject(o, "parameter", lab_fit_name(change->param, name));
   LAB_JSON_NUMBERS(o, {"then", change->then}, {"now", change->now});
-  cJSON_AddStringToObject(o, "unit", lab_change_unit(change));
-  lab_json_range(o, "ci95", change->low, change->high);
+  add_unit_and_interval(o, lab_change_unit(change), change->low, change->high);
   alike = cJSON_AddArrayToObject(o, "indistinguishable_from");
   for (i = 0; i < change->n_alike; i++)
     lab_json_say(alike, "%s", lab_change_name(change->alike[i], name));
@@ -64,10 +65,8 @@ static void add_changes(const lab_changes *changes, cJSON *root)
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
   const int j = param < 0 ? -1 : lab_report_size(report, param);
-  const lab_unknown *x = &report->completed->unknown[j < 0 ? 0 : j];
   if (j >= 0)
-    add_interval(to, lab_param_info(param).name, x->value, x->unit, report->result->fit.low[j],
-                 report->result->fit.high[j]);
+    add_fitted(to, lab_param_info(param).name, report, j);
 }
 
 static void add_found(cJSON *to, const lab_report *report, int which)
@@ -184,11 +183,9 @@ static void add_holdout(cJSON *to, const lab_report *report)
 
 static void add_parameter(cJSON *to, const lab_report *report, int j)
 {
-  const lab_fit_result *fit = &report->result->fit;
-  const lab_unknown *x = &report->completed->unknown[j];
-  cJSON *o = add_interval(to, x->name, x->value, x->unit, fit->low[j], fit->high[j]);
+  cJSON *o = add_fitted(to, report->completed->unknown[j].name, report, j);
   lab_deviation d;
-  if (lab_deviation_of(report->rig, report->completed, fit, j, &d))
+  if (lab_deviation_of(report->rig, report->completed, &report->result->fit, j, &d))
     LAB_JSON_NUMBERS(o, {"declared", d.declared}, {"tolerance", d.tolerance});
 }
 

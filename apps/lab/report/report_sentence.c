@@ -6,6 +6,7 @@
 
 #include "../base/format.h"
 #include "../base/json.h"
+#include "../base/names.h"
 #include "../base/text.h"
 #include "../trace/freeterms.h"
 #include "report.h"
@@ -294,16 +295,13 @@ static void add_ratio(char *text, const lab_rig *rig, const lab_deviation *d, co
 
 static void add_deviation(char *text, const lab_report *report, const lab_deviation *d, int first)
 {
-  enum { PLAIN = sizeof plain / sizeof *plain };
+  const int i = lab_name_index(d->name, plain, sizeof plain / sizeof *plain, sizeof *plain);
   char name[LAB_PARAM_NAME_TEXT + 4], since[LAB_SINCE_TEXT], *at;
-  int i = 0;
-  while (i < PLAIN && strcmp(plain[i].name, d->name) != 0)
-    i++;
   snprintf(name, sizeof name, "the %s", d->name);
   while ((at = strpbrk(name, "_.")))
     *at = ' ';
-  ADD(text, "%s %s", i < PLAIN ? plain[i].called : name, first ? "is " : "");
-  add_ratio(text, report->rig, d, i < PLAIN ? plain[i].less : NULL, i < PLAIN ? plain[i].more : NULL);
+  ADD(text, "%s %s", i < 0 ? name : plain[i].called, first ? "is " : "");
+  add_ratio(text, report->rig, d, i < 0 ? NULL : plain[i].less, i < 0 ? NULL : plain[i].more);
   ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
 
