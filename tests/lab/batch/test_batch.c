@@ -241,10 +241,9 @@ static lab_done sample(void)
 static void test_lab_done__written__reads_back(void **state)
 {
   const lab_done want = sample();
+  const char *folder = scratch_path("press-1");
   lab_done got;
-  char folder[600];
   (void)state;
-  snprintf(folder, sizeof folder, "%s", scratch_path("press-1"));
   assert_false(lab_done_read(folder, &got));
   assert_int_equal(lab_done_write(folder, &want, &error), LAB_OK);
   assert_true(lab_done_read(folder, &got));
@@ -264,18 +263,16 @@ static void test_lab_done__torn__is_not_there(void **state)
 {
   const lab_done want = sample();
   lab_done got;
-  char folder[600], path[700], *whole;
+  char *whole;
   size_t i, size;
   (void)state;
-  snprintf(folder, sizeof folder, "%s", scratch_path("torn"));
-  snprintf(path, sizeof path, "%s/.done", folder);
-  assert_int_equal(lab_done_write(folder, &want, &error), LAB_OK);
-  whole = scratch_read(path);
+  assert_int_equal(lab_done_write(scratch_path("torn"), &want, &error), LAB_OK);
+  whole = scratch_read(scratch_path("torn/.done"));
   size = strlen(whole);
   for (i = 0; i <= size; i++) {
     scratch_bytes("torn/.done", whole, i);
     check_note("%d of %d bytes", (int)i, (int)size);
-    assert_int_equal(lab_done_read(folder, &got), i == size);
+    assert_int_equal(lab_done_read(scratch_path("torn"), &got), i == size);
   }
   free(whole);
 }
@@ -320,8 +317,8 @@ static void test_lab_index__all_verdicts__worst_first(void **state)
   static const char *const order[] = {">torn<",   ">odd<",  ">large<",  ">small & <b><", ">worn<",
                                       ">unsure<", ">fine<", ">fine 2<", ">quiet<"};
   lab_index index = {0};
-  char path[700], *page;
   const char *last;
+  char *page;
   size_t i;
   (void)state;
   add_line(&index, "fine", "none,,,,1,1,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
@@ -335,8 +332,8 @@ static void test_lab_index__all_verdicts__worst_first(void **state)
   add_line(&index, "odd", "unlisted,unlisted force over x,x = 1 .. 2 mm,,2,1,,,,,,,,,,,,,,,0,odd", LAB_WRITE_JSON,
            LAB_OK);
   add_line(&index, "torn", "error,,,,,,,,,,,,,,,,,,,,,a.csv:3: torn", LAB_WRITE_JSON, LAB_DATA);
-  snprintf(path, sizeof path, "%s", scratch_path("indexed"));
-  assert_int_equal(lab_index_write(&index, "lists/hall 2.csv", &(lab_trends){0}, path, &error), LAB_OK);
+  assert_int_equal(lab_index_write(&index, "lists/hall 2.csv", &(lab_trends){0}, scratch_path("indexed"), &error),
+                   LAB_OK);
   lab_index_free(&index);
   page = scratch_read(scratch_path("indexed/index.html"));
   for (i = 0, last = page; i < sizeof order / sizeof *order; i++) {
@@ -447,15 +444,16 @@ static void test_lab_jobs__result_that_cannot_be_kept__ends_the_run(void **state
 
 /* What run_list does not set. */
 static lab_batch_options options;
+static long rss; /* [kB] the most that the last run had */
 
-/* Run a list in a process of its own, silently.  Out: rss  [kB] the most that it had.  Returns: its status */
-static int run_list(const char *list, const char *out, long *rss)
+/* Run a list into a folder, in a process of its own, silently.  Returns: its status */
+static int run_list(const char *list, const char *folder)
 {
   lab_batch_options how = options;
   int ends[2], wait, i;
   pid_t pid;
   how.list = list;
-  how.out = out;
+  how.out = scratch_path(folder);
   how.alpha = 0.01;
   how.min_gain = 0.02;
   how.at_once = 2;
@@ -477,11 +475,19 @@ static int run_list(const char *list, const char *out, long *rss)
     _exit(write(ends[1], &use.ru_maxrss, sizeof use.ru_maxrss) == sizeof use.ru_maxrss ? i : 98);
   }
   close(ends[1]);
-  assert_int_equal(read(ends[0], rss, sizeof *rss), sizeof *rss);
+  assert_int_equal(read(ends[0], &rss, sizeof rss), sizeof rss);
   close(ends[0]);
   assert_int_equal(waitpid(pid, &wait, 0), pid);
   assert_true(WIFEXITED(wait));
   return WEXITSTATUS(wait);
+}
+
+/* The batch.csv of a run, to be freed. */
+static char *rows_in(const char *folder)
+{
+  char name[64];
+  snprintf(name, sizeof name, "%s/batch.csv", folder);
+  return scratch_read(scratch_path(name));
 }
 
 /* A list of lines that fail at once. */
@@ -500,13 +506,10 @@ static const char *long_list(const char *name, int n)
 
 static void test_lab_batch__lines_that_fail__are_lines(void **state)
 {
-  char out[600], path[700], *rows;
-  long rss;
+  char *rows;
   (void)state;
-  snprintf(out, sizeof out, "%s", scratch_path("failing"));
-  assert_int_equal(run_list(long_list("three.csv", 3), out, &rss), LAB_DATA);
-  snprintf(path, sizeof path, "%s/batch.csv", out);
-  rows = scratch_read(path);
+  assert_int_equal(run_list(long_list("three.csv", 3), "failing"), LAB_DATA);
+  rows = rows_in("failing");
   assert_contains(rows, "\nn0,error,");
   assert_contains(rows, ",nothing.cfg: there is no such file; check the name and the folder,,\nn1,error,");
   assert_contains(rows, "\nn2,error,");
@@ -517,18 +520,13 @@ static void test_lab_batch__lines_that_fail__are_lines(void **state)
 }
 
 /* The one line of a list of one rig, to be freed. */
-static char *row_of(const char *rig, const char *out)
+static char *row_of(const char *rig, const char *folder)
 {
-  char list[700], path[700];
-  long rss;
   scratch_text("rig.cfg", rig);
   scratch_text("log.csv", "t [s],u [1],p [kPa]\n0,0,0\n");
   scratch_text("other.cfg", "actuator = { stroke = \"3 N\"; };\n");
-  snprintf(list, sizeof list, "%s", scratch_text("one.csv", "name,rig,log\none,rig.cfg,log.csv\n"));
-  snprintf(path, sizeof path, "%s", scratch_path(out));
-  assert_int_equal(run_list(list, path, &rss), LAB_DATA);
-  strcat(path, "/batch.csv");
-  return scratch_read(path);
+  assert_int_equal(run_list(scratch_text("one.csv", "name,rig,log\none,rig.cfg,log.csv\n"), folder), LAB_DATA);
+  return rows_in(folder);
 }
 
 /* The file of a stranger takes in no other, unless that is allowed. */
@@ -549,17 +547,14 @@ static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **s
 
 static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line(void **state)
 {
-  char text[600] = "name,rig,log\nmany,rig.cfg,log.csv", out[600], path[700], *rows;
-  long rss;
+  char text[600] = "name,rig,log\nmany,rig.cfg,log.csv", *rows;
   int i;
   (void)state;
   for (i = 0; i < LAB_LOGS_MAX; i++)
     strcat(text, ";log.csv");
   scratch_text("rig.cfg", "supply = { pressure = \"2 bar\"; };\n");
-  snprintf(out, sizeof out, "%s", scratch_path("crowded"));
-  assert_int_equal(run_list(scratch_text("crowded.csv", strcat(text, "\n")), out, &rss), LAB_DATA);
-  snprintf(path, sizeof path, "%s/batch.csv", out);
-  rows = scratch_read(path);
+  assert_int_equal(run_list(scratch_text("crowded.csv", strcat(text, "\n")), "crowded"), LAB_DATA);
+  rows = rows_in("crowded");
   assert_contains(rows, "more than 32 logs on one line");
   free(rows);
 }
@@ -568,8 +563,7 @@ static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_l
 static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line(void **state)
 {
   FILE *file = fopen(scratch_path("large.csv"), "w");
-  char out[600], path[700], *rows;
-  long rss;
+  char *rows;
   int i;
   (void)state;
 #ifdef LAB_SANITIZED
@@ -582,15 +576,13 @@ static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_
   fclose(file);
   scratch_text("rig.cfg", "supply = { pressure = \"2 bar\"; };\n");
   scratch_text("log.csv", "t [s],u [1],p [kPa]\n0,0,0\n");
-  snprintf(out, sizeof out, "%s", scratch_path("bounded"));
   options.memory = 24;
   assert_int_equal(
-      run_list(scratch_text("bounded.csv", "name,rig,log\nlarge,rig.cfg,large.csv\nshort,rig.cfg,log.csv\n"), out,
-               &rss),
+      run_list(scratch_text("bounded.csv", "name,rig,log\nlarge,rig.cfg,large.csv\nshort,rig.cfg,log.csv\n"),
+               "bounded"),
       LAB_WORLD);
   options.memory = 0;
-  snprintf(path, sizeof path, "%s/batch.csv", out);
-  rows = scratch_read(path);
+  rows = rows_in("bounded");
   assert_contains(rows, "\nlarge,error,");
   assert_contains(rows, "memory");
   assert_contains(rows, "\nshort,error,");
@@ -598,13 +590,13 @@ static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_
 }
 
 /* The list of the guide on a leak, from wherever it is. */
-static const char *leak_list(const char *name)
+static const char *leak_list(void)
 {
   char here[500], text[2000];
   assert_non_null(getcwd(here, sizeof here));
   snprintf(text, sizeof text, "name,rig,log\nleak,%s/study/guides/leak/rig.cfg,%s/study/guides/leak/fit.csv\n", here,
            here);
-  return scratch_text(name, text);
+  return scratch_text("leak.csv", text);
 }
 
 static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line(void **state)
@@ -612,18 +604,15 @@ static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_l
   static const struct {
     long room;
     int status;
-    const char *said;
-  } with[] = {{1 << 20, LAB_OK, "leak,effect,"}, {2000, LAB_WORLD, "File too large"}};
-  char out[600], path[700], *rows;
-  long rss;
+    const char *folder, *said;
+  } with[] = {{1 << 20, LAB_OK, "roomy", "leak,effect,"}, {2000, LAB_WORLD, "tight", "File too large"}};
+  char *rows;
   size_t i;
   (void)state;
   for (i = 0; i < sizeof with / sizeof with[0]; i++) {
-    snprintf(out, sizeof out, "%s", scratch_path(i ? "tight" : "roomy"));
     options.room = with[i].room;
-    assert_int_equal(run_list(leak_list("leak.csv"), out, &rss), with[i].status);
-    snprintf(path, sizeof path, "%s/batch.csv", out);
-    rows = scratch_read(path);
+    assert_int_equal(run_list(leak_list(), with[i].folder), with[i].status);
+    rows = rows_in(with[i].folder);
     assert_contains(rows, with[i].said);
     free(rows);
   }
@@ -633,18 +622,16 @@ static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_l
 /* 2000 lines take no more than 100, but for the list itself and the 16 bytes a line of its check. */
 static void test_lab_batch__long_list__takes_no_more_memory(void **state)
 {
-  char out[600];
-  long few, many;
+  long few;
   (void)state;
 #ifdef __SANITIZE_ADDRESS__
   skip(); /* keeps what has been freed */
 #endif
-  snprintf(out, sizeof out, "%s", scratch_path("few"));
-  assert_int_equal(run_list(long_list("few.csv", 100), out, &few), LAB_DATA);
-  snprintf(out, sizeof out, "%s", scratch_path("many"));
-  assert_int_equal(run_list(long_list("many.csv", 2000), out, &many), LAB_DATA);
-  check_note("100 lines %ld kB, 2000 lines %ld kB", few, many);
-  assert_true(many - few < 200);
+  assert_int_equal(run_list(long_list("few.csv", 100), "few"), LAB_DATA);
+  few = rss;
+  assert_int_equal(run_list(long_list("many.csv", 2000), "many"), LAB_DATA);
+  check_note("100 lines %ld kB, 2000 lines %ld kB", few, rss);
+  assert_true(rss - few < 200);
 }
 
 int main(void)
