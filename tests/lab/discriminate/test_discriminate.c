@@ -8,6 +8,9 @@
 static const int fitted[] = {LAB_PARAM_ORIFICE_AREA, PNEU_PARAM_dry_friction, PNEU_PARAM_spring_rate,
                              PNEU_PARAM_spring_preload, PNEU_PARAM_damping};
 
+static lab_error error;
+static lab_test_plans plans;
+
 /* The R1-400 with 40 cm3 of dead volume, ordinary sensors of pressure and position. */
 static lab_rig make_rig(void)
 {
@@ -27,6 +30,11 @@ static lab_advice_request make_inquiry(const lab_rig *rig)
   q.noise[LAB_CHANNEL_P] = 320;
   q.noise[LAB_CHANNEL_X] = 2e-5;
   return q;
+}
+
+static void build_plans(const lab_rig *rig)
+{
+  assert_int_equal(lab_test_plans_build(rig, &plans, &error), LAB_OK);
 }
 
 /* Index of a parameter of an effect; the test is skipped where the effect was trimmed away. */
@@ -60,7 +68,6 @@ typedef struct refit {
 
 static void predict(const lab_forecast *forecast, const pneu_params *params, double *y)
 {
-  lab_error error;
   assert_int_equal(lab_forecast_run(forecast, params, y, NULL, &error), LAB_OK);
 }
 
@@ -119,7 +126,7 @@ static double fit_to(refit *f, const pneu_params *goal, pneu_params *from, int o
   return sqrt(least);
 }
 
-/* ---- A trial as an forecast ---- */
+/* ---- A trial as a forecast ---- */
 
 typedef struct stage {
   pneu_input input[LAB_TEST_PLAN_STEPS];
@@ -127,29 +134,29 @@ typedef struct stage {
   lab_forecast forecast;
 } stage;
 
-static void stage_open(const lab_rig *rig, const lab_test_plan *plan, double settle, stage *s)
+/* For a rig whose plans are built. */
+static void stage_open(const lab_rig *rig, const lab_test_plan *plan, stage *s)
 {
   const pneu_model model = fixture_model(&rig->params, rig->laws.gas, rig->laws.flow);
-  lab_error error;
   int i;
   for (i = 0; i < plan->n; i++)
     s->input[i] = fixture_input(&model, plan->u[i]);
   s->schedule = (lab_schedule){(size_t)plan->n, plan->t, s->input};
-  assert_int_equal(lab_forecast_open(rig, &s->schedule, settle, plan->duration, 0.005, &s->forecast, &error), LAB_OK);
+  assert_int_equal(lab_forecast_open(rig, &s->schedule, plans.settle, plan->duration, 0.005, &s->forecast, &error),
+                   LAB_OK);
 }
+
+static refit f;
+static stage s;
 
 /* A leak and a drooping supply of a size that a fill and vent cannot tell apart. */
 static void make_alike(const lab_rig *rig, const lab_advice_request *q, pneu_params *leaks, pneu_params *droops)
 {
-  static lab_test_plans plans;
-  static refit f;
-  static stage s;
   const int leak = param_of("chamber_leak"), droop = param_of("supply_droop");
-  lab_error error;
   *leaks = with(rig, leak, 3e-10);
   *droops = with(rig, droop, 1e5);
-  assert_int_equal(lab_test_plans_build(rig, &plans, &error), LAB_OK);
-  stage_open(rig, &plans.usual, plans.settle, &s);
+  build_plans(rig);
+  stage_open(rig, &plans.usual, &s);
   f = (refit){.request = q, .n_records = 1, .forecast = {&s.forecast, NULL}};
   assert_between(fit_to(&f, leaks, droops, droop), 0.5, 2);
   lab_forecast_close(&s.forecast);
@@ -158,7 +165,6 @@ static void make_alike(const lab_rig *rig, const lab_advice_request *q, pneu_par
 static lab_advice advise(const lab_advice_request *q, const pneu_params *a, const pneu_params *b)
 {
   lab_advice advice;
-  lab_error error = {0, ""};
   assert_int_equal(lab_discriminate(q, a, b, &advice, &error), LAB_OK);
   return advice;
 }
@@ -188,22 +194,19 @@ static void test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orif
 /* What has been recorded counts by its slopes: a tenth of the whole is what its curvature may take. */
 static void test_lab_discriminate__separation__is_what_an_independent_fit_to_both_records_leaves(void **state)
 {
-  static lab_test_plans plans;
-  static refit f;
   static stage before, after;
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
   pneu_params leaks, droops, back;
   lab_advice advice;
-  lab_error error;
   double one, other;
   (void)state;
   make_alike(&rig, &q, &leaks, &droops);
   advice = advise(&q, &leaks, &droops);
   assert_int_equal(advice.kind, LAB_ADVICE_TEST);
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
-  stage_open(&rig, &plans.usual, plans.settle, &before);
-  stage_open(&rig, &advice.plan, plans.settle, &after);
+  build_plans(&rig);
+  stage_open(&rig, &plans.usual, &before);
+  stage_open(&rig, &advice.plan, &after);
   f = (refit){.request = &q, .n_records = 2, .forecast = {&before.forecast, &after.forecast}};
   back = leaks;
   one = fit_to(&f, &droops, &back, param_of("chamber_leak"));
@@ -216,16 +219,12 @@ static void test_lab_discriminate__separation__is_what_an_independent_fit_to_bot
 /* A valley: what is left falls by a tenth a step for several steps. */
 static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_end_of_the_valley(void **state)
 {
-  static lab_test_plans plans;
-  static refit f;
-  static stage s;
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
   const int pressure = param_of("exhaust_back_pressure"), vent = param_of("vent_restriction");
   pneu_param_info info;
   pneu_params backs, narrow, other;
   lab_advice advice;
-  lab_error error;
   double one;
   (void)state;
   pneu_param_describe(pressure, &info);
@@ -233,8 +232,8 @@ static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_e
   pneu_param_describe(vent, &info);
   narrow = with(&rig, vent, 0.95 * (double)info.neutral + 0.05 * (double)info.value);
   advice = advise(&q, &backs, &narrow);
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
-  stage_open(&rig, &plans.usual, plans.settle, &s);
+  build_plans(&rig);
+  stage_open(&rig, &plans.usual, &s);
   f = (refit){.request = &q, .n_records = 1, .forecast = {&s.forecast, NULL}};
   other = narrow;
   one = fit_to(&f, &backs, &other, vent);
@@ -247,19 +246,18 @@ static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_e
  * fitting again must win all the same. */
 static void test_lab_discriminate__estimates_too_large__best_of_the_settled_wins(void **state)
 {
-  static lab_test_plans plans;
-  static stage rest, s;
+  static stage rest;
   static const lab_test_plan still = {"rest", 1, {0}, {0}, 0.5};
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
   lab_forecast_model leaks = {with(&rig, param_of("chamber_leak"), 1e-9), 0, {0}, {0}};
   lab_forecast_model droops = {with(&rig, param_of("supply_droop"), 6e5), 0, {0}, {0}};
   lab_advice advice;
-  lab_error error;
   lab_normal nothing;
   int i, k;
   (void)state;
-  stage_open(&rig, &still, 0, &rest);
+  build_plans(&rig);
+  stage_open(&rig, &still, &rest);
   q.recorded = &rest.schedule;
   q.recorded_duration = still.duration;
   advice = advise(&q, &leaks.params, &droops.params);
@@ -270,10 +268,9 @@ static void test_lab_discriminate__estimates_too_large__best_of_the_settled_wins
   lab_side_add(&leaks, param_of("chamber_leak"), &error);
   lab_side_add(&droops, param_of("supply_droop"), &error);
   lab_normal_clear(&nothing, leaks.n);
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
   for (i = 0; i < 6; i++) { /* the holds */
     double one, other;
-    stage_open(&rig, &plans.plan[i], plans.settle, &s);
+    stage_open(&rig, &plans.plan[i], &s);
     assert_int_equal(lab_discrepancy(&q, &s.forecast, &droops.params, &leaks, &nothing, &one, &error), LAB_OK);
     assert_int_equal(lab_discrepancy(&q, &s.forecast, &leaks.params, &droops, &nothing, &other, &error), LAB_OK);
     check_note("%s", plans.plan[i].text);
@@ -359,18 +356,15 @@ static void test_lab_discriminate__position_alone_too_little__names_the_sensor_t
 
 static void test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent(void **state)
 {
-  static lab_test_plans plans;
-  static stage s;
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
   const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-9);
   const pneu_params blocked = with(&rig, param_of("vent_restriction"), 2e-3);
   const double usual = advise(&q, &leaks, &blocked).usual;
   lab_advice advice;
-  lab_error error;
   (void)state;
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
-  stage_open(&rig, &plans.usual, plans.settle, &s);
+  build_plans(&rig);
+  stage_open(&rig, &plans.usual, &s);
   q.recorded = &s.schedule;
   q.recorded_duration = plans.usual.duration;
   advice = advise(&q, &leaks, &blocked);
@@ -387,7 +381,6 @@ static void expect_reason(const lab_rig *rig, const char *reason)
 {
   const lab_advice_request q = make_inquiry(rig);
   lab_advice advice = advise(&q, &rig->params, &rig->params);
-  lab_error error = {0, ""};
   assert_int_equal(advice.kind, LAB_ADVICE_NONE);
   assert_non_null(strstr(advice.text, reason));
   memset(&advice, 0x55, sizeof advice);
@@ -421,7 +414,6 @@ static void test_lab_discriminate__inquiry_that_is_none__says_what_was_expected(
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
   lab_advice advice;
-  lab_error error;
   (void)state;
   q.spacing = 0;
   assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
@@ -443,7 +435,6 @@ static void test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion
   lab_advice_request q = make_inquiry(&rig);
   int fit[COUNT(fitted) + 1];
   lab_advice advice;
-  lab_error error;
   (void)state;
   memcpy(fit, fitted, sizeof fitted);
   fit[q.n_fit++] = param_of("stribeck_friction");
@@ -464,7 +455,6 @@ static void test_lab_advise_precision__what_was_found__goes_first(void **state)
   lab_advice_request q = make_inquiry(&rig);
   int fit[COUNT(fitted) + 1];
   lab_advice advice[2];
-  lab_error error;
   int i;
   (void)state;
   memcpy(fit, fitted, sizeof fitted);
@@ -484,26 +474,23 @@ static void test_lab_advise_precision__what_was_found__goes_first(void **state)
 /* One parameter: information adds up, and that of the trial alone is the sum of squared slopes. */
 static void test_lab_advise_precision__one_parameter__is_the_information_of_both_records(void **state)
 {
-  static lab_test_plans plans;
   static double y[LAB_FORECAST_CHANNELS * 1501], slope[LAB_FORECAST_CHANNELS * 1501];
-  static stage s;
   static const int only[] = {PNEU_PARAM_spring_rate};
   const lab_rig rig = make_rig();
   const lab_forecast_model model = {rig.params, 1, {only[0]}, {(double)rig.params.spring_rate}};
   lab_advice_request q = make_inquiry(&rig);
   double information[2];
   lab_advice advice;
-  lab_error error;
   int i, k;
   (void)state;
   q.n_fit = 1;
   q.fit = only;
   assert_int_equal(lab_advise_precision(&q, &rig.params, &advice, &error), LAB_OK);
   assert_int_equal(advice.kind, LAB_ADVICE_TEST);
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  build_plans(&rig);
   for (k = 0; k < 2; k++) {
     int n;
-    stage_open(&rig, k ? &advice.plan : &plans.usual, plans.settle, &s);
+    stage_open(&rig, k ? &advice.plan : &plans.usual, &s);
     n = s.forecast.n;
     assert_int_equal(lab_forecast_run(&s.forecast, &rig.params, y, NULL, &error), LAB_OK);
     assert_int_equal(lab_forecast_slopes(&s.forecast, &model, y, slope, &error), LAB_OK);
@@ -519,31 +506,28 @@ static void test_lab_advise_precision__one_parameter__is_the_information_of_both
 
 /* ---- Trials ---- */
 
-static const lab_test_plan *find_trial(const lab_test_plans *plans, const char *text)
+static const lab_test_plan *find_trial(const char *text)
 {
   int i;
-  for (i = 0; i < plans->n; i++)
-    if (strstr(plans->plan[i].text, text))
-      return &plans->plan[i];
+  for (i = 0; i < plans.n; i++)
+    if (strstr(plans.plan[i].text, text))
+      return &plans.plan[i];
   fail();
   return NULL;
 }
 
 static void test_lab_test_plans_build__hold_at_80_percent__stem_stands_there(void **state)
 {
-  static lab_test_plans plans;
   static double y[LAB_FORECAST_CHANNELS * 1501];
-  static stage s;
   const lab_rig rig = make_rig();
   const lab_test_plan *hold;
-  lab_error error;
   int i;
   (void)state;
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
-  hold = find_trial(&plans, "hold at 80 % travel with both orifices shut for 10 s");
+  build_plans(&rig);
+  hold = find_trial("hold at 80 % travel with both orifices shut for 10 s");
   assert_int_equal(hold->n, 4);
   assert_close(hold->t[3] - hold->t[2], 10, 1e-9, 0);
-  stage_open(&rig, hold, plans.settle, &s);
+  stage_open(&rig, hold, &s);
   assert_int_equal(lab_forecast_run(&s.forecast, &rig.params, y, NULL, &error), LAB_OK);
   for (i = 0; i < s.forecast.n && s.forecast.t[i] < hold->t[3]; i++)
     if (s.forecast.t[i] > hold->t[2] + 0.5)
@@ -557,11 +541,9 @@ static void test_lab_test_plans_build__both_actuators__every_template_in_order_o
   int actuator, i, k;
   (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++) {
-    static lab_test_plans plans;
     lab_rig rig = make_rig();
-    lab_error error;
     rig.params = fixture_params(actuator);
-    assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+    build_plans(&rig);
     assert_int_equal(plans.n, 14);
     for (i = 0; i < plans.n; i++) {
       const lab_test_plan *plan = &plans.plan[i];
@@ -576,19 +558,16 @@ static void test_lab_test_plans_build__both_actuators__every_template_in_order_o
 /* A small trickle of command meets a leak that lets as much out: the slow strokes cannot be done. */
 static void test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out(void **state)
 {
-  static lab_test_plans plans;
   lab_rig rig = make_rig();
-  lab_error error;
   (void)state;
   rig.params = with(&rig, param_of("chamber_leak"), 0.15 * (double)rig.params.fill_area);
-  assert_int_equal(lab_test_plans_build(&rig, &plans, &error), LAB_OK);
+  build_plans(&rig);
   assert_int_equal(plans.n, 12);
-  find_trial(&plans, "three full strokes");
+  find_trial("three full strokes");
 }
 
 static void test_trial_choose__ties__go_to_the_shortest(void **state)
 {
-  static lab_test_plans plans;
   const double duration[] = {40, 10, 20, 5, 1};
   const double value[] = {50, 47, 46, 44, (double)NAN};
   int i;
@@ -607,19 +586,30 @@ static void test_trial_choose__ties__go_to_the_shortest(void **state)
 
 enum { M = 40, K = 3 };
 
-/* Smooth columns with nothing in common, d last. */
-static void make_columns(double column[K + 1][M], const double *pointer[K + 1])
+static double column[K + 1][M]; /* d last */
+static lab_normal normal;       /* of the columns */
+
+/* Smooth columns with nothing in common. */
+static void make_columns(void)
 {
   int i, j;
-  for (j = 0; j <= K; j++) {
-    pointer[j] = column[j];
+  for (j = 0; j <= K; j++)
     for (i = 0; i < M; i++)
       column[j][i] = pow(10, j) * (cos(0.1 * (j + 1) * i) + 0.01 * i * j);
-  }
+}
+
+static void make_normal(void)
+{
+  const double *pointer[K + 1];
+  int j;
+  for (j = 0; j <= K; j++)
+    pointer[j] = column[j];
+  lab_normal_clear(&normal, K);
+  lab_normal_add_rows(&normal, pointer, M);
 }
 
 /* Gram-Schmidt, twice for good measure. */
-static double rest_by_gram_schmidt(double column[K + 1][M])
+static double rest_by_gram_schmidt(void)
 {
   double sum = 0;
   int i, j, l, pass;
@@ -641,52 +631,40 @@ static double rest_by_gram_schmidt(double column[K + 1][M])
 
 static void test_lab_normal_rest__is_what_gram_schmidt_leaves(void **state)
 {
-  static double column[K + 1][M];
-  const double *pointer[K + 1];
-  lab_normal normal;
   double rest;
   (void)state;
-  make_columns(column, pointer);
-  lab_normal_clear(&normal, K);
-  lab_normal_add_rows(&normal, pointer, M);
+  make_columns();
+  make_normal();
   rest = lab_normal_rest(&normal);
   assert_true(rest < 0.9 * sqrt(normal.g[K][K]) && rest > 0);
-  assert_close(rest, rest_by_gram_schmidt(column), 0, 1e-8);
+  assert_close(rest, rest_by_gram_schmidt(), 0, 1e-8);
 }
 
 /* What tells the last column from the first is d itself: were that counted, nothing of d would be left. */
 static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
 {
-  static double column[K + 1][M];
-  const double *pointer[K + 1];
   const int two[] = {0, 1};
-  lab_normal normal, part;
+  lab_normal part;
   int i;
   (void)state;
-  make_columns(column, pointer);
+  make_columns();
   for (i = 0; i < M; i++)
     column[2][i] = column[0][i] + 1e-8 * column[K][i];
-  lab_normal_clear(&normal, K);
-  lab_normal_add_rows(&normal, pointer, M);
+  make_normal();
   lab_normal_select(&normal, 2, two, &part);
   assert_close(lab_normal_rest(&normal), lab_normal_rest(&part), 0, 1e-9);
 }
 
 static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
 {
-  static double column[K + 1][M];
-  const double *pointer[K + 1], *turned[3];
+  const double *const turned[] = {column[2], column[0], column[K]};
   const int keep[] = {2, 0};
-  lab_normal normal, part, again;
+  lab_normal part, again;
   int i, j;
   (void)state;
-  make_columns(column, pointer);
-  lab_normal_clear(&normal, K);
-  lab_normal_add_rows(&normal, pointer, M);
+  make_columns();
+  make_normal();
   lab_normal_select(&normal, 2, keep, &part);
-  turned[0] = column[2];
-  turned[1] = column[0];
-  turned[2] = column[K];
   lab_normal_clear(&again, 2);
   lab_normal_add_rows(&again, turned, M);
   assert_int_equal(part.k, 2);
@@ -698,18 +676,16 @@ static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
 /* Squares of the rows, and of d once a combination of the columns is taken out, are those of the original ones. */
 static void test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_columns(void **state)
 {
-  static double column[K + 1][M], row[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1];
-  const double *pointer[K + 1], change[K] = {2, -0.3, 0.05};
-  lab_normal normal;
+  static double row[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1];
+  const double change[K] = {2, -0.3, 0.05};
   double by_rows = 0, by_columns = 0;
   int i, j, twice;
   (void)state;
   for (twice = 0; twice < 2; twice++) {
-    make_columns(column, pointer);
+    make_columns();
     for (i = 0; twice && i < M; i++)
       column[2][i] = 3 * column[0][i] - column[1][i]; /* spanned by the others */
-    lab_normal_clear(&normal, K);
-    lab_normal_add_rows(&normal, pointer, M);
+    make_normal();
     lab_normal_rows(&normal, row);
     for (by_rows = 0, i = 0; i <= K; i++) {
       double r = row[i][K];
@@ -733,7 +709,6 @@ static void test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse(v
 {
   const double prior[] = {1, 1};
   double deviation[2];
-  lab_normal normal;
   (void)state;
   lab_normal_clear(&normal, 2);
   normal.g[0][0] = 4;
