@@ -15,11 +15,11 @@ static int same(const char *a, const char *b)
   return strcmp(a, b) == 0;
 }
 
-static int is_stated(const blind_found *f, const char *name)
+static int is_among(const blind_word *word, int n, const char *name)
 {
   int i;
-  for (i = 0; i < f->n_alike; i++)
-    if (same(f->alike[i], name))
+  for (i = 0; i < n; i++)
+    if (same(word[i], name))
       return 1;
   return 0;
 }
@@ -30,7 +30,7 @@ static int stands_for(const blind_found *f, const blind_effect *e, enum level le
   const blind_effect *other = blind_effect_named(f->effect);
   if (same(f->effect, e->name))
     return 1;
-  if (level >= STATED && is_stated(f, e->name))
+  if (level >= STATED && is_among(f->alike, f->n_alike, e->name))
     return 1;
   return level == FAMILY && other && same(other->family, e->family);
 }
@@ -43,11 +43,7 @@ int blind_stands_for(const blind_found *found, const blind_effect *effect)
 /* Whether an effect is listed as significant but too small to be added. */
 static int is_listed(const blind_answer *a, const char *name)
 {
-  int i;
-  for (i = 0; i < a->n_small; i++)
-    if (same(a->small[i], name))
-      return 1;
-  return 0;
+  return is_among(a->small, a->n_small, name);
 }
 
 /* Every finding stands for one of the missing effects, and every missing effect has its own, or is at least listed. */
