@@ -64,6 +64,11 @@ pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pres
   return model;
 }
 
+pneu_model fixture_pressed(const pneu_params *p)
+{
+  return fixture_model_roles(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+}
+
 pneu_model fixture_model(const pneu_params *p, int gas, int flow)
 {
   return fixture_model_roles(p, gas, flow, 0, 0);

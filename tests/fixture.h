@@ -52,6 +52,9 @@ pneu_model fixture_model(const pneu_params *p, int gas, int flow);
 pneu_model fixture_r1_400(int gas, int flow);
 pneu_model fixture_model_roles(const pneu_params *p, int gas, int flow, int pressure_input, int position_input);
 
+/* Isothermal, driven by pressure. */
+pneu_model fixture_pressed(const pneu_params *p);
+
 /* The R1-400 with quick orifices of 4 mm2, choked, and one parameter set; name NULL: none. */
 pneu_model fixture_quick(int gas, const char *name, double value);
 

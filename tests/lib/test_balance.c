@@ -96,7 +96,7 @@ static void test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_st
     const int first = pneu_effect_params(e, NULL);
     pneu_param_describe(first, &info);
     *pneu_param_at(&p, first) = info.value;
-    m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+    m = fixture_pressed(&p);
     if (m.bristle) /* such a stem has no break-away */
       continue;
     for (direction = -1; direction <= 1; direction += 2) {

@@ -65,7 +65,7 @@ static void footprint_laminar_leak(void)
   assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, -5e4, 0, 20).p, seeped(&p, -5e4, 1.4 * rate, 20),
                TOL(1e-4, 20), TOL(1e-9, 1e-4));
   {
-    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+    const pneu_model m = fixture_pressed(&p);
     const pneu_input input = fixture_input(&m, 0);
     const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
     assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
@@ -501,7 +501,7 @@ static void footprint_chamber_creep(void)
   fixture_run(&m, &s, &shut, 20, FIXTURE_TOL, NULL);
   end = (c * Pa - 1 + sqrt((1 - c * Pa) * (1 - c * Pa) + 4 * c * P0)) / (2 * c); /* P (1 + c (P - Pa)) = P0 */
   assert_close((double)s.p + Pa, end, 0, TOL(1e-7, 1e-4));
-  assert_int_equal(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0).n_active, 0);
+  assert_int_equal(fixture_pressed(&p).n_active, 0);
 }
 
 /* ---- command ---- */

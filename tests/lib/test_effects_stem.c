@@ -3,15 +3,10 @@
 
 /* ---- what the tests measure ---- */
 
-static pneu_model pressed(const pneu_params *p)
-{
-  return fixture_model_roles(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
-}
-
 /* Pressure at which a stem at rest at x first moves while pressure runs from `from` at the given slope. */
 static double break_away_from(const pneu_params *p, double x, double from, double slope)
 {
-  const pneu_model m = pressed(p);
+  const pneu_model m = fixture_pressed(p);
   pneu_input input = fixture_input(&m, 0);
   pneu_state s = fixture_rest(&m, from, x, &input);
   fixture_events e;
@@ -34,7 +29,7 @@ static pneu_state balance(const pneu_params *p, double pressure, double from)
   pneu_input input;
   pneu_state s;
   smooth.dry_friction = 0;
-  m = pressed(&smooth);
+  m = fixture_pressed(&smooth);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, pressure, from, &input);
   fixture_run(&m, &s, &input, 2, TOL(1e-9, 1e-5), NULL);
@@ -118,7 +113,7 @@ static void footprint_friction_pressure(void)
   fixture_set(&p, "friction_per_pressure", f);
   assert_close(break_away(&p), (4e5 * 0.01 + 480) / (0.04 - f), TOL(1e-4, 20), 0);
   assert_close(break_away_from(&p, 0.02, 2.9e5, -1e4), (4e5 * 0.03 - 480) / (0.04 + f), TOL(1e-4, 20), 0);
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, -2e4, 0, &input);
   assert_close(fixture_look(&m, &s, &input).friction, 480, 0, 0);
@@ -174,7 +169,7 @@ static void test_presliding__no_friction__bristles_bend_all_the_way(void **state
   fixture_need("presliding");
   p.dry_friction = 0;
   fixture_set(&p, "presliding_length", 2e-5);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   input.pressure_rate = (pneu_real)1e4;
   s = fixture_rest(&m, 1.5e5, 0.005, &input);
@@ -194,7 +189,7 @@ static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
   (void)state;
   fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 1.5e5, 0.004, &input);
   input.pressure_rate = (pneu_real)-1e5;
@@ -216,7 +211,7 @@ static void footprint_presliding(void)
   pneu_state s;
   p.spring_rate = 0;
   fixture_set(&p, "presliding_length", d);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   input.pressure_rate = 600;
   s = fixture_rest(&m, 0, 0.01, &input);
@@ -320,7 +315,7 @@ static void footprint_spring_hysteresis(void)
   input.position_rate = (pneu_real)-0.02;
   fixture_run(&m, &s, &input, 0.1, FIXTURE_TOL, NULL);
   assert_close(s.extra[0], -1 + (1 + up) * exp(-0.002 / d), TOL(1e-8, 1e-4), 0);
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 2e5, 0.01, &input);
   s.extra[0] = (pneu_real)0.7;
@@ -351,7 +346,7 @@ static void footprint_spring_creep(void)
   input.position_rate = 0;
   fixture_run(&m, &s, &input, 0.2, FIXTURE_TOL, NULL);
   assert_close(s.extra[0], (0.005 - behind * exp(-0.2 / tau)) / stroke, TOL(1e-9, 1e-5), 0);
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 2e5, 0.01, &input);
   assert_close(s.extra[0], 0.01 / stroke, 0, TOL(1e-15, 1e-6));
@@ -397,7 +392,7 @@ static void footprint_travel_limit(void)
   assert_close(balance(&p, 3e5, 0.01).x, 0.017, 0, TOL(1e-12, 1e-6));
   assert_int_equal(balance(&p, 3e5, 0.01).mode, PNEU_MODE_UPPER);
   assert_close(balance(&p, 2e5, 0.005).x, balance(&base, 2e5, 0.005).x, TOL(1e-9, 1e-6), 0);
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   assert_close(fixture_rest(&m, 3e5, 0.02, &input).x, 0.017, 0, TOL(1e-12, 1e-6));
   fixture_set(&p, "travel_loss", 0.5); /* more than there is: hardly any travel, and sound */
@@ -415,7 +410,7 @@ static void footprint_stop_compliance(void)
   p.dead_volume = (pneu_real)1e-4;
   fixture_set(&p, "stop_compliance", c);
   fixture_set(&p, "stop_damping", 1e4);
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 0, 0, &input);
   assert_close(s.x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-9, 1e-4));
@@ -472,12 +467,12 @@ static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(voi
   p.swept_ratio = (pneu_real)0.5;
   p.spring_rate = (pneu_real)1e3;
   p.external_force = 4000;
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   assert_close(fixture_rest(&m, 4e5, 0.02, &input).x, 0.04, 0, TOL(1e-12, 1e-6));
   assert_close(pneu_volume(&m, fixture_rest(&m, 0, 0, &input).x), 0.1 * (double)p.dead_volume, 0, TOL(1e-9, 1e-4));
   p.dead_volume = (pneu_real)1e-2;
-  m = pressed(&p);
+  m = fixture_pressed(&p);
   assert_close(fixture_rest(&m, 0, 0, &input).x, -0.02, 0, TOL(1e-12, 1e-6));
   m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0,
                           1); /* whoever drives the stem says where it is */

@@ -10,18 +10,13 @@ static pneu_params bare(void)
   return p;
 }
 
-static pneu_model given_pressure(const pneu_params *p)
-{
-  return fixture_model_roles(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
-}
-
 /* ---- motion ---- */
 
 /* From v_0 under pressure and friction: t = v_0/a, travel v_0^2/(2 a), a = (F - p A sgn v)/M. */
 static void check_slide(double v0, double pressure)
 {
   const pneu_params p = bare();
-  const pneu_model m = given_pressure(&p);
+  const pneu_model m = fixture_pressed(&p);
   const pneu_input input = fixture_input(&m, 0);
   const double sign = v0 > 0 ? 1 : -1, a = (480 - sign * pressure * 0.04) / 2;
   pneu_state s = fixture_rest(&m, pressure, 0.05, &input);
@@ -56,7 +51,7 @@ static void check_fall(double from, double to, double force)
   fixture_events e;
   p.dry_friction = 0;
   p.external_force = (pneu_real)(force / 2);
-  m = given_pressure(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   input.force = (pneu_real)(force / 2);
   s = fixture_rest(&m, 0, from, &input);
@@ -89,7 +84,7 @@ static void test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency(
   p.spring_rate = (pneu_real)8e4;
   p.spring_preload = (pneu_real)0.005;
   p.dry_friction = 0;
-  m = given_pressure(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 8e4 * (0.05 + 0.005) / 0.04, 0.06, &input);
   fixture_run(&m, &s, &input, 0.1, FIXTURE_TOL, NULL);
@@ -109,7 +104,7 @@ static void test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity(void
   p.viscous_friction = 30;
   p.damping = 70;
   p.stroke = 2;
-  m = given_pressure(&p);
+  m = fixture_pressed(&p);
   input = fixture_input(&m, 0);
   s = fixture_rest(&m, 2e4, 0, &input);
   fixture_run(&m, &s, &input, t, FIXTURE_TOL, NULL);
@@ -122,7 +117,7 @@ static void test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity(void
 /* Pressure at which the stem leaves x while pressure runs at `rate`. */
 static double leaves_at(const pneu_params *p, double from, double x, double rate, double force)
 {
-  const pneu_model m = given_pressure(p);
+  const pneu_model m = fixture_pressed(p);
   pneu_input input = fixture_input(&m, 0);
   pneu_state s;
   fixture_events e;
@@ -179,7 +174,7 @@ static void test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop(void **s
 {
   static fixture_sample s[801];
   const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = given_pressure(&p);
+  const pneu_model m = fixture_pressed(&p);
   const double rate = 1e4, v = 0.04 * rate / 4e5;
   fixture_stretch stretch[2];
   pneu_state at;

@@ -248,7 +248,7 @@ static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state
   p.spring_rate = (pneu_real)(w * w * 2);
   p.spring_preload = p.dry_friction = p.viscous_friction = p.damping = 0;
   for (turn = 0.5; turn < 4.5; turn += 0.25) {
-    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+    const pneu_model m = fixture_pressed(&p);
     const pneu_input input = fixture_input(&m, 0);
     pneu_state s = fixture_rest(&m, w * w * 2 * 0.018 / 0.04, 0.018, &input);
     pneu_workspace work = {0};

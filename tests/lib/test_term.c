@@ -609,7 +609,7 @@ static void check_break_away(double x, double rate)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term term = sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, bump);
-  pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  pneu_model m = fixture_pressed(&p);
   const double balance = 4e5 * (x + 0.01) / 0.04, way = rate > 0 ? 1 : -1;
   pneu_input input = fixture_input(&m, 0);
   fixture_events events;

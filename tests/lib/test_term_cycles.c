@@ -279,7 +279,7 @@ static double break_away(double amplitude, double period, double begin, double p
   const pneu_term term = cycle(FORCE, period, 2, value);
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_observer observer = {NULL, stop_at_event, NULL};
-  pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 0);
+  pneu_model m = fixture_pressed(&p);
   const pneu_input input = fixture_input(&m, 0);
   static pneu_workspace work;
   pneu_options options;
