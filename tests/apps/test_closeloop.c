@@ -1,6 +1,7 @@
 /* closeloop as a process on bad logs: a clear error or a stated limitation, never a confident wrong name.
  * Run from the project's root, where the program is. */
 #include "../badlog.h"
+#include "../fixture.h"
 #include "../program.h"
 
 #include <sys/wait.h>
@@ -117,13 +118,11 @@ static void test_closeloop__sound_log__has_no_limitation(void **state)
 static void test_closeloop__garbage__is_refused(void **state)
 {
   unsigned char bytes[8192];
-  unsigned seed = 3;
+  uint64_t seed = 3;
   size_t i;
   (void)state;
-  for (i = 0; i < sizeof bytes; i++) {
-    seed = seed * 1664525u + 1013904223u;
-    bytes[i] = (unsigned char)(seed >> 24);
-  }
+  for (i = 0; i < sizeof bytes; i++)
+    bytes[i] = (unsigned char)fixture_random(&seed, 0, 256);
   assert_refused(scratch_bytes("bad.csv", bytes, sizeof bytes), "bad.csv", "found a 0 byte");
   for (i = 0; i < sizeof bytes; i++)
     bytes[i] |= 1;
@@ -257,13 +256,11 @@ static void test_closeloop__damaged_rows__are_left_out_and_counted(void **state)
 static void test_closeloop__shuffled_rows__are_refused(void **state)
 {
   bad_log b = sound;
-  unsigned seed = 5;
+  uint64_t seed = 5;
   size_t i;
   (void)state;
   for (i = b.n - 1; i > 0; i--) {
-    size_t k;
-    seed = seed * 1664525u + 1013904223u;
-    k = (seed >> 8) % (i + 1);
+    const size_t k = (size_t)fixture_random(&seed, 0, (double)(i + 1));
     swap(&b.t[i], &b.t[k]);
     swap(&b.u[i], &b.u[k]);
     swap(&b.p[i], &b.p[k]);

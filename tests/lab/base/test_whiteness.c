@@ -1,5 +1,5 @@
 /* apps/lab/base/whiteness, and the tail of chi-square that it needs */
-#include "../../check.h"
+#include "../../fixture.h"
 
 #include "../../../apps/lab/base/quantile.h"
 #include "../../../apps/lab/base/whiteness.h"
@@ -66,26 +66,14 @@ static void test_lab_chi2_tail__many_degrees__the_integral_of_the_density(void *
 
 /* ---- whiteness ---- */
 
-static unsigned seed;
-
-/* Near enough normal: twelve uniform numbers. */
-static double normal(void)
-{
-  double sum = -6;
-  int k;
-  for (k = 0; k < 12; k++) {
-    seed = seed * 1664525u + 1013904223u;
-    sum += (seed >> 8) / 16777216.0;
-  }
-  return sum;
-}
+static uint64_t seed;
 
 /* r_i = rho r_(i-1) + noise, of variance 1 */
 static void draw(double rho, double *r, size_t n)
 {
   size_t i;
   for (i = 0; i < n; i++)
-    r[i] = i == 0 ? normal() : rho * r[i - 1] + sqrt(1 - rho * rho) * normal();
+    r[i] = i == 0 ? fixture_normal(&seed) : rho * r[i - 1] + sqrt(1 - rho * rho) * fixture_normal(&seed);
 }
 
 /* Share of draws that the test calls coloured at 5 %; every third value is a gap if asked for. */
@@ -99,7 +87,7 @@ static double refused(double rho, int gaps, int draws)
     lab_whiteness w;
     draw(rho, r, ROWS);
     for (k = 0; gaps && k < ROWS; k++)
-      if (normal() > 0.43)
+      if (fixture_normal(&seed) > 0.43)
         r[k] = (double)NAN;
     lab_whiteness_test(stretch, 2, &w);
     count += w.p_value < 0.05;

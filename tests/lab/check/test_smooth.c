@@ -31,16 +31,6 @@ static double decay(double t)
   return 3e5 * exp(-t / 12);
 }
 
-/* About normal, of deviation 1. */
-static double scatter(uint64_t *seed)
-{
-  double sum = 0;
-  int i;
-  for (i = 0; i < 12; i++)
-    sum += fixture_random(seed, -0.5, 0.5);
-  return sum;
-}
-
 /* One run, p and x; x counts the rows. */
 static void make(double (*curve)(double t), double noise)
 {
@@ -50,7 +40,7 @@ static void make(double (*curve)(double t), double noise)
   for (i = 0; i < ROWS; i++) {
     t[i] = i * spacing;
     x[i] = i;
-    p[i] = curve(t[i]) + noise * scatter(&seed);
+    p[i] = curve(t[i]) + noise * fixture_normal(&seed);
   }
   lab_log_free(&log_made);
   log_made.n = ROWS;
