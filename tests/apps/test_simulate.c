@@ -127,7 +127,7 @@ static void test_simulate__command_that_never_vents__is_noted(void **state)
   (void)state;
   scratch_text("back.csv", "t [s],u [1]\n0,0\n1,1\n5,0\n9,0\n");
   assert_int_equal(run("@/m.cfg @/back.csv"), 0);
-  assert_non_null(strstr(err, "u never goes below 0, so that nothing vents: 1 fills, 0 shuts, -1 vents"));
+  assert_contains(err, "u never goes below 0, so that nothing vents: 1 fills, 0 shuts, -1 vents");
 }
 
 static void test_simulate__log_of_position__gives_position_alone(void **state)
@@ -180,15 +180,15 @@ static void test_simulate__metrics__those_of_the_response(void **state)
     if (cell(row, 3) >= 0.865 * 20)
       rise = cell(row, 0) - 0.5;
   assert_int_equal(run("@/m.cfg --step --metrics"), 0);
-  assert_non_null(strstr(out, "t86_up"));
+  assert_contains(out, "t86_up");
   assert_close(strtod(strstr(out, "t86_up") + 6, NULL), rise, 0.01, 0);
-  assert_non_null(strstr(out, "no slow loop"));
+  assert_contains(out, "no slow loop");
   assert_int_equal(run("@/m.cfg --step --metrics --json --out @/figures.json"), 0);
   assert_string_equal(out, "");
   load("figures.json", out);
   assert_int_equal(out[0], '{');
   assert_close(strtod(strchr(strstr(out, "\"value\":") + 8, '\t'), NULL), 0.01, 0.01, 0);
-  assert_non_null(strstr(out, "\"reason\":"));
+  assert_contains(out, "\"reason\":");
 }
 
 static void test_simulate__metrics_of_a_log__sampled_finely(void **state)
@@ -196,9 +196,9 @@ static void test_simulate__metrics_of_a_log__sampled_finely(void **state)
   (void)state;
   scratch_text("strokes.csv", "t [s],u [1]\n0,-1\n1,1\n16,-1\n31,-1\n");
   assert_int_equal(run("@/m.cfg @/strokes.csv --metrics"), 0);
-  assert_non_null(strstr(out, "first full stroke up and down"));
+  assert_contains(out, "first full stroke up and down");
   assert_int_equal(run("@/vessel.cfg @/only_u.csv --metrics"), 0);
-  assert_non_null(strstr(out, "there is no stem"));
+  assert_contains(out, "there is no stem");
 }
 
 /* A figure of the table just printed. */
@@ -207,7 +207,7 @@ static double figure(const char *name)
   char line[64];
   snprintf(line, sizeof line, "\n%s ", name);
   check_note("%s", name);
-  assert_non_null(strstr(out, line));
+  assert_contains(out, line);
   return strtod(strstr(out, line) + strlen(line), NULL);
 }
 
@@ -233,7 +233,7 @@ static void test_simulate__schedules__show_the_friction_that_is_declared(void **
   }
   assert_int_equal(run("study/schedules/r1-400-regulated.cfg study/schedules/small-steps.csv --metrics"), 0);
   assert_close(figure("dead_band"), 12, 1.2, 0);
-  assert_non_null(strstr(out, "<= 0.2500"));
+  assert_contains(out, "<= 0.2500");
   assert_int_equal(run("study/actuators/r1-400.cfg study/schedules/strokes.csv --metrics"), 0);
   assert_close(figure("energy_in"), 0.04 * 4e5 * 0.02, 0, 1e-6);
 }
@@ -242,7 +242,7 @@ static void test_simulate__json_alone__is_refused(void **state)
 {
   (void)state;
   assert_int_equal(run("@/m.cfg --step --json"), 2);
-  assert_non_null(strstr(err, "--json: goes with --metrics"));
+  assert_contains(err, "--json: goes with --metrics");
 }
 
 static void test_simulate__runs__start_afresh(void **state)

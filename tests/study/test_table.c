@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../../apps/study/table.h"
+#include "../words.h"
 
 /* what the table writes, in `text` */
 static void written(const table *t, char *text, size_t size)
@@ -93,7 +94,7 @@ static void test_table_write__file_refuses__world_error(void **state)
   assert_non_null(file);
   table_open(&t, "a");
   assert_int_equal(table_write(&t, file, &error), LAB_WORLD);
-  assert_non_null(strstr(error.text, "cannot write"));
+  assert_contains(error.text, "cannot write");
   fclose(file);
   table_close(&t);
 }

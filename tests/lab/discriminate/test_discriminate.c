@@ -2,6 +2,7 @@
 #include <nlopt.h>
 
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/discriminate/discriminate_private.h"
 
@@ -182,7 +183,7 @@ static void test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orif
   make_alike(&rig, &q, &leaks, &droops);
   advice = advise(&q, &leaks, &droops);
   assert_int_equal(advice.kind, LAB_ADVICE_TEST);
-  assert_non_null(strstr(advice.text, "hold at"));
+  assert_contains(advice.text, "hold at");
   assert_string_equal(advice.text, advice.plan.text);
   assert_true(advice.usual < 2);
   assert_true(advice.separation > 5 && advice.separation > 4 * advice.usual);
@@ -332,8 +333,8 @@ static void test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedul
     q.noise[LAB_CHANNEL_P] = pressure_noise[i];
     advice = advise(&q, &lags, &late);
     assert_int_equal(advice.kind, LAB_ADVICE_NONE);
-    assert_non_null(strstr(advice.text, "no schedule of the set separates them"));
-    assert_non_null(strstr(advice.text, "nor with one more"));
+    assert_contains(advice.text, "no schedule of the set separates them");
+    assert_contains(advice.text, "nor with one more");
   }
 }
 
@@ -349,7 +350,7 @@ static void test_lab_discriminate__position_alone_too_little__names_the_sensor_t
   advice = advise(&q, &leaks, &droops);
   assert_int_equal(advice.kind, LAB_ADVICE_SENSOR);
   assert_true(advice.channel == LAB_CHANNEL_P || advice.channel == LAB_CHANNEL_PS);
-  assert_non_null(strstr(advice.text, "record p"));
+  assert_contains(advice.text, "record p");
   assert_true(advice.separation < 5 && advice.with_sensor > 5);
   assert_true(advice.plan.n > 2);
 }
@@ -369,7 +370,7 @@ static void test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_f
   q.recorded_duration = plans.usual.duration;
   advice = advise(&q, &leaks, &blocked);
   assert_close(advice.usual, usual, 0, 1e-9);
-  assert_non_null(strstr(advice.why, "what has been recorded"));
+  assert_contains(advice.why, "what has been recorded");
   q.recorded_duration = plans.usual.t[2]; /* without the vent */
   assert_true(advise(&q, &leaks, &blocked).usual < 0.5 * usual);
   lab_forecast_close(&s.forecast);
@@ -382,11 +383,11 @@ static void expect_reason(const lab_rig *rig, const char *reason)
   const lab_advice_request q = make_inquiry(rig);
   lab_advice advice = advise(&q, &rig->params, &rig->params);
   assert_int_equal(advice.kind, LAB_ADVICE_NONE);
-  assert_non_null(strstr(advice.text, reason));
+  assert_contains(advice.text, reason);
   memset(&advice, 0x55, sizeof advice);
   assert_int_equal(lab_advise_precision(&q, &rig->params, &advice, &error), LAB_OK);
   assert_int_equal(advice.kind, LAB_ADVICE_NONE);
-  assert_non_null(strstr(advice.text, reason));
+  assert_contains(advice.text, reason);
 }
 
 static void test_lab_discriminate__no_command_moves_a_stem__says_why(void **state)
@@ -417,14 +418,14 @@ static void test_lab_discriminate__inquiry_that_is_none__says_what_was_expected(
   (void)state;
   q.spacing = 0;
   assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
-  assert_non_null(strstr(error.text, "spacing"));
+  assert_contains(error.text, "spacing");
   q = make_inquiry(&rig);
   q.noise[LAB_CHANNEL_P] = 0;
   assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
-  assert_non_null(strstr(error.text, "channel p"));
+  assert_contains(error.text, "channel p");
   q.noise[LAB_CHANNEL_P] = q.noise[LAB_CHANNEL_X] = (double)NAN;
   assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
-  assert_non_null(strstr(error.text, "recorded channel"));
+  assert_contains(error.text, "recorded channel");
 }
 
 /* ---- Intervals ---- */
@@ -442,8 +443,8 @@ static void test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion
   assert_int_equal(lab_advise_precision(&q, &rig.params, &advice, &error), LAB_OK);
   assert_int_equal(advice.kind, LAB_ADVICE_TEST);
   assert_int_equal(advice.param, fit[COUNT(fitted)]);
-  assert_non_null(strstr(advice.text, "slow stroke"));
-  assert_non_null(strstr(advice.why, "stribeck_friction"));
+  assert_contains(advice.text, "slow stroke");
+  assert_contains(advice.why, "stribeck_friction");
   assert_true(advice.after < 0.1 * advice.before);
 }
 
@@ -501,7 +502,7 @@ static void test_lab_advise_precision__one_parameter__is_the_information_of_both
   }
   assert_close(advice.before, 1.959964 / sqrt(information[0]), 0, 1e-4);
   assert_close(advice.after, 1.959964 / sqrt(information[0] + information[1]), 0, 1e-4);
-  assert_non_null(strstr(advice.why, "would narrow the interval of spring_rate to "));
+  assert_contains(advice.why, "would narrow the interval of spring_rate to ");
 }
 
 /* ---- Trials ---- */

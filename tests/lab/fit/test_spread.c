@@ -1,5 +1,6 @@
 /* What the data say about each unknown: closed forms for lines, and the library's model with noise. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -354,8 +355,8 @@ static void test_lab_fit_spread__product_of_two__pair_named(void **state)
   assert_int_equal(got.state[1], LAB_STATE_UNDETERMINED);
   assert_int_equal(got.state[2], LAB_STATE_FREE);
   assert_int_equal(got.state[3], LAB_STATE_UNDETERMINED);
-  assert_non_null(strstr(got.undetermined, "only a combination of a and b is determined"));
-  assert_non_null(strstr(got.undetermined, "d has no effect on the data"));
+  assert_contains(got.undetermined, "only a combination of a and b is determined");
+  assert_contains(got.undetermined, "d has no effect on the data");
   assert_close(at[0] * at[1], theta[1], 0, 1e-7);
   assert_close(at[2], theta[0], 0, 1e-7);
   assert_close(got.covariance[2][2], inverse[0], 0, 1e-4); /* as if only the product were fitted */

@@ -1,6 +1,7 @@
 /* What a fit looks for: two runs of a log that the model itself has made, with known values for all of it. */
 #include "../../fixture.h"
 #include "../../virtual.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/base/array.h"
 #include "../../../apps/lab/fit/errors.h"
@@ -550,7 +551,7 @@ static void test_lab_unknowns_add__no_room__is_refused(void **state)
   for (j = USUAL; j < LAB_FIT_MAX; j++)
     assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_DATA);
-  assert_non_null(strstr(error.text, "more than 128 things"));
+  assert_contains(error.text, "more than 128 things");
   assert_int_equal(u.n, LAB_FIT_MAX);
 }
 

@@ -1,5 +1,6 @@
 /* Figures of merit of steps and strokes, against closed forms. */
 #include "../../record.h"
+#include "../../words.h"
 
 static const double T = 0.8, Td = 0.25; /* [s] of a first-order lag with dead time */
 static const double pi = 3.141592653589793;
@@ -158,7 +159,7 @@ static void test_metrics__several_steps__median_of_the_large_ones(void **state)
   record_measure();
   assert_int_equal(metrics.n_steps, 6);
   assert_metric(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 1e-4, 0);
-  assert_non_null(strstr(metric_of(LAB_METRIC_T63_UP)->text, "median of 3 steps up of 50 to 50 %"));
+  assert_contains(metric_of(LAB_METRIC_T63_UP)->text, "median of 3 steps up of 50 to 50 %");
 }
 
 /* ---- Reasons ---- */

@@ -98,7 +98,7 @@ static void test_lab_metrics_compare__model_that_fails__its_error_is_the_reason(
   succeed(lab_metrics_compare(&broken, &got, &none, &error));
   assert_close(got.metric[LAB_METRIC_T63_UP].value, measured.metric[LAB_METRIC_T63_UP].value, 0, 0);
   assert_true(isnan(none.metric[LAB_METRIC_T63_UP].value));
-  assert_non_null(strstr(none.metric[LAB_METRIC_T63_UP].text, "area"));
+  assert_contains(none.metric[LAB_METRIC_T63_UP].text, "area");
 }
 
 static void test_lab_recording__driven_position__gives_nothing(void **state)
@@ -170,7 +170,7 @@ static void test_lab_metrics_print__one_line_a_figure_and_a_step(void **state)
   for (i = 0; text[i]; i++)
     lines += text[i] == '\n';
   assert_int_equal(lines, 3 + LAB_METRIC_COUNT + 2 + measured.n_steps);
-  assert_non_null(strstr(text, "chamber pressure"));
+  assert_contains(text, "chamber pressure");
   free(text);
 }
 

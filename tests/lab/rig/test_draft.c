@@ -172,7 +172,7 @@ static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **st
   (void)state;
   assert_true(gain >= 0);
   assert_close((double)*pneu_param_at((pneu_params *)&rig.params, gain), 39.6, 0, 1e-9);
-  assert_non_null(strstr(text, "positioner = { gain = \"39.6\"; dead_band = \"0.27 %\"; }; // sheet"));
+  assert_contains(text, "positioner = { gain = \"39.6\"; dead_band = \"0.27 %\"; }; // sheet");
   free(text);
 }
 

@@ -328,7 +328,7 @@ static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **s
   assert_string_equal(lab_free_term_equation(term), "force");
   assert_int_equal(term->equation, PNEU_TERM_FRICTION);
   assert_int_equal(term->argument, PNEU_TERM_OVER_POSITION);
-  assert_non_null(strstr(lab_free_term_where(term, text), "both directions"));
+  assert_contains(lab_free_term_where(term, text), "both directions");
   assert_null(strstr(text, "everywhere"));
   lab_free_term_stretch(term, &from, &to, &level, &peak);
   assert_close(from, 12e-3 - 2.07e-3, 0.5e-3, 0);
