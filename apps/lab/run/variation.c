@@ -415,6 +415,7 @@ static double place_on_side(const pneu_step_view *view, double from, double to, 
 static void stop_at_edge(struct lab_variations *v, const pneu_step_view *view)
 {
   static const double margin = 3, rounding = 1e-14;
+  static const double least = 1e-9; /* of a step, that it goes on where the edge is met by a rounding error */
   pneu_state state, end_state;
   const double start = edge_at(view, v->from, &state), end = edge_at(view, v->to, &end_state);
   const double side = start > 0 ? 1 : -1;
@@ -426,7 +427,7 @@ static void stop_at_edge(struct lab_variations *v, const pneu_step_view *view)
   for (i = 0; i < v->n; i++)
     if (is_moved(&v->of[i]))
       most = fmax(most, margin * fabs(edge_nearby(v, &v->of[i], &state) - start));
-  v->behind = place_on_side(view, v->from, v->to, side, -most);
+  v->behind = fmax(place_on_side(view, v->from, v->to, side, -most), v->from + least);
   v->to = place_on_side(view, v->from, v->to, side, most);
 }
 
