@@ -161,21 +161,22 @@ static int colour_of(lab_run *x, int c, const double *r, double *value, lab_stre
   return lab_colour_estimate(rest, 1, &x->colour[c], level, error);
 }
 
-/* In/out: r  errors over noise  In: value  room for a run  Returns: whether some noise has memory */
+/* In/out: r  errors over noise  In: value  room for a run  Returns: whether some noise has another memory than before */
 static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
 {
   lab_stretch *rest = malloc((x->n / SHORTEST + 1) * sizeof *rest);
   int c, any = 0, status = rest ? LAB_OK : lab_fail_memory(error, "stretches");
   for (c = 0; c < x->n_channels && status == LAB_OK; c++, r += x->n) {
+    const double before = x->colour[c].memory;
     double level = 1;
     if (x->resolution[c] > hidden * x->sigma[c])
       continue;
     status = colour_of(x, c, r, value, rest, &level, error);
     if (!isnan(x->rig->noise[x->channel[c]]) && level > wanders)
       x->colour[c].memory = x->colour[c].share = 0;
+    any |= x->colour[c].memory != before;
     if (x->colour[c].memory == 0)
       continue;
-    any = 1;
     x->level[c] = level;
     if (isnan(x->rig->noise[x->channel[c]]) || level > larger)
       set_level(x, c, level, r);

@@ -68,6 +68,22 @@ static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
   assert_close(memory_told(1, 2e-4), 0, 0, 0);
 }
 
+/* What a poor model left may have been taken for memory: that it is none is as much news as that it is one. */
+static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(void **state)
+{
+  int any, again;
+  (void)state;
+  write_log(1);
+  open_stuck(2e-4);
+  run.colour[0].memory = run.colour[0].share = 0.3;
+  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  assert_close(run.colour[0].memory, 0, 0, 0);
+  assert_int_equal(lab_weigh_runs(&u, &run, &again, &error), LAB_OK);
+  lab_run_close(&run);
+  lab_log_free(&one_log);
+  assert_true(any && !again);
+}
+
 /* The travel wanders by 0.5 mm. */
 static void test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise(void **state)
 {
@@ -81,6 +97,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_weigh_runs__set_position_stays__noise_has_memory),
       cmocka_unit_test(test_lab_weigh_runs__set_position_moves__is_no_noise),
+      cmocka_unit_test(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once),
       cmocka_unit_test(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
