@@ -21,6 +21,13 @@ static int param_of(const lab_unknowns *u, const lab_unknown *x)
   return x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param : x->index;
 }
 
+/* Whether an unknown is the vent beside the fill orifice where nothing says how well their ratio is known: an effect.
+ */
+static int is_free_vent(const lab_rig *rig, const lab_unknown *x)
+{
+  return x->index == pneu_param_find("vent_restriction") && !(lab_tolerance(rig, x->index) > 0);
+}
+
 /* Whether unknown j is a declared value, and not a part of what was added; of two in a row the later one. */
 static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
 {
@@ -33,7 +40,7 @@ static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
   for (i = 0; i < rig->n_fit; i++)
     fitted |= rig->fit[i] == x->index;
   return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&
-         (fitted || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));
+         !is_free_vent(rig, x) && (fitted || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));
 }
 
 static double declared_of(const lab_unknowns *u, const lab_unknown *x)

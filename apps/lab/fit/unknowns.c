@@ -375,7 +375,7 @@ static void add_switches(lab_unknowns *u, int e)
       add_switch(u, e, (int)k, x->bracket[k], "s");
 }
 
-int lab_unknowns_are_at_ends(const lab_unknowns *u)
+int lab_unknowns_are_at_rows(const lab_unknowns *u)
 {
   static const double of_any = 1.2;
   double sum = 0;
@@ -384,8 +384,10 @@ int lab_unknowns_are_at_ends(const lab_unknowns *u)
     const lab_unknown *x = &u->unknown[j];
     if (x->kind != LAB_UNKNOWN_INSTANT)
       continue;
-    sum += (x->value - x->prior) * (x->value - x->prior) / (x->spread * x->spread);
     n++;
+    if (x->value > x->prior)
+      continue;
+    sum += (x->value - x->prior) * (x->value - x->prior) / (x->spread * x->spread);
   }
   return sum > of_any * n;
 }

@@ -73,9 +73,10 @@ lab_rig lab_unknowns_expected(const lab_unknowns *u);
  * Returns: LAB_OK; LAB_DATA if there are more than LAB_FIT_MAX (switches are then left out first). */
 int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_unknowns *u, lab_error *error);
 
-/* Whether the instants of the changes of command are further from the middle of their rows than any are: squares over
- * their spread are 1 in the mean, 3 at either end, and 0 where the log does not tell. */
-int lab_unknowns_are_at_ends(const lab_unknowns *u);
+/* Whether the instants of the changes of command are so near the rows that show them that they may all be there: the
+ * squares over their spread of those after the middle of their rows are 0.5 for each instant in the mean where they are
+ * anywhere, 3 where all are at their rows, and 0 where the log does not tell. */
+int lab_unknowns_are_at_rows(const lab_unknowns *u);
 
 /* Hold what the rig declares, and the errors of its instruments, to their tolerances (tolerance.h) instead of exactly:
  * what is not fitted becomes an unknown about its declared value.

@@ -161,7 +161,17 @@ static int colour_of(lab_run *x, int c, const double *r, double *value, lab_stre
   return lab_colour_estimate(rest, 1, &x->colour[c], level, error);
 }
 
-/* In/out: r  errors over noise  In: value  room for a run  Returns: whether some noise has another memory than before */
+/* Noise that has no memory after all has not raised what it counts as.  In/out: r  errors over noise */
+static void take_back_level(lab_run *x, int c, double *r)
+{
+  if (x->raised[c] > 0)
+    set_level(x, c, 1 / x->raised[c], r);
+  x->raised[c] = 0;
+  x->level[c] = 0;
+}
+
+/* In/out: r  errors over noise  In: value  room for a run  Returns: whether some noise has another memory than before
+ */
 static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
 {
   lab_stretch *rest = malloc((x->n / SHORTEST + 1) * sizeof *rest);
@@ -175,11 +185,16 @@ static int set_colours(lab_run *x, double *r, double *value, lab_error *error)
     if (!isnan(x->rig->noise[x->channel[c]]) && level > wanders)
       x->colour[c].memory = x->colour[c].share = 0;
     any |= x->colour[c].memory != before;
-    if (x->colour[c].memory == 0)
+    if (x->colour[c].memory == 0) {
+      if (before != 0)
+        take_back_level(x, c, r);
       continue;
+    }
     x->level[c] = level;
-    if (isnan(x->rig->noise[x->channel[c]]) || level > larger)
+    if (isnan(x->rig->noise[x->channel[c]]) || level > larger) {
       set_level(x, c, level, r);
+      x->raised[c] = level * (x->raised[c] > 0 ? x->raised[c] : 1);
+    }
   }
   free(rest);
   return any;

@@ -282,7 +282,7 @@ static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_
   lab_unknowns *u;
   double on_rows;
   int status;
-  if (!lab_unknowns_are_at_ends(declared))
+  if (!lab_unknowns_are_at_rows(declared))
     return LAB_OK;
   u = malloc(sizeof *u);
   if (!u)

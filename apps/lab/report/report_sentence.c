@@ -258,7 +258,7 @@ static const struct {
 } plain[] = {{"dry_friction", "friction", NULL, NULL},
              {"spring_rate", "the spring", "soft", "stiff"},
              {"orifice_area", "the area of both orifices", NULL, NULL},
-             {"vent_restriction", "the vent", "wider", "narrower"},
+             {"vent_restriction", "the vent", NULL, NULL},
              {"pressure_lag", "the lag of the pressure sensor", NULL, NULL},
              {"position_lag", "the lag of the position sensor", NULL, NULL},
              {"pressure_bias", "the zero of the pressure sensor", NULL, NULL},
@@ -279,11 +279,13 @@ static const char *sheet_of(const lab_rig *rig, const lab_deviation *d)
 /* "3.7 times its sheet", "25 % soft", "12 % above its sheet", "6 % narrower", "0.5 kPa in place of 0 kPa". */
 static void add_ratio(char *text, const lab_rig *rig, const lab_deviation *d, const char *less, const char *more)
 {
-  const double percent = 100 * (isfinite(d->ratio) ? d->ratio - 1 : d->found - d->declared);
+  const double percent = 100 * (d->ratio - 1), opened = 100 * ((1 - d->found) / (1 - d->declared) - 1);
   const char *sheet = sheet_of(rig, d);
-  if (!isfinite(d->ratio) && !less && strcmp(d->unit, "1") == 0)
+  if (strcmp(d->name, "vent_restriction") == 0)
+    ADD(text, "%.2g %% %s", fabs(opened), opened < 0 ? "narrower" : "wider");
+  else if (!isfinite(d->ratio) && strcmp(d->unit, "1") == 0)
     ADD(text, "%.2g %% in place of %.2g %%", 100 * d->found, 100 * d->declared);
-  else if (!isfinite(d->ratio) && !less)
+  else if (!isfinite(d->ratio))
     ADD(text, "%s in place of %s", LAB_QUANTITY(d->found, d->unit, 3), LAB_QUANTITY(d->declared, d->unit, 3));
   else if (d->ratio >= 1.995 || d->ratio < 0.5)
     ADD(text, d->ratio < 99.5 ? "%.2g times %s" : "%.0f times %s", d->ratio, sheet);

@@ -17,14 +17,15 @@ typedef struct lab_run {
   double sigma[LAB_CHANNEL_COUNT];      /* their noise, SI */
   lab_colour colour[LAB_CHANNEL_COUNT]; /* of the noise (weights.h); at first it is white */
   double resolution[LAB_CHANNEL_COUNT]; /* smallest step between values, SI; its variance is part of sigma */
-  double level[LAB_CHANNEL_COUNT]; /* scatter at rest over the noise that was declared (weights.h); 0: not looked at */
-  double jitter;                   /* [s] deviation of the times of rows, where it shows (weights.h) */
-  double *weight;                  /* n_channels * n: noise over that of a row; at first 1 but for coarse steps */
-  double *drift;                   /* n_channels * n: what a drift of the sensor adds (drift.h); NULL: there is none */
-  lab_inputs inputs;               /* schedule of inputs, as the log shows them */
-  size_t n_instants;               /* changes of the command whose instant the log brackets; 0 if other inputs change */
-  int on_rows;     /* not 0: they are made at the rows that show them (lab_unknowns_open asks) */
-  double *bracket; /* [s] n_instants: time from the row before each change to the row that shows it; 0 on a ramp */
+  double level[LAB_CHANNEL_COUNT];  /* scatter at rest over the noise that was declared (weights.h); 0: not looked at */
+  double raised[LAB_CHANNEL_COUNT]; /* what noise with memory has raised sigma by; 0: by nothing */
+  double jitter;                    /* [s] deviation of the times of rows, where it shows (weights.h) */
+  double *weight;                   /* n_channels * n: noise over that of a row; at first 1 but for coarse steps */
+  double *drift;                    /* n_channels * n: what a drift of the sensor adds (drift.h); NULL: there is none */
+  lab_inputs inputs;                /* schedule of inputs, as the log shows them */
+  size_t n_instants; /* changes of the command whose instant the log brackets; 0 if other inputs change */
+  int on_rows;       /* not 0: these changes are made at the rows that show them, and their instants are no unknowns */
+  double *bracket;   /* [s] n_instants: time from the row before each change to the row that shows it; 0 on a ramp */
 } lab_run;
 
 /* Prepare a run. Noise that the rig does not declare is estimated (noise.h).

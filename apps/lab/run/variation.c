@@ -427,7 +427,7 @@ static void stop_at_edge(struct lab_variations *v, const pneu_step_view *view)
   for (i = 0; i < v->n; i++)
     if (is_moved(&v->of[i]))
       most = fmax(most, margin * fabs(edge_nearby(v, &v->of[i], &state) - start));
-  v->behind = fmax(place_on_side(view, v->from, v->to, side, -most), v->from + least);
+  v->behind = fmin(fmax(place_on_side(view, v->from, v->to, side, -most), v->from + least), 1);
   v->to = place_on_side(view, v->from, v->to, side, most);
 }
 

@@ -226,10 +226,10 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
 }
 
 /* Whether an unknown is held that has the name of an effect: an instrument's, or the vent's share. */
-static int is_effect_held(const lab_candidate *c, const lab_unknown *x)
+static int is_effect_held(const lab_unknown *x)
 {
-  const int effect = x->kind == LAB_UNKNOWN_PARAM ? pneu_effect_of(x->index) : -1;
-  return effect >= 0 && lab_unknown_is_held(x) && lab_score_can_be_missing(&c->u.rig, effect);
+  return x->kind == LAB_UNKNOWN_PARAM && lab_unknown_is_held(x) &&
+         (lab_param_is_of_sensor(x->index) || x->index == pneu_param_find("vent_restriction"));
 }
 
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
@@ -239,7 +239,7 @@ int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
   *any = 0;
   for (j = 0; j < c->u.n && c->n_found < LAB_EFFECTS_MAX && status == LAB_OK; j++) {
     const lab_unknown x = c->u.unknown[j];
-    const double cost = is_effect_held(c, &x) ? cost_of_prior(&c->u, &x) : 0;
+    const double cost = is_effect_held(&x) ? cost_of_prior(&c->u, &x) : 0;
     lab_found *found;
     if (!(cost - log((double)c->u.n_values) > lab_constant(LAB_ALIKE_BIC)))
       continue;

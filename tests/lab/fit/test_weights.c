@@ -72,16 +72,27 @@ static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
 static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(void **state)
 {
   int any, again;
+  double plain, sigma;
   (void)state;
   write_log(1);
   open_stuck(2e-4);
+  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  plain = run.sigma[0];
+  lab_run_close(&run);
+  lab_log_free(&one_log);
+  open_stuck(2e-4);
   run.colour[0].memory = run.colour[0].share = 0.3;
+  run.sigma[0] *= 1.5;
+  run.raised[0] = 1.5;
   assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
   assert_close(run.colour[0].memory, 0, 0, 0);
+  assert_close(run.raised[0], 0, 0, 0);
   assert_int_equal(lab_weigh_runs(&u, &run, &again, &error), LAB_OK);
+  sigma = run.sigma[0];
   lab_run_close(&run);
   lab_log_free(&one_log);
   assert_true(any && !again);
+  assert_close(sigma, plain, 0, 1e-12);
 }
 
 /* The travel wanders by 0.5 mm. */

@@ -253,6 +253,15 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
   report.deviations.of[0].found = -0.06;
   lab_report_headline(&report, text);
   assert_string_equal(text, "The vent is 6 % wider. Every command acts 20.0 ms late (dead_time).");
+  report.deviations.of[0].declared = 0.05; /* 0.84 of 0.95 */
+  report.deviations.of[0].found = 0.16;
+  report.deviations.of[0].ratio = 3.2;
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "The vent is 12 % narrower. Every command acts 20.0 ms late (dead_time).");
+  report.deviations.of[0] = deviation("spring_rate", (double)NAN, 1);
+  report.deviations.of[0].declared = 0;
+  lab_report_headline(&report, text);
+  assert_true(strncmp(text, "The spring is ", 14) == 0 && strstr(text, " N in place of 0 N. "));
   lab_report_evidence(&report, text); /* which not one of the two alone has done */
   assert_string_equal(text, "With all of this the error falls from 3.00 to 1.00 times the noise.");
 }
