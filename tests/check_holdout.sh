@@ -62,12 +62,12 @@ leak=study/guides/leak
 held guide $leak/rig.cfg $leak/fit.csv $leak/holdout.csv
 as_declared guide-declared $leak/rig.cfg $leak/fit.csv $leak/holdout.csv
 
-# every STEP ROWS SHOWN JUMP: the rig under a command that changes between all rows, to and fro by JUMP beside, of which a
-# log shows one in so many, with noise
+# every STEP ROWS SHOWN JUMP: the rig under a command that jumps up and changes between all rows, to and fro by JUMP beside,
+# of which a log shows one in so many, with noise; with JUMP 0 it never jumps
 every() {
   awk -v step="$1" -v rows="$2" -v jump="$4" 'BEGIN { print "t [s],u [1]"
     for (i = 0; i < rows; i++)
-      printf "%.6f,%.3f\n", i * step, i * step < 0.4 ? 0 : 0.8 * cos(i * step) + 0.1 * sin(10 * i * step) + jump * (int(i / 2) % 2 * 2 - 1) }' >"$folder/u.csv"
+      printf "%.6f,%.3f\n", i * step, i * step < 0.4 ? 0 : 0.8 * (jump ? cos(i * step) : sin(i * step - 0.4)) + 0.1 * sin(10 * (i * step - (jump ? 0 : 0.4))) + jump * (int(i / 2) % 2 * 2 - 1) }' >"$folder/u.csv"
   ./simulate study/actuators/r1-400.cfg "$folder/u.csv" |
     awk -F, -v every="$3" 'function noise(size) { seed = seed * 16807 % 2147483647; return size * (seed / 2147483647 - 0.5) }
       BEGIN { seed = 1 }
