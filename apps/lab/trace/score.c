@@ -247,19 +247,13 @@ int lab_score_can_be_missing(const lab_rig *rig, int effect)
          (strcmp(name, "positioner") != 0 && lab_rig_has_positioner(rig));
 }
 
-/* Whether the logs measure what an effect of a sensor changes: a channel by which its name begins; the skew of channels
- * takes two. */
+/* Whether the logs measure what an effect sets apart: the skew of channels takes two. */
 static int is_measured(const lab_unknowns *u, int effect)
 {
-  const pneu_effect *record = pneu_effect_at(effect);
-  const int is_skew = strcmp(record->name, "channel_skew") == 0;
-  int e, c, any = strcmp(record->equation, "sensor") != 0;
-  for (e = 0; e < u->n_runs && !any; e++)
-    for (c = 0; c < u->run[e].n_channels; c++) {
-      const char *quantity = lab_channels[u->run[e].channel[c]].quantity;
-      any |= is_skew ? c > 0 : strncmp(record->name, quantity, strlen(quantity)) == 0;
-    }
-  return any;
+  int e, several = strcmp(pneu_effect_at(effect)->name, "channel_skew") != 0;
+  for (e = 0; e < u->n_runs; e++)
+    several |= u->run[e].n_channels > 1;
+  return several;
 }
 
 /* Every parameter that switches on an effect which the model does not have. */

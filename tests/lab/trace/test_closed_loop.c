@@ -169,22 +169,6 @@ static void test_lab_search_run__set_position_and_travel__nothing_is_missing(voi
   assert_close(result.fit.high[friction] - result.fit.low[friction], 64, 0, 0.2);
 }
 
-/* A sensor that the log does not have is not what is wrong. */
-static void test_lab_search_run__travel_alone__no_other_sensor_is_tried(void **state)
-{
-  int i, of_position = 0;
-  (void)state;
-  g.supply_droop = 1e8;
-  close_loop(WITH_SP);
-  for (i = 0; i < result.scores.n; i++) {
-    const char *name = pneu_effect_at(result.scores.of[i].effect)->name;
-    assert_true(strncmp(name, "pressure_", 9) != 0 && strncmp(name, "temperature_", 12) != 0);
-    assert_string_not_equal(name, "channel_skew");
-    of_position += strncmp(name, "position_", 9) == 0;
-  }
-  assert_true(of_position > 0);
-}
-
 static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(void **state)
 {
   (void)state;
@@ -350,7 +334,6 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(test_lab_search_run__set_position_and_travel__nothing_is_missing),
-      CASE(test_lab_search_run__travel_alone__no_other_sensor_is_tried),
       CASE(test_lab_search_run__set_position_in_many_small_steps__is_no_hum),
       CASE(test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized),
       CASE(test_lab_search_run__another_gain__is_a_value_that_is_off),
