@@ -8,20 +8,18 @@
 static const double may_be_less = 0.1; /* times what is declared, where it is fitted */
 static const double highest = 2e6;     /* [Pa] supply of a bench */
 
-static int is_fitted(const lab_rig *rig, const int *param, int n)
+static int is_any_fitted(const lab_rig *rig, const int *param, int n)
 {
-  int i, k, any = 0;
-  for (i = 0; i < rig->n_fit; i++)
-    for (k = 0; k < n; k++)
-      any |= rig->fit[i] == param[k];
+  int k, any = 0;
+  for (k = 0; k < n; k++)
+    any |= lab_rig_fits(rig, param[k]);
   return any;
 }
 
 static int has_other_drive(const lab_rig *rig)
 {
-  static const int supply = PNEU_PARAM_supply_pressure;
   int i, any = rig->input[LAB_CHANNEL_P] || rig->input[LAB_CHANNEL_X] || rig->input[LAB_CHANNEL_PS] ||
-               rig->input[LAB_CHANNEL_FORCE] || is_fitted(rig, &supply, 1);
+               rig->input[LAB_CHANNEL_FORCE] || lab_rig_fits(rig, PNEU_PARAM_supply_pressure);
   for (i = 0; i < rig->n_terms; i++)
     any |= rig->term[i].equation == PNEU_TERM_SUPPLY || rig->term[i].equation == PNEU_TERM_FORCE;
   return any;
@@ -67,7 +65,7 @@ int lab_is_at_rest(const lab_rig *rig, double share, char text[LAB_LIMITATION_TE
   static const int holds[] = {PNEU_PARAM_area, PNEU_PARAM_spring_rate, PNEU_PARAM_spring_preload,
                               PNEU_PARAM_external_force, PNEU_PARAM_dry_friction};
   const double supply = (double)rig->params.supply_pressure, least = lift_off(rig);
-  const double counted = is_fitted(rig, holds, sizeof holds / sizeof holds[0]) ? fmin(share, may_be_less) : share;
+  const double counted = is_any_fitted(rig, holds, sizeof holds / sizeof holds[0]) ? fmin(share, may_be_less) : share;
   char found[LAB_FORMAT_TEXT], needed[LAB_FORMAT_TEXT], meant[80] = "";
   *text = '\0';
   if (!(rig->params.stroke > 0) || has_other_drive(rig) || !(supply < counted * least))

@@ -25,22 +25,19 @@ static int param_of(const lab_unknowns *u, const lab_unknown *x)
  */
 static int is_free_vent(const lab_rig *rig, const lab_unknown *x)
 {
-  return x->index == pneu_param_find("vent_restriction") && !(lab_tolerance(rig, x->index) > 0);
+  return lab_param_is_vents_share(x->index) && !(lab_tolerance(rig, x->index) > 0);
 }
 
 /* Whether unknown j is a declared value, and not a part of what was added; of two in a row the later one. */
 static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
 {
   const lab_unknown *x = &u->unknown[j];
-  int i, fitted = 0;
   if (x->kind == LAB_UNKNOWN_ONSET)
     return lab_param_is_value(param_of(u, x));
   if (lab_param_is_value(x->index) && lab_unknowns_find_onset(u, x->index) >= 0)
     return 0;
-  for (i = 0; i < rig->n_fit; i++)
-    fitted |= rig->fit[i] == x->index;
   return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&
-         !is_free_vent(rig, x) && (fitted || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));
+         !is_free_vent(rig, x) && (lab_rig_fits(rig, x->index) || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));
 }
 
 static double declared_of(const lab_unknowns *u, const lab_unknown *x)

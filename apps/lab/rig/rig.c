@@ -552,6 +552,14 @@ int lab_rig_has_positioner(const lab_rig *rig)
   return gain >= 0 && lab_param_value(rig, gain) > 0;
 }
 
+int lab_rig_fits(const lab_rig *rig, int param)
+{
+  int i, any = 0;
+  for (i = 0; i < rig->n_fit; i++)
+    any |= rig->fit[i] == param;
+  return any;
+}
+
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)
 {
   char name[LAB_PARAM_NAME_TEXT];

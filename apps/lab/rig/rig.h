@@ -100,6 +100,9 @@ void lab_rig_drop_idle(lab_rig *rig);
 /* Whether the rig file declares a positioner. */
 int lab_rig_has_positioner(const lab_rig *rig);
 
+/* Whether a parameter, or LAB_PARAM_ORIFICE_AREA, is in the list `fit`. */
+int lab_rig_fits(const lab_rig *rig, int param);
+
 /* What the library says of a parameter, or as much of LAB_PARAM_ORIFICE_AREA, a factor on both areas. */
 pneu_param_info lab_param_info(int param);
 

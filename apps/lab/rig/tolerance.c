@@ -73,11 +73,8 @@ static int param_of(const struct kind *k)
  * by itself.  Orifices of one make differ less from each other than from their sheet. */
 static double ratio_known(const lab_rig *rig)
 {
-  static const double of_one_make = 0.25; /* of the vent area's own tolerance */
-  int i, is_fitted = 0;
-  for (i = 0; i < rig->n_fit; i++)
-    is_fitted |= rig->fit[i] == LAB_PARAM_ORIFICE_AREA;
-  return is_fitted && rig->params.vent_area > 0
+  static const double of_one_make = 0.25; /* of the vent area's own tolerance: chosen by judgement, not calibrated */
+  return lab_rig_fits(rig, LAB_PARAM_ORIFICE_AREA) && rig->params.vent_area > 0
              ? of_one_make * lab_tolerance(rig, PNEU_PARAM_vent_area) / (double)rig->params.vent_area
              : 0;
 }
@@ -171,6 +168,11 @@ int lab_tolerance_read(const config_setting_t *group, lab_rig *rig, lab_error *e
       rig->others_are_exact = 1;
   }
   return status;
+}
+
+int lab_param_is_vents_share(int param)
+{
+  return param >= 0 && param == pneu_param_find("vent_restriction");
 }
 
 double lab_tolerance(const lab_rig *rig, int param)

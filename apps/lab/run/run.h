@@ -18,7 +18,7 @@ typedef struct lab_run {
   lab_colour colour[LAB_CHANNEL_COUNT]; /* of the noise (weights.h); at first it is white */
   double resolution[LAB_CHANNEL_COUNT]; /* smallest step between values, SI; its variance is part of sigma */
   double level[LAB_CHANNEL_COUNT];  /* scatter at rest over the noise that was declared (weights.h); 0: not looked at */
-  double raised[LAB_CHANNEL_COUNT]; /* what noise with memory has raised sigma by; 0: by nothing */
+  double raised[LAB_CHANNEL_COUNT]; /* factor by which noise with memory has raised sigma; 0: none has */
   double jitter;                    /* [s] deviation of the times of rows, where it shows (weights.h) */
   double *weight;                   /* n_channels * n: noise over that of a row; at first 1 but for coarse steps */
   double *drift;                    /* n_channels * n: what a drift of the sensor adds (drift.h); NULL: there is none */

@@ -9,6 +9,7 @@
 #include "../base/quantile.h"
 #include "../fit/beginning.h"
 #include "../fit/nuisance.h"
+#include "../rig/tolerance.h"
 
 /* ---- Fits ---- */
 
@@ -229,7 +230,7 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
 static int is_effect_held(const lab_unknown *x)
 {
   return x->kind == LAB_UNKNOWN_PARAM && lab_unknown_is_held(x) &&
-         (lab_param_is_of_sensor(x->index) || x->index == pneu_param_find("vent_restriction"));
+         (lab_param_is_of_sensor(x->index) || lab_param_is_vents_share(x->index));
 }
 
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)

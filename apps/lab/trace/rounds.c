@@ -252,7 +252,7 @@ static int give_back(const lab_rounds *s, lab_finding *f)
   return LAB_OK;
 }
 
-/* Where only noise is left, an instrument may all the same be further off than one can be. */
+/* Where only noise is left, an instrument, or the vent, may all the same be further off than one can be. */
 static int take_instruments(lab_rounds *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];

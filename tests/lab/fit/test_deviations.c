@@ -144,12 +144,37 @@ static void test_lab_deviations_find__model_lacks_something__values_far_off_or_a
   assert_string_equal(all.of[0].name, "dead_volume");
 }
 
+/* A vent beside the fill orifice is off its sheet where their ratio has a tolerance; where the rig file only asks for
+ * its size, it is an effect. */
+static void test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_ratio_is_known(void **state)
+{
+  static lab_unknowns u;
+  static lab_fit_result fit;
+  static lab_rig rig;
+  const int vent = pneu_param_find("vent_restriction");
+  lab_deviation d;
+  (void)state;
+  if (vent < 0)
+    skip();
+  lab_rig_default(&rig);
+  rig.fit[rig.n_fit++] = vent;
+  u.rig = rig;
+  u.declared = rig.params;
+  put(&u, &fit, LAB_UNKNOWN_PARAM, vent, 0.1, 0);
+  assert_false(lab_deviation_of(&rig, &u, &fit, 0, &d));
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  assert_true(lab_deviation_of(&rig, &u, &fit, 0, &d));
+  assert_string_equal(d.name, "vent_restriction");
+  assert_true(d.beyond);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_deviations_find__begins_within_the_log__is_told_first),
       cmocka_unit_test(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger),
       cmocka_unit_test(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them),
+      cmocka_unit_test(test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_ratio_is_known),
       cmocka_unit_test(test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
