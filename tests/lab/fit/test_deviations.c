@@ -118,8 +118,8 @@ static void test_lab_deviations_find__several_are_off__small_ones_are_told_with_
   }
 }
 
-/* A dead volume a tenth off is well within ten tolerances of 30 %; friction of twelve times its sheet is 22 of 50 %, and
- * the preload is at its bound. */
+/* A dead volume a tenth off is well within ten tolerances of 30 %; friction of twelve times its sheet is 22 of 50 %,
+ * and the preload is at its bound. */
 static void test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told(void **state)
 {
   static const double trusted[] = {INFINITY, 10};
