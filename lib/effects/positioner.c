@@ -5,7 +5,7 @@
  * s the set position in shares of the stroke, which is pneu_input.u; span, zero and a wider dead band are effects of
  * their own. u is 0 while |e| is within the dead band, -1 below cutoff_low and 1 above cutoff_high. What is 0 is not
  * there. e' has the slope of a set position that ramps; one that jumps gives it no kick.
- * The state is I, 0 at rest. It stands still within the dead band, beyond the cut-offs and while u is clipped, lest it
+ * The state is I. It begins at integral_start, for a loop has worked before its record, and stands still within the dead band, beyond the cut-offs and while u is clipped, lest it
  * wind up. Without pneu_input.set_position the command is u itself, and I stands still.
  * The rate of I where u is clipped follows a straight line over CLIPPED of the opening. u jumps at the edge of the dead
  * band, where error control shortens the step: a stem that a leak pushes out of the band stops by its friction where it
@@ -21,7 +21,7 @@
 #define CLIPPED  PNEU_C(1e-3)
 #define ROUNDING PNEU_C(1e-6) /* of the stroke: by so much a set position that has come along a ramp may be off */
 
-enum { GAIN, INTEGRAL_TIME, DERIVATIVE_TIME, DEAD_BAND, CUTOFF_LOW, CUTOFF_HIGH };
+enum { GAIN, INTEGRAL_TIME, DERIVATIVE_TIME, DEAD_BAND, CUTOFF_LOW, CUTOFF_HIGH, INTEGRAL_START };
 
 static const pneu_param_info params[] = {
     {"gain", "1", 0, PNEU_C(1e4), 20, 0, 0, "opening over error in shares of the stroke; 0: there is no positioner"},
@@ -31,7 +31,9 @@ static const pneu_param_info params[] = {
      "error, in shares of the stroke, either way, up to which both orifices are shut"},
     {"cutoff_low", "1", 0, 1, 0, 0, 1, "set position, share of the stroke, below which it vents fully; 0: none"},
     {"cutoff_high", "1", 0, PNEU_C(2.0), 0, 0, 1,
-     "set position, share of the stroke, above which it fills fully; 0: none"}};
+     "set position, share of the stroke, above which it fills fully; 0: none"},
+    {"integral_start", "1", -1, 1, 0, 0, 1,
+     "integral of the error, in shares of the stroke, where a state of rest begins"}};
 
 static pneu_real clip(pneu_real value, pneu_real low, pneu_real high)
 {
@@ -69,6 +71,13 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   t->opening = t->asked;
 }
 
+/* Without an integral there is none at the start. */
+static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
+{
+  (void)t;
+  state[0] = param[INTEGRAL_TIME] > 0 ? param[INTEGRAL_START] : 0;
+}
+
 /* A vessel has no position; a set pressure is no set position. */
 static int acts(const pneu_model *model, const pneu_real *param)
 {
@@ -84,7 +93,7 @@ const pneu_effect pneu_effect_record_positioner = {
     PNEU_STAGE_POSITIONER,
     params,
     add,
-    NULL,
+    start,
     acts,
     NULL};
 

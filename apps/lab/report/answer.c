@@ -71,6 +71,8 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
   if (lab_plausible_content(&a->rig, &a->now.logs.content, &a->now.logs.limitations, error) ||
       (q->n_baseline && lab_plausible_content(&a->rig, &a->then.logs.content, &a->then.logs.limitations, error)))
     return error->status;
+  if (lab_log_command(&a->now.logs.log[0]) == LAB_CHANNEL_SP)
+    lab_rig_free_integral(&a->rig);
   return read_held_out(q, a, error);
 }
 

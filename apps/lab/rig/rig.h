@@ -100,6 +100,10 @@ void lab_rig_drop_idle(lab_rig *rig);
 /* Whether the rig file declares a positioner. */
 int lab_rig_has_positioner(const lab_rig *rig);
 
+/* Take where the integral of a positioner begins for unknown, in each log: it has worked before. As far as the rig file
+ * does not say that, or how well it is known. */
+void lab_rig_free_integral(lab_rig *rig);
+
 /* Whether a parameter, or LAB_PARAM_ORIFICE_AREA, is in the list `fit`. */
 int lab_rig_fits(const lab_rig *rig, int param);
 

@@ -29,6 +29,7 @@ static const struct sheet_key {
     POSITIONER("dead_band"),
     POSITIONER("cutoff_low"),
     POSITIONER("cutoff_high"),
+    POSITIONER("integral_start"),
 #undef POSITIONER
     {"Kvs", "transducer.fill", "Kv"},
     {"Kvs", "transducer.vent", "Kv"},

@@ -53,6 +53,7 @@ static const struct kind {
     {"positioner.integral_time", "positioner", 1, OF_VALUE, 0, 0},
     {"positioner.derivative_time", "positioner", 2, OF_VALUE, 0, 0},
     {"positioner.dead_band", "positioner", 3, OF_VALUE, 0, 0},
+    {"positioner.integral_start", "positioner", 6, OF_VALUE, 0, 0},
     {"pressure_drift", NULL, LAB_PRESSURE_DRIFT, OF_SUPPLY, 0.0025, 0},
     {"position_drift", NULL, LAB_POSITION_DRIFT, OF_STROKE, 0.0025, 0},
     {"pressure_resolution", NULL, LAB_PRESSURE_RESOLUTION, OF_SUPPLY, 0, 0},

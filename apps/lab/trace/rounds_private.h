@@ -15,6 +15,7 @@ typedef struct lab_rounds {
   lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */
   const lab_quality *within;          /* the declared model with its values within tolerances; NULL: that is it */
   lab_candidate without;              /* what is left when an effect is left out */
+  lab_candidate whole;                /* the best that was fitted with all its values; not fitted: none */
   lab_unfolding unfolding;            /* extensions with all their values fitted, and the best of these */
   lab_candidate beam[LAB_BEAM_WIDTH]; /* best candidates so far, best first */
   int n_beam;

@@ -28,12 +28,23 @@ static int fit_in_time(lab_candidate *c, lab_error *error)
   return status;
 }
 
+/* Straight lines may lead to where a fit gets stuck, far from where the model, or one before it, had come. */
+static void keep_better(lab_candidate *whole, lab_candidate *best)
+{
+  if (whole->quality.fitted && lab_candidate_by_bic(whole, best) < 0)
+    *best = *whole;
+  else
+    *whole = *best;
+}
+
 int lab_rounds_unfold(lab_rounds *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
   int status = LAB_OK;
-  if (!best->u.nuisance && (s->is_final || !lab_rounds_has_held(s))) /* fitted to the end before */
+  if (!best->u.nuisance && (s->is_final || !lab_rounds_has_held(s))) { /* fitted to the end before */
+    keep_better(&s->whole, best);
     return status;
+  }
   if (best->u.nuisance && lab_nuisance_return(&best->u, error))
     return error->status;
   s->without = *best;
@@ -42,6 +53,8 @@ int lab_rounds_unfold(lab_rounds *s, lab_error *error)
   if (status == LAB_NUMERIC) {
     *best = s->without;
     status = LAB_OK;
+  } else if (status == LAB_OK) {
+    keep_better(&s->whole, best);
   }
   lab_rounds_note_values(s->result, &best->u);
   return status;
