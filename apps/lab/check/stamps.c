@@ -96,35 +96,36 @@ static double farthest(double *t, size_t n, double grid, line l, int set)
   return most;
 }
 
-/* Returns: the grid from which the stamps of a run were spread; 0 if they were not. */
-static double spread(double *t, size_t n, double grid)
+/* Spread the stamps of a run evenly, if they are rounded and were even.
+ * Out:  log->clock_step, log->stamp_step  the grid, of stamps that were spread and of those that are rounded as well */
+static void spread(lab_log *log, size_t first, size_t n, double grid)
 {
+  double *t = log->value[LAB_CHANNEL_TIME] + first;
   const double step = usual_step(t, n);
-  line l;
-  double most;
-  if (!(grid > coarse * step))
-    return 0;
-  l = through(t, n, grid, step);
-  most = farthest(t, n, grid, l, 0);
-  if (!(most > on_grid * grid && most < rounded * grid))
-    return 0;
-  farthest(t, n, grid, l, 1);
-  return grid;
+  const line l = through(t, n, grid, step);
+  const double most = farthest(t, n, grid, l, 0);
+  if (!(grid > coarse * step && most > on_grid * grid))
+    return;
+  if (most < rounded * grid) {
+    farthest(t, n, grid, l, 1);
+    log->clock_step = grid;
+  } else {
+    log->stamp_step = grid;
+  }
 }
 
 void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
 {
-  double *t = log->value[LAB_CHANNEL_TIME];
   size_t run;
   double grid;
   char text[LAB_FORMAT_TEXT];
   if (log->n < FEWEST)
     return;
-  grid = grid_of(t, log->n);
+  grid = grid_of(log->value[LAB_CHANNEL_TIME], log->n);
   for (run = 0; run < log->n_runs && grid > 0; run++) {
     const size_t first = log->run[run], n = log->run[run + 1] - first;
-    if (n >= FEWEST && spread(t + first, n, grid) > 0)
-      log->clock_step = grid;
+    if (n >= FEWEST)
+      spread(log, first, n, grid);
   }
   if (log->clock_step > 0)
     lab_limitation(limitations, "%s: the time is rounded to %s; the rows are taken to be at even distances.",

@@ -272,13 +272,24 @@ static double surplus(const rows *a, double s, double most)
   return square_of_weights > 0 ? sum / sqrt(variance * together * square_of_weights) : 0;
 }
 
-/* Deviation [s] of the times of rows, at most `most`; 0 where it does not show, or only where a channel moves fastest,
- * as an error of the model does. */
-static double jitter_of(const rows *a, double most)
+/* The coarsest step [s] to which the times of logs are rounded; 0: to none that matters. */
+static double rounding_of(const lab_run *run, int n)
 {
-  double low = 0, high = most;
+  double step = 0;
+  int e;
+  for (e = 0; e < n; e++)
+    step = fmax(step, run[e].log->stamp_step);
+  return step;
+}
+
+/* Deviation [s] of the times of rows, at most `most`; 0 where it does not show. Where it shows only while a channel moves
+ * fastest, as an error of the model does, it is at most what rounding to `step` makes. */
+static double jitter_of(const rows *a, double most, double step)
+{
+  static const double of_step = 0.5; /* uniform: 0.29; more where a time is a step off */
+  double low = 0, high = surplus(a, 0, usual_change) > likely ? most : fmin(most, of_step * step);
   int i;
-  if (!(surplus(a, 0, HUGE_VAL) > certain) || !(surplus(a, 0, usual_change) > likely) || surplus(a, most, HUGE_VAL) > 0)
+  if (!(surplus(a, 0, HUGE_VAL) > certain) || surplus(a, high, HUGE_VAL) > 0)
     return 0;
   for (i = 0; i < 40; i++) {
     const double s = 0.5 * (low + high);
@@ -362,7 +373,9 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   }
   if (error->status != LAB_OK)
     return 0;
-  jitter = is_told(run, u->n_runs) ? 0 : jitter_of(a, share_of_row * shortest_row(u));
+  jitter = is_told(run, u->n_runs)
+               ? 0
+               : jitter_of(a, share_of_row * shortest_row(u), rounding_of(run, u->n_runs));
   for (at = r, e = 0; jitter > 0 && e < u->n_runs; e++) {
     weigh(&run[e], at, jitter);
     at += run[e].n * (size_t)run[e].n_channels;

@@ -30,6 +30,7 @@ typedef struct lab_log {
   size_t dropped;                 /* damaged rows left out, as the format asks */
   size_t outside;                 /* rows left out by the window */
   double clock_step;              /* [s] to which the time was rounded before it was mended; 0: it was not */
+  double stamp_step;              /* [s] to which it still is, coarsely beside the distance of rows; 0: it is not */
   lab_hum hum[LAB_CHANNEL_COUNT]; /* that was taken off the values */
   double smoothed[LAB_CHANNEL_COUNT]; /* noise that was taken off a channel that drives the model, SI; 0: none */
   lab_bend *bend[LAB_CHANNEL_COUNT];  /* n: after each row, of a channel that was smoothed; NULL: of none */
