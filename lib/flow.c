@@ -193,7 +193,7 @@ pneu_real pneu_sonic_conductance(const pneu_model *model, pneu_real area)
 
 /* The declared law, mixed with the nozzle's as far as choked_flow says; so are the slopes that Newton needs below. The
  * one in T serves the analytic Jacobian alone, which is not used with an effect. Here and below: only effects ask for
- * that and for a resistance, and a build without effects need not link it. */
+ * that and for a line, and a build without effects need not link it. */
 static void mixed_flow(const pneu_terms *t, const passage *at, int slopes, pneu_flow *flow)
 {
   const pneu_real c = t->choked_share;
@@ -213,25 +213,47 @@ static void mixed_flow(const pneu_terms *t, const passage *at, int slopes, pneu_
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
 }
 
-/* An orifice in series with a linear resistance, between p_up and p_down: which pressure lies between them. */
+pneu_real pneu_line_flow(const pneu_terms *t, const pneu_line *line, pneu_real p_up, pneu_real p_down,
+                         pneu_real *slope)
+{
+  static const pneu_real least = PNEU_C(1e-3); /* share of the resistance that grows with the flow alone */
+  const pneu_params *p = &t->model->p;
+  const pneu_real lost = p_up - p_down, share = line->turbulence;
+  const pneu_real full = t->model->choked_gain * p->fill_area; /* times p_s/sqrt(T_s): q_s */
+  pneu_real linear = line->resistance, both;
+  if (!(share > 0 && full > 0)) {
+    *slope = 1 / linear;
+    return lost * *slope;
+  }
+  linear *= PNEU_M(fmax)(1 - share, least);
+  both = linear * linear + 8 * line->resistance * share * PNEU_M(sqrt)(p->supply_temperature) / full *
+                               PNEU_M(fabs)(lost) / (p_up + p_down);
+  *slope = 1 / PNEU_M(sqrt)(both);
+  return 2 * lost / (linear + PNEU_M(sqrt)(both));
+}
+
+/* An orifice in series with a line, between p_up and p_down: which pressure lies between them. */
 typedef struct series {
   const pneu_terms *t;
   passage whole;
-  pneu_real resistance;
-  int before; /* the resistance lies before the orifice, else behind it */
+  pneu_line *line;
+  int before; /* the line lies before the orifice, else behind it */
 } series;
 
 enum { SERIES_ITERATIONS = 16 };
 
-/* Flow of the orifice less that of the resistance, at a pressure between, and its slope. */
+/* Flow of the orifice less that of the line, at a pressure between, and its slope. */
 static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_real *slope)
 {
-  const pneu_real conductance = 1 / s->resistance;
+  const pneu_real up = s->before ? s->whole.p_up : p, down = s->before ? p : s->whole.p_down;
   passage at = s->whole;
+  pneu_real conductance;
+  const pneu_real q = pneu_line_flow(s->t, s->line, up, down, &conductance);
   *(s->before ? &at.p_up : &at.p_down) = p;
   mixed_flow(s->t, &at, 1, flow);
   *slope = s->before ? flow->dq_dup + conductance : flow->dq_ddown - conductance;
-  return flow->q - (s->before ? s->whole.p_up - p : p - s->whole.p_down) * conductance;
+  s->line->lost = up - down;
+  return flow->q - q;
 }
 
 /* Newton, kept inside the bracket by bisection; so many times at most, so that the work is bounded. */
@@ -254,17 +276,17 @@ static void series_flow(const series *s, pneu_flow *flow)
   series_gap(s, p, flow, &slope);
 }
 
-/* Flow from up to down, through a resistance before or behind the orifice if there is one. */
-static void flow_between(const pneu_terms *t, const passage *at, pneu_real resistance, int before, pneu_flow *flow)
+/* Flow from up to down, through a line before or behind the orifice if there is one. */
+static void flow_between(const pneu_terms *t, const passage *at, pneu_line *line, int before, pneu_flow *flow)
 {
-  if (PNEU_EFFECT_COUNT > 0 && resistance > 0 && at->p_up > at->p_down) {
-    const series s = {t, *at, resistance, before};
+  if (PNEU_EFFECT_COUNT > 0 && line && line->resistance > 0 && at->p_up > at->p_down) {
+    const series s = {t, *at, line, before};
     series_flow(&s, flow);
   } else
     mixed_flow(t, at, t->extent == PNEU_EXTENT_SLOPES, flow);
 }
 
-int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance)
+int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_line *line)
 {
   const int out = p_other < t->p;
   pneu_flow flow = {0, 0, 0, 0, 0};
@@ -272,11 +294,11 @@ int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_
     return 0;
   if (out) {
     const passage at = {area, t->p, t->T, p_other};
-    flow_between(t, &at, resistance, 0, &flow);
+    flow_between(t, &at, line, 0, &flow);
     t->mass_out += flow.q;
   } else {
     const passage at = {area, p_other, T_other, t->p};
-    flow_between(t, &at, resistance, 1, &flow);
+    flow_between(t, &at, line, 1, &flow);
     t->mass_in += flow.q;
     t->mass_in_T += flow.q * T_other;
   }

@@ -61,6 +61,7 @@ enum pneu_stage {
   PNEU_STAGE_SPOOL,      /* opening: from the spool to its ports */
   PNEU_STAGE_BOUNDARY,   /* what the orifices see */
   PNEU_STAGE_LINE,       /* between transducer and chamber: takes the transducer's flow, gives the chamber's */
+  PNEU_STAGE_FEED,       /* what is drawn from the supply's line */
   PNEU_STAGE_LEAK,       /* flows beside the transducer */
   PNEU_STAGE_HEAT,       /* heat into the gas */
   PNEU_STAGE_WALL,       /* what the heat does to the wall */
@@ -88,8 +89,8 @@ struct pneu_terms {
 
   pneu_real zero, span, dead_band;    /* [m], [1], [1] by which a positioner's feedback and dead band are off */
   pneu_real crossing;                 /* [1] opening of the other port of an underlapped spool, signed as `opening` */
-  pneu_real supply_resistance;        /* [Pa s/kg] pressure lost on the way from the supply */
-  pneu_real exhaust_resistance;       /* [Pa s/kg] pressure built up on the way out */
+  pneu_line supply_line;              /* on the way from the supply, without a volume */
+  pneu_line exhaust_line;             /* on the way out */
   pneu_real choked_share;             /* [1] of the flow that follows the nozzle law */
   pneu_real growth;                   /* [m3/s] of the volume, beside what the stem sweeps */
   pneu_real mass_in, mass_out;        /* [kg/s] of the chamber */
@@ -146,8 +147,17 @@ int pneu_is_physical(const pneu_model *model, const pneu_state *state);
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 
-/* Flow between the chamber and a reservoir, either way, added to the sums.  Returns: whether it is choked. */
-int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_real resistance);
+/* Flow between the chamber and a reservoir, either way, added to the sums.
+ * In/out:  line  between orifice and reservoir; NULL: none
+ * Returns: whether it is choked. */
+int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_line *line);
+
+/* Flow [kg/s] through a line of a resistance above 0. With K = resistance turbulence p_s/q_s, q_s the full flow of the
+ * fill orifice at any p_s, the pressure lost is resistance (1 - turbulence) q + K q |q|/p_m, at the mean pressure p_m;
+ * where little flows there is always some that grows with the flow alone.
+ * Out:     slope  in the pressure lost, at the same mean */
+pneu_real pneu_line_flow(const pneu_terms *terms, const pneu_line *line, pneu_real p_up, pneu_real p_down,
+                         pneu_real *slope);
 
 /* States of the active effects at rest.  In/out: state */
 void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state);

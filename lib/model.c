@@ -130,7 +130,7 @@ int pneu_model_init(pneu_model *model, const pneu_params *p, const pneu_laws *la
   memset(model, 0, sizeof *model);
   model->p = *p;
   model->law = *law;
-  model->clock = -1;
+  model->clock = model->supply_line = -1;
   at = bad_param(&model->p);
   if (bad)
     *bad = at;

@@ -294,13 +294,17 @@ typedef struct pneu_state {
   int mode;                        /* enum pneu_mode */
 } pneu_state;
 
+/* Forms of an effect: one that it always has, and one that it may do without. */
+enum pneu_form { PNEU_FORM_OWN = 1, PNEU_FORM_OPTION = 2 };
+
 /* A parameter, as files, fits, reports and --help want it. */
 typedef struct pneu_param_info {
   const char *name, *unit;
   pneu_real lower, upper;
   pneu_real value;   /* base model: default. Effect: the size it starts from when switched on */
-  pneu_real neutral; /* effect: value at which the model is the base model; else, and of a form, as `value` */
-  int shape;         /* effect: not 0 if it only gives form to what another parameter switches on */
+  pneu_real neutral; /* effect: value at which the model is the base model, or the effect without this form; else as
+                        `value` */
+  int shape;         /* effect: not 0 if it only gives form to what another parameter switches on (enum pneu_form) */
   const char *meaning;
 } pneu_param_info;
 
@@ -339,6 +343,13 @@ struct pneu_flow;
 typedef void pneu_own_flow(const pneu_model *model, pneu_real area, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                            struct pneu_flow *flow);
 
+/* A line that takes pressure from what flows through it. */
+typedef struct pneu_line {
+  pneu_real resistance; /* [Pa s/kg] at the full flow of the fill orifice; 0: none */
+  pneu_real turbulence; /* [1] share of that which grows with the flow */
+  pneu_real lost;       /* [Pa] on it, where it is in series with an orifice */
+} pneu_line;
+
 /* Constant after pneu_model_init and pneu_model_terms; may lie in read-only memory.
  *
  * Time that the state does not hold: commands on their way to a model with command_delay (effect dead_time) are in
@@ -362,6 +373,7 @@ struct pneu_model {
   pneu_real exponent_rise;             /* [1] n - 1 of an isothermal chamber that is not quite one; 0: isothermal */
   pneu_real rate_exponent_rise;        /* [1] the same of the rate of pressure, while the temperature stays */
   pneu_real start_excess;              /* [K] by which gas is warmer than told where a state of rest begins */
+  pneu_line supply_loss;               /* on the way from the supply, without a volume */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */
@@ -377,6 +389,7 @@ struct pneu_model {
   unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
   unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
   unsigned char state_of[PNEU_EFFECT_COUNT + 1]; /* first state in pneu_state.extra */
+  int supply_line;       /* place in pneu_state.extra of the pressure in the supply's line; -1: it has no volume */
   int n_terms;
   const pneu_term *term; /* free terms, the caller's */
   int clock;             /* place in pneu_state.extra of the time [s], 0 after pneu_state_rest; -1: there is none */

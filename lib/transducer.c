@@ -23,10 +23,10 @@ static void flow_through(pneu_terms *t, pneu_real opening)
 {
   const pneu_params *p = &t->model->p;
   if (opening > 0) {
-    t->choked = pneu_exchange(t, opening * t->fill_area, t->supply, p->supply_temperature, t->supply_resistance);
+    t->choked = pneu_exchange(t, opening * t->fill_area, t->supply, p->supply_temperature, &t->supply_line);
     t->drawn = t->mass_in; /* the first flow into the chamber */
   } else if (opening < 0)
-    t->choked = pneu_exchange(t, -opening * t->vent_area, t->exhaust, p->ambient_temperature, t->exhaust_resistance);
+    t->choked = pneu_exchange(t, -opening * t->vent_area, t->exhaust, p->ambient_temperature, &t->exhaust_line);
 }
 
 void pneu_transducer_flow(pneu_terms *t)

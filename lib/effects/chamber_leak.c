@@ -13,7 +13,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   const pneu_params *p = &t->model->p;
   (void)state, (void)rate;
   if (!t->model->law.pressure_input)
-    pneu_exchange(t, param[LEAK_AREA], p->ambient_pressure, p->ambient_temperature, 0);
+    pneu_exchange(t, param[LEAK_AREA], p->ambient_pressure, p->ambient_temperature, NULL);
 }
 
 const pneu_effect pneu_effect_record_chamber_leak = {

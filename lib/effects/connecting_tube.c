@@ -1,23 +1,26 @@
 /* A tube between transducer and chamber, as a volume V_t next to the transducer and then a restriction:
- * p_t' = R T_a/V_t (q_transducer - q), q = (p_t - p)/R_t into the chamber. Air in the tube has ambient temperature.
+ * p_t' = R T_a/V_t (q_transducer - q), p_t - p = R_t (1 - c) q + R_t c (q/q_f) q p_s/p_m into the chamber, with q_f the
+ * full flow of the fill orifice at the supply's p_s and p_m = (p_t + p)/2. Air in the tube has ambient temperature.
  * Air passes the end of the tube both ways while the pressures differ by less than a millionth of the supply's: a stiff
  * flow whose temperature changed at a point would hold the steps short at every rest.
  * The state is p_t over the absolute supply pressure. R_t counts as 1e4 Pa s/kg at least (10 Pa at 1 g/s): with less
  * the two pressures are one to rounding, and the equations stiff for nothing.
  * Size: 12.6 mL/m and 128 mu L/(pi rho d^4) = 8e5 Pa s/kg per metre of 4 mm bore at 3 bar abs; bends and fittings add
- * to it. That is laminar flow: it holds below Re = 4 q/(pi d mu) = 2300, which is 0.13 g/s. The fill orifice of the
- * R1-400 passes 1 g/s when choked, Re 18,000, where by Blasius the tube resists eight times as much and in proportion
- * to q^0.75: a resistance fitted to a log is one of the flow at which it was recorded. */
+ * to it. That is laminar flow, c = 0: it holds below Re = 4 q/(pi d mu) = 2300, which is 0.13 g/s. The fill orifice of
+ * the R1-400 passes 1 g/s when choked, Re 18,000, where by Blasius the tube resists eight times as much and in
+ * proportion to q^0.75. A kink, a filter or a fitting is an orifice, which resists in proportion to q: c = 1. */
 #include "../internal.h"
 
 #define LEAST  PNEU_C(1e4)                     /* [Pa s/kg] */
 #define MIXING (PNEU_C(1e-6) + 100 * PNEU_EPS) /* share of full pressure, above its rounding */
 
-enum { RESISTANCE, VOLUME };
+enum { RESISTANCE, VOLUME, TURBULENCE };
 
 static const pneu_param_info params[] = {
     {"tube_resistance", "Pa.s/kg", 0, PNEU_C(1e12), PNEU_C(1e7), 0, 0, "pressure lost along the tube per mass flow"},
-    {"tube_volume", "m3", PNEU_C(1e-9), PNEU_C(1.0), PNEU_C(2e-5), PNEU_C(2e-5), 1, "volume of the tube"}};
+    {"tube_volume", "m3", PNEU_C(1e-9), PNEU_C(1.0), PNEU_C(2e-5), PNEU_C(2e-5), 1, "volume of the tube"},
+    {"tube_turbulence", "1", 0, 1, PNEU_C(0.5), 0, PNEU_FORM_OPTION,
+     "share of the resistance, at the full flow of the fill orifice, that grows with the flow"}};
 
 /* What the transducer adds when it faces pressure p and air at temperature T: the sums, and nothing else, are its own.
  */
@@ -36,8 +39,9 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 {
   const pneu_params *p = &t->model->p;
   const pneu_real scale = t->model->scale[0], p_tube = state[0] * scale;
-  const pneu_real conductance = 1 / PNEU_M(fmax)(param[RESISTANCE], LEAST);
-  const pneu_real q = (p_tube - t->p) * conductance, mixing = MIXING * scale * conductance;
+  const pneu_line tube = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0};
+  pneu_real slope;
+  const pneu_real q = pneu_line_flow(t, &tube, p_tube, t->p, &slope), mixing = MIXING * scale * slope;
   rate[0] = 0;
   if (t->model->law.pressure_input)
     return;
@@ -57,7 +61,7 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 const pneu_effect pneu_effect_record_connecting_tube = {
     "connecting_tube",
     "A tube between transducer and chamber stores air and resists its flow.",
-    "Iberall 1950, J. Res. NBS 45:85 (RP2115), lumped into one volume and one resistance",
+    "Iberall 1950, J. Res. NBS 45:85 (RP2115), lumped into one volume and one resistance; turbulent: Darcy and Weisbach",
     "mass",
     "pressure starts late and rounded after every change of command, and flow near equal pressures is too slow both "
     "ways",

@@ -10,7 +10,7 @@ static const pneu_param_info params[] = {
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
   (void)state, (void)rate;
-  t->exhaust_resistance += param[RESISTANCE];
+  t->exhaust_line.resistance += param[RESISTANCE];
 }
 
 const pneu_effect pneu_effect_record_exhaust_back_pressure = {

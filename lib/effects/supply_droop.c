@@ -1,15 +1,46 @@
-/* The supply gives way under flow: p_s = p_s0 - R q. */
+/* The supply gives way under flow: p_l = p_s - R (1 - c) q - R c (q/q_f) q p_s/p_m is left at the transducer, with q_f
+ * and p_m as of a connecting tube: c = 0 is a regulator's droop, c = 1 a filter, a valve or a line too narrow for the
+ * flow. With a volume V between that and the transducer, p_l' = R T_s/V (q - q_transducer); air at the supply's
+ * temperature. The state is p_l over the absolute supply pressure; at rest that of the supply. R counts as 1e4 Pa s/kg
+ * at least there, as a tube's does. */
 #include "../internal.h"
 
-enum { RESISTANCE };
+#define LEAST PNEU_C(1e4) /* [Pa s/kg] */
+
+enum { RESISTANCE, TURBULENCE, VOLUME };
 
 static const pneu_param_info params[] = {
-    {"supply_resistance", "Pa.s/kg", 0, PNEU_C(1e10), PNEU_C(1e6), 0, 0, "pressure lost per mass flow drawn"}};
+    {"supply_resistance", "Pa.s/kg", 0, PNEU_C(1e10), PNEU_C(1e6), 0, 0, "pressure lost per mass flow drawn"},
+    {"supply_turbulence", "1", 0, 1, PNEU_C(0.5), 0, PNEU_FORM_OPTION,
+     "share of that, at the full flow of the fill orifice, that grows with the flow"},
+    {"supply_volume", "m3", 0, PNEU_C(1e3), PNEU_C(1e-4), 0, PNEU_FORM_OPTION,
+     "volume between that and the transducer; 0: none"}};
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
-  (void)state, (void)rate;
-  t->supply_resistance += param[RESISTANCE];
+  const pneu_params *p = &t->model->p;
+  const pneu_line line = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0};
+  const pneu_real scale = t->model->scale[0];
+  pneu_real slope;
+  rate[0] = 0;
+  if (!(param[VOLUME] > 0) || t->model->law.pressure_input)
+    return;
+  rate[0] = pneu_line_flow(t, &line, t->input->supply_pressure + p->ambient_pressure, state[0] * scale, &slope);
+  rate[0] = p->gas_constant * p->supply_temperature / (param[VOLUME] * scale) * (rate[0] - t->drawn);
+}
+
+static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
+{
+  (void)param;
+  state[0] = (t->input->supply_pressure + t->model->p.ambient_pressure) / t->model->scale[0];
+}
+
+static void prepare(pneu_model *model, const pneu_real *param)
+{
+  if (param[VOLUME] > 0)
+    model->supply_line = model->n_extra - 1;
+  else
+    model->supply_loss = (pneu_line){param[RESISTANCE], param[TURBULENCE], 0};
 }
 
 const pneu_effect pneu_effect_record_supply_droop = {
@@ -18,12 +49,12 @@ const pneu_effect pneu_effect_record_supply_droop = {
     "linear regulator droop; Valve Magazine, spring 2008: 10 to 20 % at full travel",
     "mass",
     "filling is slow at first, where flow is largest; venting is right",
-    PNEU_STAGE_BOUNDARY,
+    PNEU_STAGE_FEED,
     params,
     add,
+    start,
     NULL,
-    NULL,
-    NULL};
+    prepare};
 
 const char pneu_effect_sentence_supply_droop[] =
     "The supply gives way: it loses {fill_drop} at the full flow of the fill orifice.";

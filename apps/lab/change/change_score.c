@@ -209,7 +209,7 @@ static void list_effects(const lab_sides *c, lab_scores *scores)
       continue; /* how warm the gas of a log begins is no change of a rig */
     int shape = -1;
     for (i = first + count - 1; i >= first; i--)
-      if (off && lab_param_info(i).shape)
+      if (off && lab_param_info(i).shape == PNEU_FORM_OWN)
         shape = i;
     for (i = first; i < first + count; i++)
       if (!lab_param_info(i).shape)

@@ -291,7 +291,7 @@ void lab_unknowns_drop(lab_unknowns *u, int param)
   if (j >= 0)
     for (u->n--; j < u->n; j++)
       u->unknown[j] = u->unknown[j + 1];
-  *pneu_param_at(&u->rig.params, param) = info.shape ? info.value : info.neutral;
+  *pneu_param_at(&u->rig.params, param) = info.neutral;
 }
 
 static int is_of_term(const lab_unknown *x, int term)

@@ -64,7 +64,7 @@ static void add_changes(const lab_changes *changes, cJSON *root)
 
 static void add_effect_param(cJSON *to, const lab_report *report, int param)
 {
-  const int j = param < 0 ? -1 : lab_report_size(report, param);
+  const int j = lab_report_size(report, param);
   if (j >= 0)
     add_fitted(to, lab_param_info(param).name, report, j);
 }
@@ -75,13 +75,16 @@ static void add_found(cJSON *to, const lab_report *report, int which)
   const pneu_effect *effect = pneu_effect_at(found->effect);
   cJSON *o = lab_json_append(to), *list;
   char sentence[LAB_FOUND_SENTENCE];
-  int i;
+  int i, count;
+  const int first = pneu_effect_params(found->effect, &count);
   cJSON_AddStringToObject(o, "effect", effect->name);
   cJSON_AddStringToObject(o, "equation", effect->equation);
   cJSON_AddStringToObject(o, "sentence", lab_report_found_sentence(report, found, sentence));
   list = cJSON_AddObjectToObject(o, "parameters");
   add_effect_param(list, report, found->param);
-  add_effect_param(list, report, found->shape);
+  for (i = first; i < first + count; i++)
+    if (lab_param_info(i).shape)
+      add_effect_param(list, report, i);
   add_onset(o, "onset", lab_report_onset(report, found->param));
   LAB_JSON_NUMBERS(o, {"statistic", found->statistic}, {"p_value", found->p_value}, {"explained", found->explained});
   list = cJSON_AddArrayToObject(o, "indistinguishable_from");

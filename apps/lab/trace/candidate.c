@@ -152,19 +152,56 @@ int lab_candidate_hold(lab_candidate *c, lab_error *error)
   return lab_unknowns_hold(&c->u, error) ? error->status : lab_candidate_fit_held(c, error);
 }
 
+/* The parameters of what was found.  Out: count  0 of what is no effect */
+static int params_of(const lab_found *found, int *count)
+{
+  *count = 0;
+  return found->effect < 0 ? 0 : pneu_effect_params(found->effect, count);
+}
+
+int lab_candidate_try_options(lab_candidate *c, lab_error *error)
+{
+  lab_candidate *with;
+  int i, count, any = 0, status = LAB_OK;
+  const int first = params_of(&c->found[c->n_found - 1], &count);
+  if (!c->quality.fitted || lab_is_noise(&c->quality) || lab_cpu_is_spent(c->u.until))
+    return LAB_OK;
+  with = malloc(sizeof *with);
+  if (!with)
+    return lab_fail_memory(error, "a candidate");
+  *with = *c;
+  with->u.slopes = NULL; /* those are of fewer unknowns */
+  for (i = first; i < first + count && status == LAB_OK; i++)
+    if (lab_param_info(i).shape == PNEU_FORM_OPTION && lab_unknowns_find(&c->u, i) < 0) {
+      status = lab_unknowns_add(&with->u, i, (double)lab_param_info(i).value, error);
+      any = 1;
+    }
+  if (any && status == LAB_OK) {
+    lab_unknowns_take(&with->u);
+    status = lab_candidate_fit(with, LAB_ROUNDS_ALL, error);
+    if (lab_candidate_by_bic(with, c) < 0) {
+      lab_unknowns_forget_slopes(&c->u);
+      *c = *with;
+    }
+  }
+  free(with);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
 int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error)
 {
-  int i, k;
+  int i, k, count;
   *staged = *c;
   staged->u = *declared;
   staged->u.until = c->u.until;
   staged->quality.fitted = 0;
   for (i = 0; i < c->n_found; i++) {
-    const int params[] = {c->found[i].param, c->found[i].shape};
-    for (k = 0; k < 2; k++)
-      if (params[k] >= 0 &&
-          lab_unknowns_add(&staged->u, params[k], c->u.unknown[lab_unknowns_find(&c->u, params[k])].value, error))
+    const int first = params_of(&c->found[i], &count);
+    for (k = first; k < first + count; k++) {
+      const int j = k == c->found[i].param || lab_param_info(k).shape ? lab_unknowns_find(&c->u, k) : -1;
+      if (j >= 0 && lab_unknowns_add(&staged->u, k, c->u.unknown[j].value, error))
         return error->status;
+    }
   }
   lab_unknowns_take(&staged->u);
   if (lab_candidate_fit(staged, LAB_ROUNDS_ALL, error))
@@ -292,7 +329,7 @@ lab_found *lab_candidate_add_found(lab_candidate *c)
 {
   lab_found *found = &c->found[c->n_found++];
   memset(found, 0, sizeof *found);
-  found->effect = found->term = found->shape = -1;
+  found->effect = found->term = -1;
   found->degrees = 1;
   return found;
 }
@@ -308,7 +345,6 @@ int lab_candidate_add_effect(lab_candidate *c, const lab_score *score, double si
   found = lab_candidate_add_found(c);
   found->effect = score->effect;
   found->param = score->param;
-  found->shape = score->shape;
   found->statistic = score->statistic;
   found->p_value = score->p_value;
   return LAB_OK;
@@ -355,10 +391,13 @@ void lab_candidate_note_alike(lab_candidate *c, int which, const lab_candidate *
 
 static void drop_effect(lab_candidate *c, const lab_found *found)
 {
+  int i, count;
+  const int first = params_of(found, &count);
   if (lab_unknowns_find_onset(&c->u, found->param) >= 0)
     lab_unknowns_drop_onset(&c->u);
-  if (found->shape >= 0)
-    lab_unknowns_drop(&c->u, found->shape);
+  for (i = first; i < first + count; i++)
+    if (lab_param_info(i).shape && lab_unknowns_find(&c->u, i) >= 0)
+      lab_unknowns_drop(&c->u, i);
   lab_unknowns_drop(&c->u, found->param);
 }
 

@@ -9,7 +9,7 @@
 
 /* What was added: an effect, or a free term where nothing that has a name would do. */
 typedef struct lab_found {
-  int effect, param, shape; /* effect: -1 for a free term; shape: -1 if none */
+  int effect, param; /* effect: -1 for a free term */
   int term;                 /* of the model's free terms; -1 for an effect */
   double statistic, p_value, explained;
   int degrees;  /* of freedom of the statistic */
@@ -88,6 +88,10 @@ int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error)
 
 /* Place again what begins: about other values it may begin elsewhere.  Returns: LAB_OK, LAB_WORLD */
 int lab_candidate_place_again(lab_candidate *c, lab_error *error);
+
+/* Where a fitted model leaves more than noise, give its last effect the forms that it may do without (PNEU_FORM_OPTION);
+ * it keeps them if BIC asks for that.  Returns: LAB_OK, LAB_WORLD */
+int lab_candidate_try_options(lab_candidate *c, lab_error *error);
 
 /* One more addition, to be filled in.  Returns: its place. */
 lab_found *lab_candidate_add_found(lab_candidate *c);

@@ -117,8 +117,11 @@ static void fit_finalists(lab_candidate *c, int n, double best, lab_error *all)
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     const lab_quality *q = &c[i].quality;
-    if (q->fitted && (q->bic < bar || (i < lab_count(LAB_FINALISTS) && q->chi2 < reach)))
-      lab_refit_one(&c[i], LAB_ROUNDS_ALL, all);
+    lab_error error;
+    if (!q->fitted || !(q->bic < bar || (i < lab_count(LAB_FINALISTS) && q->chi2 < reach)))
+      continue;
+    if (lab_refit_one(&c[i], LAB_ROUNDS_ALL, all) == LAB_OK && lab_candidate_try_options(&c[i], &error))
+      lab_fail_together(all, &error);
   }
 }
 

@@ -227,7 +227,7 @@ static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
     if (lab_unknowns_find_onset(u, i) >= 0 ||
         (!held && (j >= 0 || (!info.shape && *pneu_param_at((pneu_params *)&u->rig.params, i) != info.neutral))))
       return 0;
-    if (info.shape)
+    if (info.shape == PNEU_FORM_OWN)
       *shape = i;
   }
   return 1;
