@@ -213,23 +213,39 @@ static void mixed_flow(const pneu_terms *t, const passage *at, int slopes, pneu_
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
 }
 
-pneu_real pneu_line_flow(const pneu_terms *t, const pneu_line *line, pneu_real p_up, pneu_real p_down,
-                         pneu_real *slope)
+/* Area of the orifice that loses `resistance` q_f at the full flow q_f of the fill orifice, while that is little beside
+ * the pressure: there a law is area a sqrt(p_up (p_up - p_down)). */
+static pneu_real area_of(const pneu_terms *t, pneu_real resistance)
 {
-  static const pneu_real least = PNEU_C(1e-3); /* share of the resistance that grows with the flow alone */
+  static const pneu_real little = 2 * PNEU_BLEND; /* of p_up */
   const pneu_params *p = &t->model->p;
-  const pneu_real lost = p_up - p_down, share = line->turbulence;
-  const pneu_real full = t->model->choked_gain * p->fill_area; /* times p_s/sqrt(T_s): q_s */
-  pneu_real linear = line->resistance, both;
-  if (!(share > 0 && full > 0)) {
-    *slope = 1 / linear;
-    return lost * *slope;
-  }
-  linear *= PNEU_M(fmax)(1 - share, least);
-  both = linear * linear + 8 * line->resistance * share * PNEU_M(sqrt)(p->supply_temperature) / full *
-                               PNEU_M(fabs)(lost) / (p_up + p_down);
-  *slope = 1 / PNEU_M(sqrt)(both);
-  return 2 * lost / (linear + PNEU_M(sqrt)(both));
+  const pneu_real T = p->supply_temperature, p_up = t->model->scale[0];
+  const passage at = {1, p_up, T, p_up * (1 - little)};
+  pneu_flow flow;
+  mixed_flow(t, &at, 0, &flow);
+  return PNEU_M(sqrt)(t->model->choked_gain * p->fill_area / (PNEU_M(sqrt)(T) * resistance) * little) * p_up / flow.q;
+}
+
+void pneu_line_flow(const pneu_terms *t, const pneu_line *line, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                    pneu_flow *flow)
+{
+  const pneu_real lost = p_up - p_down, linear = line->resistance * (1 - line->turbulence);
+  pneu_real ratio, bend = 0, root, sum;
+  passage at = {0, p_up, T_up, p_down};
+  flow->dq_dup = 1 / linear;
+  flow->dq_ddown = -flow->dq_dup;
+  flow->q = lost * flow->dq_dup;
+  if (!(line->turbulence > 0 && t->model->p.fill_area > 0))
+    return;
+  at.area = area_of(t, line->resistance * line->turbulence);
+  mixed_flow(t, &at, 1, flow);
+  ratio = flow->q > 0 ? lost / flow->q : 1 / flow->dq_dup;
+  root = PNEU_M(sqrt)(linear * linear + 4 * ratio * ratio);
+  sum = linear + root;
+  bend = flow->q > 0 ? 4 * ratio * ratio / (root * sum) : 0;
+  flow->dq_dup = 2 / sum * (1 - bend * (1 - ratio * flow->dq_dup));
+  flow->dq_ddown = -2 / sum * (1 - bend * (1 + ratio * flow->dq_ddown));
+  flow->q = 2 * lost / sum;
 }
 
 /* An orifice in series with a line, between p_up and p_down: which pressure lies between them. */
@@ -247,13 +263,13 @@ static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_
 {
   const pneu_real up = s->before ? s->whole.p_up : p, down = s->before ? p : s->whole.p_down;
   passage at = s->whole;
-  pneu_real conductance;
-  const pneu_real q = pneu_line_flow(s->t, s->line, up, down, &conductance);
+  pneu_flow through;
+  pneu_line_flow(s->t, s->line, up, at.T_up, down, &through);
   *(s->before ? &at.p_up : &at.p_down) = p;
   mixed_flow(s->t, &at, 1, flow);
-  *slope = s->before ? flow->dq_dup + conductance : flow->dq_ddown - conductance;
+  *slope = s->before ? flow->dq_dup - through.dq_ddown : flow->dq_ddown - through.dq_dup;
   s->line->lost = up - down;
-  return flow->q - q;
+  return flow->q - through.q;
 }
 
 /* Newton, kept inside the bracket by bisection; so many times at most, so that the work is bounded. */

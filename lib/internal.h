@@ -152,12 +152,13 @@ void pneu_transducer_flow(pneu_terms *terms);
  * Returns: whether it is choked. */
 int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_line *line);
 
-/* Flow [kg/s] through a line of a resistance above 0. With K = resistance turbulence p_s/q_s, q_s the full flow of the
- * fill orifice at any p_s, the pressure lost is resistance (1 - turbulence) q + K q |q|/p_m, at the mean pressure p_m;
- * where little flows there is always some that grows with the flow alone.
- * Out:     slope  in the pressure lost, at the same mean */
-pneu_real pneu_line_flow(const pneu_terms *terms, const pneu_line *line, pneu_real p_up, pneu_real p_down,
-                         pneu_real *slope);
+/* Flow through a line of a resistance above 0, q: linear q + (p_up - p_down) (q/q_o)^2 = p_up - p_down is lost, where
+ * linear = resistance (1 - turbulence), and q_o is what passes an orifice under the model's law that by itself loses
+ * resistance turbulence q_f at the full flow q_f of the fill orifice, were that little.
+ * In:      p_up >= p_down [Pa] abs, T_up [K]
+ * Out:     flow  q and its slopes in the pressures */
+void pneu_line_flow(const pneu_terms *terms, const pneu_line *line, pneu_real p_up, pneu_real T_up, pneu_real p_down,
+                    struct pneu_flow *flow);
 
 /* States of the active effects at rest.  In/out: state */
 void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state);

@@ -1,6 +1,7 @@
 /* A tube between transducer and chamber, as a volume V_t next to the transducer and then a restriction:
- * p_t' = R T_a/V_t (q_transducer - q), p_t - p = R_t (1 - c) q + R_t c (q/q_f) q p_s/p_m into the chamber, with q_f the
- * full flow of the fill orifice at the supply's p_s and p_m = (p_t + p)/2. Air in the tube has ambient temperature.
+ * p_t' = R T_a/V_t (q_transducer - q), p_t - p = R_t (1 - c) q + (p_t - p) (q/q_o)^2 into the chamber. q_o is what passes
+ * the orifice that by itself would lose R_t c q_f at the full flow q_f of the fill orifice, were that little beside
+ * the pressure; it follows the law of the model. Air in the tube has ambient temperature.
  * Air passes the end of the tube both ways while the pressures differ by less than a millionth of the supply's: a stiff
  * flow whose temperature changed at a point would hold the steps short at every rest.
  * The state is p_t over the absolute supply pressure. R_t counts as 1e4 Pa s/kg at least (10 Pa at 1 g/s): with less
@@ -40,11 +41,17 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   const pneu_params *p = &t->model->p;
   const pneu_real scale = t->model->scale[0], p_tube = state[0] * scale;
   const pneu_line tube = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0};
-  pneu_real slope;
-  const pneu_real q = pneu_line_flow(t, &tube, p_tube, t->p, &slope), mixing = MIXING * scale * slope;
+  pneu_real q, mixing;
+  pneu_flow flow;
   rate[0] = 0;
   if (t->model->law.pressure_input)
     return;
+  if (p_tube > t->p)
+    pneu_line_flow(t, &tube, p_tube, p->ambient_temperature, t->p, &flow);
+  else
+    pneu_line_flow(t, &tube, t->p, t->T, p_tube, &flow);
+  q = p_tube > t->p ? flow.q : -flow.q;
+  mixing = MIXING * scale * flow.dq_dup;
   transducer_at(t, p_tube, p->ambient_temperature);
   rate[0] = p->gas_constant * p->ambient_temperature / (param[VOLUME] * scale) * (t->mass_in - t->mass_out - q);
   t->mass_in = (q + PNEU_M(sqrt)(q * q + mixing * mixing)) / 2;

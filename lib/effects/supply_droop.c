@@ -1,5 +1,5 @@
-/* The supply gives way under flow: p_l = p_s - R (1 - c) q - R c (q/q_f) q p_s/p_m is left at the transducer, with q_f
- * and p_m as of a connecting tube: c = 0 is a regulator's droop, c = 1 a filter, a valve or a line too narrow for the
+/* The supply gives way under flow: p_s - p_l = R (1 - c) q + (p_s - p_l) (q/q_o)^2, p_l at the transducer, q_o as of a
+ * connecting tube: c = 0 is a regulator's droop, c = 1 a filter, a valve or a line too narrow for the
  * flow. With a volume V between that and the transducer, p_l' = R T_s/V (q - q_transducer); air at the supply's
  * temperature. The state is p_l over the absolute supply pressure; at rest that of the supply. R counts as 1e4 Pa s/kg
  * at least there, as a tube's does. */
@@ -21,12 +21,14 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   const pneu_params *p = &t->model->p;
   const pneu_line line = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0};
   const pneu_real scale = t->model->scale[0];
-  pneu_real slope;
+  const pneu_real supply = t->input->supply_pressure + p->ambient_pressure, left = state[0] * scale;
+  pneu_flow flow;
   rate[0] = 0;
   if (!(param[VOLUME] > 0) || t->model->law.pressure_input)
     return;
-  rate[0] = pneu_line_flow(t, &line, t->input->supply_pressure + p->ambient_pressure, state[0] * scale, &slope);
-  rate[0] = p->gas_constant * p->supply_temperature / (param[VOLUME] * scale) * (rate[0] - t->drawn);
+  pneu_line_flow(t, &line, PNEU_M(fmax)(supply, left), p->supply_temperature, PNEU_M(fmin)(supply, left), &flow);
+  rate[0] = p->gas_constant * p->supply_temperature / (param[VOLUME] * scale) *
+            ((supply > left ? flow.q : -flow.q) - t->drawn);
 }
 
 static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
