@@ -49,7 +49,7 @@ static void test_pneu_effect_at__parameters__start_off_neutral_and_within_bounds
       assert_true(has_text(info->name) && has_text(info->unit) && has_text(info->meaning));
       assert_between(info->value, info->lower, info->upper);
       assert_between(info->neutral, info->lower, info->upper);
-      assert_true(info->shape ? info->value == info->neutral : info->value != info->neutral);
+      assert_int_equal(info->value == info->neutral, info->shape == PNEU_FORM_OWN);
     }
     assert_false(pneu_effect_at(e)->param[0].shape);
   }
