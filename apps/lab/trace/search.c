@@ -255,10 +255,10 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   return status;
 }
 
-/* Whether a search whose time was spent has ended further from the logs, row by row, than it began. */
+/* Whether a search that has not explained the logs has ended further from them, row by row, than it began. */
 static int is_worse(const lab_search_result *result)
 {
-  return result->cut_short && result->window == 0 && result->after.chi2 > result->before.chi2;
+  return result->verdict == LAB_VERDICT_UNDECIDED && result->window == 0 && result->after.chi2 > result->before.chi2;
 }
 
 int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_search_result *result, lab_error *error)
