@@ -373,6 +373,8 @@ struct pneu_model {
   pneu_real exponent_rise;             /* [1] n - 1 of an isothermal chamber that is not quite one; 0: isothermal */
   pneu_real rate_exponent_rise;        /* [1] the same of the rate of pressure, while the temperature stays */
   pneu_real start_excess;              /* [K] by which gas is warmer than told where a state of rest begins */
+  pneu_real band_edge;                 /* [1] of the stroke, over which a positioner's dead band opens while its set
+                                          position runs; may be changed after pneu_model_init, see effects/positioner.c */
   pneu_line supply_loss;               /* on the way from the supply, without a volume */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */

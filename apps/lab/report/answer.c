@@ -55,6 +55,23 @@ static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
+/* What the loop was before the logs is unknown. Where a set position ramps, the stem goes in and out of the dead band
+ * by less than the noise; a band whose edge is a share of the noise has it follow on a line, which takes a tenth of the
+ * time, and has slopes. */
+static void prepare_positioner(lab_rig *rig, const lab_logs *logs)
+{
+  static const double share = 0.4; /* the stem is within half of that of where it is; a tenth in five logs */
+  double noise = HUGE_VAL;
+  int e, c;
+  for (e = 0; e < logs->n; e++)
+    for (c = 0; c < logs->run[e].n_channels; c++)
+      if (logs->run[e].channel[c] == LAB_CHANNEL_X)
+        noise = fmin(noise, logs->run[e].sigma[c]);
+  if (isfinite(noise) && rig->params.stroke > 0)
+    rig->band_edge = share * noise / (double)rig->params.stroke;
+  lab_rig_free_integral(rig);
+}
+
 /* Read every log before any fit, so that a bad one costs no waiting. */
 static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
 {
@@ -72,7 +89,7 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
       (q->n_baseline && lab_plausible_content(&a->rig, &a->then.logs.content, &a->then.logs.limitations, error)))
     return error->status;
   if (lab_log_command(&a->now.logs.log[0]) == LAB_CHANNEL_SP)
-    lab_rig_free_integral(&a->rig);
+    prepare_positioner(&a->rig, &a->now.logs);
   return read_held_out(q, a, error);
 }
 

@@ -54,6 +54,7 @@ typedef struct lab_rig {
   unsigned char fit_per_log[LAB_PARAM_COUNT]; /* 1: every log has its own value */
   double tolerance[LAB_TOLERANCE_COUNT];      /* with which a value is known, SI; NaN: see tolerance.h */
   unsigned char assumed[LAB_PARAM_COUNT];     /* 1: a file was read that does not say it */
+  double band_edge;                           /* as in pneu_model, at least; 0: the library's */
   int others_are_exact;                       /* the file says so of tolerances that it does not give */
   double noise[LAB_CHANNEL_COUNT];            /* standard deviation, SI; NaN: estimate it from the log */
   unsigned char input[LAB_CHANNEL_COUNT];     /* 1: drives the model; u always does */
