@@ -8,6 +8,7 @@
 #include "../base/json.h"
 #include "../base/names.h"
 #include "../base/text.h"
+#include "../rig/tolerance.h"
 #include "../trace/freeterms.h"
 #include "report.h"
 
@@ -317,6 +318,15 @@ static void add_ratio(char *text, const lab_rig *rig, const lab_deviation *d, co
     ADD(text, "%.2g %% %s %s", fabs(percent), percent < 0 ? "below" : "above", sheet);
 }
 
+/* Whether a factor on both orifices is one on the fill orifice, for the vent has another that is told by itself. */
+static int is_of_fill(const lab_report *report, const lab_deviation *d)
+{
+  int i, vent = 0;
+  for (i = 0; i < report->result->n_found; i++)
+    vent |= lab_param_is_vents_share(report->result->found[i].param);
+  return vent && d->param == LAB_PARAM_ORIFICE_AREA;
+}
+
 static void add_deviation(char *text, const lab_report *report, const lab_deviation *d, int first)
 {
   const int i = lab_name_index(d->name, plain, sizeof plain / sizeof *plain, sizeof *plain);
@@ -324,7 +334,7 @@ static void add_deviation(char *text, const lab_report *report, const lab_deviat
   snprintf(name, sizeof name, "the %s", d->name);
   while ((at = strpbrk(name, "_.")))
     *at = ' ';
-  ADD(text, "%s %s", i < 0 ? name : plain[i].called, first ? "is " : "");
+  ADD(text, "%s %s", is_of_fill(report, d) ? "the fill orifice" : i < 0 ? name : plain[i].called, first ? "is " : "");
   add_ratio(text, report->rig, d, i < 0 ? NULL : plain[i].less, i < 0 ? NULL : plain[i].more);
   ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
@@ -372,12 +382,23 @@ static int add_deviations(char *text, const lab_report *report, int is_hedged)
 
 /* ---- What is missing ---- */
 
+/* What the vent passes less than declared: what it does beside the fill orifice, and what both do. */
+static void compare_vent(const lab_report *report, lab_rig *rig, int param)
+{
+  const pneu_params *now = &rig->params, *declared = &report->rig->params;
+  const double passes = 1 - lab_param_value(rig, param);
+  if (declared->vent_area > 0)
+    *pneu_param_at(&rig->params, param) = (pneu_real)(1 - passes * (double)(now->vent_area / declared->vent_area));
+}
+
 const char *lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
 {
   char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT], since[LAB_SINCE_TEXT];
   lab_rig last;
   if (found->effect >= 0) {
     lab_rig_at(&report->completed->rig, INFINITY, &last);
+    if (lab_param_is_vents_share(found->param))
+      compare_vent(report, &last, found->param);
     lab_effect_sentence(&last, found->effect, found->param, sentence);
     lab_report_since(lab_report_onset(report, found->param), since);
     snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
