@@ -19,6 +19,7 @@ enum {
   INTEGRAL,
   WALL,
   TUBE,
+  FEED,
   BRISTLE,
   HYST,
   CREEP,
@@ -132,12 +133,73 @@ static double orifice_in_series(const second_rig *g, double area, double P1, dou
   return q;
 }
 
-static double from_supply(const second_rig *g, double area, double t, double P, double T)
+/* Area of the orifice of a line that loses r c q_f by it at the full, choked flow q_f of the fill orifice, taken for
+ * little beside the supply pressure Ps: q_f = S a sqrt(Ps r c q_f). The law's a is that of a loss of 1/1000. */
+static double line_area(const second_rig *g, double rc)
 {
-  double Ps = g->ambient + g->supply + g->pulsation * sin(TAU * g->pulsation_rate * t);
-  if (g->supply_droop > 0.0 && Ps > P && area > 0.0)
-    return orifice_in_series(g, area, Ps, g->supply_temperature, P, g->supply_droop, 1);
-  return orifice(g, area, Ps, g->supply_temperature, P, T);
+  const double little = 1e-3;
+  double n = g->gamma, to_root = 1.0 / sqrt(g->gas_constant * g->supply_temperature);
+  double full = sqrt(n) * pow(2.0 / (n + 1.0), (n + 1.0) / (2.0 * (n - 1.0))) * to_root * g->fill_area; /* q_f/Ps */
+  double a = flow_function(g, 1.0 - little) * to_root / sqrt(little);
+  return sqrt(full / rc) / a;
+}
+
+/* Signed flow from 1 to 2 through a line: with q_o of its orifice alone, s = q/q_o solves s^2 + 2 h s = 1, where 2 h is
+ * what q_o would lose by friction, over the difference there is. */
+static double line(const second_rig *g, double r, double c, double P1, double T1, double P2, double T2)
+{
+  double drop = P1 - P2, qo, h;
+  if (c <= 0.0 || drop == 0.0)
+    return drop / r;
+  qo = orifice(g, line_area(g, r * c), P1, T1, P2, T2);
+  h = r * (1.0 - c) * qo / (2.0 * drop);
+  return qo / (h + sqrt(1.0 + h * h));
+}
+
+/* Pressure between a line from Ps and an orifice into P < Ps, where both pass the same: the surplus of the orifice
+ * rises with that pressure. False position again. */
+static double between_line_and_orifice(const second_rig *g, double area, double Ps, double P)
+{
+  double T = g->supply_temperature, r = g->supply_droop, c = g->supply_turbulence;
+  double lo = P, hi = Ps, mid = P;
+  double glo = -line(g, r, c, Ps, T, P, T), ghi = orifice(g, area, Ps, T, P, T);
+  for (int i = 0; i < 200 && hi - lo > 2.0 * DBL_EPSILON * hi; i++) {
+    mid = i % 3 == 2 ? 0.5 * (lo + hi) : lo - glo * (hi - lo) / (ghi - glo); /* the slope is infinite at both ends */
+    mid = mid > lo && mid < hi ? mid : 0.5 * (lo + hi);
+    double e = orifice(g, area, mid, T, P, T) - line(g, r, c, Ps, T, mid, T);
+    if (e == 0.0)
+      return mid;
+    *(e > 0.0 ? &hi : &lo) = mid;
+    *(e > 0.0 ? &ghi : &glo) = e;
+  }
+  return mid;
+}
+
+static double supply_at(const second_rig *g, double t)
+{
+  return g->ambient + g->supply + g->pulsation * sin(TAU * g->pulsation_rate * t);
+}
+
+/* What the transducer draws from the volume of the supply line. */
+static double from_volume(const second_rig *g, const double *y, double area, double t, double P, double T, double *d)
+{
+  double Ts = g->supply_temperature, Pl = y[FEED] * g->gas_constant * Ts / g->supply_volume;
+  double q = orifice(g, area, Pl, Ts, P, T);
+  d[FEED] = line(g, g->supply_droop, g->supply_turbulence, supply_at(g, t), Ts, Pl, Ts) - q;
+  return q;
+}
+
+static double from_supply(const second_rig *g, const double *y, double area, double t, double P, double T, double *d)
+{
+  double Ps = supply_at(g, t), Ts = g->supply_temperature;
+  if (g->supply_volume > 0.0)
+    return from_volume(g, y, area, t, P, T, d);
+  if (g->supply_droop > 0.0 && Ps > P && area > 0.0) {
+    if (g->supply_turbulence > 0.0)
+      return orifice(g, area, between_line_and_orifice(g, area, Ps, P), Ts, P, Ts);
+    return orifice_in_series(g, area, Ps, Ts, P, g->supply_droop, 1);
+  }
+  return orifice(g, area, Ps, Ts, P, T);
 }
 
 static double to_exhaust(const second_rig *g, double area, double P, double T)
@@ -245,14 +307,14 @@ static void transducer(const world *w, const double *y, double t, const chamber 
   if (g->transducer_lag > 0.0)
     d[OPENING] = (ask - y[OPENING]) / g->transducer_lag;
   if (g->tube_volume <= 0.0) {
-    exchange(g, d, from_supply(g, fill, t, c->P, c->T), g->supply_temperature, c->T);
+    exchange(g, d, from_supply(g, y, fill, t, c->P, c->T, d), g->supply_temperature, c->T);
     exchange(g, d, -to_exhaust(g, vent, c->P, c->T), g->ambient_temperature, c->T);
     return;
   }
   double Ta = g->ambient_temperature, Pt = y[TUBE] * g->gas_constant * Ta / g->tube_volume;
-  double line = (Pt - c->P) / g->tube_resistance;
-  d[TUBE] = from_supply(g, fill, t, Pt, Ta) - to_exhaust(g, vent, Pt, Ta) - line;
-  exchange(g, d, line, Ta, c->T);
+  double q = line(g, g->tube_resistance, g->tube_turbulence, Pt, Ta, c->P, c->T);
+  d[TUBE] = from_supply(g, y, fill, t, Pt, Ta, d) - to_exhaust(g, vent, Pt, Ta) - q;
+  exchange(g, d, q, Ta, c->T);
 }
 
 static void leaks(const second_rig *g, const chamber *c, double *d)
@@ -592,6 +654,7 @@ static void sample_position(const world *w, const second_log *log, size_t i, uin
 static void start(world *w)
 {
   const second_rig *g = w->rig;
+  const second_positioner *k = w->course->positioner;
   double P = g->start_pressure > 0.0 ? g->start_pressure : g->ambient;
   double T = g->start_temperature > 0.0 ? g->start_temperature : g->ambient_temperature, *y = w->y, rate[STATES];
   y[X] = g->start_position;
@@ -603,9 +666,12 @@ static void start(world *w)
   y[M] = P * volume_of(g, y) / (g->gas_constant * T);
   y[U] = y[M] * g->gas_constant / (kappa(g) - 1.0) * T;
   y[TUBE] = P * g->tube_volume / (g->gas_constant * g->ambient_temperature);
+  y[FEED] = supply_at(g, 0.0) * g->supply_volume / (g->gas_constant * g->supply_temperature);
   y[WALL] = g->ambient_temperature;
   y[P_LAG] = P - g->ambient;
   y[X_LAG] = y[X];
+  if (k && k->integral_time > 0.0)
+    y[INTEGRAL] = w->positioner.integral = k->integral_start;
   if (g->transducer_lag > 0.0)
     y[OPENING] = asked(w, y, rate);
   y[T_LAG] = T;

@@ -44,9 +44,12 @@ typedef struct {
   double heat, heat_natural;                    /* W/K; W/K^(4/3), free convection |dT|^(1/3) dT */
   double wall_capacity, wall_loss;              /* J/K, 0: wall at ambient; W/K from wall to ambient */
   double supply_droop;                          /* Pa s/kg, supply falls by this times the flow */
+  double supply_turbulence;                     /* 1, share of that at the fill orifice's full flow, of an orifice */
+  double supply_volume;                         /* m3, between that and the transducer, at the supply's temperature */
   double pulsation, pulsation_rate;             /* Pa, Hz: supply + a sin(2 pi f t) */
   double back_pressure;                         /* Pa s/kg, exhaust rises by this times the flow */
   double tube_volume, tube_resistance;          /* m3, Pa s/kg: isothermal volume, then a linear restriction */
+  double tube_turbulence;                       /* 1, as that of the supply */
   double growth, growth_time;                   /* 1/Pa, s: dead volume grows by this, with the pressure of a lag */
 
   /* command */
@@ -88,6 +91,7 @@ typedef struct {
  * still within the dead band, beyond the cut-offs and while u is clipped. */
 typedef struct {
   double gain, integral_time, derivative_time; /* 1, s (0: no integral), s */
+  double integral_start;                       /* 1, of the integral, where there is one */
   double dead_band, cutoff_low, cutoff_high;   /* shares of the stroke */
   double cycle;                                /* s; 0: none, and dead time is that of the set position */
 } second_positioner;

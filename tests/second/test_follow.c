@@ -71,6 +71,19 @@ static void test_second_follow__integral__stands_still_while_clipped(void **stat
   assert_between(high / g.stroke, 0.59, 0.65); /* wound up over the stroke, it would go to its end */
 }
 
+/* The first cycle's integral is where it began and the share of that cycle; without an integral it is nothing. */
+static void test_second_follow__integral_start__is_sent_from_the_start(void **state)
+{
+  const second_rig g = follower();
+  second_positioner k = {.gain = 5, .integral_time = 2, .integral_start = 0.02, .cutoff_high = 2, .cycle = 1e-3};
+  (void)state;
+  follow(&g, &k, 0.05, 2e-3, 1e-3);
+  assert_close(got.u[1], 5 * (0.05 + 0.02 + 0.05 * 1e-3 / 2), 1e-15, 0);
+  k.integral_time = 0;
+  follow(&g, &k, 0.05, 2e-3, 1e-3);
+  assert_close(got.u[1], 5 * 0.05, 1e-15, 0);
+}
+
 static void test_second_follow__beyond_the_cut_offs__is_shut_or_open(void **state)
 {
   const second_rig g = follower();
@@ -121,6 +134,7 @@ int main(void)
       cmocka_unit_test(test_second_follow__proportional__comes_to_its_dead_band),
       cmocka_unit_test(test_second_follow__proportional__sends_gain_times_error),
       cmocka_unit_test(test_second_follow__integral__stands_still_while_clipped),
+      cmocka_unit_test(test_second_follow__integral_start__is_sent_from_the_start),
       cmocka_unit_test(test_second_follow__beyond_the_cut_offs__is_shut_or_open),
       cmocka_unit_test(test_second_follow__dead_time__is_between_log_and_gas),
       cmocka_unit_test(test_second_follow__leak_that_begins__empties_from_then_on),

@@ -64,6 +64,75 @@ static void test_supply_droop__held_pressure__flow_solves_its_equation(void **st
   assert_close(s * s * 0.5 * case_rt(&g), P1 * (P1 - P), 0, 1e-7);
 }
 
+/* Choked flow through the fill orifice, by the supply pressure and the supply's temperature. */
+static double full_flow(const second_rig *g)
+{
+  return g->fill_area * case_choked(g) * (g->supply + g->ambient) / sqrt(g->gas_constant * g->supply_temperature);
+}
+
+/* Under Eq. (8), whose root of the difference is exact, the share c of the line loses r c q^2/q_f. */
+static void test_supply_turbulence__held_pressure__flow_solves_its_equation(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 6; i++) {
+    second_rig g = case_held(i < 3 ? 100e3 : 350e3);
+    double c = (double[]){0.3, 0.7, 1.0}[i % 3], r = 2e8, P = g.start_pressure;
+    g.stroke = 0.0;
+    g.supply_droop = r;
+    g.supply_turbulence = c;
+    double Ps = g.supply + g.ambient, q = case_run(&g, 0.8, 1.0, 1.0).mass_in, s = q / (0.8 * g.fill_area);
+    double P1 = 0.5 * (P + sqrt(P * P + 2.0 * s * s * case_rt(&g)));
+    check_note("c = %g into %g Pa", c, P);
+    assert_true(Ps - P1 > 0.03 * Ps);
+    assert_close(Ps - P1, r * q * (1.0 - c + c * q / full_flow(&g)), 0, 1e-9);
+  }
+}
+
+/* Into a vessel that keeps the fill orifice choked, m' = u K Pl, and the volume behind a resistance follows
+ * Pl' = R T/V ((Ps - Pl)/r - u K Pl): drawn from, shut, drawn from again. */
+static void test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponentially(void **state)
+{
+  (void)state;
+  static const double when[] = {0.1, 0.3, 0.35}, u[] = {1.0, 0.0, 0.5};
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.dead_volume = 1.0;
+  g.supply_temperature = 330.0;
+  g.supply_droop = 4e8;
+  g.supply_volume = 2e-5;
+  double Ps = g.supply + g.ambient, K = full_flow(&g) / Ps, Pl = Ps, drawn = 0.0, t = 0.0, now = 0.0;
+  double rt = g.gas_constant * g.supply_temperature;
+  case_schedule(&g, when, u, 3, 0.5, 0.01);
+  for (size_t i = 1; i < got.n; t = got.t[i++]) {
+    for (int k = 0; k < 3; k++)
+      now = t > when[k] - 1e-9 ? u[k] : now;
+    double ruk = g.supply_droop * now * K, lag = g.supply_droop * g.supply_volume / rt / (1.0 + ruk);
+    double end = Ps / (1.0 + ruk), gone = 1.0 - exp(-0.01 / lag);
+    drawn += now * K * (end * 0.01 + (Pl - end) * lag * gone);
+    Pl += (end - Pl) * gone;
+    check_note("t = %g s", got.t[i]);
+    assert_close(got.m[i] - got.m[0], drawn, 1e-13, 1e-9);
+  }
+  assert_between(Pl, 0.5 * Ps, 0.8 * Ps);
+}
+
+/* The line is an orifice alone, of area S, and chokes as one. To second order a nozzle's a is sqrt(2/(R T))
+ * (1 - 3/4 w/gamma) of a loss w = 1/1000. */
+static void test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does(void **state)
+{
+  (void)state;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.dead_volume = 1.0;
+  g.supply_droop = 5.6e8;
+  g.supply_turbulence = 1.0;
+  g.supply_volume = 2e-6;
+  double Ps = g.supply + g.ambient, a2 = 2.0 / case_rt(&g) * (1.0 - 1.5e-3 / g.gamma);
+  double S = sqrt(full_flow(&g) / (Ps * g.supply_droop) / a2);
+  case_run(&g, 1.0, 1.0, 0.5);
+  check_note("S = %g m2", S);
+  assert_between(S / g.fill_area, 0.4, 0.5); /* both choke */
+  assert_close((got.m[2] - got.m[1]) / 0.5, S * case_choked(&g) * Ps / sqrt(case_rt(&g)), 0, 1e-8);
+}
+
 /* q^2 R T/(2 Ca^2) = P (P - Pa - r q). */
 static void test_back_pressure__held_pressure__flow_solves_its_equation(void **state)
 {
@@ -101,6 +170,30 @@ static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **s
   for (size_t i = 0; i < got.n; i++) {
     double t = got.t[i];
     assert_close(got.p[i], q / (c1 + c2) * (t - lag * (1.0 - exp(-t / lag))), 1e-6, 1e-11);
+  }
+}
+
+/* Steadily into a held pressure P, or out of it: by Eq. (8) the transducer tells Pt of q, and the line's equation is
+ * that of a supply's, but for pressure and temperature ahead of it, Pu and Tu in place of Ps and Ts. */
+static void test_tube_turbulence__held_pressure__steady_flow_solves_its_equation(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 6; i++) {
+    second_rig g = case_held(200e3);
+    double c = (double[]){0.3, 0.7, 1.0}[i % 3], u = i < 3 ? 1.0 : -1.0, r = 2e8, P = g.start_pressure;
+    g.stroke = 0.0;
+    g.supply_temperature = 350.0;
+    g.tube_volume = 1e-5;
+    g.tube_resistance = r;
+    g.tube_turbulence = c;
+    second_audit before = case_run(&g, u, 1.0, 1.0), after = case_run(&g, u, 2.0, 1.0);
+    double q = u > 0.0 ? after.mass_in - before.mass_in : after.mass_out - before.mass_out;
+    double Ps = g.supply + g.ambient, s = 0.5 * q * q * g.gas_constant / (g.fill_area * g.fill_area);
+    double in = Ps - s * g.supply_temperature / Ps, Pa = g.ambient;
+    double out = 0.5 * (Pa + sqrt(Pa * Pa + 4.0 * s * g.ambient_temperature)), Pu = u > 0.0 ? in : P;
+    double ahead = Ps / Pu * g.ambient_temperature / g.supply_temperature;
+    check_note("c = %g, u = %g", c, u);
+    assert_close(Pu - (u > 0.0 ? P : out), r * q * (1.0 - c + c * q / full_flow(&g) * ahead), 0, 1e-10);
   }
 }
 
@@ -542,7 +635,8 @@ static void test_second_run__all_effects_at_once__audits_close(void **state)
   g.relief_area = 1e-8, g.relief_from = 2e5, g.relief_span = 1e3;
   g.heat = 2.0, g.heat_natural = 0.1, g.wall_capacity = 50.0, g.wall_loss = 1.0;
   g.supply_droop = 1e7, g.back_pressure = 5e6, g.pulsation = 2e3, g.pulsation_rate = 3.0;
-  g.tube_volume = 2e-5, g.tube_resistance = 1e7;
+  g.supply_turbulence = 0.5, g.supply_volume = 1e-4;
+  g.tube_volume = 2e-5, g.tube_resistance = 1e7, g.tube_turbulence = 0.7;
   g.transducer_lag = 0.02, g.dead_time = 0.013;
   g.stribeck = 0.2, g.stribeck_velocity = 5e-3;
   g.friction_position = 0.2, g.friction_pressure = 1e-4;
@@ -568,9 +662,13 @@ int main(void)
       cmocka_unit_test(test_laminar_leak__vessel_shut__follows_the_closed_form),
       cmocka_unit_test(test_relief__below_and_above_its_pressure__shut_and_open),
       cmocka_unit_test(test_supply_droop__held_pressure__flow_solves_its_equation),
+      cmocka_unit_test(test_supply_turbulence__held_pressure__flow_solves_its_equation),
+      cmocka_unit_test(test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponentially),
+      cmocka_unit_test(test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does),
       cmocka_unit_test(test_back_pressure__held_pressure__flow_solves_its_equation),
       cmocka_unit_test(test_vent_area__smaller_than_fill_area__scales_the_outflow_only),
       cmocka_unit_test(test_tube__constant_inflow__chamber_lags_by_the_closed_form),
+      cmocka_unit_test(test_tube_turbulence__held_pressure__steady_flow_solves_its_equation),
       cmocka_unit_test(test_pulsation__tiny_vessel__follows_the_supply),
       cmocka_unit_test(test_heat__sealed_hot_air__cools_exponentially),
       cmocka_unit_test(test_heat_natural__sealed_hot_air__follows_the_closed_form),
