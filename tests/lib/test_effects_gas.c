@@ -234,6 +234,125 @@ static void check_all_mixed_series(void)
         check_mixed_series(resistance[i], at[k], fill);
 }
 
+/* Choked flow of the fill orifice, fully open. */
+static double full_flow(const pneu_model *m)
+{
+  const double g = (double)m->p.heat_ratio, R = (double)m->p.gas_constant, T = (double)m->p.supply_temperature;
+  const double gain = sqrt(g / R) * pow(2 / (g + 1), (g + 1) / (2 * (g - 1))) / sqrt(T);
+  return gain * (double)m->p.fill_area * (double)(m->p.supply_pressure + m->p.ambient_pressure);
+}
+
+/* What a line of which a share c is turbulent loses of p_up - p_down at flow q: [Pa]. Its orifice passes the full flow
+ * at the loss that its resistance has there, taken for a thousandth of the pressure. */
+static double line_loss(const pneu_model *m, double resistance, double c, double p_up, double T_up, double p_down,
+                        double q)
+{
+  const double little = 1e-3, ps = (double)(m->p.supply_pressure + m->p.ambient_pressure), qf = full_flow(m);
+  double area;
+  pneu_flow flow;
+  pneu_orifice(m, m->law.flow, 1, (pneu_real)ps, m->p.supply_temperature, (pneu_real)(ps * (1 - little)), &flow);
+  area = qf / ((double)flow.q * sqrt(resistance * c * qf / (little * ps)));
+  pneu_orifice(m, m->law.flow, (pneu_real)area, (pneu_real)p_up, (pneu_real)T_up, (pneu_real)p_down, &flow);
+  return resistance * (1 - c) * q + (p_up - p_down) * pow(q / (double)flow.q, 2);
+}
+
+/* A vessel whose supply is warmer than the room, and where ISO 6358 is no root of the difference. */
+static pneu_params warm_supply(void)
+{
+  pneu_params p = fixture_vessel(1e-3);
+  p.supply_temperature = 350;
+  p.subsonic_index = (pneu_real)0.45;
+  return p;
+}
+
+/* In series with the fill orifice: both pass the same. */
+static void check_turbulent_series(int flow, double resistance, double c, double p_in)
+{
+  pneu_params p = warm_supply();
+  const double pa = (double)p.ambient_pressure, ps = 4e5 + pa;
+  double loss, q;
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  pneu_flow orifice;
+  fixture_set(&p, "supply_resistance", resistance);
+  fixture_set(&p, "supply_turbulence", c);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+  input = fixture_input(&m, 1);
+  s = fixture_rest(&m, p_in, 0, &input);
+  q = fixture_look(&m, &s, &input).in;
+  loss = 4e5 - fixture_look(&m, &s, &input).supply;
+  pneu_orifice(&m, flow, p.fill_area, (pneu_real)(ps - loss), p.supply_temperature, (pneu_real)(p_in + pa), &orifice);
+  check_note("%s, %g Pa s/kg, c = %g into %g Pa", pneu_flow_key(flow), resistance, c, p_in);
+  assert_close(line_loss(&m, resistance, c, ps, 350, ps - loss, q), loss, 0, TOL(1e-12, 1e-2));
+  assert_close(q, (double)orifice.q, 0, TOL(1e-13, 1e-2));
+}
+
+static void check_all_turbulent_series(void)
+{
+  static const double resistance[] = {1e6, 2e7, 5e8}, share[] = {0.2, 0.7, 1}, at[] = {0, 2e5, 3.5e5};
+  int flow, i, k, j;
+  for (flow = 0; flow < PNEU_FLOW_COUNT; flow++)
+    for (i = 0; i < COUNT(resistance); i++)
+      for (k = 0; k < COUNT(share); k++)
+        for (j = 0; j < COUNT(at); j++)
+          check_turbulent_series(flow, resistance[i], share[k], at[j]);
+}
+
+/* The pressure at the transducer, shares of the supply's, a time after it stood at `from`. */
+static double line_recovers(const pneu_params *p, int flow, double from, double u, double time)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
+  const pneu_input input = fixture_input(&m, u);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  assert_close(s.extra[0], 1, 0, TOL(1e-15, 1e-7));
+  s.extra[0] = (pneu_real)from;
+  fixture_run(&m, &s, &input, time, FIXTURE_TOL, NULL);
+  assert_close((fixture_look(&m, &s, &input).supply + 101325) / (double)m.scale[0], s.extra[0], 0, TOL(1e-14, 1e-6));
+  return (double)s.extra[0];
+}
+
+/* Shut, a volume behind a resistance recovers as exp(-t R_g T/(R V)); drawn from by a choked flow K p_l, it falls to
+ * 1/(1 + R K); behind an orifice that obeys [B, Eq. 8] the root of what is left falls by (R_g T/V) sqrt(q_f/R)/2 a
+ * second. */
+static void check_supply_volume(void)
+{
+  pneu_params p = warm_supply();
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  const double ps = 4e5 + (double)p.ambient_pressure, R = 2e8, k = (double)p.gas_constant * 350 / 2e-5;
+  const double RK = R * full_flow(&m) / ps, end = 1 / (1 + RK), fell = end + (1 - end) * exp(-0.02 * k / R / end);
+  const double slower = k * sqrt(full_flow(&m) / R / ps) / 2 * 0.01;
+  fixture_set(&p, "supply_resistance", R);
+  fixture_set(&p, "supply_volume", 2e-5);
+  check_note("a volume behind the supply's resistance");
+  assert_close(line_recovers(&p, PNEU_FLOW_PAPER, 0.6, 0, 0.03), 1 - 0.4 * exp(-0.03 * k / R), 0, TOL(1e-10, 1e-5));
+  assert_close(line_recovers(&p, PNEU_FLOW_PAPER, 1.2, 0, 0.03), 1 + 0.2 * exp(-0.03 * k / R), 0, TOL(1e-10, 1e-5));
+  assert_close(line_recovers(&p, PNEU_FLOW_CHOKED, 1, 1, 0.02), fell, 0, TOL(1e-10, 1e-5));
+  fixture_set(&p, "supply_turbulence", 1);
+  assert_close(line_recovers(&p, PNEU_FLOW_PAPER, 0.6, 0, 0.01), 1 - pow(sqrt(0.4) - slower, 2), 0, TOL(1e-10, 1e-5));
+}
+
+/* A volume lends the vessel some of the air that it loses itself; the less there is, the closer it is to none. */
+static void check_small_supply_volume(void)
+{
+  static const double volume[] = {1e-5, 1e-6, 1e-7};
+  pneu_params p = fixture_vessel(1e-3);
+  double want, lent;
+  int i, flow;
+  fixture_set(&p, "supply_resistance", 2e8);
+  fixture_set(&p, "supply_turbulence", 0.6);
+  for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++) {
+    fixture_set(&p, "supply_volume", 0);
+    want = (double)run_vessel(&p, PNEU_GAS_ISOTHERMAL, flow, 0, 1, 0.5).p;
+    for (i = 0; i < COUNT(volume); i++) {
+      fixture_set(&p, "supply_volume", volume[i]);
+      lent = (double)run_vessel(&p, PNEU_GAS_ISOTHERMAL, flow, 0, 1, 0.5).p - want;
+      check_note("%s, %g m3", pneu_flow_key(flow), volume[i]);
+      assert_between(lent * 1e-3 / volume[i], TOL(5e4, -5e6), TOL(4e5, 5e6));
+    }
+  }
+}
+
 static void footprint_supply_droop(void)
 {
   static const double at[] = {0, 2e5, 3.5e5, 3.98e5};
@@ -260,6 +379,9 @@ static void footprint_supply_droop(void)
   assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p,
                run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 4e5, -1, 0.1).p, TOL(1e-3, 10), 0);
   check_all_mixed_series();
+  check_all_turbulent_series();
+  check_supply_volume();
+  check_small_supply_volume();
 }
 
 static void footprint_exhaust_back_pressure(void)
@@ -296,6 +418,71 @@ static void footprint_vent_restriction(void)
                run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.5).p, TOL(0.01, 20), 0);
 }
 
+/* Flow out of a tube at pressure p_tube into the chamber at p [Pa abs], both at rest. */
+static double tube_flow(const pneu_params *p, int flow, double p_tube, double p_chamber)
+{
+  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
+  const pneu_input shut = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, p_chamber - (double)p->ambient_pressure, 0, &shut);
+  fixture_sample look;
+  s.extra[0] = (pneu_real)(p_tube / (double)m.scale[0]);
+  look = fixture_look(&m, &s, &shut);
+  return look.in - look.out;
+}
+
+/* Either way, a line loses what there is to lose. */
+static void check_turbulent_tube(int flow, double c, double p_tube, double p_chamber)
+{
+  pneu_params p = warm_supply();
+  const double up = p_tube > p_chamber ? p_tube : p_chamber, down = p_tube > p_chamber ? p_chamber : p_tube;
+  pneu_model m;
+  double q;
+  fixture_set(&p, "tube_resistance", 3e7);
+  fixture_set(&p, "tube_turbulence", c);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
+  q = tube_flow(&p, flow, p_tube, p_chamber);
+  check_note("%s, c = %g, from %g to %g Pa", pneu_flow_key(flow), c, p_tube, p_chamber);
+  assert_true((q > 0) == (p_tube > p_chamber));
+  assert_close(line_loss(&m, 3e7, c, up, (double)p.ambient_temperature, down, fabs(q)), up - down, 0, TOL(1e-13, 1e-3));
+}
+
+/* At the full flow of the fill orifice a line from the supply pressure loses R q_f, whatever the share is; a fourth of
+ * the loss passes half the flow where all of it is turbulent, and a fourth where none is. That is exact under [B, Eq.
+ * 8], and under the others while the loss is little. */
+static void check_share_of_turbulence(void)
+{
+  static const double share[] = {0, 0.3, 1};
+  pneu_params p = fixture_vessel(1e-3);
+  const double ps = 4e5 + (double)p.ambient_pressure, R = 1e7;
+  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  const double qf = full_flow(&m), fourth = R * qf / 4;
+  int flow, i;
+  fixture_set(&p, "tube_resistance", R);
+  for (flow = 0; flow < PNEU_FLOW_COUNT; flow++)
+    for (i = 0; i < COUNT(share); i++) {
+      const double within = flow == PNEU_FLOW_PAPER ? TOL(1e-13, 1e-4) : 2e-2;
+      fixture_set(&p, "tube_turbulence", share[i]);
+      check_note("%s, c = %g, %g Pa of %g", pneu_flow_key(flow), share[i], R * qf, ps);
+      assert_close(tube_flow(&p, flow, ps, ps - R * qf), qf, 0, within);
+      if (share[i] == 1)
+        assert_close(tube_flow(&p, flow, ps, ps - fourth), qf / 2, 0, within);
+      if (share[i] == 0)
+        assert_close(tube_flow(&p, flow, ps, ps - fourth), qf / 4, 0, TOL(1e-13, 1e-4));
+    }
+}
+
+static void check_all_turbulent_tubes(void)
+{
+  static const double share[] = {0.3, 0.7, 1}, at[] = {1.1e5, 2.6e5, 4.8e5, 4.9e5, 5e5};
+  int flow, i, k, j;
+  for (flow = 0; flow < PNEU_FLOW_COUNT; flow++)
+    for (i = 0; i < COUNT(share); i++)
+      for (k = 0; k < COUNT(at); k++)
+        for (j = 0; j < COUNT(at); j++)
+          if (k != j)
+            check_turbulent_tube(flow, share[i], at[k], at[j]);
+}
+
 /* Constant choked inflow q into V_t, then R, then V: with k = R_g T/V the difference p_t - p settles to
  * k_t q R/(k_t + k) with time constant R/(k_t + k). */
 static void footprint_connecting_tube(void)
@@ -316,6 +503,8 @@ static void footprint_connecting_tube(void)
     assert_close((double)s.extra[0] * (4e5 + pa), pa + chamber + most * settled, 0, TOL(1e-8, 1e-4));
   }
   assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 2e5, 0, 1).p, 2e5, TOL(1e-6, 1), 0);
+  check_all_turbulent_tubes();
+  check_share_of_turbulence();
 }
 
 /* What leaves the chamber leaves at its temperature, what comes in has that of the tube; the pressure is shared. */
@@ -644,6 +833,17 @@ static void footprint_positioner(void)
   p = positioned(20);
   fixture_set(&p, "derivative_time", 0.1);
   assert_close(asked_on_ramp(&p, 0.5, 0.5, 0.05), 20 * 0.1 * 0.05, TOL(1e-12, 1e-5), 0);
+  check_note("an integral that has worked before");
+  p = positioned(20);
+  fixture_set(&p, "integral_start", 0.02);
+  assert_close(asked(&p, 0.5, 0.49), 0.2, TOL(1e-12, 1e-5), 0); /* there is none */
+  fixture_set(&p, "integral_time", 5);
+  assert_close(asked(&p, 0.5, 0.49), 0.6, TOL(1e-12, 1e-5), 0);
+  assert_close(asked(&p, 0.5, 0.5), 0.4, TOL(1e-12, 1e-5), 0);
+  fixture_set(&p, "integral_start", -0.02);
+  assert_close(asked(&p, 0.5, 0.49), -0.2, TOL(1e-12, 1e-5), 0);
+  fixture_set(&p, "dead_band", 0.015);
+  assert_close(asked(&p, 0.5, 0.49), 0, 0, 0);
   /* droop: the fill orifice passes what leaks, both choked, so that the opening is known, and so is the error; the
    * integral takes it away */
   p = positioned(20);
