@@ -10,6 +10,7 @@ typedef struct audit {
   double enthalpy_in, enthalpy_out, heat; /* [J] */
   double gas_work, spring_side_work;      /* [J] p_abs dV, p_gauge A dx */
   double dry, viscous, external, impact;  /* [J] */
+  double supply_lost;                     /* [Pa s] of the supply pressure, on the way to the transducer */
   double v_end;                           /* [m/s] at the end of the last step */
 } audit;
 
@@ -24,6 +25,7 @@ static void add(audit *a, const fixture_sample *s, double dt)
   a->enthalpy_in += cp * s->in * a->T_in * dt;
   a->enthalpy_out += cp * s->out * s->T * dt;
   a->heat += s->heat * dt;
+  a->supply_lost += ((double)p->supply_pressure - s->supply) * dt;
   a->gas_work += (s->p + pa) * area * (double)p->swept_ratio * s->v * dt;
   a->spring_side_work += s->p * area * s->v * dt;
   a->dry += s->friction * fabs(s->v) * dt;
@@ -159,8 +161,8 @@ static void test_pneu_run__swept_ratio_and_other_index__keeps_mass_and_energy(vo
   check_run(&p, PNEU_GAS_ENERGY, PNEU_FLOW_ISO6358);
 }
 
-/* With one effect at its usual size, under every gas law. */
-static void check_effect(const char *name)
+/* With one effect at its usual size, but for a parameter that is 0 (NULL: none), under every gas law. */
+static void check_effect_without(const char *name, const char *param)
 {
   const int e = pneu_effect_find(name);
   int gas, k, count;
@@ -172,9 +174,16 @@ static void check_effect(const char *name)
       *pneu_param_at(&p, pneu_effect_params(e, NULL) + k) = pneu_effect_at(e)->param[k].value;
     if (strcmp(name, "stribeck_friction") == 0)
       fixture_set(&p, "stribeck_velocity", 0.05); /* without stick-slip: that makes a thousand events */
-    check_note("%s, %s", name, pneu_gas_key(gas));
+    if (param)
+      fixture_set(&p, param, 0);
+    check_note("%s without %s, %s", name, param ? param : "nothing", pneu_gas_key(gas));
     check_run(&p, gas, PNEU_FLOW_PAPER);
   }
+}
+
+static void check_effect(const char *name)
+{
+  check_effect_without(name, NULL);
 }
 
 static void test_chamber_exponent__run__keeps_mass_and_energy(void **state)
@@ -201,10 +210,47 @@ static void test_heat_transfer__run__keeps_mass_and_energy(void **state)
   check_effect("heat_transfer");
 }
 
+static void test_connecting_tube__run__keeps_mass_and_energy(void **state)
+{
+  (void)state;
+  check_effect("connecting_tube");
+}
+
+/* With a volume at the transducer, and in series with it. */
 static void test_supply_droop__run__keeps_mass_and_energy(void **state)
 {
   (void)state;
   check_effect("supply_droop");
+  check_effect_without("supply_droop", "supply_volume");
+}
+
+/* What a resistance lets into the volume behind it is there, in the chamber or gone through the vent. */
+static void test_supply_droop__volume__keeps_mass(void **state)
+{
+  const double R = 2e8, V = 5e-5;
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  int gas;
+  (void)state;
+  fixture_need("supply_droop");
+  fixture_set(&p, "supply_resistance", R);
+  fixture_set(&p, "supply_volume", V);
+  p.supply_temperature = 320;
+  for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
+    const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
+    const double in_line = V * (double)m.scale[0] / ((double)p.gas_constant * 320);
+    const pneu_input shut = fixture_input(&m, 0);
+    pneu_state start = fixture_rest(&m, 0, 0, &shut), end;
+    audit a;
+    double gone, stored;
+    start.extra[0] = (pneu_real)0.7;
+    end = start;
+    a = run(&m, &end);
+    gone = (a.mass_turned_over - a.mass) / 2;
+    stored = (double)(pneu_mass(&m, &end) - pneu_mass(&m, &start)) + in_line * (double)(end.extra[0] - start.extra[0]);
+    check_note("%s", pneu_gas_key(gas));
+    assert_true(gone > 1e-4 && stored > 1e-5);
+    assert_close(stored, a.supply_lost / R - gone, TOL(1e-8, 2e-3) * a.mass_turned_over, 0);
+  }
 }
 
 static void test_transducer_lag__run__keeps_mass_and_energy(void **state)
@@ -253,7 +299,9 @@ int main(void)
       cmocka_unit_test(test_chamber_leak__run__keeps_mass_and_energy),
       cmocka_unit_test(test_choked_flow__run__keeps_mass_and_energy),
       cmocka_unit_test(test_heat_transfer__run__keeps_mass_and_energy),
+      cmocka_unit_test(test_connecting_tube__run__keeps_mass_and_energy),
       cmocka_unit_test(test_supply_droop__run__keeps_mass_and_energy),
+      cmocka_unit_test(test_supply_droop__volume__keeps_mass),
       cmocka_unit_test(test_transducer_lag__run__keeps_mass_and_energy),
       cmocka_unit_test(test_vent_restriction__run__keeps_mass_and_energy),
       cmocka_unit_test(test_stribeck_friction__run__keeps_mass_and_energy),
