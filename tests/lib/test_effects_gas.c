@@ -535,18 +535,41 @@ static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void
 /* Hardly any tube: chamber and tube are one, and gas that is not at ambient temperature may rest. */
 static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(void **state)
 {
-  static const double resistance[] = {1, 1e3, 1e5, 1e7};
+  static const double resistance[] = {1, 1e3, 1e5, 1e7}, share[] = {0, 0.5, 1};
   pneu_params p = fixture_params(FIXTURE_37_13);
-  int i;
+  int i, k;
   (void)state;
   fixture_need("connecting_tube");
-  for (i = 0; i < COUNT(resistance); i++) {
-    pneu_model m;
-    fixture_set(&p, "tube_resistance", resistance[i]);
-    m = fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER);
-    check_note("%g Pa s/kg", resistance[i]);
-    assert_between(fixture_steps(&m) * PNEU_STAGE_COUNT, 1, TOL(24000, 240000)); /* stages */
-  }
+  for (i = 0; i < COUNT(resistance); i++)
+    for (k = 0; k < COUNT(share); k++) {
+      pneu_model m;
+      fixture_set(&p, "tube_resistance", resistance[i]);
+      fixture_set(&p, "tube_turbulence", share[k]);
+      m = fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER);
+      check_note("%g Pa s/kg, c = %g", resistance[i], share[k]);
+      assert_between(fixture_steps(&m) * PNEU_STAGE_COUNT, 1, TOL(24000, 240000)); /* stages */
+    }
+}
+
+/* Down to a cubic millimetre behind a supply's resistance, and hardly any of that. */
+static void test_supply_droop__small_volume__is_not_stiff_at_rest(void **state)
+{
+  static const double resistance[] = {1, 1e5, 1e7}, share[] = {0, 0.5, 1}, volume[] = {1e-9, 1e-6, 1e-3};
+  pneu_params p = fixture_params(FIXTURE_37_13);
+  int i, k, j;
+  (void)state;
+  fixture_need("supply_droop");
+  for (i = 0; i < COUNT(resistance); i++)
+    for (k = 0; k < COUNT(share); k++)
+      for (j = 0; j < COUNT(volume); j++) {
+        pneu_model m;
+        fixture_set(&p, "supply_resistance", resistance[i]);
+        fixture_set(&p, "supply_turbulence", share[k]);
+        fixture_set(&p, "supply_volume", volume[j]);
+        m = fixture_model(&p, PNEU_GAS_POLYTROPIC, PNEU_FLOW_PAPER);
+        check_note("%g Pa s/kg, c = %g, %g m3", resistance[i], share[k], volume[j]);
+        assert_between(fixture_steps(&m) * PNEU_STAGE_COUNT, 1, TOL(5000, 20000)); /* stages */
+      }
 }
 
 /* ---- energy ---- */
@@ -1011,12 +1034,13 @@ static void test_positioner__leak_at_the_dead_band__pressure_swings_over_the_fri
 
 int main(void)
 {
-  enum { OTHERS = 7 };
+  enum { OTHERS = 8 };
   static char names[COUNT(footprints)][100];
   struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
       cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
       cmocka_unit_test(test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it),
       cmocka_unit_test(test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest),
+      cmocka_unit_test(test_supply_droop__small_volume__is_not_stiff_at_rest),
       cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
       cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
       cmocka_unit_test(test_positioner__holds_and_ramps__always_end),
