@@ -1,7 +1,7 @@
 /* A tube between transducer and chamber, as a volume V_t next to the transducer and then a restriction:
- * p_t' = R T_a/V_t (q_transducer - q), p_t - p = R_t (1 - c) q + (p_t - p) (q/q_o)^2 into the chamber. q_o is what passes
- * the orifice that by itself would lose R_t c q_f at the full flow q_f of the fill orifice, were that little beside
- * the pressure; it follows the law of the model. Air in the tube has ambient temperature.
+ * p_t' = R T_a/V_t (q_transducer - q), p_t - p = R_t (1 - c) q + (p_t - p) (q/q_o)^2 into the chamber. q_o is what
+ * passes the orifice that by itself would lose R_t c q_f at the full flow q_f of the fill orifice, were that little
+ * beside the pressure; it follows the law of the model. Air in the tube has ambient temperature.
  * Air passes the end of the tube both ways while the pressures differ by less than a millionth of the supply's: a stiff
  * flow whose temperature changed at a point would hold the steps short at every rest.
  * The state is p_t over the absolute supply pressure. R_t counts as 1e4 Pa s/kg at least (10 Pa at 1 g/s): with less
@@ -28,7 +28,7 @@ static const pneu_param_info params[] = {
 static void transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
 {
   const pneu_real p_chamber = t->p, T_chamber = t->T;
-  t->mass_in = t->mass_out = t->mass_in_T = 0;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
   t->p = p;
   t->T = T;
   pneu_transducer_flow(t);
@@ -68,7 +68,8 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 const pneu_effect pneu_effect_record_connecting_tube = {
     "connecting_tube",
     "A tube between transducer and chamber stores air and resists its flow.",
-    "Iberall 1950, J. Res. NBS 45:85 (RP2115), lumped into one volume and one resistance; turbulent: Darcy and Weisbach",
+    "Iberall 1950, J. Res. NBS 45:85 (RP2115), lumped into one volume and one resistance; turbulent: Darcy and "
+    "Weisbach",
     "mass",
     "pressure starts late and rounded after every change of command, and flow near equal pressures is too slow both "
     "ways",

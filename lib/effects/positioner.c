@@ -5,16 +5,17 @@
  * s the set position in shares of the stroke, which is pneu_input.u; span, zero and a wider dead band are effects of
  * their own. u is 0 while |e| is within the dead band, -1 below cutoff_low and 1 above cutoff_high. What is 0 is not
  * there. e' has the slope of a set position that ramps; one that jumps gives it no kick.
- * The state is I. It begins at integral_start, for a loop has worked before its record, and stands still within the dead band, beyond the cut-offs and while u is clipped, lest it
- * wind up. Without pneu_input.set_position the command is u itself, and I stands still.
- * The rate of I where u is clipped follows a straight line over CLIPPED of the opening. u jumps at the edge of the dead
- * band, where error control shortens the step: a stem that a leak pushes out of the band stops by its friction where it
- * is, and air is let in until p has risen by the friction band, 2 F/A; then the cycle begins again. An opening that
- * rises over 0.01 % of the stroke would hold the stem there, and p would be off by up to that. Along a ramp of the set
- * position u does rise, over EDGE of the stroke about the band's own: the stem would go in and out of the band ninety times a second, which
- * takes 15 times the steps for at most 1 um of 38 mm of travel. Without friction it does so everywhere. A short stroke
- * goes in and out all the same: 10 mm at 0.3 mm/s sixty times a second by 4 um, up to an edge of 3e-4 of it
- * (pneu_model.band_edge), with which the stem is where it is in the mean to 0.01 um.
+ * The state is I. It begins at integral_start, for a loop has worked before its record, and stands still within the
+ * dead band, beyond the cut-offs and while u is clipped, lest it wind up. Without pneu_input.set_position the command
+ * is u itself, and I stands still. The rate of I where u is clipped follows a straight line over CLIPPED of the
+ * opening. u jumps at the edge of the dead band, where error control shortens the step: a stem that a leak pushes out
+ * of the band stops by its friction where it is, and air is let in until p has risen by the friction band, 2 F/A; then
+ * the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would be off
+ * by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke about the band's own: the stem
+ * would go in and out of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of
+ * travel. Without friction it does so everywhere. A short stroke goes in and out all the same: 10 mm at 0.3 mm/s sixty
+ * times a second by 4 um, up to an edge of 3e-4 of it (pneu_model.band_edge), with which the stem is where it is in the
+ * mean to 0.01 um.
  *
  * Size: gain 10 to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
 #include "../internal.h"

@@ -5,7 +5,8 @@
  * at least there, as a tube's does. */
 #include "../internal.h"
 
-#define LEAST PNEU_C(1e4) /* [Pa s/kg] */
+#define LEAST        PNEU_C(1e4)  /* [Pa s/kg] */
+#define LEAST_VOLUME PNEU_C(1e-9) /* [m3]: a smaller one is none */
 
 enum { RESISTANCE, TURBULENCE, VOLUME };
 
@@ -24,7 +25,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
   const pneu_real supply = t->input->supply_pressure + p->ambient_pressure, left = state[0] * scale;
   pneu_flow flow;
   rate[0] = 0;
-  if (!(param[VOLUME] > 0) || t->model->law.pressure_input)
+  if (!(param[VOLUME] >= LEAST_VOLUME) || t->model->law.pressure_input)
     return;
   pneu_line_flow(t, &line, PNEU_M(fmax)(supply, left), p->supply_temperature, PNEU_M(fmin)(supply, left), &flow);
   rate[0] = p->gas_constant * p->supply_temperature / (param[VOLUME] * scale) *
@@ -39,7 +40,7 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 
 static void prepare(pneu_model *model, const pneu_real *param)
 {
-  if (param[VOLUME] > 0)
+  if (param[VOLUME] >= LEAST_VOLUME)
     model->supply_line = model->n_extra - 1;
   else
     model->supply_loss = (pneu_line){param[RESISTANCE], param[TURBULENCE], 0};

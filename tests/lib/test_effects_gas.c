@@ -353,6 +353,29 @@ static void check_small_supply_volume(void)
   }
 }
 
+/* What flows back out of a vessel is in the volume: p V of both together grows by no more than what the line lets
+ * through, which is next to nothing. */
+static void check_backflow(void)
+{
+  pneu_params p = fixture_vessel(1e-4);
+  double held, left;
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  fixture_set(&p, "supply_resistance", 1e10);
+  fixture_set(&p, "supply_volume", 5e-5);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, 1);
+  s = fixture_rest(&m, 3e5, 0, &input);
+  s.extra[0] = (pneu_real)0.4;
+  held = 1e-4 * (3e5 + (double)p.ambient_pressure) + 5e-5 * 0.4 * (double)m.scale[0];
+  fixture_run(&m, &s, &input, 0.02, FIXTURE_TOL, NULL);
+  left = 1e-4 * (double)(s.p + p.ambient_pressure) + 5e-5 * (double)(s.extra[0] * m.scale[0]);
+  check_note("a vessel that fills the supply's volume");
+  assert_between(left / held, 1 - TOL(1e-9, 1e-4), 1 + 2e-3);
+  assert_between(s.p, 2e5, 2.9e5);
+}
+
 static void footprint_supply_droop(void)
 {
   static const double at[] = {0, 2e5, 3.5e5, 3.98e5};
@@ -382,6 +405,7 @@ static void footprint_supply_droop(void)
   check_all_turbulent_series();
   check_supply_volume();
   check_small_supply_volume();
+  check_backflow();
 }
 
 static void footprint_exhaust_back_pressure(void)
@@ -554,7 +578,7 @@ static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(vo
 /* Down to a cubic millimetre behind a supply's resistance, and hardly any of that. */
 static void test_supply_droop__small_volume__is_not_stiff_at_rest(void **state)
 {
-  static const double resistance[] = {1, 1e5, 1e7}, share[] = {0, 0.5, 1}, volume[] = {1e-9, 1e-6, 1e-3};
+  static const double resistance[] = {1, 1e5, 1e7}, share[] = {0, 0.5, 1}, volume[] = {1e-12, 1e-9, 1e-6, 1e-3};
   pneu_params p = fixture_params(FIXTURE_37_13);
   int i, k, j;
   (void)state;

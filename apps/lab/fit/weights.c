@@ -282,8 +282,8 @@ static double rounding_of(const lab_run *run, int n)
   return step;
 }
 
-/* Deviation [s] of the times of rows, at most `most`; 0 where it does not show. Where it shows only while a channel moves
- * fastest, as an error of the model does, it is at most what rounding to `step` makes. */
+/* Deviation [s] of the times of rows, at most `most`; 0 where it does not show. Where it shows only while a channel
+ * moves fastest, as an error of the model does, it is at most what rounding to `step` makes. */
 static double jitter_of(const rows *a, double most, double step)
 {
   static const double of_step = 0.5; /* uniform: 0.29; more where a time is a step off */
@@ -373,9 +373,7 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   }
   if (error->status != LAB_OK)
     return 0;
-  jitter = is_told(run, u->n_runs)
-               ? 0
-               : jitter_of(a, share_of_row * shortest_row(u), rounding_of(run, u->n_runs));
+  jitter = is_told(run, u->n_runs) ? 0 : jitter_of(a, share_of_row * shortest_row(u), rounding_of(run, u->n_runs));
   for (at = r, e = 0; jitter > 0 && e < u->n_runs; e++) {
     weigh(&run[e], at, jitter);
     at += run[e].n * (size_t)run[e].n_channels;
