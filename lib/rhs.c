@@ -51,7 +51,6 @@ static pneu_real sense_of(int mode, pneu_real v)
 static void begin(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                   pneu_terms *t)
 {
-  static const pneu_line none = {0, 0, 0};
   const int i_x = model->n_gas, n = pneu_dimension(model, state->mode);
   const pneu_params *p = &model->p;
   t->model = model;
@@ -65,19 +64,26 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->area = p->area * (1 - model->area_slope * t->x);
   t->swept_area = t->area * p->swept_ratio;
   t->volume = pneu_volume(model, t->x);
-  t->supply = model->supply_line >= 0 ? y[1 + model->thermal + model->supply_line] * model->scale[0]
-                                      : input->supply_pressure + p->ambient_pressure;
+  t->supply = input->supply_pressure + p->ambient_pressure;
   t->exhaust = p->ambient_pressure;
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
   t->zero = t->span = t->dead_band = t->crossing = 0;
   t->asked = t->opening = t->choked_share = 0;
-  t->supply_line = model->supply_loss;
-  t->exhaust_line = none;
   t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
   t->growth = t->heat = t->film = t->bristle_force = 0;
   t->din_dp = t->dout_dp = t->dout_dT = 0;
   t->choked = 0;
+}
+
+/* What lies between the orifices and the outside, which a build without effects has not. */
+static void begin_lines(const pneu_model *model, const pneu_real *y, pneu_terms *t)
+{
+  static const pneu_line none = {0, 0, 0};
+  t->supply_line = model->supply_loss;
+  t->exhaust_line = none;
+  if (model->supply_line >= 0)
+    t->supply = y[1 + model->thermal + model->supply_line] * model->scale[0];
 }
 
 /* A build without effects need not link the call. */
@@ -110,6 +116,8 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
 {
   int next = 0;
   begin(model, state, input, y, t);
+  if (PNEU_EFFECT_COUNT > 0)
+    begin_lines(model, y, t);
   t->extent = extent;
   add_effects(t, y, PNEU_STAGE_GEOMETRY, &next, rate);
   if (!pneu_chamber_ok(t))

@@ -153,7 +153,7 @@ static void test_pneu_params_default__effects__are_neutral_and_none_acts(void **
   for (i = PNEU_PARAM_BASE_COUNT; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
-    assert_true(*pneu_param_at(&p, i) == (info.shape ? info.value : info.neutral));
+    assert_true(*pneu_param_at(&p, i) == info.neutral);
   }
   model = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   assert_int_equal(model.n_active, 0);
