@@ -114,7 +114,7 @@ static int follow(lab_sides *c, extension *x, lab_error *error)
   if (status != LAB_OK || !lab_rest_is_more_than_noise(&left))
     return status;
   x->u = c->then;
-  x->param = lab_param_index("supply_pressure");
+  x->param = PNEU_PARAM_supply_pressure;
   x->shape = -1;
   x->is_course = 1;
   x->u.run = c->white;

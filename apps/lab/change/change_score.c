@@ -53,13 +53,9 @@ static int begin_trial(const lab_projection *p, int first, int param, tried *t, 
 double lab_change_usual(const lab_unknowns *u, int param)
 {
   const pneu_param_info info = lab_param_info(param);
-  double now;
-  if (param == LAB_PARAM_ORIFICE_AREA)
-    return 0.1;
-  now = (double)*pneu_param_at((pneu_params *)&u->rig.params, param);
-  if (param >= PNEU_PARAM_BASE_COUNT)
-    return (double)info.value - (double)info.neutral;
-  return 0.1 * fabs(now != 0 ? now : (double)info.value);
+  const double now = lab_param_value(&u->rig, param);
+  return lab_param_is_value(param) ? 0.1 * fabs(now != 0 ? now : (double)info.value)
+                                   : (double)info.value - (double)info.neutral;
 }
 
 /* Score what may differ from day to day: whether it differs by more. That is the slope of its prior alone, the rest of
@@ -193,8 +189,7 @@ static int is_off(const lab_unknowns *u, int first, int count)
   int i, off = 1;
   for (i = first; i < first + count; i++) {
     const pneu_param_info info = lab_param_info(i);
-    off = off && (info.shape ||
-                  (lab_unknowns_find(u, i) < 0 && *pneu_param_at((pneu_params *)&u->rig.params, i) == info.neutral));
+    off = off && (info.shape || (lab_unknowns_find(u, i) < 0 && lab_param_value(&u->rig, i) == (double)info.neutral));
   }
   return off;
 }

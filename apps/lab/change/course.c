@@ -7,7 +7,6 @@
 #include "../base/array.h"
 #include "../base/clock.h"
 #include "../base/quantile.h"
-#include "repeat.h"
 
 enum { STEPS = 8, PLACES = 16, LEVELS = 4 }; /* steps at most; rows and levels at which one is tried */
 static const double much = 0.1;              /* share of what is left that a step has to explain */
@@ -298,16 +297,15 @@ static int describe(follower *f, lab_course *course, lab_error *error)
 /* The run with a step that is none. */
 static int begin(const lab_unknowns *u, int run, follower *f, lab_error *error)
 {
-  const int param = lab_param_index("supply_pressure");
   int j;
   f->u = *u;
   f->run = run;
   f->first = u->n;
   f->supply = (double)u->rig.params.supply_pressure;
   for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_CHANGE && u->unknown[j].index == param)
+    if (u->unknown[j].kind == LAB_UNKNOWN_CHANGE && u->unknown[j].index == PNEU_PARAM_supply_pressure)
       f->supply += u->unknown[j].value;
-  if (lab_unknowns_add_change(&f->u, param, run, 0, error))
+  if (lab_unknowns_add_change(&f->u, PNEU_PARAM_supply_pressure, run, 0, error))
     return error->status;
   f->u.unknown[f->first].upper = 0;
   f->u.unknown[f->first].spread = f->supply; /* the log does not see it while there is enough of it */

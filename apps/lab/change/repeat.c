@@ -1,7 +1,6 @@
 #include "repeat.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Chosen by judgement; not calibrated: regulators and weather, zeros and gains of ordinary transmitters, and what
  * friction does from day to day. Who knows better gives the measured supply as a channel. */
@@ -23,16 +22,6 @@ const lab_repeat lab_repeats[] = {
     {"spring_preload", 0.005, NULL, 0, 1},
 };
 const int lab_repeat_count = sizeof lab_repeats / sizeof *lab_repeats;
-
-int lab_param_index(const char *name)
-{
-  char text[LAB_PARAM_NAME_TEXT];
-  int i;
-  for (i = 0; i < LAB_PARAM_COUNT; i++)
-    if (!strcmp(lab_fit_name(i, text), name))
-      return i;
-  return -1;
-}
 
 double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig)
 {

@@ -16,9 +16,6 @@ typedef struct lab_repeat {
 extern const lab_repeat lab_repeats[];
 extern const int lab_repeat_count;
 
-/* Index of a parameter by name, as in pneu_param_describe or LAB_PARAM_ORIFICE_AREA; -1 if this build has none. */
-int lab_param_index(const char *name);
-
 /* The standard deviation on a rig, in the parameter's unit. */
 double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig);
 

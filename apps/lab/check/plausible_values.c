@@ -111,21 +111,13 @@ int lab_check_vacuum(const lab_log_view *s, lab_check_result *f)
       lab_check_show(f, LAB_CHANNEL_P, p->low));
 }
 
-static int fits_stroke(const lab_rig *rig)
-{
-  int i = 0;
-  while (i < rig->n_fit && rig->fit[i] != PNEU_PARAM_stroke)
-    i++;
-  return i < rig->n_fit;
-}
-
 int lab_check_position_range(const lab_log_view *s, lab_check_result *f)
 {
   const lab_view_cells *x = &s->cells[LAB_CHANNEL_X];
   const double stroke = (double)s->rig->params.stroke;
   const int above = x->high > (1 + beyond_stop) * stroke, below = x->low < -beyond_stop * stroke;
   const double worst = above ? x->high : x->low;
-  if (!(stroke > 0) || fits_stroke(s->rig) || (!above && !below))
+  if (!(stroke > 0) || lab_rig_fits(s->rig, PNEU_PARAM_stroke) || (!above && !below))
     return 0;
   return lab_check_fail(
       f, row_of(s, x, worst),

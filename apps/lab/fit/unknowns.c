@@ -145,7 +145,7 @@ int lab_unknowns_add_change(lab_unknowns *u, int param, int run, double spread, 
   if (!x)
     return no_room(error);
   describe_param(x, param);
-  now = param == LAB_PARAM_ORIFICE_AREA ? 1 : (double)*pneu_param_at(&u->rig.params, param);
+  now = lab_param_value(&u->rig, param);
   x->kind = LAB_UNKNOWN_CHANGE;
   x->run = run;
   x->from = -HUGE_VAL;
@@ -554,11 +554,10 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
     lab_unknown *x;
     if (!(tolerance > 0))
       continue;
-    if (lab_unknowns_add(u, param, (double)*pneu_param_at(&u->rig.params, param), error))
+    if (lab_unknowns_add(u, param, lab_param_value(&u->rig, param), error))
       return error->status;
     x = &u->unknown[u->n - 1];
-    x->prior = (double)*pneu_param_at(&u->declared, param);
-    x->first = x->prior;
+    x->prior = x->first = lab_param_value(&declared, param);
     if (x->prior > 0 && !lab_param_is_of_sensor(param))
       x->lower = fmax(x->lower, held_least * x->prior);
     if (param == PNEU_PARAM_ambient_pressure)
@@ -611,6 +610,6 @@ void lab_unknowns_settle(lab_unknowns *u, lab_fit_result *result)
   for (j = 0; j < u->n; j++)
     if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && u->unknown[j].run == LAB_ALL_RUNS &&
         u->unknown[j].index < PNEU_PARAM_COUNT)
-      u->unknown[j].value = (double)*pneu_param_at(&u->rig.params, u->unknown[j].index);
+      u->unknown[j].value = lab_param_value(&u->rig, u->unknown[j].index);
   lab_unknowns_count(u);
 }

@@ -23,15 +23,10 @@ int lab_report_file(const char *folder, const char *name, lab_report_writer *wri
 /* What was added stands in `fit` beside what was fitted, so that another log is asked for its size. */
 static void fit_what_was_added(const lab_unknowns *u, lab_rig *rig)
 {
-  int i, j;
-  for (j = 0; j < u->n; j++) {
-    if (u->unknown[j].kind != LAB_UNKNOWN_PARAM)
-      continue;
-    for (i = 0; i < rig->n_fit && rig->fit[i] != u->unknown[j].index; i++)
-      ;
-    if (i == rig->n_fit)
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM && !lab_rig_fits(rig, u->unknown[j].index))
       rig->fit[rig->n_fit++] = u->unknown[j].index;
-  }
 }
 
 int lab_report_model(FILE *file, const lab_sources *from, lab_error *error)

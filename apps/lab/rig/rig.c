@@ -35,6 +35,16 @@ const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT])
   return name;
 }
 
+int lab_param_index(const char *name)
+{
+  char text[LAB_PARAM_NAME_TEXT];
+  int i;
+  for (i = 0; i < LAB_PARAM_COUNT; i++)
+    if (!strcmp(lab_fit_name(i, text), name))
+      return i;
+  return -1;
+}
+
 /* ---- Keys ---- */
 
 /* A parameter, within its bounds. */

@@ -119,4 +119,7 @@ double lab_param_value(const lab_rig *rig, int param);
  * Out:     name   Returns: name */
 const char *lab_fit_name(int index, char name[LAB_PARAM_NAME_TEXT]);
 
+/* The index of such a name; -1 if this build has none. */
+int lab_param_index(const char *name);
+
 #endif

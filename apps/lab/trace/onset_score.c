@@ -170,35 +170,31 @@ static int score_one(const scan *s, double *throughout, lab_score *score, double
 
 /* ---- All that may begin ---- */
 
-static void list_one(int param, int effect, int shape, lab_onset_scores *all)
+static void list_one(int param, int effect, lab_onset_scores *all)
 {
   all->of[all->n].param = param;
   all->of[all->n].effect = effect;
-  all->of[all->n++].shape = shape;
+  all->of[all->n++].shape = -1;
 }
 
 /* A declared value; an orifice that is none cannot clog. */
 static void list_values(const lab_unknowns *u, lab_onset_scores *all)
 {
-  char name[LAB_PARAM_NAME_TEXT];
   size_t i;
-  int param;
-  for (i = 0; i < sizeof values / sizeof *values; i++)
-    for (param = 0; param < LAB_PARAM_COUNT; param++)
-      if (strcmp(lab_fit_name(param, name), values[i]) == 0 && lab_param_value(&u->rig, param) != 0)
-        list_one(param, -1, -1, all);
+  for (i = 0; i < sizeof values / sizeof *values; i++) {
+    const int param = lab_param_index(values[i]);
+    if (lab_param_value(&u->rig, param) != 0)
+      list_one(param, -1, all);
+  }
 }
 
 static void list_effects(const lab_unknowns *u, lab_onset_scores *all)
 {
   size_t i;
-  int first;
   for (i = 0; i < sizeof effects / sizeof *effects; i++) {
     const int effect = pneu_effect_find(effects[i]);
-    if (effect < 0 || !lab_score_can_be_missing(&u->rig, effect))
-      continue;
-    first = pneu_effect_params(effect, NULL);
-    list_one(first, effect, -1, all);
+    if (effect >= 0 && lab_score_can_be_missing(&u->rig, effect))
+      list_one(pneu_effect_params(effect, NULL), effect, all);
   }
 }
 

@@ -225,7 +225,7 @@ static int is_absent(const lab_unknowns *u, int first, int count, int *shape)
     const int held = j >= 0 ? lab_unknown_is_held(&u->unknown[j]) : u->nuisance && lab_nuisance_holds(u->nuisance, i);
     const pneu_param_info info = lab_param_info(i);
     if (lab_unknowns_find_onset(u, i) >= 0 ||
-        (!held && (j >= 0 || (!info.shape && *pneu_param_at((pneu_params *)&u->rig.params, i) != info.neutral))))
+        (!held && (j >= 0 || (!info.shape && lab_param_value(&u->rig, i) != (double)info.neutral))))
       return 0;
     if (info.shape == PNEU_FORM_OWN)
       *shape = i;

@@ -23,7 +23,7 @@ static double r[DATA + LAB_FIT_MAX], other[DATA + LAB_FIT_MAX], column[DATA + LA
 /* Index of a parameter, of what can be fitted, by its name; skips the test where an effect was trimmed away. */
 static int index_of(const char *name)
 {
-  const int i = strcmp(name, "orifice_area") ? pneu_param_find(name) : LAB_PARAM_ORIFICE_AREA;
+  const int i = lab_param_index(name);
   if (i < 0)
     skip();
   return i;
