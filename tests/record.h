@@ -48,12 +48,16 @@ static inline void record_add(double t, double u, double p, double x)
   record_first[record.n_runs] = record.n;
 }
 
-/* Normal noise on all rows of a channel. */
-static inline void record_noise(double *channel, double sigma)
+/* Normal noise on all rows of pressure and position, as it is declared. */
+static inline void record_noise(double sigma_p, double sigma_x)
 {
   size_t i;
-  for (i = 0; i < record.n; i++)
-    channel[i] += sigma * fixture_normal(&record_seed);
+  record.noise_p = sigma_p;
+  record.noise_x = sigma_x;
+  for (i = 0; i < record.n && sigma_p > 0; i++)
+    record_p[i] += sigma_p * fixture_normal(&record_seed);
+  for (i = 0; i < record.n && sigma_x > 0; i++)
+    record_x[i] += sigma_x * fixture_normal(&record_seed);
 }
 
 static inline void record_measure(void)

@@ -73,10 +73,7 @@ static void test_metrics__noisy_cycle__within_what_is_said(void **state)
   (void)state;
   record_new(LAB_COMMAND_OPENING);
   add_cycle(x_0, F);
-  record.noise_p = 500;
-  record.noise_x = 2e-5;
-  record_noise(record_p, 500);
-  record_noise(record_x, 2e-5);
+  record_noise(500, 2e-5);
   record_p[600] = record_x[3300] = (double)NAN;
   record_measure();
   assert_covers(LAB_METRIC_ENERGY_OUT, spring - F * record_stroke, 3);

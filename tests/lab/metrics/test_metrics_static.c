@@ -31,23 +31,27 @@ static void hold(element *e, double percent, int rows)
     record_add(0.1 * (double)record.n, s, 0, x);
 }
 
-/* Steps of `step` percent from one level to another, the last one included. */
-static void stair(element *e, double from, double to, double step)
+/* Steps of `step` percent from one level to the next of n, the last one included. */
+static void stairs(element *e, const double *level, int n, double step)
 {
-  const int n = (int)(fabs(to - from) / step + 0.5);
-  int i;
-  for (i = 1; i <= n; i++)
-    hold(e, from + (to - from) * i / n, 12);
+  int k, i;
+  for (k = 1; k < n; k++) {
+    const int steps = (int)(fabs(level[k] - level[k - 1]) / step + 0.5);
+    for (i = 1; i <= steps; i++)
+      hold(e, level[k - 1] + (level[k] - level[k - 1]) * i / steps, 12);
+  }
 }
 
-/* Chamber pressure that ramps, rows 0.05 s apart, `rate` percent of the span a second. */
-static void ramp(element *e, double from, double to, double rate)
+/* Chamber pressure that ramps through n levels, rows 0.05 s apart, `rate` percent of the span a second. */
+static void ramps(element *e, const double *level, int n, double rate)
 {
-  const int n = (int)(fabs(to - from) / rate / 0.05 + 0.5);
-  int i;
-  for (i = 1; i <= n; i++) {
-    const double s = record_low + record_span * (from + (to - from) * i / n) / 100;
-    record_add(0.05 * (double)record.n, 0, s, follow(e, s));
+  int k, i;
+  for (k = 1; k < n; k++) {
+    const int rows = (int)(fabs(level[k] - level[k - 1]) / rate / 0.05 + 0.5);
+    for (i = 1; i <= rows; i++) {
+      const double s = record_low + record_span * (level[k - 1] + (level[k] - level[k - 1]) * i / rows) / 100;
+      record_add(0.05 * (double)record.n, 0, s, follow(e, s));
+    }
   }
 }
 
@@ -58,11 +62,8 @@ static void test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis(void 
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, -10, 110, 2);
-  stair(&e, 110, -10, 2);
-  stair(&e, -10, 50, 2);
-  stair(&e, 50, 30, 0.5);
-  stair(&e, 30, 50, 0.5);
+  stairs(&e, (const double[]){-10, 110, -10, 50}, 4, 2);
+  stairs(&e, (const double[]){50, 30, 50}, 3, 0.5);
   record_measure();
   assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.5);
   assert_covers(LAB_METRIC_HYSTERESIS_DEAD_BAND, 10, 0.2);
@@ -77,15 +78,8 @@ static void test_metrics__play_by_a_slow_ramp_with_noise__the_same(void **state)
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_PRESSURE);
-  ramp(&e, -10, 110, 1);
-  ramp(&e, 110, -10, 1);
-  ramp(&e, -10, 50, 1);
-  ramp(&e, 50, 30, 1);
-  ramp(&e, 30, 50, 1);
-  record.noise_p = 300;
-  record.noise_x = 2e-5;
-  record_noise(record_p, 300);
-  record_noise(record_x, 2e-5);
+  ramps(&e, (const double[]){-10, 110, -10, 50, 30, 50}, 6, 1);
+  record_noise(300, 2e-5);
   record_p[500] = (double)NAN;
   record_x[700] = (double)NAN;
   record_measure();
@@ -101,10 +95,8 @@ static void test_metrics__hysteresis_beside_play__both_apart(void **state)
   element e = {10e3, 0, 0, 16e3, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, -10, 110, 1);
-  stair(&e, 110, -10, 1);
-  stair(&e, -10, 10, 1);
-  stair(&e, 10, -5, 0.5);
+  stairs(&e, (const double[]){-10, 110, -10, 10}, 4, 1);
+  stairs(&e, (const double[]){10, -5}, 2, 0.5);
   record_measure();
   assert_metric(LAB_METRIC_HYSTERESIS_DEAD_BAND, 100 * 26e3 / record_span, 0.1, 0);
   assert_between(metric_of(LAB_METRIC_DEAD_BAND)->value, 5, 9);
@@ -116,8 +108,7 @@ static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
   element e = {0, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, 0, 60, 2);
-  stair(&e, 60, 30, 2);
+  stairs(&e, (const double[]){0, 60, 30}, 3, 2);
   record_measure();
   assert_true(metric_of(LAB_METRIC_DEAD_BAND)->at_most);
   assert_between(metrics.metric[LAB_METRIC_DEAD_BAND].value, 1, 2.5);
@@ -130,7 +121,7 @@ static void test_metrics__stem_that_slips__its_step(void **state)
   element e = {0, 0, 3e3, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, 0, 60, 0.25);
+  stairs(&e, (const double[]){0, 60}, 2, 0.25);
   record_measure();
   assert_covers(LAB_METRIC_RESOLUTION, 1.5, 0.15);
   assert_false(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
@@ -141,11 +132,8 @@ static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
   element e = {0, 0, 6e3, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_PRESSURE);
-  ramp(&e, 0, 60, 1);
-  record.noise_p = 100;
-  record.noise_x = 5e-6;
-  record_noise(record_p, 100);
-  record_noise(record_x, 5e-6);
+  ramps(&e, (const double[]){0, 60}, 2, 1);
+  record_noise(100, 5e-6);
   record_measure();
   assert_covers(LAB_METRIC_RESOLUTION, 3, 0.3);
 }
@@ -160,8 +148,7 @@ static void test_metrics__bowed_characteristic__half_the_bow(void **state)
   const double most = 0.96 - 0.03, least = most - 2 * 0.006;
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, -10, 110, 1);
-  stair(&e, 110, -10, 1);
+  stairs(&e, (const double[]){-10, 110, -10}, 3, 1);
   record_measure();
   assert_between(metric_of(LAB_METRIC_LINEARITY)->value, 100 * 0.06 / 2 * least * least, 100 * 0.06 / 2 * most * most);
   assert_denied(LAB_METRIC_HYSTERESIS, "it takes the dead band");
@@ -174,10 +161,7 @@ static void test_metrics__fast_loop__says_so(void **state)
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_PRESSURE);
-  ramp(&e, -10, 110, 30);
-  ramp(&e, 110, -10, 30);
-  ramp(&e, -10, 50, 30);
-  ramp(&e, 50, 20, 30);
+  ramps(&e, (const double[]){-10, 110, -10, 50, 20}, 5, 30);
   record_measure();
   assert_denied(LAB_METRIC_DEAD_BAND, "the stem passes all 1 turns of the chamber pressure faster than 5 %");
   assert_denied(LAB_METRIC_RESOLUTION, "changes slowly nowhere");
@@ -190,8 +174,7 @@ static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, -10, 110, 5);
-  stair(&e, 110, -10, 5);
+  stairs(&e, (const double[]){-10, 110, -10}, 3, 5);
   record_measure();
   assert_denied(LAB_METRIC_DEAD_BAND, "on a stop it does");
   assert_denied(LAB_METRIC_HYSTERESIS, "on a stop it does");
@@ -203,8 +186,7 @@ static void test_metrics__small_loop__says_how_small(void **state)
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, 0, 50, 1);
-  stair(&e, 50, 20, 1);
+  stairs(&e, (const double[]){0, 50, 20}, 3, 1);
   record_measure();
   assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.6);
   assert_denied(LAB_METRIC_HYSTERESIS_DEAD_BAND, "the largest slow one covers 20 %");
@@ -215,7 +197,7 @@ static void test_metrics__turn_between_rows__not_known(void **state)
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, 0, 60, 5);
+  stairs(&e, (const double[]){0, 60}, 2, 5);
   hold(&e, 10, 12);
   hold(&e, 9, 12);
   hold(&e, 8, 12);
@@ -241,8 +223,7 @@ static void test_metrics__valve_that_snaps__no_line(void **state)
   element e = {20e3, 0, 190e3, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  stair(&e, -10, 110, 2);
-  stair(&e, 110, -10, 2);
+  stairs(&e, (const double[]){-10, 110, -10}, 3, 2);
   record_measure();
   assert_denied(LAB_METRIC_LINEARITY, "too little of the loop");
 }
@@ -252,7 +233,7 @@ static void test_metrics__no_signal_to_set_it_against__says_so(void **state)
   element e = {20e3, 0, 0, 0, 0};
   (void)state;
   record_new(LAB_COMMAND_OPENING);
-  ramp(&e, -10, 110, 1);
+  ramps(&e, (const double[]){-10, 110}, 2, 1);
   record.p = NULL;
   record_measure();
   assert_denied(LAB_METRIC_DEAD_BAND, "no chamber pressure, which is the signal of a bare actuator");

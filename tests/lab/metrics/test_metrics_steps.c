@@ -6,8 +6,9 @@ static const double T = 0.8, Td = 0.25; /* [s] of a first-order lag with dead ti
 static const double pi = 3.141592653589793;
 
 /* A lag that follows steps of the set pressure between two levels every `hold` seconds, up first; rows `step` apart. */
-static void add_lag(int steps, double hold, double step, double low, double high)
+static void add_lag(int steps, double hold, double step, double high)
 {
+  const double low = 0.004;
   double t = 0, x = low;
   int k;
   for (; t < 2 - step / 2; t += step)
@@ -25,7 +26,7 @@ static void test_metrics__first_order_lag__its_times(void **state)
 {
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(2, 16, 0.001, 0.004, 0.014);
+  add_lag(2, 16, 0.001, 0.014);
   record_measure();
   assert_int_equal(metrics.n_steps, 2);
   /* the start is seen at 0.5 % of the change */
@@ -52,7 +53,7 @@ static void test_metrics__noise_gaps_uneven_rows__within_what_is_said(void **sta
     record_add(t, since < 0 ? 1e5 : 2e5, 0, since > 1.0 && since < 1.1 ? (double)NAN : x);
     t += fixture_random(&record_seed, 0.003, 0.017);
   }
-  record_noise(record_x, 2e-5);
+  record_noise(0, 2e-5);
   record.noise_x = (double)NAN; /* to be estimated */
   record.bracketed = 1;
   record_measure();
@@ -79,9 +80,8 @@ static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state
   for (draw = 0; draw < DRAWS; draw++) {
     record_new(LAB_COMMAND_SET_PRESSURE);
     record_seed = (uint64_t)draw + 1;
-    add_lag(1, 16, 0.002, 0.004, 0.014);
-    record.noise_x = 5e-5;
-    record_noise(record_x, record.noise_x);
+    add_lag(1, 16, 0.002, 0.014);
+    record_noise(0, 5e-5);
     record_measure();
     for (i = 0; i < 3; i++) {
       const lab_metric *got = metric_of(times[i].metric);
@@ -105,7 +105,7 @@ static void test_metrics__logged_command__known_within_a_row(void **state)
   double exact;
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.01, 0.004, 0.014);
+  add_lag(1, 16, 0.01, 0.014);
   record_measure();
   exact = metrics.metric[LAB_METRIC_T86_UP].uncertainty;
   record.bracketed = 1;
@@ -113,9 +113,9 @@ static void test_metrics__logged_command__known_within_a_row(void **state)
   assert_close(metrics.metric[LAB_METRIC_T86_UP].uncertainty, exact + 0.01, 1e-9, 0);
 }
 
-static void add_second_order(double zeta, double omega, double sigma)
+static void add_second_order(double zeta, double sigma)
 {
-  const double damped = omega * sqrt(1 - zeta * zeta);
+  const double omega = 5, damped = omega * sqrt(1 - zeta * zeta);
   int i;
   for (i = 0; i < 4000; i++) {
     const double t = 0.005 * i, s = t - 2;
@@ -123,8 +123,7 @@ static void add_second_order(double zeta, double omega, double sigma)
         s < 0 ? 0 : 1 - exp(-zeta * omega * s) * (cos(damped * s) + zeta * omega / damped * sin(damped * s));
     record_add(t, s < 0 ? 1e5 : 2e5, 0, 0.005 + 0.008 * y);
   }
-  record.noise_x = sigma;
-  record_noise(record_x, sigma);
+  record_noise(0, sigma);
 }
 
 static void test_metrics__second_order__its_overshoot(void **state)
@@ -132,12 +131,12 @@ static void test_metrics__second_order__its_overshoot(void **state)
   const double zeta = 0.4;
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_second_order(zeta, 5, 0);
+  add_second_order(zeta, 0);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 100 * exp(-pi * zeta / sqrt(1 - zeta * zeta)), 0.01, 0);
   assert_denied(LAB_METRIC_OVERSHOOT_DOWN, "no step down of the set pressure");
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_second_order(zeta, 5, 2e-5);
+  add_second_order(zeta, 2e-5);
   record_measure();
   assert_covers(LAB_METRIC_OVERSHOOT_UP, 100 * exp(-pi * zeta / sqrt(1 - zeta * zeta)), 1.5);
 }
@@ -146,7 +145,7 @@ static void test_metrics__overdamped_with_noise__no_overshoot(void **state)
 {
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_second_order(0.99, 5, 2e-5);
+  add_second_order(0.99, 2e-5);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 0, 0, 0);
 }
@@ -155,7 +154,7 @@ static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 {
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(6, 16, 0.01, 0.004, 0.014);
+  add_lag(6, 16, 0.01, 0.014);
   record_measure();
   assert_int_equal(metrics.n_steps, 6);
   assert_metric(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 1e-4, 0);
@@ -168,9 +167,8 @@ static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
 {
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.2, 0.004, 0.014);
-  record.noise_x = 2e-4;
-  record_noise(record_x, 2e-4);
+  add_lag(1, 16, 0.2, 0.014);
+  record_noise(0, 2e-4);
   record_measure();
   assert_denied(LAB_METRIC_SETTLING_TIME_UP, "noise hides");
   assert_covers(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 0.3);
@@ -180,7 +178,7 @@ static void test_metrics__unsettled__says_so(void **state)
 {
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(3, 1.5, 0.01, 0.004, 0.014);
+  add_lag(3, 1.5, 0.01, 0.014);
   record_measure();
   assert_denied(LAB_METRIC_T86_UP, "not settled before the next step");
   assert_denied(LAB_METRIC_T86_DOWN, "before the stem was at rest");
@@ -192,9 +190,8 @@ static void test_metrics__small_step__says_so(void **state)
 {
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.01, 0.004, 0.0044);
-  record.noise_x = 2e-5;
-  record_noise(record_x, 2e-5);
+  add_lag(1, 16, 0.01, 0.0044);
+  record_noise(0, 2e-5);
   record_measure();
   assert_denied(LAB_METRIC_DEAD_TIME_UP, "too small a movement");
 }
@@ -204,7 +201,7 @@ static void test_metrics__gap_before_the_step__says_so(void **state)
   size_t i;
   (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.01, 0.004, 0.014);
+  add_lag(1, 16, 0.01, 0.014);
   for (i = 0; record_t[i] < 1.2; i++)
     record_x[i] = (double)NAN;
   record_measure();
@@ -222,7 +219,7 @@ static void test_metrics__nothing_to_go_by__says_why(void **state)
   record_new(LAB_COMMAND_SET_PRESSURE);
   record_measure();
   assert_denied(LAB_METRIC_T63_UP, "no rows");
-  add_lag(1, 16, 0.01, 0.004, 0.014);
+  add_lag(1, 16, 0.01, 0.014);
   record.x = NULL;
   record_measure();
   for (i = 0; i < LAB_METRIC_COUNT; i++)
@@ -246,8 +243,7 @@ static void add_pressure_steps(double rise, double sigma)
     const double share = fmin(fmax(s / rise, 0), 1), late = s - 0.3;
     record_add(t, 0, 1.5e5 + 1e5 * share, late < 0 ? 0.005 : 0.015 - 0.010 * exp(-late / T));
   }
-  record.noise_p = sigma;
-  record_noise(record_p, sigma);
+  record_noise(sigma, 0);
 }
 
 static void test_metrics__steps_of_a_measured_pressure__found(void **state)
@@ -312,8 +308,7 @@ static void test_metrics__noisy_strokes__within_what_is_said(void **state)
   (void)state;
   record_new(LAB_COMMAND_OPENING);
   add_strokes(record_stroke, 4);
-  record.noise_x = 2e-5;
-  record_noise(record_x, 2e-5);
+  record_noise(0, 2e-5);
   record_measure();
   assert_covers(LAB_METRIC_STROKE_TIME_UP, -T * log(1 - 0.99 / 1.05), 0.05);
   assert_covers(LAB_METRIC_STROKE_TIME_DOWN, 0.99 * 4, 0.05);
