@@ -80,6 +80,19 @@ pneu_model fixture_r1_400(int gas, int flow)
   return fixture_model(&p, gas, flow);
 }
 
+pneu_term fixture_cycle(int equation, double period, double cosine, double sine)
+{
+  pneu_term term;
+  memset(&term, 0, sizeof term);
+  term.equation = equation;
+  term.argument = PNEU_TERM_OVER_CYCLE;
+  term.n = 2;
+  term.to = (pneu_real)period;
+  term.value[0] = (pneu_real)cosine;
+  term.value[1] = (pneu_real)sine;
+  return term;
+}
+
 pneu_options fixture_options(double tol)
 {
   pneu_options options;

@@ -60,6 +60,9 @@ pneu_model fixture_quick(int gas, const char *name, double value);
 
 pneu_input fixture_input(const pneu_model *model, double u);
 
+/* A free term that comes every `period` [s]. */
+pneu_term fixture_cycle(int equation, double period, double cosine, double sine);
+
 /* The default ones but for the tolerance. */
 pneu_options fixture_options(double tol);
 

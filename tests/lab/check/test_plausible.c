@@ -4,6 +4,7 @@
 #include "../../badlog.h"
 #include "../../fixture.h"
 
+#include "../../../apps/lab/base/text.h"
 #include "../../../apps/lab/check/standstill.h"
 #include "../../../apps/lab/check/mend.h"
 #include "../../../apps/lab/check/plausible.h"
@@ -133,11 +134,10 @@ static void test_lab_plausible__pressure_as_input__is_quiet(void **state)
 static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
 {
   char text[2048] = "t [s],p [kPa]\n";
-  size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i <= 20; i++)
-    used += (size_t)snprintf(text + used, sizeof text - used, "%d,%.4g\n", i, 300 * exp(-0.1 * i) + 0.3 * (i % 3 - 1));
+    lab_append(text, sizeof text, "%d,%.4g\n", i, 300 * exp(-0.1 * i) + 0.3 * (i % 3 - 1));
   read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                                      "supply = { pressure = \"400 kPa\"; };\nlog = { constants = { u = 0; }; };\n"
                                      "noise = { pressure = \"0.3 kPa\"; };\nfit = (\"dead_volume\");\n"),
@@ -149,12 +149,10 @@ static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
 static void test_lab_plausible__more_than_the_supply_by_less_than_noise__passes(void **state)
 {
   char text[4096] = "t [s],p [kPa]\n";
-  size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i <= 60; i++)
-    used += (size_t)snprintf(text + used, sizeof text - used, "%.1f,%.4g\n", 0.1 * i,
-                             7.2 * (1 - exp(-1.5 * i / 10)) + 0.2 * (i % 3 - 1));
+    lab_append(text, sizeof text, "%.1f,%.4g\n", 0.1 * i, 7.2 * (1 - exp(-1.5 * i / 10)) + 0.2 * (i % 3 - 1));
   read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                                      "transducer = { fill_area = \"3 mm^2\"; };\n"
                                      "supply = { pressure = \"5 kPa\"; };\nlog = { constants = { u = 1; }; };\n"
@@ -263,12 +261,11 @@ static void test_lab_plausible__temperature_in_other_degrees__is_refused(void **
 static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(void **state)
 {
   char text[8192] = "t [s],u [1],p [kPa]\n";
-  size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i < 200; i++)
-    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%d,%.5g\n", 0.1 * i, i < 2 ? 0 : -1,
-                             i < 2 ? 390.0 : 101.3 + 288.7 * exp(-0.5 * 0.1 * (i - 1)) + 0.2 * (i % 3 - 1));
+    lab_append(text, sizeof text, "%g,%d,%.5g\n", 0.1 * i, i < 2 ? 0 : -1,
+               i < 2 ? 390.0 : 101.3 + 288.7 * exp(-0.5 * 0.1 * (i - 1)) + 0.2 * (i % 3 - 1));
   read_files(scratch_text("rig.cfg",
                           "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                           "transducer = { vent_area = \"3 mm^2\"; };\nsupply = { pressure = \"400 kPa\"; };\n"
@@ -281,13 +278,12 @@ static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(v
 static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **state)
 {
   char text[8192] = "t [s],u [1],p [kPa],x [mm]\n";
-  size_t used = strlen(text);
   int i;
   (void)state;
   for (i = 0; i < 200; i++) {
     const double p = i < 20 ? 101.3 : 215 - 113.7 * exp(-0.05 * (i - 19));
-    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%d,%.5g,%.5g\n", 0.1 * i, i >= 20,
-                             p + 0.2 * (i % 3 - 1), (p - 20) / 10 + 0.01 * (i % 3 - 1));
+    lab_append(text, sizeof text, "%g,%d,%.5g,%.5g\n", 0.1 * i, i >= 20, p + 0.2 * (i % 3 - 1),
+               (p - 20) / 10 + 0.01 * (i % 3 - 1));
   }
   read_files(bad_rig("rig.cfg", ""), scratch_text("log.csv", text));
   rig.params.spring_preload = (pneu_real)0.002;
@@ -356,11 +352,10 @@ static void test_lab_plausible__half_that_is_shut__is_told(void **state)
 static void read_sinking_vessel(double after)
 {
   char text[8192] = "t [s],u [1],p [kPa]\n";
-  size_t used = strlen(text);
   int i;
   for (i = 0; i < 200; i++)
-    used += (size_t)snprintf(text + used, sizeof text - used, "%g,%g,%.5g\n", 0.1 * i, i < 20 ? 1 : after,
-                             (i < 20 ? 15.0 * i : 300 * exp(-0.005 * (i - 20))) + 0.3 * (i % 3 - 1));
+    lab_append(text, sizeof text, "%g,%g,%.5g\n", 0.1 * i, i < 20 ? 1 : after,
+               (i < 20 ? 15.0 * i : 300 * exp(-0.005 * (i - 20))) + 0.3 * (i % 3 - 1));
   read_files(scratch_text("rig.cfg",
                           "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
                           "transducer = { fill_area = \"1.5 mm^2\"; };\nsupply = { pressure = \"400 kPa\"; };\n"

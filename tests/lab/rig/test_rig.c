@@ -2,6 +2,7 @@
 #include "../../fixture.h"
 #include "../../rigfile.h"
 
+#include "../../../apps/lab/base/text.h"
 #include "../../../apps/lab/rig/rigkeys.h"
 
 static lab_error error;
@@ -544,13 +545,11 @@ static void test_lab_rig_write__remark__heads_the_file(void **state)
 
 static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
 {
-  char text[2000] = "log = { quantities = {", one[40];
+  char text[2000] = "log = { quantities = {";
   int i;
   (void)state;
-  for (i = 0; i <= LAB_QUANTITY_MAX; i++) {
-    snprintf(one, sizeof one, " q%d = \"-\";", i);
-    strcat(text, one);
-  }
+  for (i = 0; i <= LAB_QUANTITY_MAX; i++)
+    lab_append(text, sizeof text, " q%d = \"-\";", i);
   strcat(text, " }; };\n");
   assert_rig_refused(text, "log.quantities", "at most 32 quantities");
 }

@@ -12,11 +12,6 @@ static const double row_t[ROWS] = {0, 0.2, 0.7, 1.1, 1.13, 2.0};
 static const double row_u[ROWS] = {0, 1, 1, -1, 0.5, 0};
 static const double row_supply[ROWS] = {4e5, 4e5, 3.5e5, 3.5e5, 4.5e5, 4.5e5};
 
-static int absent(const char *effect)
-{
-  return pneu_effect_find(effect) < 0;
-}
-
 /* Inputs of n rows: command of row i, supply of row j. */
 static pneu_input input_of(const pneu_model *m, int i, int j)
 {
@@ -94,8 +89,7 @@ static void test_lab_response_run__dead_time__delays_the_command_and_nothing_els
   static const double t[] = {0, 0.221, 0.7, 1.1, 1.121, 1.13, 1.151, 2.021};
   static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {1, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 5}};
   (void)state;
-  if (absent("dead_time"))
-    skip();
+  fixture_need("dead_time");
   check_delay(0.021, 8, t, row);
 }
 
@@ -104,8 +98,7 @@ static void test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_
   static const double t[] = {0, 0.7, 0.75, 1.13, 1.65, 1.68, 2.55};
   static const int row[][2] = {{0, 0}, {0, 2}, {1, 2}, {1, 4}, {3, 4}, {4, 4}, {5, 5}};
   (void)state;
-  if (absent("dead_time"))
-    skip();
+  fixture_need("dead_time");
   check_delay(0.55, 7, t, row);
 }
 
@@ -115,8 +108,7 @@ static void test_lab_response_run__dead_time_that_ends_with_another_change__make
   static const double t[] = {0, 0.23, 0.7, 1.13, 1.16, 2.03};
   static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {3, 4}, {4, 4}, {5, 5}};
   (void)state;
-  if (absent("dead_time"))
-    skip();
+  fixture_need("dead_time");
   assert_true(1.1 + 0.03 != 1.13);
   check_delay(0.03, 6, t, row);
 }
@@ -180,8 +172,7 @@ static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
 {
   const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.37);
   (void)state;
-  if (absent("dead_time"))
-    skip();
+  fixture_need("dead_time");
   check_ramp(&m);
 }
 
@@ -201,8 +192,7 @@ static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(voi
   lab_error error;
   int i;
   (void)state;
-  if (absent("positioner"))
-    skip();
+  fixture_need("positioner");
   p.area = (pneu_real)677e-4;
   p.dead_volume = (pneu_real)1.2e-3;
   p.stroke = (pneu_real)38e-3;
@@ -258,8 +248,7 @@ static void test_lab_response_run__channel_skew__shifts_position_alone(void **st
   static const double skew[] = {0.037, -0.016, 0.6, 50};
   int i;
   (void)state;
-  if (absent("channel_skew"))
-    skip();
+  fixture_need("channel_skew");
   for (i = 0; i < COUNT(skew); i++)
     check_skew(skew[i], LAB_STEPPER);
   check_skew(0.037, LAB_CVODE);
@@ -274,8 +263,7 @@ static void test_lab_response_run__negative_skew__looks_beyond_the_end(void **st
   pneu_input input;
   lab_response a, b;
   (void)state;
-  if (absent("channel_skew"))
-    skip();
+  fixture_need("channel_skew");
   skewed = fixture_quick(PNEU_GAS_ISOTHERMAL, "channel_skew", -ahead);
   plain = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   skewed.p.fill_area = plain.p.fill_area = (pneu_real)4e-7; /* still rising at the end */
@@ -300,8 +288,8 @@ static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
       .start = &start, .schedule = &schedule, .t_end = t_end, .options = {.tol = 1e-6}, .stats = &stats};
   lab_error error;
   (void)state;
-  if (absent("dead_time") || absent("channel_skew"))
-    skip();
+  fixture_need("dead_time");
+  fixture_need("channel_skew");
   m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.1);
   m.position_skew = (pneu_real)0.1;
   input[0] = fixture_input(&m, 0);
@@ -315,15 +303,7 @@ static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
 
 static pneu_term cycle(int equation, double period, double size)
 {
-  pneu_term term;
-  memset(&term, 0, sizeof term);
-  term.equation = equation;
-  term.argument = PNEU_TERM_OVER_CYCLE;
-  term.n = 2;
-  term.to = (pneu_real)period;
-  term.value[0] = (pneu_real)(0.3 * size);
-  term.value[1] = (pneu_real)size;
-  return term;
+  return fixture_cycle(equation, period, 0.3 * size, size);
 }
 
 static double cycle_at(const pneu_term *term, double t)
@@ -420,8 +400,7 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
   lab_response response;
   lab_error error;
   (void)state;
-  if (absent("stop_compliance"))
-    skip();
+  fixture_need("stop_compliance");
   assert_int_equal(lab_response_run(&yields, &task, &response, &error), LAB_OK);
   assert_true(response.x[0] > (double)rigid.p.stroke);
   assert_close(response.x[1], (double)rigid.p.stroke, 1e-9, 0);
@@ -442,8 +421,7 @@ static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **
   lab_response response;
   lab_error error;
   (void)state;
-  if (absent("start_temperature"))
-    skip();
+  fixture_need("start_temperature");
   fixture_set(&p, "start_excess", 30);
   before = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   p.fill_area *= 2;

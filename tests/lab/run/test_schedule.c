@@ -1,4 +1,5 @@
 /* apps/lab/run/schedule, start, standard and table */
+#include "../../fixture.h"
 #include "../../scratch.h"
 
 #include "../../../apps/lab/rig/rigkeys.h"
@@ -7,6 +8,7 @@
 #include "../../../apps/lab/run/standard.h"
 #include "../../../apps/lab/run/start.h"
 #include "../../../apps/lab/base/series.h"
+#include "../../../apps/lab/base/text.h"
 
 static lab_error error;
 static lab_rig rig;
@@ -94,20 +96,27 @@ static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state
   assert_close(inputs.schedule.input[0].pressure_rate, 0, 0, 0);
 }
 
+/* Commands t, u, u_rate, and no others. */
+static void assert_commands(const lab_schedule *s, const double row[][3], int n)
+{
+  int i;
+  assert_int_equal(s->n, n);
+  for (i = 0; i < n; i++) {
+    assert_close(s->t[i], row[i][0], 0, 0);
+    assert_close(s->input[i].u, row[i][1], 1e-15, 0);
+    assert_close(s->input[i].u_rate, row[i][2], 1e-15, 0);
+  }
+}
+
 static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
 {
-  static const double row[][3] = {{0, 0, 0}, {1, 0, 0.1}, {3.5, 0.25, 0}, {6, 1, 0}}; /* t, u, u_rate */
+  static const double row[][3] = {{0, 0, 0}, {1, 0, 0.1}, {3.5, 0.25, 0}, {6, 1, 0}};
   const lab_schedule *s = &inputs.schedule;
   int i;
   (void)state;
   read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.1,0\n3,0.2,0\n4,0.25,0\n5,0.25,0\n6,1,0\n");
   drive(0);
-  assert_int_equal(s->n, (int)(sizeof row / sizeof *row));
-  for (i = 0; i < (int)(sizeof row / sizeof *row); i++) {
-    assert_close(s->t[i], row[i][0], 0, 0);
-    assert_close(s->input[i].u, row[i][1], 1e-15, 0);
-    assert_close(s->input[i].u_rate, row[i][2], 1e-15, 0);
-  }
+  assert_commands(s, row, 4);
   for (i = 0; i < 3; i++) /* what runs does not jump */
     assert_int_equal(lab_input_jumps(&s->input[i], s->t[i + 1] - s->t[i], &s->input[i + 1]), i == 2);
 }
@@ -153,22 +162,16 @@ static void test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace(void **s
 /* What a positioner sends: it jumps somewhere in the row before, holds, and then runs along with the stem. */
 static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows(void **state)
 {
-  static const double row[][3] = {{0, 0, 0}, {3, -1, 0}, {3, -1, 0.3}, {4, -0.7, 0.2}, {6, -0.3, 0}}; /* t, u, u_rate */
+  static const double row[][3] = {{0, 0, 0}, {3, -1, 0}, {3, -1, 0.3}, {4, -0.7, 0.2}, {6, -0.3, 0}};
   lab_run run;
-  const lab_schedule *s = &run.inputs.schedule;
   int i;
   (void)state;
   read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0,0\n3,-1,0\n4,-0.7,0\n5,-0.5,0\n6,-0.3,0\n7,-0.3,0\n");
   rig.noise[LAB_CHANNEL_P] = 100;
   assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
-  assert_int_equal(s->n, (int)(sizeof row / sizeof *row));
-  for (i = 0; i < (int)(sizeof row / sizeof *row); i++) {
-    assert_close(s->t[i], row[i][0], 0, 0);
-    assert_close(s->input[i].u, row[i][1], 1e-15, 0);
-    assert_close(s->input[i].u_rate, row[i][2], 1e-15, 0);
-    if (i > 0)
-      assert_close(run.bracket[i - 1], i == 1, 0, 0);
-  }
+  assert_commands(&run.inputs.schedule, row, 5);
+  for (i = 0; i < 4; i++)
+    assert_close(run.bracket[i], i == 0, 0, 0);
   lab_run_close(&run);
 }
 
@@ -206,7 +209,7 @@ static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **sta
 
 static void declare_positioner(void)
 {
-  *pneu_param_at(&rig.params, pneu_param_find("positioner.gain")) = 20;
+  fixture_set(&rig.params, "positioner.gain", 20);
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
 }
 
@@ -308,14 +311,12 @@ static pneu_state start_of(const char *text, double u)
 
 static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
 {
-  char text[4096] = "t [s],u [1],p [kPa],x [mm]\n", row[64];
+  char text[4096] = "t [s],u [1],p [kPa],x [mm]\n";
   pneu_state start;
   int i;
   (void)state;
-  for (i = 0; i < 50; i++) {
-    snprintf(row, sizeof row, "%d,0,%g,%g\n", i, 200 + (i * 7 % 5 - 2) * 0.1, 10 + (i * 3 % 5 - 2) * 0.01);
-    strcat(text, row);
-  }
+  for (i = 0; i < 50; i++)
+    lab_append(text, sizeof text, "%d,0,%g,%g\n", i, 200 + (i * 7 % 5 - 2) * 0.1, 10 + (i * 3 % 5 - 2) * 0.01);
   strcat(text, "50,1,900,900\n");
   start = start_of(text, 0);
   assert_close(start.p, 200e3, 1, 0);
@@ -326,14 +327,12 @@ static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
 
 static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows(void **state)
 {
-  char text[65536] = "t [s],u [1],p [kPa],x [mm]\n", row[64];
+  char text[65536] = "t [s],u [1],p [kPa],x [mm]\n";
   pneu_state start;
   int i;
   (void)state;
-  for (i = 0; i < 1000; i++) {
-    snprintf(row, sizeof row, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
-    strcat(text, row);
-  }
+  for (i = 0; i < 1000; i++)
+    lab_append(text, sizeof text, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
   start = start_of(text, 1);
   assert_close(start.p, 0, 1e-6, 0);
   assert_close(start.x, 0, 0, 0);
@@ -343,37 +342,32 @@ static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_fir
 static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row(void **state)
 {
   char text[8192] = "t [s],u [1],p [kPa]\n0,0,20\n";
-  size_t at = strlen(text);
   int i;
   (void)state;
   for (i = 1; i < 300; i++)
-    at += (size_t)snprintf(text + at, sizeof text - at, "%d,0,%d.%d\n", i, 160, i * 7 % 10);
+    lab_append(text, sizeof text, "%d,0,%d.%d\n", i, 160, i * 7 % 10);
   assert_close(start_of(text, 0).p, 20e3, 1e-6, 0);
 }
 
 /* Down and up again, so that both halves of the curve have one mean. */
 static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(void **state)
 {
-  char text[65536] = "t [s],u [1],p [kPa]\n", row[64];
+  char text[65536] = "t [s],u [1],p [kPa]\n";
   int i;
   (void)state;
-  for (i = 0; i < 200; i++) {
-    snprintf(row, sizeof row, "%d,-1,%g\n", i, 100 + 0.01 * (i - 99.5) * (i - 99.5));
-    strcat(text, row);
-  }
+  for (i = 0; i < 200; i++)
+    lab_append(text, sizeof text, "%d,-1,%g\n", i, 100 + 0.01 * (i - 99.5) * (i - 99.5));
   assert_close(start_of(text, -1).p, (100 + 0.01 * 99.5 * 99.5) * 1e3, 1, 0);
 }
 
 static void test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position(void **state)
 {
-  char text[4096] = "t [s],p [kPa],x [mm]\n", row[64];
+  char text[4096] = "t [s],p [kPa],x [mm]\n";
   int i;
   (void)state;
   set_inputs(1, 0, 0, 0);
-  for (i = 0; i < 20; i++) {
-    snprintf(row, sizeof row, "%d,%d,%d\n", i, 100 + i, i % 2 ? 12 : 4);
-    strcat(text, row);
-  }
+  for (i = 0; i < 20; i++)
+    lab_append(text, sizeof text, "%d,%d,%d\n", i, 100 + i, i % 2 ? 12 : 4);
   assert_close(start_of(text, 0).x, 4e-3, 1e-15, 0);
 }
 
@@ -390,13 +384,10 @@ static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills
 static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests(void **state)
 {
   const char *text = "t [s],sp [%]\n0,0\n1,50\n";
-  const int gain = pneu_param_find("positioner.gain"), low = pneu_param_find("positioner.cutoff_low");
   (void)state;
-  if (gain < 0)
-    skip();
-  *pneu_param_at(&rig.params, gain) = 20;
-  *pneu_param_at(&rig.params, low) = (pneu_real)0.01;
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  fixture_need("positioner");
+  fixture_set(&rig.params, "positioner.cutoff_low", 0.01);
+  declare_positioner();
   is_set = 1;
   assert_close(start_of(text, 0.3).x, 0.3 * (double)rig.params.stroke, 1e-9, 0);
   assert_close(start_of(text, 0.3).p, 4e5 * (0.01 + 0.006) / 0.04, 1e-3, 0);
@@ -410,18 +401,14 @@ static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_
 {
   const char *text = "t [s],sp [%],x [mm]\n0,100,20\n1,50,20\n",
              *beyond = "t [s],sp [%],x [mm]\n0,100,20.02\n1,50,20.02\n";
-  const int gain = pneu_param_find("positioner.gain"), band = pneu_param_find("positioner.dead_band"),
-            high = pneu_param_find("positioner.cutoff_high");
   (void)state;
-  if (gain < 0)
-    skip();
-  *pneu_param_at(&rig.params, gain) = 20;
-  *pneu_param_at(&rig.params, band) = (pneu_real)0.005;
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  fixture_need("positioner");
+  fixture_set(&rig.params, "positioner.dead_band", 0.005);
+  declare_positioner();
   is_set = 1;
   assert_close(start_of(text, 1).p, 4e5 * (0.01 + 0.02) / 0.04, 1e-3, 0);
   assert_close(start_of(beyond, 1).p, 4e5 * (0.01 + 0.02) / 0.04, 1e-3, 0);
-  *pneu_param_at(&rig.params, high) = (pneu_real)0.99;
+  fixture_set(&rig.params, "positioner.cutoff_high", 0.99);
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_close(start_of(text, 1).p, (double)rig.params.supply_pressure, 1e-3, 0);
   assert_close(start_of(beyond, 1).p, (double)rig.params.supply_pressure, 1e-3, 0);
@@ -477,17 +464,10 @@ static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen
 /* A sensor's error is not in the state: bias and gain as the model has them are taken out. */
 static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there(void **state)
 {
-  static const struct sensor {
-    const char *effect;
-    double size;
-  } sensors[] = {{"pressure_bias", 1400}, {"position_gain", 0.05}};
   pneu_state start;
-  int i, first;
   (void)state;
-  for (i = 0; i < 2; i++) {
-    first = pneu_effect_params(pneu_effect_find(sensors[i].effect), NULL);
-    *pneu_param_at(&rig.params, first) = (pneu_real)sensors[i].size;
-  }
+  fixture_set(&rig.params, "pressure_bias.pressure_bias", 1400);
+  fixture_set(&rig.params, "position_gain.position_gain", 0.05);
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   start = start_of("t [s],u [1],p [Pa],x [mm]\n0,0,201400,10.5\n", 0);
   assert_close(start.p, 200e3, 1e-6, 0);
@@ -617,16 +597,13 @@ static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **stat
 static void test_lab_run_open__values_in_steps_without_noise__have_weights(void **state)
 {
   static char text[20000];
-  char row[64];
   int k, i;
   (void)state;
   for (k = 1; k <= 20; k++) {
     lab_run run;
     strcpy(text, "t [s],u [1],p [kPa]\n");
-    for (i = 0; i < 400; i++) {
-      snprintf(row, sizeof row, "%d,%d,%g\n", i, i > 0, 0.1 * k * (double)(i * i / 4000));
-      strcat(text, row);
-    }
+    for (i = 0; i < 400; i++)
+      lab_append(text, sizeof text, "%d,%d,%g\n", i, i > 0, 0.1 * k * (double)(i * i / 4000));
     read_log(text);
     assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
     check_note("steps of %g kPa, sigma %g Pa", 0.1 * k, run.sigma[0]);

@@ -81,24 +81,11 @@ static double surplus(int i)
   return slot[i].statistic - slot[i].degrees;
 }
 
-static pneu_term cycle(int equation, double period, double cosine, double sine)
-{
-  pneu_term term;
-  memset(&term, 0, sizeof term);
-  term.equation = equation;
-  term.argument = PNEU_TERM_OVER_CYCLE;
-  term.n = 2;
-  term.to = (pneu_real)period;
-  term.value[0] = (pneu_real)cosine;
-  term.value[1] = (pneu_real)sine;
-  return term;
-}
-
 /* A term over a cycle comes first, with its period within a line of the spectrum, its size within a fifth and its phase
  * in the middle of the log within 0.4 rad. */
 static void check_cycle(int equation, double period, double cosine, double sine)
 {
-  const pneu_term term = cycle(equation, period, cosine, sine);
+  const pneu_term term = fixture_cycle(equation, period, cosine, sine);
   const double middle = two_pi * t[ROWS / 2], length = spacing * ROWS;
   const int n = slots_of(&term, 3);
   const pneu_term *found = &slot[0].term;
@@ -179,7 +166,7 @@ static void test_lab_score_free_terms__model_full_of_terms__has_no_slots(void **
   open_log();
   measure(NULL, 1);
   for (i = 0; i < LAB_TERM_MAX; i++)
-    u.rig.term[i] = cycle(PNEU_TERM_FORCE, 1, 0, 0);
+    u.rig.term[i] = fixture_cycle(PNEU_TERM_FORCE, 1, 0, 0);
   u.rig.n_terms = LAB_TERM_MAX;
   assert_int_equal(lab_projection_open(&u, &scan, &error), LAB_OK);
   assert_int_equal(lab_score_free_terms(&scan, slot, &n, &error), LAB_OK);
