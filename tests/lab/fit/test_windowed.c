@@ -22,11 +22,11 @@ static double sawtooth(int i, int phase)
   return ramp(i) + 4 * ((double)((i + phase) % PERIOD) / PERIOD - 0.5);
 }
 
-static void fill(double (*truth)(int), int phase, uint64_t seed)
+static void fill(double (*truth)(int), uint64_t seed)
 {
   int i;
   for (i = 0; i < ROWS; i++)
-    measured[i] = (truth ? truth(i) : sawtooth(i, phase)) + sigma * fixture_normal(&seed);
+    measured[i] = (truth ? truth(i) : sawtooth(i, 0)) + sigma * fixture_normal(&seed);
 }
 
 /* Root mean square of every other residual. */
@@ -56,7 +56,7 @@ static void test_lab_windowed_residuals__sawtooth_out_of_phase__are_small(void *
   double row_by_row = 0;
   int i;
   (void)state;
-  fill(NULL, 0, 1);
+  fill(NULL, 1);
   for (i = 0; i < ROWS; i++) {
     predicted[i] = sawtooth(i, PERIOD / 2);
     row_by_row += (measured[i] - predicted[i]) * (measured[i] - predicted[i]) / (sigma * sigma * ROWS);
@@ -73,7 +73,7 @@ static void test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter(v
 {
   int i;
   (void)state;
-  fill(NULL, 0, 2);
+  fill(NULL, 2);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
   lab_windowed_residuals(measured, predicted, ROWS, WINDOW, sigma, r);
@@ -87,7 +87,7 @@ static void test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_me
 {
   int i;
   (void)state;
-  fill(NULL, 0, 3);
+  fill(NULL, 3);
   for (i = 0; i < ROWS; i++)
     predicted[i] = sawtooth(i, 3) - 10;
   lab_windowed_residuals(measured, predicted, ROWS, WINDOW, sigma, r);
@@ -101,7 +101,7 @@ static void test_lab_windowed_residuals__noise_alone__have_unit_scatter(void **s
 {
   int i;
   (void)state;
-  fill(ramp, 0, 4);
+  fill(ramp, 4);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
   lab_windowed_residuals(measured, predicted, ROWS, WINDOW, sigma, r);
@@ -113,7 +113,7 @@ static void test_lab_windowed_residuals__gaps__do_not_count(void **state)
 {
   int i;
   (void)state;
-  fill(ramp, 0, 5);
+  fill(ramp, 5);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
   for (i = 0; i < WINDOW + WINDOW / 2; i++)
@@ -138,7 +138,7 @@ static void test_lab_windowed_roughness__smooth_with_noise__is_0(void **state)
 {
   int i;
   (void)state;
-  fill(ramp, 0, 6);
+  fill(ramp, 6);
   for (i = 0; i < ROWS; i++)
     predicted[i] = 0;
   assert_true(lab_windowed_roughness(measured, predicted, ROWS, WINDOW, sigma) == 0);
@@ -156,7 +156,7 @@ static void test_lab_windowed_roughness__slower_strokes__is_0(void **state)
 {
   int i;
   (void)state;
-  fill(ramp, 0, 8);
+  fill(ramp, 8);
   for (i = 0; i < ROWS; i++) {
     predicted[i] = strokes(i, 12);
     measured[i] += strokes(i, 18) - ramp(i);
@@ -168,7 +168,7 @@ static void test_lab_windowed_roughness__stick_slip__is_1_unless_predicted(void 
 {
   int i;
   (void)state;
-  fill(NULL, 0, 7);
+  fill(NULL, 7);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
   assert_between(lab_windowed_roughness(measured, predicted, ROWS, WINDOW, sigma), 0.98, 1);
@@ -187,7 +187,7 @@ static void test_lab_windowed_roughness__no_motion__is_0(void **state)
 {
   int i;
   (void)state;
-  fill(shaking, 0, 8);
+  fill(shaking, 8);
   for (i = 0; i < ROWS; i++)
     predicted[i] = 0;
   assert_true(lab_windowed_roughness(measured, predicted, ROWS, WINDOW, sigma) == 0);
