@@ -39,7 +39,7 @@ static void open_logs(const int leaks[LOGS], int n)
   found = lab_candidate_add_found(&c);
   found->effect = pneu_effect_find("chamber_leak");
   found->param = pneu_param_find("chamber_leak.leak_area");
-  found->shape = found->term = -1;
+  found->term = -1;
   assert_int_equal(lab_unknowns_add(&c.u, found->param, 1e-8, &error), LAB_OK);
   lab_unknowns_view(&c.u, 0);
   assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);

@@ -132,7 +132,7 @@ static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
   c.n_found = 1;
   c.found[0].effect = pneu_effect_find("chamber_leak");
   c.found[0].param = leak;
-  c.found[0].shape = c.found[0].term = -1;
+  c.found[0].term = -1;
   assert_int_equal(lab_unknowns_hold(&c.u, &error), LAB_OK);
   c.u.unknown[lab_unknowns_find(&c.u, pneu_param_find("dry_friction"))].value = 2000;
   c.u.unknown[lab_unknowns_find(&c.u, pneu_param_find("dead_volume"))].value *= 3;
