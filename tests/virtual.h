@@ -49,6 +49,22 @@ static inline void virtual_write(const second_rig *g, const second_course *cours
   free(t);
 }
 
+/* Write 14 s of these commands, with 100 rows a second, of a rig that is another from a time on [s]; NULL: of one. */
+static inline void virtual_record(const second_rig *g, const second_rig *later, double change, const char *path)
+{
+  const second_course course = {
+      .t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS, .later = later, .change = change};
+  virtual_write(g, &course, 14, 0.01, path);
+}
+
+/* The same of 8 s with 50 rows a second: filled, vented, and filled by half. */
+static inline void virtual_record_brief(const second_rig *g, const char *path)
+{
+  static const double t_cmd[] = {0.402, 3.003, 5.507}, u_cmd[] = {1, -1, 0.5};
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = 3};
+  virtual_write(g, &course, 8, 0.02, path);
+}
+
 /* A log of n rows in one run: time, command, pressure and position, the last NULL where it is not measured. One at a
  * time. */
 static inline lab_log virtual_log(size_t n, double *t, double *command, double *p, double *x)

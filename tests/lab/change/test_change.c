@@ -23,11 +23,11 @@ static void write_log(const second_rig *g, const double *u_of, const char *path)
 
 static void declare(lab_rig *rig)
 {
-  static const char *const fitted[] = {"orifice_area", "dry_friction", "spring_rate", "spring_preload"};
-  int i;
   virtual_declare(rig);
-  for (i = 0; i < 4; i++)
-    rig->fit[rig->n_fit++] = lab_param_index(fitted[i]);
+  rig->fit[rig->n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  rig->fit[rig->n_fit++] = PNEU_PARAM_dry_friction;
+  rig->fit[rig->n_fit++] = PNEU_PARAM_spring_rate;
+  rig->fit[rig->n_fit++] = PNEU_PARAM_spring_preload;
 }
 
 /* Compare logs of a rig whose model is fitted to the first one and needs nothing more. */
@@ -39,15 +39,13 @@ static lab_changes compare_logs(const lab_rig *rig, const char *const path[2])
   lab_changes changes;
   lab_error error = {0, ""};
   int i;
-  for (i = 0; i < 2; i++) {
+  for (i = 0; i < 2; i++)
     virtual_open(rig, path[i], &log[i], &run[i]);
-  }
   assert_int_equal(lab_unknowns_open(rig, run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   assert_int_equal(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error), LAB_OK);
-  for (i = 0; i < 2; i++) {
+  for (i = 0; i < 2; i++)
     virtual_close(&log[i], &run[i]);
-  }
   return changes;
 }
 
@@ -60,14 +58,20 @@ static lab_changes compare_files(const char *rig_name, const char *then, const c
   return compare_logs(&rig, path);
 }
 
+/* Compare logs of two rigs, as one is declared. */
+static lab_changes compare_as(const lab_rig *rig, const second_rig *then, const second_rig *now)
+{
+  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
+  write_log(then, u_cmd[0], path[0]);
+  write_log(now, u_cmd[1], path[1]);
+  return compare_logs(rig, path);
+}
+
 static lab_changes compare(const second_rig *then, const second_rig *now)
 {
   static lab_rig rig;
-  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   declare(&rig);
-  write_log(then, u_cmd[0], path[0]);
-  write_log(now, u_cmd[1], path[1]);
-  return compare_logs(&rig, path);
+  return compare_as(&rig, then, now);
 }
 
 /* One change of that name, whose interval holds the value now. */
@@ -153,7 +157,6 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
 static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
 {
   static lab_rig rig;
-  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   const int zero = pneu_param_find("position_bias.position_bias");
   second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
@@ -166,9 +169,7 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
   rig.fit[rig.n_fit] = zero;
   rig.fit_per_log[rig.n_fit++] = 1;
   rig.tolerance[zero] = 3e-4;
-  write_log(&then, u_cmd[0], path[0]);
-  write_log(&now, u_cmd[1], path[1]);
-  changes = compare_logs(&rig, path);
+  changes = compare_as(&rig, &then, &now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
   assert_int_equal(changes.n, 0);
 }
@@ -212,21 +213,16 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
  */
 static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
 {
-  static const char *const sizes[] = {"area", "dead_volume"};
   static lab_rig rig;
-  const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   second_rig then = virtual_rig(7), now = virtual_rig(8);
   lab_changes changes;
-  int i;
   (void)state;
   now.fill_area *= 0.6;
   now.vent_area *= 0.6;
   declare(&rig);
-  for (i = 0; i < 2; i++)
-    rig.fit[rig.n_fit++] = lab_param_index(sizes[i]);
-  write_log(&then, u_cmd[0], path[0]);
-  write_log(&now, u_cmd[1], path[1]);
-  changes = compare_logs(&rig, path);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_area;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dead_volume;
+  changes = compare_as(&rig, &then, &now);
   assert_int_equal(changes.n, 1);
   assert_int_equal(changes.change[0].param, LAB_PARAM_ORIFICE_AREA);
   assert_close(changes.change[0].now / changes.change[0].then, 0.6, 0, 0.02);
@@ -335,7 +331,7 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
   declare(&rig);
   rig.noise[LAB_CHANNEL_X] = 1e-4;
   rig.n_fit = 0;
-  rig.fit[rig.n_fit++] = lab_param_index("orifice_area");
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   *pneu_param_at(&rig.params, lab_param_index("positioner.gain")) = 10;
   write_course(&then, &course, PLANT_ROWS - 1, 1, path[0]);
   course.later = late;

@@ -19,10 +19,9 @@ typedef struct held_log {
 /* Record 14 s of a rig, and fit its declared model, the orifices unknown.  Out: h  to be closed */
 static inline void held_open(held_log *h, const second_rig *truth)
 {
-  const second_course course = {.t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS};
   lab_error error = {0, ""};
   memset(h, 0, sizeof *h);
-  virtual_write(truth, &course, 14, 0.01, scratch_path("log.csv"));
+  virtual_record(truth, NULL, 0, scratch_path("log.csv"));
   virtual_declare(&h->rig);
   h->rig.fit[h->rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   virtual_open(&h->rig, scratch_path("log.csv"), &h->log, &h->run);

@@ -5,11 +5,6 @@
 
 #include "../../../apps/lab/trace/absent.h"
 
-enum { ROWS = 401, COMMANDS = 3 };
-static const double spacing = 0.02; /* [s] */
-static const double t_cmd[COMMANDS] = {0.402, 3.003, 5.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
-static const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
-
 static lab_rig rig;
 static lab_log run_log;
 static lab_run run;
@@ -28,7 +23,7 @@ static void open_log(double leak)
   rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
   rig.fit[rig.n_fit++] = at;
   g.leak_area = leak * g.vent_area;
-  virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
+  virtual_record_brief(&g, path);
   virtual_open(&rig, path, &run_log, &run);
   memset(&c, 0, sizeof c);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);

@@ -5,10 +5,7 @@
 
 #include "../../../apps/lab/trace/apart.h"
 
-enum { ROWS = 401, LOGS = 2, COMMANDS = 3 };
-static const double spacing = 0.02; /* [s] */
-static const double t_cmd[COMMANDS] = {0.402, 3.003, 5.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
-static const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+enum { LOGS = 2 };
 
 static lab_rig rig;
 static lab_log logs[LOGS];
@@ -20,15 +17,14 @@ static lab_error error;
 /* The logs of two rigs, fitted, and what differs between them. */
 static void open_logs(const second_rig *first, const second_rig *second, int n)
 {
-  static const char *const fitted[] = {"dry_friction", "spring_preload"};
   const second_rig *of[LOGS] = {first, second};
   int i;
   virtual_declare(&rig);
-  for (i = 0; i < COUNT(fitted); i++)
-    rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
   for (i = 0; i < n; i++) {
     const char *path = scratch_path(i ? "second.csv" : "first.csv");
-    virtual_write(of[i], &course, (ROWS - 1) * spacing, spacing, path);
+    virtual_record_brief(of[i], path);
     virtual_open(&rig, path, &logs[i], &run[i]);
   }
   assert_int_equal(lab_unknowns_open(&rig, run, n, &u, &error), LAB_OK);
@@ -39,9 +35,8 @@ static void open_logs(const second_rig *first, const second_rig *second, int n)
 static void close_logs(int n)
 {
   int i;
-  for (i = 0; i < n; i++) {
+  for (i = 0; i < n; i++)
     virtual_close(&logs[i], &run[i]);
-  }
 }
 
 static void find(const second_rig *first, const second_rig *second, int n)

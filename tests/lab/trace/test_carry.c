@@ -6,10 +6,7 @@
 #include "../../../apps/lab/trace/carry.h"
 #include "../../../apps/lab/trace/rivals.h"
 
-enum { ROWS = 401, LOGS = 3, COMMANDS = 3 };
-static const double spacing = 0.02; /* [s] */
-static const double t_cmd[COMMANDS] = {0.402, 3.003, 5.507}, u_cmd[COMMANDS] = {1, -1, 0.5};
-static const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+enum { LOGS = 3 };
 static const double leak = 0.02; /* of the vent orifice */
 
 static lab_rig rig;
@@ -31,7 +28,7 @@ static void open_logs(const int leaks[LOGS], int n)
     second_rig g = virtual_rig((uint64_t)(3 + e));
     g.spring_rate *= leaks[0] ? 1.02 : 1;
     g.leak_area = leaks[e] ? leak * g.vent_area : 0;
-    virtual_write(&g, &course, (ROWS - 1) * spacing, spacing, path);
+    virtual_record_brief(&g, path);
     virtual_open(&rig, path, &logs[e], &run[e]);
   }
   memset(&c, 0, sizeof c);
@@ -49,9 +46,8 @@ static void open_logs(const int leaks[LOGS], int n)
 static void close_logs(int n)
 {
   int e;
-  for (e = 0; e < n; e++) {
+  for (e = 0; e < n; e++)
     virtual_close(&logs[e], &run[e]);
-  }
 }
 
 static int is_pruned(const int leaks[LOGS], int n)

@@ -11,7 +11,6 @@
 #include "../../../apps/lab/trace/search.h"
 
 enum { ROWS = 1401 };
-static const double end = 14, spacing = 0.01; /* [s] */
 
 static lab_rig rig;
 static lab_log log_read;
@@ -25,30 +24,20 @@ static second_rig true_rig(void)
   return virtual_rig(11);
 }
 
-/* A log of a rig that is another from some time on. */
-static void write_log(const second_rig *first, const second_rig *later, double change)
-{
-  const second_course course = {
-      .t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS, .later = later, .change = change};
-  virtual_write(first, &course, end, spacing, scratch_path("log.csv"));
-}
-
 static void declare(void)
 {
-  static const char *const fitted[] = {"spring_rate", "spring_preload"};
-  int i;
   virtual_declare(&rig);
   rig.params.spring_rate = (pneu_real)3.9e5;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  for (i = 0; i < 2; i++)
-    rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_rate;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
 }
 
-/* The log of such a rig, and the declared model fitted to it. */
+/* The log of a rig that is another from some time on, and the declared model fitted to it. */
 static void open_log(const second_rig *first, const second_rig *later, double change)
 {
   lab_error error = {0, ""};
-  write_log(first, later, change);
+  virtual_record(first, later, change, scratch_path("log.csv"));
   declare();
   virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);

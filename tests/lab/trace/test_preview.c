@@ -18,13 +18,11 @@ static lab_finding found, before;
 /* Search 14 s of a rig that is another from some time on by its first 4.9 s.  Returns: whether that was enough */
 static int preview(const second_rig *first, const second_rig *later, double change)
 {
-  const second_course course = {
-      .t_cmd = virtual_t_cmd, .u_cmd = virtual_u_cmd, .n = VIRTUAL_COMMANDS, .later = later, .change = change};
   static const lab_finding none;
   lab_search_options options;
   lab_error error = {0, ""};
   int done;
-  virtual_write(first, &course, 14, 0.01, scratch_path("log.csv"));
+  virtual_record(first, later, change, scratch_path("log.csv"));
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   rig.fit[rig.n_fit++] = pneu_param_find("spring_rate");

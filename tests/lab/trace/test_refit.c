@@ -10,40 +10,41 @@
 
 enum { ROWS = 501, COMMANDS = 3 };
 
-static void write_rig(const second_rig *g, const char *path)
+static lab_rig rig;
+static lab_log recorded;
+static lab_run run;
+
+static second_rig true_rig(void)
+{
+  return virtual_rig(second_rig_default_r1_400().seed);
+}
+
+/* Record 5 s of a rig, and open the log to fit its friction. */
+static void open_log(const second_rig *g, lab_unknowns *u)
 {
   static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.501}, u_cmd[COMMANDS] = {1, -1, 0.5};
   const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
+  const char *path = scratch_path("log.csv");
+  lab_error error = {0, ""};
   virtual_write(g, &course, 5, 0.01, path);
-}
-
-/* In:  skew  [s] by which the position is older than the pressure beside it */
-static void write_log(double skew, const char *path)
-{
-  second_rig g = virtual_rig(second_rig_default_r1_400().seed);
-  g.position_skew = skew;
-  write_rig(&g, path);
+  virtual_declare(&rig);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  virtual_open(&rig, path, &recorded, &run);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, u, &error), LAB_OK);
 }
 
 /* Instants of commands are known to their rows: they cost nothing, whether they are fitted or vary unseen. With
  * friction alone to count, the price is the logarithm of the number of values. */
 static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way(void **state)
 {
-  static lab_rig rig;
-  static lab_log recorded;
-  static lab_run run;
   static lab_candidate whole, folded;
   static lab_nuisance nuisance;
-  const char *path = scratch_path("log.csv");
+  const second_rig g = true_rig();
   const double price = log(2 * ROWS);
   size_t i;
   lab_error error = {0, ""};
   (void)state;
-  write_log(0, path);
-  virtual_declare(&rig);
-  rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
-  virtual_open(&rig, path, &recorded, &run);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &whole.u, &error), LAB_OK);
+  open_log(&g, &whole.u);
   assert_int_equal(whole.u.n, 1 + COMMANDS);
   assert_int_equal(lab_candidate_fit(&whole, LAB_ROUNDS_ALL, &error), LAB_OK);
   folded.u = whole.u;
@@ -75,21 +76,15 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
 static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_tolerance(void **state)
 {
   static const double skew[] = {0.006, 0.06};
-  static lab_rig rig;
   static lab_candidate c;
+  second_rig g = true_rig();
   int i, any;
   (void)state;
   for (i = 0; i < 2; i++) {
-    const char *path = scratch_path("skewed.csv");
     lab_error error = {0, ""};
-    lab_log recorded;
-    lab_run run;
-    write_log(skew[i], path);
-    virtual_declare(&rig);
-    rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
-    virtual_open(&rig, path, &recorded, &run);
+    g.position_skew = skew[i]; /* [s] by which the position is older than the pressure beside it */
     memset(&c, 0, sizeof c);
-    assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);
+    open_log(&g, &c.u);
     assert_int_equal(lab_unknowns_hold(&c.u, &error), LAB_OK);
     assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);
     assert_int_equal(lab_candidate_take_instruments(&c, &any, &error), LAB_OK);
@@ -108,24 +103,16 @@ static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_
  * from where they belong: from the declared values it is found all the same. */
 static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
 {
-  static lab_rig rig;
   static lab_candidate c, staged;
   static lab_unknowns declared;
   const int leak = pneu_param_find("chamber_leak.leak_area");
-  const char *path = scratch_path("leak.csv");
   lab_error error = {0, ""};
-  lab_log recorded;
-  lab_run run;
-  second_rig g = virtual_rig(second_rig_default_r1_400().seed);
+  second_rig g = true_rig();
   (void)state;
   g.leak_area = 2e-8;
   g.dead_volume *= 1.2;
   g.spring_rate *= 0.95;
-  write_rig(&g, path);
-  virtual_declare(&rig);
-  rig.fit[rig.n_fit++] = pneu_param_find("dry_friction");
-  virtual_open(&rig, path, &recorded, &run);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &declared, &error), LAB_OK);
+  open_log(&g, &declared);
   assert_int_equal(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   c.u = declared;
   assert_int_equal(lab_unknowns_add(&c.u, leak, 2e-9, &error), LAB_OK);

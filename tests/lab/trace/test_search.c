@@ -7,8 +7,6 @@
 #include "../../../apps/lab/trace/rounds.h"
 #include "../../../apps/lab/trace/freeterms.h"
 
-enum { ROWS = 1001 };
-static const double spacing = 0.01; /* [s] */
 static double min_gain = 0.02;
 
 static lab_rig rig;
@@ -28,32 +26,25 @@ enum { COMMANDS = 5 };
 static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
 static const double brisk[COMMANDS] = {1, 0, -1, 0.5, -0.5};
 
-static void write_log(const second_rig *g, const double *u_cmd, const char *path)
-{
-  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
-  virtual_write(g, &course, 10, spacing, path);
-}
-
 static void declare(void)
 {
-  static const char *const fitted[] = {"dry_friction", "spring_rate", "spring_preload"};
-  int i;
   virtual_declare(&rig);
   rig.params.spring_rate = (pneu_real)3.9e5;
   rig.params.dry_friction = 500;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  for (i = 0; i < 3; i++)
-    rig.fit[rig.n_fit++] = pneu_param_find(fitted[i]);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_rate;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
 }
 
 /* A log of the true rig under some commands, and the declared model fitted to it; within tolerances if `held`. */
 static void open_log(const second_rig *g, const double *u_cmd, int held)
 {
-  const char *path = scratch_path("log.csv");
+  const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
   lab_error error = {0, ""};
-  write_log(g, u_cmd, path);
+  virtual_write(g, &course, 10, 0.01, scratch_path("log.csv"));
   declare();
-  virtual_open(&rig, path, &log_read, &run);
+  virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
   assert_int_equal(run.n_instants, COMMANDS);
   assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
