@@ -35,14 +35,12 @@ static int change_slope(void *context, double size, double *slope, lab_error *er
 /* Put the change into the unknowns.  Returns: LAB_OK, LAB_DATA without room, LAB_WORLD */
 static int begin_trial(const lab_projection *p, int first, int param, tried *t, lab_error *error)
 {
-  int j;
   t->p = p;
   t->u = *p->u;
   if (lab_unknowns_add_change(&t->u, param, first, 0, error))
     return error->status;
   t->u.m++;
-  for (j = 0; j < t->u.n; j++)
-    t->theta[j] = t->u.unknown[j].value;
+  lab_unknowns_values(&t->u, t->theta);
   t->r = calloc(t->u.m, sizeof *t->r);
   if (!t->r)
     return lab_fail_memory(error, "residuals");

@@ -41,9 +41,8 @@ static int judge(follower *f, lab_error *error)
   double theta[LAB_FIT_MAX], *r = malloc((f->u.m + 1) * sizeof *r);
   const lab_run *x = &f->u.run[f->run];
   const size_t n = x->n * (size_t)x->n_channels;
-  int j, status = r ? LAB_OK : lab_fail_memory(error, "residuals");
-  for (j = 0; j < f->u.n; j++)
-    theta[j] = f->u.unknown[j].value;
+  int status = r ? LAB_OK : lab_fail_memory(error, "residuals");
+  lab_unknowns_values(&f->u, theta);
   if (status == LAB_OK)
     status = lab_unknowns_residuals_of(&f->u, theta, f->first, r, error);
   f->chi2 = status == LAB_OK ? lab_dot(r + f->u.n_data - n, r + f->u.n_data - n, n) : HUGE_VAL;

@@ -190,7 +190,10 @@ void lab_unknowns_count(lab_unknowns *u);
  * In/out:  rig         its parameters and free terms change */
 void lab_unknowns_apply(const lab_unknowns *u, const double *theta, int run, lab_rig *rig);
 
-/* Put the present values of the unknowns that all runs share into the model. */
+/* The present values.  Out: theta  n of them */
+void lab_unknowns_values(const lab_unknowns *u, double *theta);
+
+/* Put those that all runs share into the model. */
 void lab_unknowns_take(lab_unknowns *u);
 
 /* Take the values that the unknowns had before any fit. */

@@ -142,23 +142,18 @@ static int residuals_at(const lab_unknowns *u, const lab_rig *model, const doubl
   return LAB_OK;
 }
 
-static void present(const lab_unknowns *u, double *theta)
+void lab_unknowns_values(const lab_unknowns *u, double *theta)
 {
   int j;
   for (j = 0; j < u->n; j++)
     theta[j] = u->unknown[j].value;
 }
 
-static int residuals_by(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
+int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
 {
   lab_rig model = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, &model);
   return residuals_at(u, &model, theta, u->nuisance ? -1 : which, r, error);
-}
-
-int lab_unknowns_residuals_of(const lab_unknowns *u, const double *theta, int which, double *r, lab_error *error)
-{
-  return residuals_by(u, theta, which, r, error);
 }
 
 /* Residuals of a model less those of the base, in which the runs that stay have no part. */
@@ -185,7 +180,7 @@ int lab_unknowns_change(const lab_unknowns *u, const double *theta, int which, c
 void lab_unknowns_take(lab_unknowns *u)
 {
   double now[LAB_FIT_MAX];
-  present(u, now);
+  lab_unknowns_values(u, now);
   lab_unknowns_apply(u, now, LAB_ALL_RUNS, &u->rig);
 }
 
@@ -202,14 +197,14 @@ int lab_unknowns_residuals(void *context, const double *theta, double *r, lab_er
   const lab_unknowns *u = context;
   double now[LAB_FIT_MAX];
   if (!theta)
-    present(u, now);
-  return residuals_by(u, theta ? theta : now, -1, r, error);
+    lab_unknowns_values(u, now);
+  return lab_unknowns_residuals_of(u, theta ? theta : now, -1, r, error);
 }
 
 int lab_unknowns_residuals_with(const lab_unknowns *u, const lab_rig *rig, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
-  present(u, now);
+  lab_unknowns_values(u, now);
   return residuals_at(u, rig, now, -1, r, error);
 }
 
@@ -217,7 +212,7 @@ int lab_unknowns_change_with(const lab_unknowns *u, const lab_rig *rig, const do
                              lab_error *error)
 {
   double now[LAB_FIT_MAX];
-  present(u, now);
+  lab_unknowns_values(u, now);
   return less_base(u, rig, now, -1, r, change, error);
 }
 
@@ -267,7 +262,7 @@ int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error)
 {
   double now[LAB_FIT_MAX];
   int e;
-  present(u, now);
+  lab_unknowns_values(u, now);
   for (e = 0; e < u->n_runs; r += u->run[e].n * (size_t)u->run[e].n_channels, e++)
     if (errors_of(u, &u->rig, now, e, r, error))
       return error->status;

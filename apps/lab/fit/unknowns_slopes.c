@@ -162,8 +162,7 @@ int lab_unknowns_changes_with(const lab_unknowns *u, const lab_rig *model, int n
   asked *ask = malloc(((size_t)n + 1) * sizeof *ask);
   int i, status = ask ? LAB_OK : lab_fail_memory(error, "slopes");
   memset(done, 0, (size_t)n);
-  for (i = 0; i < u->n; i++)
-    now[i] = u->unknown[i].value;
+  lab_unknowns_values(u, now);
   for (i = 0; i < n && status == LAB_OK; i++)
     ask[i] = (asked){&model[i], now, NULL, change + (size_t)i * u->m, 0};
   if (status == LAB_OK && u->window == 0) {

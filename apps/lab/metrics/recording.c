@@ -195,9 +195,7 @@ static double noise_of(const lab_unknowns *u, int channel)
 static void rig_of(const lab_unknowns *u, int run, lab_rig *rig)
 {
   double theta[LAB_FIT_MAX];
-  int j;
-  for (j = 0; j < u->n; j++)
-    theta[j] = u->unknown[j].value;
+  lab_unknowns_values(u, theta);
   *rig = u->rig;
   lab_unknowns_apply(u, theta, LAB_ALL_RUNS, rig);
   lab_unknowns_apply(u, theta, run, rig);

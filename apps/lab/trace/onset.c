@@ -93,15 +93,13 @@ static int residuals_from(trial_row *f, double from, double *r, lab_error *error
 static int open_trial(const lab_unknowns *u, int change, trial_row *f, lab_error *error)
 {
   const lab_run *x = run_of(u, change);
-  int j;
   f->t = x->log->value[LAB_CHANNEL_TIME] + x->first;
   f->u = *u;
   if (change != u->n - 1)
     f->u.slopes = NULL; /* which are in the order that the unknowns had */
   f->u.unknown[change] = u->unknown[u->n - 1];
   f->u.unknown[u->n - 1] = u->unknown[change];
-  for (j = 0; j < u->n; j++)
-    f->theta[j] = f->u.unknown[j].value;
+  lab_unknowns_values(&f->u, f->theta);
   if (lab_projection_open_rest(&f->u, &f->p, error))
     return error->status;
   f->none = malloc(f->p.m * sizeof *f->none);
