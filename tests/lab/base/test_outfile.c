@@ -4,19 +4,26 @@
 #include "../../../apps/lab/base/outfile.h"
 
 static lab_error error;
+static char path[512], part[520]; /* of the file in use, and of what is not whole of it */
 
-static void assert_content(const char *path, const char *want)
+static void use(const char *name)
 {
-  char *got = scratch_read(path);
+  snprintf(path, sizeof path, "%s", name);
+  snprintf(part, sizeof part, "%s.part", path);
+}
+
+static void assert_content(const char *file, const char *want)
+{
+  char *got = scratch_read(file);
   assert_string_equal(got, want);
   free(got);
 }
 
-/* Write `text` to `path`.  Returns: the status of the whole. */
-static int write_text(const char *path, const char *text)
+/* Returns: the status of the whole. */
+static int write_text(const char *file, const char *text)
 {
   lab_outfile out;
-  int status = lab_out_open(&out, path, &error);
+  int status = lab_out_open(&out, file, &error);
   if (status != LAB_OK)
     return status;
   fputs(text, out.file);
@@ -25,10 +32,8 @@ static int write_text(const char *path, const char *text)
 
 static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
 {
-  char path[512], part[520];
   (void)state;
-  strcpy(path, scratch_path("new.csv"));
-  snprintf(part, sizeof part, "%s.part", path);
+  use(scratch_path("new.csv"));
   assert_int_equal(write_text(path, "whole\n"), LAB_OK);
   assert_content(path, "whole\n");
   assert_false(scratch_exists(part));
@@ -37,8 +42,8 @@ static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
 static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
 {
   lab_outfile out;
-  const char *path = scratch_text("old.csv", "old\n");
   (void)state;
+  use(scratch_text("old.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
   fputs("new\n", out.file);
   fflush(out.file);
@@ -50,10 +55,8 @@ static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
 static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void **state)
 {
   lab_outfile out;
-  char path[512], part[520];
   (void)state;
-  strcpy(path, scratch_text("kept.csv", "old\n"));
-  snprintf(part, sizeof part, "%s.part", path);
+  use(scratch_text("kept.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
   fputs("half", out.file);
   assert_true(scratch_exists(part));
@@ -65,9 +68,8 @@ static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void *
 static void test_lab_out_end__status_of_who_wrote__decides(void **state)
 {
   lab_outfile out;
-  char path[512];
   (void)state;
-  strcpy(path, scratch_text("ended.csv", "old\n"));
+  use(scratch_text("ended.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
   fputs("new\n", out.file);
   assert_int_equal(lab_out_end(&out, LAB_NUMERIC, &error), LAB_NUMERIC);
@@ -80,9 +82,8 @@ static void test_lab_out_end__status_of_who_wrote__decides(void **state)
 
 static void test_lab_out_open__missing_folders__are_made(void **state)
 {
-  char path[512];
   (void)state;
-  strcpy(path, scratch_path("a/b/c.csv"));
+  use(scratch_path("a/b/c.csv"));
   assert_int_equal(write_text(path, "x"), LAB_OK);
   assert_content(path, "x");
 }
@@ -100,13 +101,12 @@ static void test_lab_out_open__name_without_folder__is_in_the_present_one(void *
 
 static void test_lab_out_open__file_on_the_way__is_the_worlds_fault(void **state)
 {
-  char path[512];
   (void)state;
   scratch_text("plain", "x");
-  strcpy(path, scratch_path("plain/out.csv"));
+  use(scratch_path("plain/out.csv"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
   assert_contains(error.text, "plain");
-  strcpy(path, scratch_path("plain/deeper/out.csv"));
+  use(scratch_path("plain/deeper/out.csv"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
   assert_contains(error.text, "cannot be made");
 }
@@ -120,22 +120,19 @@ static void test_lab_out_open__folder_that_cannot_be_made__names_it(void **state
 
 static void test_lab_out_open__forbidden_folder__is_the_worlds_fault(void **state)
 {
-  char path[512];
   (void)state;
   if (geteuid() == 0)
     skip();
   assert_int_equal(mkdir(scratch_path("locked"), 0500), 0);
-  strcpy(path, scratch_path("locked/out.csv"));
+  use(scratch_path("locked/out.csv"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
   assert_contains(error.text, "Permission denied");
 }
 
 static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state)
 {
-  char path[512], part[520];
   (void)state;
-  strcpy(path, scratch_path("taken"));
-  snprintf(part, sizeof part, "%s.part", path);
+  use(scratch_path("taken"));
   assert_int_equal(mkdir(path, 0777), 0);
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
   assert_contains(error.text, "cannot be put in place");
@@ -144,10 +141,8 @@ static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state
 
 static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
 {
-  char path[512], part[520];
   (void)state;
-  strcpy(path, scratch_device("full", "/dev/full"));
-  snprintf(part, sizeof part, "%s.part", path);
+  use(scratch_device("full", "/dev/full"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
   assert_contains(error.text, "full: cannot be written: No space left on device");
   assert_true(scratch_is_link(path)); /* not replaced by a file */
@@ -168,10 +163,8 @@ static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(voi
 
 static void test_lab_out_close__device__is_written_in_place(void **state)
 {
-  char path[512], part[520];
   (void)state;
-  strcpy(path, scratch_device("null", "/dev/null"));
-  snprintf(part, sizeof part, "%s.part", path);
+  use(scratch_device("null", "/dev/null"));
   assert_int_equal(write_text(path, "x"), LAB_OK);
   assert_true(scratch_is_link(path));
   assert_false(scratch_exists(part));
@@ -191,9 +184,8 @@ static void test_lab_out_open__no_path__is_standard_output(void **state)
 
 static void test_lab_make_folder__nested_or_there__is_made(void **state)
 {
-  char path[512];
   (void)state;
-  strcpy(path, scratch_path("x/y/z/"));
+  use(scratch_path("x/y/z/"));
   assert_int_equal(lab_make_folder(path, &error), LAB_OK);
   assert_true(scratch_exists(path));
   assert_int_equal(lab_make_folder(path, &error), LAB_OK);

@@ -13,10 +13,12 @@ static lab_trends trends;
 enum { DAYS = 20000 }; /* since 1970 */
 
 /* Forget all trends; for the next test. */
-static void forget(void)
+static int forget(void **state)
 {
+  (void)state;
   lab_trends_free(&trends);
   lab_history_free(&history);
+  return 0;
 }
 
 /* A line of the list and what its report says.  In: json  without the braces */
@@ -34,9 +36,10 @@ static void add(const char *rig, int day, const char *json)
   assert_int_equal(lab_history_add(&history, &line, folder, &error), LAB_OK);
 }
 
-/* A report of one parameter, known to `deviation`. */
-static void add_value(const char *rig, int day, const char *name, double value, double deviation)
+/* A report of one parameter. */
+static void add_value(const char *rig, int day, const char *name, double value)
 {
+  const double deviation = 2;
   char json[1000];
   snprintf(json, sizeof json,
            "\"verdict\":\"none\",\"parameters\":{\"%s\":{\"value\":%.9g,\"unit\":\"N/m\",\"ci95\":[%.9g,%.9g],"
@@ -72,7 +75,6 @@ static void test_lab_history__report__gives_what_is_known(void **state)
   assert_string_equal(history.of[2].parameter, "spring_rate");
   assert_close(history.of[2].deviation, 4 / (2 * 1.959963984540054), 0, 1e-12);
   assert_close(history.of[2].tolerance, 0.1, 0, 0);
-  forget();
 }
 
 static void test_lab_history__half_a_report__is_an_error(void **state)
@@ -87,7 +89,6 @@ static void test_lab_history__half_a_report__is_an_error(void **state)
   strcpy(line.date, "2026-01-02");
   assert_int_equal(lab_history_add(&history, &line, folder, &error), LAB_DATA);
   assert_contains(error.text, "no whole report");
-  forget();
 }
 
 /* ---- What it comes to ---- */
@@ -97,11 +98,11 @@ static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
 {
   char sentence[LAB_TREND_SENTENCE];
   (void)state;
-  add_value("b", 40, "spring_rate", 1040, 2);
-  add_value("a", 7, "spring_rate", 1000, 2); /* one day: no trend */
-  add_value("b", 0, "spring_rate", 1000, 2);
-  add_value("a", 7, "spring_rate", 1001, 2);
-  add_value("b", 20, "spring_rate", 1020, 2);
+  add_value("b", 40, "spring_rate", 1040);
+  add_value("a", 7, "spring_rate", 1000); /* one day: no trend */
+  add_value("b", 0, "spring_rate", 1000);
+  add_value("a", 7, "spring_rate", 1001);
+  add_value("b", 20, "spring_rate", 1020);
   find();
   assert_int_equal(trends.n, 1);
   assert_int_equal(trends.of[0].line.n, 3);
@@ -113,7 +114,6 @@ static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
   assert_close(trends.of[0].days[0], 60, 0, 1e-6);
   assert_string_equal(lab_trend_sentence(&trends.of[0], sentence),
                       "spring_rate leaves its tolerance of 10 % in 60 days (50 to 73)");
-  forget();
 }
 
 /* The same downwards: the lower side of the tolerance is left. */
@@ -121,12 +121,11 @@ static void test_lab_trends__fall__leaves_at_the_lower_side(void **state)
 {
   char sentence[LAB_TREND_SENTENCE];
   (void)state;
-  add_value("r", 0, "v", 1000, 2);
-  add_value("r", 40, "v", 960, 2);
+  add_value("r", 0, "v", 1000);
+  add_value("r", 40, "v", 960);
   find();
   assert_string_equal(lab_trend_sentence(&trends.of[0], sentence),
                       "v leaves its tolerance of 10 % in 60 days (50 to 73)");
-  forget();
 }
 
 /* What is beyond its tolerance at either side, what has none, and what does not drift. */
@@ -143,19 +142,18 @@ static void test_lab_trends__sentence__fits_what_is_known(void **state)
   size_t i;
   (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++) {
-    add_value("r", 0, "v", row[i].from, 2);
-    add_value("r", 40, "v", row[i].to, 2);
+    add_value("r", 0, "v", row[i].from);
+    add_value("r", 40, "v", row[i].to);
     find();
     check_note("row %d", (int)i);
     assert_string_equal(lab_trend_sentence(&trends.of[0], sentence), row[i].sentence);
     assert_true(trends.of[0].drifts ? trends.of[0].days[0] == 0 : isnan(trends.of[0].days[0]));
-    forget();
+    forget(state);
   }
   add("r", 0, "\"parameters\":{\"v\":{\"value\":1e-6,\"unit\":\"m2\",\"ci95\":[0.9e-6,1.1e-6]}}");
   add("r", 10, "\"parameters\":{\"v\":{\"value\":2e-6,\"unit\":\"m2\",\"ci95\":[1.9e-6,2.1e-6]}}");
   find();
   assert_string_equal(lab_trend_sentence(&trends.of[0], sentence), "v rises by 0.100 mm² a day (0.0859 to 0.114)");
-  forget();
 }
 
 /* A slope of two and a half deviations tells something alone, and nothing among ten. */
@@ -166,11 +164,11 @@ static void test_lab_trends__many_parameters__need_more(void **state)
   (void)state;
   for (k = 0; k < 10; k++) {
     snprintf(name, sizeof name, "p%d", k);
-    add_value("many", 0, name, 1000, 2);
-    add_value("many", 40, name, k ? 1000 : 1000 + 2.5 * 2 * sqrt(2), 2);
+    add_value("many", 0, name, 1000);
+    add_value("many", 40, name, k ? 1000 : 1000 + 2.5 * 2 * sqrt(2));
   }
-  add_value("one", 0, "p0", 1000, 2);
-  add_value("one", 40, "p0", 1000 + 2.5 * 2 * sqrt(2), 2);
+  add_value("one", 0, "p0", 1000);
+  add_value("one", 40, "p0", 1000 + 2.5 * 2 * sqrt(2));
   find();
   assert_int_equal(trends.n, 11);
   assert_int_equal(trends.of[0].n_of_rig, 10);
@@ -178,7 +176,6 @@ static void test_lab_trends__many_parameters__need_more(void **state)
   assert_false(trends.of[0].drifts);
   assert_int_equal(trends.of[10].n_of_rig, 1);
   assert_true(trends.of[10].drifts);
-  forget();
 }
 
 /* ---- What is written ---- */
@@ -188,8 +185,8 @@ static void test_lab_trends__written__table_and_page(void **state)
   cJSON *page = cJSON_CreateObject();
   char *text;
   (void)state;
-  add_value("=r,1", 0, "spring_rate", 1000, 2);
-  add_value("=r,1", 40, "spring_rate", 1040, 2);
+  add_value("=r,1", 0, "spring_rate", 1000);
+  add_value("=r,1", 40, "spring_rate", 1040);
   find();
   assert_int_equal(lab_trends_write(&trends, scratch_path("trends.csv"), &error), LAB_OK);
   text = scratch_read(scratch_path("trends.csv"));
@@ -206,23 +203,22 @@ static void test_lab_trends__written__table_and_page(void **state)
   assert_contains(text, "\"sentences\":[\"spring_rate leaves");
   cJSON_free(text);
   cJSON_Delete(page);
-  forget();
+  forget(state);
   find(); /* the list has no dates any longer */
   assert_int_equal(lab_trends_write(&trends, scratch_path("trends.csv"), &error), LAB_OK);
   assert_int_equal(access(scratch_path("trends.csv"), F_OK), -1);
-  forget();
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_history__report__gives_what_is_known),
-      cmocka_unit_test(test_lab_history__half_a_report__is_an_error),
-      cmocka_unit_test(test_lab_trends__drift__is_told_with_the_days_left),
-      cmocka_unit_test(test_lab_trends__fall__leaves_at_the_lower_side),
-      cmocka_unit_test(test_lab_trends__sentence__fits_what_is_known),
-      cmocka_unit_test(test_lab_trends__many_parameters__need_more),
-      cmocka_unit_test(test_lab_trends__written__table_and_page),
+      cmocka_unit_test_teardown(test_lab_history__report__gives_what_is_known, forget),
+      cmocka_unit_test_teardown(test_lab_history__half_a_report__is_an_error, forget),
+      cmocka_unit_test_teardown(test_lab_trends__drift__is_told_with_the_days_left, forget),
+      cmocka_unit_test_teardown(test_lab_trends__fall__leaves_at_the_lower_side, forget),
+      cmocka_unit_test_teardown(test_lab_trends__sentence__fits_what_is_known, forget),
+      cmocka_unit_test_teardown(test_lab_trends__many_parameters__need_more, forget),
+      cmocka_unit_test_teardown(test_lab_trends__written__table_and_page, forget),
   };
   return cmocka_run_group_tests_name("trends", tests, scratch_open, scratch_close);
 }

@@ -8,6 +8,7 @@
 
 static lab_error error;
 static const char *log_path;
+static char *text; /* of the last draft */
 
 static int open_all(void **state)
 {
@@ -19,8 +20,14 @@ static int open_all(void **state)
   return 0;
 }
 
-/* Draft, and read what was written.  Out: text  to be freed */
-static lab_rig draft_of(const char *log, const char *const *sheet, int n, char **text)
+static int close_all(void **state)
+{
+  free(text);
+  return scratch_close(state);
+}
+
+/* Draft, and read what was written, which is `text` then. */
+static lab_rig draft_of(const char *log, const char *const *sheet, int n)
 {
   FILE *file = fopen(scratch_path("draft.cfg"), "w");
   lab_rig rig;
@@ -30,7 +37,8 @@ static lab_rig draft_of(const char *log, const char *const *sheet, int n, char *
   assert_int_equal(fclose(file), 0);
   if (lab_rig_read(scratch_path("draft.cfg"), &rig, &error))
     fail_msg("%s", error.text);
-  *text = scratch_read(scratch_path("draft.cfg"));
+  free(text);
+  text = scratch_read(scratch_path("draft.cfg"));
   return rig;
 }
 
@@ -48,8 +56,7 @@ static int is_fitted(const lab_rig *rig, const char *name)
 static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **state)
 {
   static const char *const sheet[] = {"area=400 cm^2", "stroke=20 mm", "supply=400 kPa", "dead_volume=40 cm^3"};
-  char *text;
-  const lab_rig rig = draft_of(log_path, sheet, 4, &text);
+  const lab_rig rig = draft_of(log_path, sheet, 4);
   (void)state;
   assert_close((double)rig.params.area, 0.04, 0, 1e-6);
   assert_close((double)rig.params.spring_rate, 4e5, 0, 0.1);
@@ -68,15 +75,13 @@ static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **st
   assert_contains(text, " dry_friction = \"1000 %\";"); /* nor is where a fit begins */
   assert_null(strstr(text, " stroke = \"100"));
   assert_contains(text, "// name = \"...\"; // by default that of this file");
-  free(text);
 }
 
 static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **state)
 {
   static const char *const sheet[] = {"bench_set=0.2..1.0 bar", "Kv=0.1",    "vent.xT=0.5",  "tube.length=2 m",
                                       "tube.bore=4 mm",         "name=FV 1", "flow=iso6358", "actuator.stroke=20 mm"};
-  char *text;
-  const lab_rig rig = draft_of(log_path, sheet, 8, &text);
+  const lab_rig rig = draft_of(log_path, sheet, 8);
   (void)state;
   assert_close((double)rig.params.spring_preload, 0.005, 0, 1e-6);
   assert_true(rig.params.vent_area < rig.params.fill_area);
@@ -85,7 +90,6 @@ static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **stat
   assert_false(is_fitted(&rig, "spring_rate") || is_fitted(&rig, "fill_area") || is_fitted(&rig, "vent_area"));
   assert_true(is_fitted(&rig, "dry_friction"));
   assert_null(strstr(text, " critical_ratio = \"100 %\";"));
-  free(text);
 }
 
 /* Bench set of 0.8 bar on 350 cm2 over 15 mm. */
@@ -93,8 +97,7 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
 {
   static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
                                       "supply=1.4 bar"};
-  char *text;
-  const lab_rig rig = draft_of(NULL, sheet, 5, &text);
+  const lab_rig rig = draft_of(NULL, sheet, 5);
   (void)state;
   assert_close((double)rig.params.spring_rate, 0.8e5 * 0.035 / 0.015, 0, 1e-9);
   assert_close((double)rig.params.spring_preload, 0.015 / 4, 0, 1e-9);
@@ -103,7 +106,6 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
   assert_contains(text, "without a log");
   assert_contains(text, "vent = { Kv = \"0.1\"; }");
   assert_contains(text, "NOT KNOWN, a default: lumped moving mass");
-  free(text);
 }
 
 /* Its orifices pass what IEC 60534-2-1 says of Kv, xT 0.72, to 4.2 %: kg/s of air at 293.15 K from 7 bar. */
@@ -112,8 +114,7 @@ static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says
   static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
                                       "supply=1.4 bar"};
   const double p1 = 7e5, R = 287.05, T = 293.15;
-  char *text;
-  lab_rig rig = draft_of(NULL, sheet, 5, &text);
+  lab_rig rig = draft_of(NULL, sheet, 5);
   pneu_model model;
   int i;
   (void)state;
@@ -126,7 +127,6 @@ static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says
     check_note("pressure drop %d/50", i);
     assert_close((double)flow.q, kg_h / 3600, 0, 0.042);
   }
-  free(text);
 }
 
 /* Without any sheet, a positioner's log with shares of the stroke: what is not known is marked. */
@@ -136,19 +136,18 @@ static void test_lab_draft_write__files_of_loggers__are_read_with_their_draft(vo
   size_t i;
   (void)state;
   for (i = 0; i < sizeof files / sizeof files[0]; i++) {
-    char path[256], *text;
+    char path[256];
     lab_log log;
     lab_rig rig;
     check_note("%s", files[i]);
     snprintf(path, sizeof path, "tests/loggers/%s", files[i]);
-    rig = draft_of(path, NULL, 0, &text);
+    rig = draft_of(path, NULL, 0);
     assert_int_equal(lab_log_read(path, &rig.log, 101325, &log, &error), LAB_OK);
     assert_int_equal(lab_rig_has_positioner(&rig), log.value[LAB_CHANNEL_U] == NULL);
     lab_log_free(&log);
     assert_contains(text, "area = \"0.04 m2\"; // NOT KNOWN");
     assert_contains(text, strstr(files[i], "excel") || strstr(files[i], "link") ? "stroke = \"0.02 m\"; // NOT KNOWN"
                                                                                 : "stroke = \"0.01 m\"; // derived");
-    free(text);
   }
 }
 
@@ -167,13 +166,11 @@ static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **st
   static const char *const sheet[] = {"area=400 cm2", "stroke=20 mm", "positioner.gain=39.6",
                                       "positioner.dead_band=0.27 %"};
   const int gain = pneu_param_find("positioner.gain");
-  char *text;
-  const lab_rig rig = draft_of(NULL, sheet, 4, &text);
+  const lab_rig rig = draft_of(NULL, sheet, 4);
   (void)state;
   assert_true(gain >= 0);
   assert_close((double)*pneu_param_at((pneu_params *)&rig.params, gain), 39.6, 0, 1e-9);
   assert_contains(text, "positioner = { gain = \"39.6\"; dead_band = \"0.27 %\"; }; // sheet");
-  free(text);
 }
 
 static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **state)
@@ -202,8 +199,7 @@ static void test_lab_draft_write__actuator_by_name__has_its_makers_values(void *
   int i;
   (void)state;
   for (i = 0; i < (int)(sizeof actuators / sizeof actuators[0]); i++) {
-    char *text;
-    const lab_rig rig = draft_of(log_path, &actuators[i].name, 1, &text);
+    const lab_rig rig = draft_of(log_path, &actuators[i].name, 1);
     const pneu_params *p = &rig.params;
     check_note("%s", actuators[i].name);
     assert_close((double)p->area, actuators[i].area, 0, 1e-6);
@@ -212,7 +208,6 @@ static void test_lab_draft_write__actuator_by_name__has_its_makers_values(void *
     assert_close((double)(p->spring_rate * (p->spring_preload + p->stroke) / p->area), actuators[i].high, 0, 1e-5);
     assert_contains(text, "// catalogue");
     assert_string_equal(rig.name, strchr(actuators[i].name, '=') + 1);
-    free(text);
   }
 }
 
@@ -220,14 +215,12 @@ static void test_lab_draft_write__actuator_by_name__the_sheet_comes_first(void *
 {
   static const char *const sheet[] = {"actuator=hora-pa-n-280-30", "stroke=25 mm", "bench_set=0.8..2.4 bar"};
   static const char *const unknown[] = {"actuator=hora-pa-n-280"};
-  char *text;
-  const lab_rig rig = draft_of(log_path, sheet, 3, &text);
+  const lab_rig rig = draft_of(log_path, sheet, 3);
   (void)state;
   assert_close((double)rig.params.stroke, 0.025, 0, 1e-9);
   assert_close((double)rig.params.dead_volume, 0.48e-3, 0, 1e-9);
   assert_contains(text, "stroke = \"25 mm\"; // sheet");
   assert_contains(text, "// Catalogue: HORA");
-  free(text);
   assert_int_equal(lab_draft_write(stdout, log_path, unknown, 1, &error), LAB_USAGE);
   assert_contains(error.text, "hora-pa-n-280-");
 }
@@ -241,22 +234,18 @@ static void test_lab_draft_write__positioner_by_name__has_its_makers_values(void
   } positioners[] = {{{"positioner=siemens-sipart-ps2"}, 1, 2}, {{"positioner=siemens-sipart-ps2", "Kv=0.3"}, 3, 3}};
   static const char *const kv[] = {"Kv=0.1"}, *const unknown[] = {"positioner=samson-3731"};
   static const char *const flow[] = {"positioner=samson-3730"};
-  char *text;
-  const double unit = (double)draft_of(log_path, kv, 1, &text).params.fill_area;
+  const double unit = (double)draft_of(log_path, kv, 1).params.fill_area;
   lab_rig rig;
   int i;
   (void)state;
-  free(text);
   for (i = 0; i < 2; i++) {
-    rig = draft_of(log_path, positioners[i].word, positioners[i].word[1] ? 2 : 1, &text);
+    rig = draft_of(log_path, positioners[i].word, positioners[i].word[1] ? 2 : 1);
     assert_close((double)rig.params.fill_area, positioners[i].fill * unit, 0, 1e-6);
     assert_close((double)rig.params.vent_area, positioners[i].vent * unit, 0, 1e-6);
     assert_contains(text, "// Catalogue: Siemens SIPART PS2");
-    free(text);
   }
-  rig = draft_of(log_path, flow, 1, &text);
+  rig = draft_of(log_path, flow, 1);
   assert_close((double)(rig.params.vent_area / rig.params.fill_area), 14 / 8.5, 0, 1e-6);
-  free(text);
   assert_int_equal(lab_draft_write(stdout, log_path, unknown, 1, &error), LAB_USAGE);
   assert_contains(error.text, "samson-3730");
 }
@@ -268,7 +257,6 @@ static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
   FILE *in = fmemopen(given, sizeof given - 1, "r"), *out = fmemopen(said, sizeof said, "w");
   lab_sheet_answers answers;
   const char *words[LAB_QUESTIONS];
-  char *text;
   int i;
   (void)state;
   assert_non_null(in);
@@ -285,10 +273,9 @@ static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
   assert_contains(said, "expected two pressures");
   for (i = 0; i < answers.n; i++)
     words[i] = answers.text[i];
-  draft_of(log_path, words, answers.n, &text);
+  draft_of(log_path, words, answers.n);
   assert_contains(text, "moving_mass = \"5 kg\"; // sheet");
   assert_contains(text, "fail = \"open\"; // sheet");
-  free(text);
 }
 
 int main(void)
@@ -306,5 +293,5 @@ int main(void)
       cmocka_unit_test(test_lab_draft_write__positioner_by_name__has_its_makers_values),
       cmocka_unit_test(test_lab_sheet_ask__answers__are_words_of_the_sheet),
   };
-  return cmocka_run_group_tests(tests, open_all, scratch_close);
+  return cmocka_run_group_tests(tests, open_all, close_all);
 }
