@@ -482,12 +482,11 @@ static int run_list(const char *list, const char *folder)
   return WEXITSTATUS(wait);
 }
 
-/* The batch.csv of a run, to be freed. */
-static char *rows_in(const char *folder)
+static void assert_in_file(const char *name, const char *words)
 {
-  char name[64];
-  snprintf(name, sizeof name, "%s/batch.csv", folder);
-  return scratch_read(scratch_path(name));
+  char *text = scratch_read(scratch_path(name));
+  assert_contains(text, words);
+  free(text);
 }
 
 /* A list of lines that fail at once. */
@@ -506,64 +505,54 @@ static const char *long_list(const char *name, int n)
 
 static void test_lab_batch__lines_that_fail__are_lines(void **state)
 {
-  char *rows;
   (void)state;
   assert_int_equal(run_list(long_list("three.csv", 3), "failing"), LAB_DATA);
-  rows = rows_in("failing");
-  assert_contains(rows, "\nn0,error,");
-  assert_contains(rows, ",nothing.cfg: there is no such file; check the name and the folder,,\nn1,error,");
-  assert_contains(rows, "\nn2,error,");
-  free(rows);
-  rows = scratch_read(scratch_path("said.txt"));
-  assert_contains(rows, "3 lines: 3 error.");
-  free(rows);
+  assert_in_file("failing/batch.csv", "\nn0,error,");
+  assert_in_file("failing/batch.csv",
+                 ",nothing.cfg: there is no such file; check the name and the folder,,\nn1,error,");
+  assert_in_file("failing/batch.csv", "\nn2,error,");
+  assert_in_file("said.txt", "3 lines: 3 error.");
 }
 
-/* The one line of a list of one rig, to be freed. */
-static char *row_of(const char *rig, const char *folder)
+/* A list of one rig. */
+static void run_one(const char *rig, const char *folder)
 {
   scratch_text("rig.cfg", rig);
   scratch_text("log.csv", "t [s],u [1],p [kPa]\n0,0,0\n");
   scratch_text("other.cfg", "actuator = { stroke = \"3 N\"; };\n");
   assert_int_equal(run_list(scratch_text("one.csv", "name,rig,log\none,rig.cfg,log.csv\n"), folder), LAB_DATA);
-  return rows_in(folder);
 }
 
 /* The file of a stranger takes in no other, unless that is allowed. */
 static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **state)
 {
   static const char rig[] = "supply = { pressure = \"2 bar\"; };\n  @include \"other.cfg\"\n";
-  char *row = row_of(rig, "refused");
   (void)state;
-  assert_contains(row, "rig.cfg: @include would read any file");
-  assert_contains(row, "--allow-include");
-  free(row);
+  run_one(rig, "refused");
+  assert_in_file("refused/batch.csv", "rig.cfg: @include would read any file");
+  assert_in_file("refused/batch.csv", "--allow-include");
   options.allow_include = 1;
-  row = row_of(rig, "allowed");
+  run_one(rig, "allowed");
   options.allow_include = 0;
-  assert_contains(row, "actuator.stroke: ");
-  free(row);
+  assert_in_file("allowed/batch.csv", "actuator.stroke: ");
 }
 
 static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line(void **state)
 {
-  char text[600] = "name,rig,log\nmany,rig.cfg,log.csv", *rows;
+  char text[600] = "name,rig,log\nmany,rig.cfg,log.csv";
   int i;
   (void)state;
   for (i = 0; i < LAB_LOGS_MAX; i++)
     strcat(text, ";log.csv");
   scratch_text("rig.cfg", "supply = { pressure = \"2 bar\"; };\n");
   assert_int_equal(run_list(scratch_text("crowded.csv", strcat(text, "\n")), "crowded"), LAB_DATA);
-  rows = rows_in("crowded");
-  assert_contains(rows, "more than 32 logs on one line");
-  free(rows);
+  assert_in_file("crowded/batch.csv", "more than 32 logs on one line");
 }
 
 /* A log of 12 MB, which asks for 25 MB at once while it is read, beside a short one. */
 static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line(void **state)
 {
   FILE *file = fopen(scratch_path("large.csv"), "w");
-  char *rows;
   int i;
   (void)state;
 #ifdef LAB_SANITIZED
@@ -582,11 +571,9 @@ static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_
                "bounded"),
       LAB_WORLD);
   options.memory = 0;
-  rows = rows_in("bounded");
-  assert_contains(rows, "\nlarge,error,");
-  assert_contains(rows, "memory");
-  assert_contains(rows, "\nshort,error,");
-  free(rows);
+  assert_in_file("bounded/batch.csv", "\nlarge,error,");
+  assert_in_file("bounded/batch.csv", "memory");
+  assert_in_file("bounded/batch.csv", "\nshort,error,");
 }
 
 /* The list of the guide on a leak, from wherever it is. */
@@ -604,17 +591,15 @@ static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_l
   static const struct {
     long room;
     int status;
-    const char *folder, *said;
-  } with[] = {{1 << 20, LAB_OK, "roomy", "leak,effect,"}, {2000, LAB_WORLD, "tight", "File too large"}};
-  char *rows;
+    const char *folder, *rows, *said;
+  } with[] = {{1 << 20, LAB_OK, "roomy", "roomy/batch.csv", "leak,effect,"},
+              {2000, LAB_WORLD, "tight", "tight/batch.csv", "File too large"}};
   size_t i;
   (void)state;
   for (i = 0; i < sizeof with / sizeof with[0]; i++) {
     options.room = with[i].room;
     assert_int_equal(run_list(leak_list(), with[i].folder), with[i].status);
-    rows = rows_in(with[i].folder);
-    assert_contains(rows, with[i].said);
-    free(rows);
+    assert_in_file(with[i].rows, with[i].said);
   }
   options.room = 0;
 }

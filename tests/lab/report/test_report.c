@@ -18,30 +18,42 @@ static lab_unknowns declared, completed;
 static lab_search_result result;
 static lab_report report;
 static lab_metrics measured, predicted;
-static char *page;
+static char *page, *other; /* of the report, and of another one */
 
 /* ---- A report: the R1-400 with a leak that the rig file does not know of ---- */
+
+static struct {
+  double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
+} log_rows;
+static const second_log samples = {.t = log_rows.t, .u = log_rows.u, .p = log_rows.p, .x = log_rows.x};
+
+/* Write the samples, NaN as a gap.  Returns: path */
+static const char *write_rows(const char *name)
+{
+  const char *path = scratch_path(name);
+  FILE *file = fopen(path, "w");
+  int i;
+  assert_non_null(file);
+  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
+  for (i = 0; i < ROWS; i++)
+    if (isnan(log_rows.p[i]))
+      fprintf(file, "%.3f,%g,,%.7f\n", log_rows.t[i], log_rows.u[i], log_rows.x[i]);
+    else
+      fprintf(file, "%.3f,%g,%.1f,%.7f\n", log_rows.t[i], log_rows.u[i], log_rows.p[i], log_rows.x[i]);
+  fclose(file);
+  return path;
+}
 
 static const char *write_log(const char *name)
 {
   static const double t_cmd[] = {0.402, 2.503, 4.001, 5.507, 7.204}, u_cmd[] = {1, 0, -1, 0.5, -0.5};
-  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
-  const second_log samples = {.t = t, .u = u, .p = p, .x = x};
-  const char *path = scratch_path(name);
   second_rig g = virtual_rig(7);
-  FILE *file = fopen(path, "w");
   int i;
   g.leak_area = 1.5e-8;
   assert_int_equal(second_run(&g, t_cmd, u_cmd, 5, 10, spacing, &samples, NULL), 0);
-  assert_non_null(file);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    if (i >= 300 && i < 310) /* a gap */
-      fprintf(file, "%.3f,%g,,%.7f\n", t[i], u[i], x[i]);
-    else
-      fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
-  fclose(file);
-  return path;
+  for (i = 300; i < 310; i++)
+    log_rows.p[i] = NAN;
+  return write_rows(name);
 }
 
 static void declare(void)
@@ -80,6 +92,7 @@ static int begin_report(void **state)
 static int forget_report(void **state)
 {
   free(page);
+  free(other);
   virtual_close(&logged, &run[0]);
   return scratch_close(state);
 }
@@ -94,6 +107,32 @@ static void write_report(const lab_report *told, const char *folder)
   assert_int_equal(lab_report_file(folder, "report.html", lab_report_html, &(lab_sources){told, figures}, &error),
                    LAB_OK);
   lab_figures_free(figures);
+}
+
+/* A file of the report in a folder, until the next one. */
+static const char *read_back(const char *folder, const char *name)
+{
+  char file[128];
+  snprintf(file, sizeof file, "%s/%s", folder, name);
+  free(other);
+  other = scratch_read(scratch_path(file));
+  return other;
+}
+
+/* The page of another report, and its JSON; until the next one. */
+static const char *page_of(const lab_report *told, const char *folder)
+{
+  write_report(told, scratch_path(folder));
+  return read_back(folder, "report.html");
+}
+
+static const char *json_of(const lab_report *told, const char *folder)
+{
+  mkdir(scratch_path(folder), 0777);
+  assert_int_equal(
+      lab_report_file(scratch_path(folder), "report.json", lab_report_json, &(lab_sources){told, NULL}, &error),
+      LAB_OK);
+  return read_back(folder, "report.json");
 }
 
 /* The page of the report; kept. */
@@ -335,7 +374,6 @@ static void test_lab_report_html__signature__measured_found_and_declared(void **
   static double x[ROWS], p[ROWS];
   cJSON *all = curves_of(the_page()), *panel;
   lab_report told = report;
-  char *text;
   int c, i, n;
   (void)state;
   panel = cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(all, "panels"), "signature"), 0);
@@ -361,11 +399,8 @@ static void test_lab_report_html__signature__measured_found_and_declared(void **
                   "declared: bench set 97.50 kPa to 292.5 kPa, spring rate 390.0 N/mm, friction band 24.00 kPa.");
   assert_null(strstr(the_page(), "as it was"));
   told.baseline = &rig;
-  write_report(&told, scratch_path("baseline"));
-  text = scratch_read(scratch_path("baseline/report.html"));
-  assert_contains(text, "as it was");
-  assert_contains(text, "\"key\":\"baseline\"");
-  free(text);
+  assert_contains(page_of(&told, "baseline"), "as it was");
+  assert_contains(other, "\"key\":\"baseline\"");
 }
 
 /* ---- Content ---- */
@@ -393,7 +428,6 @@ static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **sta
   static lab_search_result rival;
   static const char claim[] = "No other effect of the catalogue explains the log as well.";
   lab_report told = report;
-  char *text;
   int i;
   (void)state;
   rival = result;
@@ -404,10 +438,7 @@ static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **sta
   told.result = &rival;
   for (i = 0; i < 2; i++) {
     rival.step[1].bic = rival.path[rival.n_path - 1].bic + (i == 0 ? 5 : 50);
-    write_report(&told, scratch_path("rival"));
-    text = scratch_read(scratch_path("rival/report.html"));
-    assert_int_equal(strstr(text, claim) != NULL, i == 1);
-    free(text);
+    assert_int_equal(strstr(page_of(&told, "rival"), claim) != NULL, i == 1);
   }
 }
 
@@ -415,16 +446,12 @@ static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **sta
 static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
 {
   lab_report without = report;
-  char *text;
   (void)state;
   assert_contains(the_page(), "<h2>Figures of merit</h2>");
   assert_contains(the_page(), "<code>air_mass</code>: the record has no mass flow");
   assert_contains(the_page(), "Steps are steps of the opening of the transducer");
   without.measured = NULL;
-  write_report(&without, scratch_path("without"));
-  text = scratch_read(scratch_path("without/report.html"));
-  assert_null(strstr(text, "Figures of merit"));
-  free(text);
+  assert_null(strstr(page_of(&without, "without"), "Figures of merit"));
 }
 
 static void test_lab_report_html__names_of_files_and_rigs__are_escaped(void **state)
@@ -463,7 +490,6 @@ static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void *
   static lab_unknowns both;
   static lab_search_result nothing;
   lab_report told = report;
-  char *text;
   (void)state;
   run[1] = run[0];
   assert_int_equal(lab_unknowns_open(&rig, run, 2, &both, &error), LAB_OK);
@@ -473,15 +499,12 @@ static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void *
   nothing.verdict = LAB_VERDICT_UNDECIDED;
   told.declared = told.completed = &both;
   told.result = &nothing;
-  write_report(&told, scratch_path("nothing"));
-  text = scratch_read(scratch_path("nothing/report.html"));
-  assert_string_equal(fault_of(text), "");
-  assert_contains(text, "2002 rows in 2 runs");
-  assert_contains(text, "The runs follow one after the other");
-  assert_contains(text, "\"runs\":[{\"entry\":0,\"shift\":0},{\"entry\":");
-  assert_contains(text, "Something is missing, but the log does not say what.");
-  assert_null(strstr(text, "completed model"));
-  free(text);
+  assert_string_equal(fault_of(page_of(&told, "nothing")), "");
+  assert_contains(other, "2002 rows in 2 runs");
+  assert_contains(other, "The runs follow one after the other");
+  assert_contains(other, "\"runs\":[{\"entry\":0,\"shift\":0},{\"entry\":");
+  assert_contains(other, "Something is missing, but the log does not say what.");
+  assert_null(strstr(other, "completed model"));
 }
 
 /* The log without its pressure: set point and travel are all that many plants record. */
@@ -494,11 +517,11 @@ static void test_lab_report_html__pressure_not_measured__is_said(void **state)
   lab_run travel;
   lab_log log;
   FILE *from = fopen(scratch_path("a&b.csv"), "r"), *to = fopen(path, "w");
-  char line[128], *text;
+  char line[128];
   (void)state;
   while (fgets(line, sizeof line, from)) {
-    const char *u = strchr(line, ','), *p = strchr(u + 1, ',');
-    fprintf(to, "%.*s%s", (int)(p - line), line, strchr(p + 1, ','));
+    const char *second = strchr(line, ','), *third = strchr(second + 1, ',');
+    fprintf(to, "%.*s%s", (int)(third - line), line, strchr(third + 1, ','));
   }
   fclose(from);
   fclose(to);
@@ -509,11 +532,8 @@ static void test_lab_report_html__pressure_not_measured__is_said(void **state)
   told.declared = told.completed = &one;
   told.result = &nothing;
   told.measured = NULL;
-  write_report(&told, scratch_path("travel"));
-  text = scratch_read(scratch_path("travel/report.html"));
-  assert_contains(text, "The model&#39;s pressure, for it was not measured");
-  assert_contains(text, "\"signature\":[{\"name\":\"Pressure p\"");
-  free(text);
+  assert_contains(page_of(&told, "travel"), "The model&#39;s pressure, for it was not measured");
+  assert_contains(other, "\"signature\":[{\"name\":\"Pressure p\"");
   virtual_close(&log, &travel);
 }
 
@@ -535,23 +555,13 @@ static void add_noise(double *value, double sigma, uint64_t *seed)
 static const char *write_log_with_memory(const char *name)
 {
   static const double t_cmd[] = {3.502, 5.501, 6.507}, u_cmd[] = {1, 0, -1};
-  static double t[ROWS], u[ROWS], p[ROWS], x[ROWS];
-  const second_log samples = {.t = t, .u = u, .p = p, .x = x};
-  const char *path = scratch_path(name);
   second_rig g = virtual_rig(1);
   uint64_t seed = 3;
-  FILE *file = fopen(path, "w");
-  int i;
   g.pressure_noise = g.position_noise = 0; /* what is added has a memory */
   assert_int_equal(second_run(&g, t_cmd, u_cmd, 3, 10, spacing, &samples, NULL), 0);
-  add_noise(p, 320, &seed);
-  add_noise(x, 2e-5, &seed);
-  assert_non_null(file);
-  fprintf(file, "t [s],u [1],p [Pa],x [m]\n");
-  for (i = 0; i < ROWS; i++)
-    fprintf(file, "%.3f,%g,%.1f,%.7f\n", t[i], u[i], p[i], x[i]);
-  fclose(file);
-  return path;
+  add_noise(log_rows.p, 320, &seed);
+  add_noise(log_rows.x, 2e-5, &seed);
+  return write_rows(name);
 }
 
 static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it(void **state)
@@ -563,7 +573,6 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   lab_report told = {0};
   lab_log log;
   lab_unknowns after;
-  char *text;
   int any;
   (void)state;
   lab_search_options_default(&options);
@@ -580,18 +589,10 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   told.declared = &fitted;
   told.completed = &after;
   told.result = &outcome;
-  write_report(&told, scratch_path("memory"));
-  text = scratch_read(scratch_path("memory/report.html"));
-  assert_contains(text, ">white<");
-  assert_null(strstr(text, ">not white<"));
-  free(text);
-  assert_int_equal(
-      lab_report_file(scratch_path("memory"), "report.json", lab_report_json, &(lab_sources){&told, NULL}, &error),
-      LAB_OK);
-  text = scratch_read(scratch_path("memory/report.json"));
-  assert_contains(text, "\"whiteness\":");
-  assert_null(strstr(text, "\"white\":\tfalse"));
-  free(text);
+  assert_contains(page_of(&told, "memory"), ">white<");
+  assert_null(strstr(other, ">not white<"));
+  assert_contains(json_of(&told, "memory"), "\"whiteness\":");
+  assert_null(strstr(other, "\"white\":\tfalse"));
   virtual_close(&log, &own);
 }
 
@@ -599,17 +600,10 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
  * end, declared values follow straight lines, which costs some thousandths. */
 static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
 {
-  cJSON *root, *candidate;
-  char *text;
+  cJSON *root = cJSON_Parse(json_of(&report, "json")), *candidate;
   int refitted = 0, not_refitted = 0;
   double found;
   (void)state;
-  mkdir(scratch_path("json"), 0777);
-  assert_int_equal(
-      lab_report_file(scratch_path("json"), "report.json", lab_report_json, &(lab_sources){&report, NULL}, &error),
-      LAB_OK);
-  text = scratch_read(scratch_path("json/report.json"));
-  root = cJSON_Parse(text);
   found =
       cJSON_GetNumberValue(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "found"), 0), "explained"));
   assert_true(found > 0.9);
@@ -625,7 +619,6 @@ static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
   }
   assert_true(refitted > 1 && not_refitted > 1);
   cJSON_Delete(root);
-  free(text);
 }
 
 /* ---- Evidence ---- */
