@@ -13,6 +13,14 @@ typedef struct apart {
   double p, x, T;
 } apart;
 
+/* Take up the differences of one instant: pressure, position, temperature. */
+static void widen(apart *d, double p, double x, double T)
+{
+  d->p = fmax(d->p, fabs(p) / 4e5);
+  d->x = fmax(d->x, fabs(x) / 0.02);
+  d->T = fmax(d->T, fabs(T) / 298.15);
+}
+
 /* ---- the effects, as both sides call them; `size` scales what is declared here ---- */
 
 #define BOTH(name, field, value)                                                                                       \
@@ -436,11 +444,8 @@ static apart compare(const run *e)
   apart d = {0, 0, 0};
   int i;
   assert_int_equal(second_follow(&e->g, &course, t_end, dt, &log, NULL), 0);
-  for (i = 0; i < SAMPLES; i++) {
-    d.p = fmax(d.p, fabs(response.p[i] - channel[0][i]) / 4e5);
-    d.x = fmax(d.x, fabs(response.x[i] - channel[1][i]) / 0.02);
-    d.T = fmax(d.T, fabs(response.T[i] - channel[2][i]) / 298.15);
-  }
+  for (i = 0; i < SAMPLES; i++)
+    widen(&d, response.p[i] - channel[0][i], response.x[i] - channel[1][i], response.T[i] - channel[2][i]);
   lab_response_free(&response);
   return d;
 }
@@ -737,37 +742,22 @@ static double interpolation_error(const term_case *c, const second_rig *g, const
   return most;
 }
 
-static apart distance(const lab_response *a, const lab_response *b)
-{
-  apart d = {0, 0, 0};
-  int i;
-  for (i = 0; i < SAMPLES; i++) {
-    d.p = fmax(d.p, fabs(a->p[i] - b->p[i]) / 4e5);
-    d.x = fmax(d.x, fabs(a->x[i] - b->x[i]) / 0.02);
-    d.T = fmax(d.T, fabs(a->T[i] - b->T[i]) / 298.15);
-  }
-  return d;
-}
-
 /* How far a constant error of the first term, of either sign, moves the response. */
 static apart moved_by(const run *e, double error)
 {
   run off = *e;
   lab_response base = respond(e);
   apart most = {0, 0, 0};
-  int sign;
+  int sign, i;
   off.n_terms = 2;
   off.term[1] = e->term[0];
   off.term[1].n = 2;
   for (sign = -1; sign <= 1; sign += 2) {
     lab_response response;
-    apart d;
     off.term[1].value[0] = off.term[1].value[1] = (pneu_real)(sign * error);
     response = respond(&off);
-    d = distance(&base, &response);
-    most.p = fmax(most.p, d.p);
-    most.x = fmax(most.x, d.x);
-    most.T = fmax(most.T, d.T);
+    for (i = 0; i < SAMPLES; i++)
+      widen(&most, response.p[i] - base.p[i], response.x[i] - base.x[i], response.T[i] - base.T[i]);
     lab_response_free(&response);
   }
   lab_response_free(&base);

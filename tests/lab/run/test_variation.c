@@ -52,23 +52,23 @@ static void prepare(const drive *d, double tol, cast *c)
                              .options = {.tol = tol, .shown_only = 1}};
 }
 
-/* Response of one. */
-static void respond(const drive *d, double tol, lab_response *response)
+/* Response of one, exactly. */
+static void respond(const drive *d, lab_response *response)
 {
   lab_error error;
   cast c;
-  prepare(d, tol, &c);
+  prepare(d, 1e-10, &c);
   assert_int_equal(lab_response_run(&d->model, &c.task, response, &error), LAB_OK);
 }
 
 /* What `there` has beyond `here`, from one run. */
-static void vary(const drive *here, const drive *there, double tol, lab_response *change)
+static void vary(const drive *here, const drive *there, lab_response *change)
 {
   lab_response response;
   lab_error error;
   cast base, nearby;
-  prepare(here, tol, &base);
-  prepare(there, tol, &nearby);
+  prepare(here, 1e-6, &base);
+  prepare(there, 1e-6, &nearby);
   base.task.nearby = &nearby.task;
   base.task.n_nearby = 1;
   base.task.change = change;
@@ -94,9 +94,9 @@ static void check_change(const char *what, const drive *here, const drive *up, c
 {
   lab_response above, below, change;
   double x, p;
-  respond(up, 1e-10, &above);
-  respond(down, 1e-10, &below);
-  vary(here, up, 1e-6, &change);
+  respond(up, &above);
+  respond(down, &below);
+  vary(here, up, &change);
   if (!change.x)
     fail_msg("%s is not followed", what);
   x = worst_of(change.x, above.x, below.x, 0.02);
@@ -109,6 +109,21 @@ static void check_change(const char *what, const drive *here, const drive *up, c
   lab_response_free(&change);
 }
 
+/* A parameter, its value, and a step that is small beside it. */
+typedef struct param_step {
+  const char *name;
+  double value, step;
+} param_step;
+
+/* The same of a step of a parameter, in drives that `make` makes. */
+static void check_step(drive (*make)(int gas, const char *name, double value), int gas, const param_step *of,
+                       double most)
+{
+  const drive here = make(gas, of->name, of->value), up = make(gas, of->name, of->value + of->step),
+              down = make(gas, of->name, of->value - of->step);
+  check_change(of->name, &here, &up, &down, most);
+}
+
 static drive with(int gas, const char *name, double value)
 {
   return (drive){.model = fixture_quick(gas, name, value)};
@@ -117,19 +132,13 @@ static drive with(int gas, const char *name, double value)
 /* Across the stops, from which the stem breaks away and on which it lands, in every law of the gas. */
 static void test_lab_variations__parameters__are_those_of_exact_runs(void **state)
 {
-  static const struct {
-    const char *name;
-    double value, step;
-  } of[] = {{"spring_rate", 1e5, 1}, {"dry_friction", 480, 1e-2}, {"area", 0.04, 4e-7},
-            {"stroke", 0.02, 2e-7},  {"damping", 1000, 1e-1},     {"supply_pressure", 4e5, 1}};
+  static const param_step of[] = {{"spring_rate", 1e5, 1}, {"dry_friction", 480, 1e-2}, {"area", 0.04, 4e-7},
+                                  {"stroke", 0.02, 2e-7},  {"damping", 1000, 1e-1},     {"supply_pressure", 4e5, 1}};
   int gas, i;
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
-    for (i = 0; i < COUNT(of); i++) {
-      const drive here = with(gas, of[i].name, of[i].value), up = with(gas, of[i].name, of[i].value + of[i].step),
-                  down = with(gas, of[i].name, of[i].value - of[i].step);
-      check_change(of[i].name, &here, &up, &down, 0.01);
-    }
+    for (i = 0; i < COUNT(of); i++)
+      check_step(with, gas, &of[i], 0.01);
 }
 
 /* A command that comes later, a start that is warmer, another command. */
@@ -168,57 +177,45 @@ static void test_lab_variations__run_at_rest__follows_what_differs(void **state)
 }
 
 /* A stem that its positioner brings to 0.6 of the stroke and stops as its error enters the dead band. */
-static drive positioned(const char *name, double value)
+static drive positioned(int gas, const char *name, double value)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_set(&p, "dead_volume", 4e-5);
   fixture_set(&p, "positioner.gain", 20);
   fixture_set(&p, "positioner.dead_band", 5e-3);
   fixture_set(&p, name, value);
-  return (drive){.model = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), .positioned = 1, .command = -1.6};
+  return (drive){.model = fixture_model(&p, gas, PNEU_FLOW_CHOKED), .positioned = 1, .command = -1.6};
 }
 
 /* Across the edge of the dead band, where the opening jumps. */
 static void test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs(void **state)
 {
-  static const struct {
-    const char *name;
-    double value, step;
-  } of[] = {{"spring_rate", 4e5, 1}, {"positioner.dead_band", 5e-3, 1e-8}, {"fill_area", 0.893e-6, 1e-12}};
+  static const param_step of[] = {
+      {"spring_rate", 4e5, 1}, {"positioner.dead_band", 5e-3, 1e-8}, {"fill_area", 0.893e-6, 1e-12}};
   int i;
   (void)state;
-  for (i = 0; i < COUNT(of); i++) {
-    const drive here = positioned(of[i].name, of[i].value), up = positioned(of[i].name, of[i].value + of[i].step),
-                down = positioned(of[i].name, of[i].value - of[i].step);
-    check_change(of[i].name, &here, &up, &down, 0.02);
-  }
+  for (i = 0; i < COUNT(of); i++)
+    check_step(positioned, PNEU_GAS_ISOTHERMAL, &of[i], 0.02);
 }
 
 /* What has states of its own, and what sensors show. */
 static void test_lab_variations__effects__are_those_of_exact_runs(void **state)
 {
-  static const struct {
-    const char *name;
-    double value, step;
-  } of[] = {{"transducer_time", 0.05, 1e-6},
-            {"pressure_gain", 0.01, 1e-5},
-            {"position_time", 0.05, 1e-6},
-            {"leak_area", 1e-7, 1e-12},
-            {"film_conductance", 1, 1e-5}};
+  static const param_step of[] = {{"transducer_time", 0.05, 1e-6},
+                                  {"pressure_gain", 0.01, 1e-5},
+                                  {"position_time", 0.05, 1e-6},
+                                  {"leak_area", 1e-7, 1e-12},
+                                  {"film_conductance", 1, 1e-5}};
   int i;
   (void)state;
-  for (i = 0; i < COUNT(of); i++) {
-    const drive here = with(PNEU_GAS_ENERGY, of[i].name, of[i].value),
-                up = with(PNEU_GAS_ENERGY, of[i].name, of[i].value + of[i].step),
-                down = with(PNEU_GAS_ENERGY, of[i].name, of[i].value - of[i].step);
-    check_change(of[i].name, &here, &up, &down, 0.01);
-  }
+  for (i = 0; i < COUNT(of); i++)
+    check_step(with, PNEU_GAS_ENERGY, &of[i], 0.01);
 }
 
 static void check_not_followed(const drive *here, const drive *there)
 {
   lab_response change;
-  vary(here, there, 1e-6, &change);
+  vary(here, there, &change);
   assert_true(!change.p && !change.x && !change.T && !change.force);
 }
 
