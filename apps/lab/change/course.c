@@ -6,7 +6,6 @@
 
 #include "../base/array.h"
 #include "../base/clock.h"
-#include "../base/quantile.h"
 
 enum { STEPS = 8, PLACES = 16, LEVELS = 4 }; /* steps at most; rows and levels at which one is tried */
 static const double much = 0.1;              /* share of what is left that a step has to explain */

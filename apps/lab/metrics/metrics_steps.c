@@ -1,7 +1,6 @@
 /* Responses to steps, from one level of the command to the next: dead time, T63, T86, settling, overshoot; and full
  * strokes: how long each way, and how differently. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

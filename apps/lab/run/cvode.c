@@ -1,7 +1,5 @@
 #include "cvode.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include <cvode/cvode.h>

@@ -1,7 +1,6 @@
 #include "absent.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "../base/clock.h"
 

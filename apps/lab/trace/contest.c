@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../base/clock.h"
-#include "../fit/nuisance.h"
 #include "early.h"
 
 /* Whether a search has explained the logs. */

@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void begin_term(const lab_candidate *base, const lab_term_score *score, lab_candidate *c, lab_error *all)
 {

@@ -8,7 +8,6 @@
 
 #include "../base/clock.h"
 #include "../fit/deviations.h"
-#include "../fit/nuisance.h"
 #include "../fit/outliers.h"
 #include "absent.h"
 #include "carry.h"

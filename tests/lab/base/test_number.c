@@ -1,5 +1,4 @@
 /* apps/lab/base/number */
-#include "../../words.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,7 +9,6 @@
 #include "../../../apps/lab/batch/batch.h"
 #include "../../../apps/lab/batch/batchindex.h"
 #include "../../../apps/lab/batch/batchlist.h"
-#include "../../../apps/lab/base/checksum.h"
 #include "../../../apps/lab/batch/jobs.h"
 #include "../../../apps/lab/base/interrupt.h"
 #include "../../../apps/lab/base/text.h"

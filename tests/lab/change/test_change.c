@@ -7,8 +7,6 @@
 #include "../../virtual.h"
 
 #include "../../../apps/lab/change/change.h"
-#include "../../../apps/lab/change/repeat.h"
-#include "../../../apps/lab/trace/decide.h"
 
 enum { ROWS = 1001, COMMANDS = 5 };
 static const double spacing = 0.01; /* [s] */

@@ -1,5 +1,4 @@
 /* A log that a model has not seen, of a rig whose preload was set anew. */
-#include "../../fixture.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 

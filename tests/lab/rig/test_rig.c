@@ -3,7 +3,6 @@
 #include "../../rigfile.h"
 
 #include "../../../apps/lab/base/text.h"
-#include "../../../apps/lab/rig/rigkeys.h"
 
 static lab_error error;
 

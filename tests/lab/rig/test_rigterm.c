@@ -2,9 +2,7 @@
 #include "../../rigfile.h"
 
 #include "../../../apps/lab/run/run.h"
-#include "../../../apps/lab/run/response.h"
 #include "../../../apps/lab/rig/rigterm.h"
-#include "../../../apps/lab/run/start.h"
 
 static lab_error error;
 

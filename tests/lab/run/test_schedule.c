@@ -2,7 +2,6 @@
 #include "../../fixture.h"
 #include "../../scratch.h"
 
-#include "../../../apps/lab/rig/rigkeys.h"
 #include "../../../apps/lab/run/run.h"
 #include "../../../apps/lab/run/schedule.h"
 #include "../../../apps/lab/run/standard.h"

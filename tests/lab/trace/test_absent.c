@@ -1,5 +1,4 @@
 /* A declared leak that a log of the independent rig refutes, or has. */
-#include "../../fixture.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 

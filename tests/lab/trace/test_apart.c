@@ -1,5 +1,4 @@
 /* Two logs of the independent rig, between which something was set anew, or has worn. */
-#include "../../fixture.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 

@@ -1,5 +1,4 @@
 /* Three logs of the independent rig: a leak that all of them have carries over, one of a single log does not. */
-#include "../../fixture.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 
