@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
 #include "../base/quantile.h"
 #include "../rig/tolerance.h"
 
@@ -72,12 +73,6 @@ static double chance(const lab_unknowns *u, const lab_fit_result *fit, int j)
   return lab_chi2_tail(off * off / (half * half) * lab_chi2_threshold(one_in_twenty), 1);
 }
 
-static int first_smaller(const void *a, const void *b)
-{
-  const double *x = a, *y = b;
-  return (*x > *y) - (*x < *y);
-}
-
 /* The p-value up to which a log tells a value from the declared one: of those told one in twenty is as declared
  * (Benjamini and Hochberg 1995), where all are, any is told once in twenty. */
 static double told_up_to(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit)
@@ -87,7 +82,7 @@ static double told_up_to(const lab_rig *rig, const lab_unknowns *u, const lab_fi
   for (j = 0; j < u->n; j++)
     if (is_declared(rig, u, j))
       p[n++] = chance(u, fit, j);
-  qsort(p, (size_t)n, sizeof *p, first_smaller);
+  lab_sort(p, (size_t)n);
   for (k = n; k > 0 && p[k - 1] > one_in_twenty * k / n; k--)
     ;
   return k > 0 ? p[k - 1] : -1;

@@ -1,5 +1,4 @@
 /* What the beginning of a log of the independent rig says of the whole. */
-
 #include "../../check.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
