@@ -12,6 +12,7 @@ enum { ROWS = 1001, COMMANDS = 5 };
 static const double spacing = 0.01; /* [s] */
 static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
 static const double u_cmd[2][COMMANDS] = {{1, 0, -1, 0.5, -0.5}, {0.8, 0, -1, 1, -0.7}};
+static lab_changes changes; /* of the comparison that was made last */
 
 static void write_log(const second_rig *g, const double *u_of, const char *path)
 {
@@ -29,12 +30,11 @@ static void declare(lab_rig *rig)
 }
 
 /* Compare logs of a rig whose model is fitted to the first one and needs nothing more. */
-static lab_changes compare_logs(const lab_rig *rig, const char *const path[2])
+static void compare_logs(const lab_rig *rig, const char *const path[2])
 {
   static lab_unknowns u;
   lab_log log[2];
   lab_run run[2];
-  lab_changes changes;
   lab_error error = {0, ""};
   int i;
   for (i = 0; i < 2; i++)
@@ -44,49 +44,48 @@ static lab_changes compare_logs(const lab_rig *rig, const char *const path[2])
   assert_int_equal(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error), LAB_OK);
   for (i = 0; i < 2; i++)
     virtual_close(&log[i], &run[i]);
-  return changes;
 }
 
-static lab_changes compare_files(const char *rig_name, const char *then, const char *now)
+static void compare_files(const char *rig_name, const char *then, const char *now)
 {
   static lab_rig rig;
   const char *const path[2] = {scratch_path(then), scratch_path(now)};
   lab_error error = {0, ""};
   assert_int_equal(lab_rig_read(scratch_path(rig_name), &rig, &error), LAB_OK);
-  return compare_logs(&rig, path);
+  compare_logs(&rig, path);
 }
 
 /* Compare logs of two rigs, as one is declared. */
-static lab_changes compare_as(const lab_rig *rig, const second_rig *then, const second_rig *now)
+static void compare_as(const lab_rig *rig, const second_rig *then, const second_rig *now)
 {
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   write_log(then, u_cmd[0], path[0]);
   write_log(now, u_cmd[1], path[1]);
-  return compare_logs(rig, path);
+  compare_logs(rig, path);
 }
 
-static lab_changes compare(const second_rig *then, const second_rig *now)
+static void compare(const second_rig *now)
 {
+  const second_rig then = virtual_rig(7);
   static lab_rig rig;
   declare(&rig);
-  return compare_as(&rig, then, now);
+  compare_as(&rig, &then, now);
 }
 
 /* One change of that name, whose interval holds the value now. */
-static void assert_change(const lab_changes *changes, const char *what, double now)
+static void assert_change(const char *what, double now)
 {
   char name[LAB_PARAM_NAME_TEXT];
-  assert_int_equal(changes->condition, LAB_SINCE_CHANGED);
-  assert_int_equal(changes->n, 1);
-  assert_string_equal(lab_change_name(changes->change[0].param, name), what);
-  assert_between(now, changes->change[0].low, changes->change[0].high);
-  assert_between(changes->change[0].p_value, 0, 1e-6);
+  assert_int_equal(changes.condition, LAB_SINCE_CHANGED);
+  assert_int_equal(changes.n, 1);
+  assert_string_equal(lab_change_name(changes.change[0].param, name), what);
+  assert_between(now, changes.change[0].low, changes.change[0].high);
+  assert_between(changes.change[0].p_value, 0, 1e-6);
 }
 
 static void test_lab_changes_find__another_day__is_unchanged(void **state)
 {
-  second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
+  second_rig now = virtual_rig(8);
   (void)state;
   now.supply *= 1.02;
   now.ambient -= 1200;
@@ -94,7 +93,7 @@ static void test_lab_changes_find__another_day__is_unchanged(void **state)
   now.supply_temperature += 6;
   now.pressure_bias = 800;
   now.position_bias = 5e-5;
-  changes = compare(&then, &now);
+  compare(&now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
   assert_int_equal(changes.n, 0);
   assert_close(changes.now, 1, 0.05, 0);
@@ -128,7 +127,6 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
   for (i = 0; i < sizeof days / sizeof *days; i++) {
     const day *d = &days[i];
     second_rig then, now;
-    lab_changes changes;
     lab_error error = {0, ""};
     blind_draw(424242, d->trial, &trial);
     trial.channels = BLIND_P | BLIND_X;
@@ -145,7 +143,7 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
     assert_int_equal(blind_write_rig(&trial, scratch_folder, &error), LAB_OK);
     write_blind(&trial, &then, &trial.holdout, "then.csv");
     write_blind(&trial, &now, &trial.fit, "now.csv");
-    changes = compare_files("rig.cfg", "then.csv", "now.csv");
+    compare_files("rig.cfg", "then.csv", "now.csv");
     assert_int_equal(changes.n, 0);
     assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
   }
@@ -157,7 +155,6 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
   static lab_rig rig;
   const int zero = pneu_param_find("position_bias.position_bias");
   second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
   (void)state;
   if (zero < 0)
     skip();
@@ -167,42 +164,39 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
   rig.fit[rig.n_fit] = zero;
   rig.fit_per_log[rig.n_fit++] = 1;
   rig.tolerance[zero] = 3e-4;
-  changes = compare_as(&rig, &then, &now);
+  compare_as(&rig, &then, &now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
   assert_int_equal(changes.n, 0);
 }
 
 static void test_lab_changes_find__leak__is_the_change(void **state)
 {
-  second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
+  second_rig now = virtual_rig(8);
   (void)state;
   now.leak_area = 1.5e-8;
-  changes = compare(&then, &now);
-  assert_change(&changes, "chamber_leak", 1.5e-8);
+  compare(&now);
+  assert_change("chamber_leak", 1.5e-8);
   assert_close(changes.change[0].then, 0, 1e-15, 0);
 }
 
 /* Chi-square falls by 33 for it: beyond chance (p = 8e-9), but no more than a model not quite the rig's leaves. */
 static void test_lab_changes_find__leak_that_hardly_shows__is_no_change(void **state)
 {
-  second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
+  second_rig now = virtual_rig(8);
   (void)state;
   now.leak_area = 1.6e-9;
-  changes = compare(&then, &now);
+  compare(&now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
 }
 
 static void test_lab_changes_find__more_friction__is_the_change(void **state)
 {
-  second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
+  second_rig now = virtual_rig(8);
   (void)state;
   now.supply *= 0.99;
   now.dry_friction *= 1.5;
-  changes = compare(&then, &now);
-  assert_change(&changes, "dry_friction", 720);
+  compare(&now);
+  assert_change("dry_friction", 720);
   assert_close(changes.change[0].then, 480, 0, 0.02);
 }
 
@@ -213,14 +207,13 @@ static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_
 {
   static lab_rig rig;
   second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
   (void)state;
   now.fill_area *= 0.6;
   now.vent_area *= 0.6;
   declare(&rig);
   rig.fit[rig.n_fit++] = PNEU_PARAM_area;
   rig.fit[rig.n_fit++] = PNEU_PARAM_dead_volume;
-  changes = compare_as(&rig, &then, &now);
+  compare_as(&rig, &then, &now);
   assert_int_equal(changes.n, 1);
   assert_int_equal(changes.change[0].param, LAB_PARAM_ORIFICE_AREA);
   assert_close(changes.change[0].now / changes.change[0].then, 0.6, 0, 0.02);
@@ -229,12 +222,11 @@ static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_
 
 static void test_lab_changes_find__softer_spring__is_the_change(void **state)
 {
-  second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
+  second_rig now = virtual_rig(8);
   (void)state;
   now.spring_rate *= 0.9;
-  changes = compare(&then, &now);
-  assert_change(&changes, "spring_rate", 3.6e5);
+  compare(&now);
+  assert_change("spring_rate", 3.6e5);
 }
 
 /* The log of a run in which something is done to the rig. */
@@ -257,7 +249,7 @@ static void write_course(const second_rig *g, const second_course *course, doubl
 }
 
 /* Compare with a log in which the rig is another one from a time on. */
-static lab_changes compare_on_the_way(const second_rig *early, const second_rig *late, double from)
+static void compare_on_the_way(const second_rig *early, const second_rig *late, double from)
 {
   const second_rig then = virtual_rig(7);
   const second_course course = {t_cmd, u_cmd[1], COMMANDS, NULL, late, from};
@@ -266,7 +258,7 @@ static lab_changes compare_on_the_way(const second_rig *early, const second_rig 
   declare(&rig);
   write_log(&then, u_cmd[0], path[0]);
   write_course(early, &course, 10, spacing, path[1]);
-  return compare_logs(&rig, path);
+  compare_logs(&rig, path);
 }
 
 static void assert_since(const lab_onset *onset, double t, double within)
@@ -282,11 +274,10 @@ static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(v
 {
   const second_rig now = virtual_rig(8);
   second_rig failed = now;
-  lab_changes changes;
   (void)state;
   failed.pressure_bias = 8000;
-  changes = compare_on_the_way(&now, &failed, 6.13);
-  assert_change(&changes, "pressure_bias", 8000);
+  compare_on_the_way(&now, &failed, 6.13);
+  assert_change("pressure_bias", 8000);
   assert_since(&changes.change[0].begin, 6.13, 2 * spacing);
   assert_false(changes.change[0].end.known);
 }
@@ -295,11 +286,10 @@ static void test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset(vo
 {
   const second_rig now = virtual_rig(8);
   second_rig leaks = now;
-  lab_changes changes;
   (void)state;
   leaks.leak_area = 2e-8;
-  changes = compare_on_the_way(&now, &leaks, 4.71);
-  assert_change(&changes, "chamber_leak", 2e-8);
+  compare_on_the_way(&now, &leaks, 4.71);
+  assert_change("chamber_leak", 2e-8);
   assert_since(&changes.change[0].begin, 4.71, 10 * spacing);
 }
 
@@ -313,7 +303,7 @@ static second_rig plant_rig(uint64_t seed)
   return g;
 }
 
-static void compare_plant(const second_rig *early, const second_rig *late, double from, lab_changes *changes)
+static void compare_plant(const second_rig *early, const second_rig *late, double from)
 {
   static const second_positioner positioner = {.gain = 10, .cutoff_high = 2};
   static double t_set[PLANT_COMMANDS], set[PLANT_COMMANDS];
@@ -335,19 +325,18 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
   course.later = late;
   course.change = from;
   write_course(early, &course, PLANT_ROWS - 1, 1, path[1]);
-  *changes = compare_logs(&rig, path);
+  compare_logs(&rig, path);
 }
 
 /* ... comes back, and the positioner hides it as long as it suffices. */
 static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **state)
 {
   second_rig now = plant_rig(8), fails = now;
-  lab_changes changes;
   (void)state;
   fails.supply = 30e3;
-  compare_plant(&fails, &now, 47.3, &changes);
+  compare_plant(&fails, &now, 47.3);
   assert_int_equal(changes.condition, LAB_SINCE_CHANGED);
-  assert_change(&changes, "supply_pressure", 30e3);
+  assert_change("supply_pressure", 30e3);
   assert_false(changes.change[0].begin.known);
   assert_since(&changes.change[0].end, 47.3, 2);
 }
@@ -356,11 +345,10 @@ static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **s
 static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(void **state)
 {
   second_rig now = plant_rig(8), fails = now;
-  lab_changes changes;
   (void)state;
   fails.supply = 60e3;
-  compare_plant(&now, &fails, 80.6, &changes);
-  assert_change(&changes, "supply_pressure", 60e3);
+  compare_plant(&now, &fails, 80.6);
+  assert_change("supply_pressure", 60e3);
   assert_since(&changes.change[0].begin, 80.6, 3);
   assert_false(changes.change[0].end.known);
 }
@@ -368,23 +356,21 @@ static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(v
 static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
 {
   second_rig now = plant_rig(8);
-  lab_changes changes;
   (void)state;
   now.supply *= 1.02;
   now.position_bias = 5e-5;
-  compare_plant(&now, NULL, 0, &changes);
+  compare_plant(&now, NULL, 0);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
 }
 
 /* Something that no parameter has: it can be told neither that all is well nor what is not. */
 static void test_lab_changes_find__no_parameter_has_it__cannot_tell(void **state)
 {
-  second_rig then = virtual_rig(7), now = virtual_rig(8);
-  lab_changes changes;
+  second_rig now = virtual_rig(8);
   (void)state;
   now.force = 900;
   now.force_rate = 3.7;
-  changes = compare(&then, &now);
+  compare(&now);
   assert_true(changes.now > 1.5);
   assert_true(*changes.why != '\0');
   assert_true(changes.condition != LAB_SINCE_UNCHANGED);
