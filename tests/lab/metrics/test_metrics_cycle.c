@@ -8,9 +8,11 @@ static const double F = 480, A = 0.04, k = 4e5, x_0 = 0.01; /* R1-400 [B, Table 
 /* Pressure over time that balances spring and friction in a full stroke up and down, 10 s each way; at the upper
  * stop it goes on to the supply and comes back. Flow from the supply as long as the pressure rises.
  * In:      preload  [m], of the spring */
-static void add_cycle(double preload, double friction)
+static void record_cycle(double supply, double preload, double friction)
 {
   int i;
+  record_new(LAB_COMMAND_OPENING);
+  record.supply = supply;
   for (i = 0; i <= 4000; i++) {
     const double t = 0.01 * i;
     const double x = t < 10 ? 0.002 * t : t < 30 ? record_stroke : 0.002 * (40 - t);
@@ -33,8 +35,7 @@ static void test_metrics__cycle__the_paper_s_energies(void **state)
   const double spring = k * record_stroke * (x_0 + record_stroke / 2); /* [J] */
   const double out = spring - F * record_stroke, lost = 2 * F * record_stroke;
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_cycle(x_0, F);
+  record_cycle(4e5, x_0, F);
   record_measure();
   assert_metric(LAB_METRIC_ENERGY_IN, in, 0, 1e-9);
   assert_metric(LAB_METRIC_ENERGY_OUT, out, 0, 1e-6);
@@ -47,9 +48,7 @@ static void test_metrics__cycle__the_paper_s_energies(void **state)
 static void test_metrics__spring_that_fills_the_supply__half(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  record.supply = k * record_stroke / A;
-  add_cycle(0, 0);
+  record_cycle(k * record_stroke / A, 0, 0);
   record_measure();
   assert_close(metric_of(LAB_METRIC_ENERGY_OUT)->value, metrics.metric[LAB_METRIC_ENERGY_IN].value / 2, 0, 1e-6);
   assert_metric(LAB_METRIC_ENERGY_EFFICIENCY, 50, 1e-4, 0);
@@ -59,9 +58,7 @@ static void test_metrics__spring_that_fills_the_supply__half(void **state)
 static void test_metrics__low_bench_set__above_the_limit_and_said(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  record.supply = 2.4e5;
-  add_cycle(0, 100);
+  record_cycle(2.4e5, 0, 100);
   record_measure();
   assert_metric(LAB_METRIC_ENERGY_EFFICIENCY, 100 * (1 - (80 + 2) / 192.0), 1e-3, 0);
   assert_contains(metric_of(LAB_METRIC_ENERGY_EFFICIENCY)->text, "above the limit of 50 %");
@@ -71,8 +68,7 @@ static void test_metrics__noisy_cycle__within_what_is_said(void **state)
 {
   const double spring = k * record_stroke * (x_0 + record_stroke / 2);
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_cycle(x_0, F);
+  record_cycle(4e5, x_0, F);
   record_noise(500, 2e-5);
   record_p[600] = record_x[3300] = (double)NAN;
   record_measure();
@@ -84,8 +80,7 @@ static void test_metrics__air__integral_of_the_flow(void **state)
 {
   const double mass = 1e-4 * 20 * 20 / 2;
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_cycle(x_0, F);
+  record_cycle(4e5, x_0, F);
   record_measure();
   assert_metric(LAB_METRIC_AIR_MASS, mass, 0, 1e-3);
   assert_metric(LAB_METRIC_AIR_VOLUME, 1e3 * mass * 287 * 273.15 / 101325, 0, 1e-3);
@@ -98,8 +93,7 @@ static void test_metrics__air__integral_of_the_flow(void **state)
 static void test_metrics__no_cycle__says_what_is_missing(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_cycle(x_0, F);
+  record_cycle(4e5, x_0, F);
   record.supply = 0;
   record_measure();
   assert_denied(LAB_METRIC_ENERGY_IN, "supply pressure is not known");
@@ -122,8 +116,7 @@ static void test_metrics__no_cycle__says_what_is_missing(void **state)
 static void test_metrics__two_runs__are_kept_apart(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_cycle(x_0, F);
+  record_cycle(4e5, x_0, F);
   record_first[2] = record.n;
   record_first[1] = 2000;
   record.n_runs = 2;

@@ -42,6 +42,14 @@ static void stairs(element *e, const double *level, int n, double step)
   }
 }
 
+/* Measure an element in stairs alone. */
+static void measure_stairs(element e, const double *level, int n, double step)
+{
+  record_new(LAB_COMMAND_SET_PRESSURE);
+  stairs(&e, level, n, step);
+  record_measure();
+}
+
 /* Chamber pressure that ramps through n levels, rows 0.05 s apart, `rate` percent of the span a second. */
 static void ramps(element *e, const double *level, int n, double rate)
 {
@@ -105,11 +113,8 @@ static void test_metrics__hysteresis_beside_play__both_apart(void **state)
 
 static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
 {
-  element e = {0, 0, 0, 0, 0};
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  stairs(&e, (const double[]){0, 60, 30}, 3, 2);
-  record_measure();
+  measure_stairs((element){0, 0, 0, 0, 0}, (const double[]){0, 60, 30}, 3, 2);
   assert_true(metric_of(LAB_METRIC_DEAD_BAND)->at_most);
   assert_between(metrics.metric[LAB_METRIC_DEAD_BAND].value, 1, 2.5);
 }
@@ -118,11 +123,8 @@ static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
 
 static void test_metrics__stem_that_slips__its_step(void **state)
 {
-  element e = {0, 0, 3e3, 0, 0};
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  stairs(&e, (const double[]){0, 60}, 2, 0.25);
-  record_measure();
+  measure_stairs((element){0, 0, 3e3, 0, 0}, (const double[]){0, 60}, 2, 0.25);
   assert_covers(LAB_METRIC_RESOLUTION, 1.5, 0.15);
   assert_false(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
 }
@@ -144,12 +146,9 @@ static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
  * range. Off the stops are both branches from 3 % to 96 %, and the grid has 0.6 %. */
 static void test_metrics__bowed_characteristic__half_the_bow(void **state)
 {
-  element e = {4e3, 0.06, 0, 0, 0};
   const double most = 0.96 - 0.03, least = most - 2 * 0.006;
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  stairs(&e, (const double[]){-10, 110, -10}, 3, 1);
-  record_measure();
+  measure_stairs((element){4e3, 0.06, 0, 0, 0}, (const double[]){-10, 110, -10}, 3, 1);
   assert_between(metric_of(LAB_METRIC_LINEARITY)->value, 100 * 0.06 / 2 * least * least, 100 * 0.06 / 2 * most * most);
   assert_denied(LAB_METRIC_HYSTERESIS, "it takes the dead band");
 }
@@ -171,11 +170,8 @@ static void test_metrics__fast_loop__says_so(void **state)
 
 static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
 {
-  element e = {20e3, 0, 0, 0, 0};
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  stairs(&e, (const double[]){-10, 110, -10}, 3, 5);
-  record_measure();
+  measure_stairs((element){20e3, 0, 0, 0, 0}, (const double[]){-10, 110, -10}, 3, 5);
   assert_denied(LAB_METRIC_DEAD_BAND, "on a stop it does");
   assert_denied(LAB_METRIC_HYSTERESIS, "on a stop it does");
   assert_covers(LAB_METRIC_HYSTERESIS_DEAD_BAND, 10, 0.2);
@@ -183,11 +179,8 @@ static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
 
 static void test_metrics__small_loop__says_how_small(void **state)
 {
-  element e = {20e3, 0, 0, 0, 0};
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  stairs(&e, (const double[]){0, 50, 20}, 3, 1);
-  record_measure();
+  measure_stairs((element){20e3, 0, 0, 0, 0}, (const double[]){0, 50, 20}, 3, 1);
   assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.6);
   assert_denied(LAB_METRIC_HYSTERESIS_DEAD_BAND, "the largest slow one covers 20 %");
 }
@@ -220,11 +213,8 @@ static void test_metrics__one_movement__no_resolution(void **state)
 
 static void test_metrics__valve_that_snaps__no_line(void **state)
 {
-  element e = {20e3, 0, 190e3, 0, 0};
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  stairs(&e, (const double[]){-10, 110, -10}, 3, 2);
-  record_measure();
+  measure_stairs((element){20e3, 0, 190e3, 0, 0}, (const double[]){-10, 110, -10}, 3, 2);
   assert_denied(LAB_METRIC_LINEARITY, "too little of the loop");
 }
 

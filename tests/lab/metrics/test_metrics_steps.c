@@ -6,11 +6,12 @@ static const double T = 0.8, Td = 0.25; /* [s] of a first-order lag with dead ti
 static const double pi = 3.141592653589793;
 
 /* A lag that follows steps of the set pressure between two levels every `hold` seconds, up first; rows `step` apart. */
-static void add_lag(int steps, double hold, double step, double high)
+static void record_lag(int steps, double hold, double step, double high)
 {
   const double low = 0.004;
   double t = 0, x = low;
   int k;
+  record_new(LAB_COMMAND_SET_PRESSURE);
   for (; t < 2 - step / 2; t += step)
     record_add(t, low, 0, low);
   for (k = 0; k < steps; k++) {
@@ -25,8 +26,7 @@ static void add_lag(int steps, double hold, double step, double high)
 static void test_metrics__first_order_lag__its_times(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(2, 16, 0.001, 0.014);
+  record_lag(2, 16, 0.001, 0.014);
   record_measure();
   assert_int_equal(metrics.n_steps, 2);
   /* the start is seen at 0.5 % of the change */
@@ -78,9 +78,8 @@ static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state
   size_t i;
   (void)state;
   for (draw = 0; draw < DRAWS; draw++) {
-    record_new(LAB_COMMAND_SET_PRESSURE);
+    record_lag(1, 16, 0.002, 0.014);
     record_seed = (uint64_t)draw + 1;
-    add_lag(1, 16, 0.002, 0.014);
     record_noise(0, 5e-5);
     record_measure();
     for (i = 0; i < 3; i++) {
@@ -104,8 +103,7 @@ static void test_metrics__logged_command__known_within_a_row(void **state)
 {
   double exact;
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.01, 0.014);
+  record_lag(1, 16, 0.01, 0.014);
   record_measure();
   exact = metrics.metric[LAB_METRIC_T86_UP].uncertainty;
   record.bracketed = 1;
@@ -113,10 +111,11 @@ static void test_metrics__logged_command__known_within_a_row(void **state)
   assert_close(metrics.metric[LAB_METRIC_T86_UP].uncertainty, exact + 0.01, 1e-9, 0);
 }
 
-static void add_second_order(double zeta, double sigma)
+static void record_second_order(double zeta, double sigma)
 {
   const double omega = 5, damped = omega * sqrt(1 - zeta * zeta);
   int i;
+  record_new(LAB_COMMAND_SET_PRESSURE);
   for (i = 0; i < 4000; i++) {
     const double t = 0.005 * i, s = t - 2;
     const double y =
@@ -130,13 +129,11 @@ static void test_metrics__second_order__its_overshoot(void **state)
 {
   const double zeta = 0.4;
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_second_order(zeta, 0);
+  record_second_order(zeta, 0);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 100 * exp(-pi * zeta / sqrt(1 - zeta * zeta)), 0.01, 0);
   assert_denied(LAB_METRIC_OVERSHOOT_DOWN, "no step down of the set pressure");
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_second_order(zeta, 2e-5);
+  record_second_order(zeta, 2e-5);
   record_measure();
   assert_covers(LAB_METRIC_OVERSHOOT_UP, 100 * exp(-pi * zeta / sqrt(1 - zeta * zeta)), 1.5);
 }
@@ -144,8 +141,7 @@ static void test_metrics__second_order__its_overshoot(void **state)
 static void test_metrics__overdamped_with_noise__no_overshoot(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_second_order(0.99, 2e-5);
+  record_second_order(0.99, 2e-5);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 0, 0, 0);
 }
@@ -153,8 +149,7 @@ static void test_metrics__overdamped_with_noise__no_overshoot(void **state)
 static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(6, 16, 0.01, 0.014);
+  record_lag(6, 16, 0.01, 0.014);
   record_measure();
   assert_int_equal(metrics.n_steps, 6);
   assert_metric(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 1e-4, 0);
@@ -166,8 +161,7 @@ static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.2, 0.014);
+  record_lag(1, 16, 0.2, 0.014);
   record_noise(0, 2e-4);
   record_measure();
   assert_denied(LAB_METRIC_SETTLING_TIME_UP, "noise hides");
@@ -177,8 +171,7 @@ static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
 static void test_metrics__unsettled__says_so(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(3, 1.5, 0.01, 0.014);
+  record_lag(3, 1.5, 0.01, 0.014);
   record_measure();
   assert_denied(LAB_METRIC_T86_UP, "not settled before the next step");
   assert_denied(LAB_METRIC_T86_DOWN, "before the stem was at rest");
@@ -189,8 +182,7 @@ static void test_metrics__unsettled__says_so(void **state)
 static void test_metrics__small_step__says_so(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.01, 0.0044);
+  record_lag(1, 16, 0.01, 0.0044);
   record_noise(0, 2e-5);
   record_measure();
   assert_denied(LAB_METRIC_DEAD_TIME_UP, "too small a movement");
@@ -200,8 +192,7 @@ static void test_metrics__gap_before_the_step__says_so(void **state)
 {
   size_t i;
   (void)state;
-  record_new(LAB_COMMAND_SET_PRESSURE);
-  add_lag(1, 16, 0.01, 0.014);
+  record_lag(1, 16, 0.01, 0.014);
   for (i = 0; record_t[i] < 1.2; i++)
     record_x[i] = (double)NAN;
   record_measure();
@@ -219,7 +210,7 @@ static void test_metrics__nothing_to_go_by__says_why(void **state)
   record_new(LAB_COMMAND_SET_PRESSURE);
   record_measure();
   assert_denied(LAB_METRIC_T63_UP, "no rows");
-  add_lag(1, 16, 0.01, 0.014);
+  record_lag(1, 16, 0.01, 0.014);
   record.x = NULL;
   record_measure();
   for (i = 0; i < LAB_METRIC_COUNT; i++)
@@ -235,9 +226,10 @@ static void test_metrics__nothing_to_go_by__says_why(void **state)
 /* ---- Pressure as the input ---- */
 
 /* Pressure that steps within `rise` seconds, from one noisy level to the next. */
-static void add_pressure_steps(double rise, double sigma)
+static void record_pressure_steps(double rise, double sigma)
 {
   int i;
+  record_new(LAB_COMMAND_PRESSURE);
   for (i = 0; i < 4000; i++) {
     const double t = 0.01 * i, s = t - 20;
     const double share = fmin(fmax(s / rise, 0), 1), late = s - 0.3;
@@ -249,8 +241,7 @@ static void add_pressure_steps(double rise, double sigma)
 static void test_metrics__steps_of_a_measured_pressure__found(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_PRESSURE);
-  add_pressure_steps(0.05, 200);
+  record_pressure_steps(0.05, 200);
   record_measure();
   assert_int_equal(metrics.n_steps, 1);
   assert_covers(LAB_METRIC_T63_UP, 0.3 - T * log(1 - 0.632), 0.02);
@@ -260,12 +251,10 @@ static void test_metrics__steps_of_a_measured_pressure__found(void **state)
 static void test_metrics__pressure_that_ramps__is_no_step(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_PRESSURE);
-  add_pressure_steps(3, 200);
+  record_pressure_steps(3, 200);
   record_measure();
   assert_denied(LAB_METRIC_T63_UP, "with a signal that takes its time");
-  record_new(LAB_COMMAND_PRESSURE);
-  add_pressure_steps(15, 0);
+  record_pressure_steps(15, 0);
   record_measure();
   assert_denied(LAB_METRIC_T63_UP, "with a signal that takes its time");
 }
@@ -273,9 +262,10 @@ static void test_metrics__pressure_that_ramps__is_no_step(void **state)
 /* ---- Strokes ---- */
 
 /* Up by a lag that reaches the stop, down along a straight line of `fall` seconds. */
-static void add_strokes(double top, double fall)
+static void record_strokes(double top, double fall)
 {
   int i;
+  record_new(LAB_COMMAND_OPENING);
   for (i = 0; i < 6000; i++) {
     const double t = 0.005 * i, s = t - 1, d = t - 16;
     const double x = s < 0 ? 0 : d < 0 ? top * fmin(1.05 * (1 - exp(-s / T)), 1) : top * fmax(1 - d / fall, 0);
@@ -289,8 +279,7 @@ static void test_metrics__full_strokes__times_and_asymmetry(void **state)
   double shape = 0;
   int i;
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_strokes(record_stroke, 4);
+  record_strokes(record_stroke, 4);
   record_measure();
   assert_metric(LAB_METRIC_STROKE_TIME_UP, -T * log(1 - 0.99 / 1.05), 1e-4, 0);
   assert_metric(LAB_METRIC_STROKE_TIME_DOWN, 0.99 * 4, 1e-4, 0);
@@ -306,8 +295,7 @@ static void test_metrics__noisy_strokes__within_what_is_said(void **state)
 {
   const double rise = T * (log(1 - 0.05 / 1.05) - log(1 - 0.95 / 1.05));
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_strokes(record_stroke, 4);
+  record_strokes(record_stroke, 4);
   record_noise(0, 2e-5);
   record_measure();
   assert_covers(LAB_METRIC_STROKE_TIME_UP, -T * log(1 - 0.99 / 1.05), 0.05);
@@ -318,8 +306,7 @@ static void test_metrics__noisy_strokes__within_what_is_said(void **state)
 static void test_metrics__part_of_a_stroke__says_how_much(void **state)
 {
   (void)state;
-  record_new(LAB_COMMAND_OPENING);
-  add_strokes(0.5 * record_stroke, 4);
+  record_strokes(0.5 * record_stroke, 4);
   record_measure();
   assert_denied(LAB_METRIC_STROKE_TIME_UP, "the largest step covers 50 % of the travel");
   assert_denied(LAB_METRIC_STROKE_TIME_DOWN, "no full stroke down: the largest step covers 50 %");
