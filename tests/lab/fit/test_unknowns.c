@@ -121,6 +121,15 @@ static void open_measured(void)
   measure(&rig);
 }
 
+/* The same, integrated so closely that differences are smooth. */
+static void open_closely(void)
+{
+  open_usual();
+  u.tol = 1e-9;
+  measure(&rig);
+  lab_unknowns_values(&u, theta);
+}
+
 enum { FRICTION, AREA_1, AREA_2, SPRING, SWITCH_1, USUAL = SWITCH_1 + RUNS * SWITCHES };
 
 static void assert_all_zero(const double *value, size_t n)
@@ -1003,9 +1012,7 @@ static void test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_no
   const int gain = index_of("pressure_gain.pressure_gain");
   int i;
   (void)state;
-  open_usual();
-  u.tol = 1e-9;
-  measure(&rig);
+  open_closely();
   assert_int_equal(lab_unknowns_add(&u, gain, 0, &error), LAB_OK);
   u.m = u.n_data + (size_t)u.n;
   lab_unknowns_values(&u, theta);
@@ -1065,10 +1072,7 @@ static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_differen
 {
   int j;
   (void)state;
-  open_usual();
-  u.tol = 1e-9;
-  measure(&rig);
-  lab_unknowns_values(&u, theta);
+  open_closely();
   assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
   for (j = 0; j < USUAL; j++) {
     const int is_instant = u.unknown[j].kind == LAB_UNKNOWN_INSTANT;
@@ -1088,10 +1092,7 @@ static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_diffe
   char done[LAB_FIT_MAX] = {0};
   int j;
   (void)state;
-  open_usual();
-  u.tol = 1e-9;
-  measure(&rig);
-  lab_unknowns_values(&u, theta);
+  open_closely();
   done[SPRING] = 1;
   assert_int_equal(lab_unknowns_slopes_together(&u, theta, J, done, &error), LAB_OK);
   assert_true(size_of(J + SPRING * u.m, u.m) == 0);
@@ -1113,9 +1114,7 @@ static void test_lab_unknowns_changes_with__other_models__are_their_differences(
   static double change[MODELS * (DATA + LAB_FIT_MAX)];
   char done[MODELS];
   (void)state;
-  open_usual();
-  u.tol = 1e-9;
-  measure(&rig);
+  open_closely();
   model[LEAKING] = model[LAGGING] = u.rig;
   *pneu_param_at(&model[LEAKING].params, pneu_param_find("leak_area")) = (pneu_real)1e-12;
   *pneu_param_at(&model[LAGGING].params, pneu_param_find("transducer_time")) = (pneu_real)1e-4;
@@ -1161,10 +1160,7 @@ static void test_lab_unknowns_slope__at_its_upper_bound__stays_inside(void **sta
 {
   double seen[DATA + LAB_FIT_MAX];
   (void)state;
-  open_usual();
-  u.tol = 1e-9;
-  measure(&rig);
-  lab_unknowns_values(&u, theta);
+  open_closely();
   assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
   assert_int_equal(lab_unknowns_slope(&u, theta, r, SPRING, seen, &error), LAB_OK);
   u.unknown[SPRING].upper = theta[SPRING];
