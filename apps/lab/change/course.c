@@ -216,7 +216,7 @@ static int place(const follower *f, int before, int after, lab_onset *onset, siz
                  lab_error *error)
 {
   boundary *b = malloc(sizeof *b);
-  size_t n, row;
+  size_t n;
   const double *t = times_of(f, &n);
   int status = b ? LAB_OK : lab_fail_memory(error, "an onset");
   if (b) {
@@ -224,12 +224,7 @@ static int place(const follower *f, int before, int after, lab_onset *onset, siz
     b->f = *f;
     b->before = before;
     b->after = after;
-    row = row_at(t, n, f->u.unknown[after].from);
-    if (lab_onset_reach(&profile, row, f->chi2, 0, low, error) ||
-        lab_onset_reach(&profile, row, f->chi2, 1, high, error))
-      status = error->status;
-    else
-      lab_onset_set(t, n, *low, row, *high, onset);
+    status = lab_onset_enclose(&profile, t, row_at(t, n, f->u.unknown[after].from), f->chi2, low, high, onset, error);
   }
   free(b);
   return status;

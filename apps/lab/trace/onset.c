@@ -7,7 +7,8 @@
 #include "../base/array.h"
 #include "../base/quantile.h"
 
-int lab_onset_reach(const lab_onset_profile *f, size_t best, double least, int up, size_t *end, lab_error *error)
+/* How far from the best row chi-square stays within what 95 % allow, in one direction.  Out: end */
+static int reach(const lab_onset_profile *f, size_t best, double least, int up, size_t *end, lab_error *error)
 {
   const double within = least + lab_chi2_threshold(0.05);
   size_t step = 1;
@@ -24,6 +25,18 @@ int lab_onset_reach(const lab_onset_profile *f, size_t best, double least, int u
       step /= 2;
     }
   }
+  return LAB_OK;
+}
+
+int lab_onset_enclose(const lab_onset_profile *f, const double *t, size_t best, double least, size_t *low, size_t *high,
+                      lab_onset *onset, lab_error *error)
+{
+  if (reach(f, best, least, 0, low, error) || reach(f, best, least, 1, high, error))
+    return error->status;
+  onset->known = 1;
+  onset->t = t[best];
+  onset->low = t[*low > 0 ? *low - 1 : 0];
+  onset->high = t[*high + 1 < f->n ? *high + 1 : *high];
   return LAB_OK;
 }
 
@@ -170,23 +183,12 @@ static int place(const lab_unknowns *u, int change, enum where where, lab_onset 
     best = row_near(f->t, profile.n, when(u, change));
     status = where == HERE ? look(f, best, &least, error) : descend(&profile, where == ANYWHERE, &best, &least, error);
   }
-  if (status == LAB_OK && !lab_onset_reach(&profile, best, least, 0, &low, error) &&
-      !lab_onset_reach(&profile, best, least, 1, &high, error))
-    lab_onset_set(f->t, profile.n, low, best, high, onset);
-  else if (status == LAB_OK)
-    status = error->status;
+  if (status == LAB_OK)
+    status = lab_onset_enclose(&profile, f->t, best, least, &low, &high, onset, error);
   if (f)
     close_trial(f);
   free(f);
   return status;
-}
-
-void lab_onset_set(const double *t, size_t n, size_t low, size_t best, size_t high, lab_onset *onset)
-{
-  onset->known = 1;
-  onset->t = t[best];
-  onset->low = t[low > 0 ? low - 1 : 0];
-  onset->high = t[high + 1 < n ? high + 1 : high];
 }
 
 /* Fit, and with the rest of it when what is found begins; a change begins at its row. */

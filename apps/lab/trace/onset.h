@@ -36,10 +36,12 @@ typedef struct lab_onset_profile {
   size_t n; /* rows */
 } lab_onset_profile;
 
-/* How far from the best row chi-square stays within what 95 % allow, in one direction.  Out: end  Returns: as look */
-int lab_onset_reach(const lab_onset_profile *profile, size_t best, double least, int up, size_t *end, lab_error *error);
-
-/* An instant by its rows and those that it reaches to, each give or take one.  In: t  of n rows */
-void lab_onset_set(const double *t, size_t n, size_t low, size_t best, size_t high, lab_onset *onset);
+/* The instant of the best row, and the interval in which chi-square stays within what 95 % allow, give or take a row.
+ * In:      t          of the rows
+ *          least      chi-square at the best one
+ * Out:     low, high  the rows that it reaches to
+ * Returns: as look */
+int lab_onset_enclose(const lab_onset_profile *profile, const double *t, size_t best, double least, size_t *low,
+                      size_t *high, lab_onset *onset, lab_error *error);
 
 #endif
