@@ -40,7 +40,6 @@ void lab_unknown_apply(const lab_unknown *x, double value, const pneu_params *de
   }
 }
 
-/* Whether an unknown acts in run e. */
 int lab_unknown_acts(const lab_unknown *x, int e)
 {
   return x->run == LAB_ALL_RUNS || (x->kind == LAB_UNKNOWN_CHANGE ? e >= x->run : e == x->run);

@@ -580,7 +580,6 @@ int lab_unknown_is_let_go(const lab_unknown *x)
   return x->kind == LAB_UNKNOWN_PARAM && x->index < PNEU_PARAM_BASE_COUNT && x->tolerance > 0 && x->spread == 0;
 }
 
-/* Move what a result says of one unknown. */
 static void move_result(lab_fit_result *r, int from, int to)
 {
   int i;

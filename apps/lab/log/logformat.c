@@ -471,7 +471,6 @@ static void write_holdout(FILE *file, const lab_log_format *format)
     fputs(" };\n", file);
 }
 
-/* A text a channel. */
 static void write_texts(FILE *file, const char *key, const char *text)
 {
   int c, any = 0;

@@ -81,7 +81,6 @@ int lab_steps_measure(lab_metrics_work *m, lab_error *error); /* responses to st
 int lab_path_find(lab_metrics_work *m, lab_error *error);     /* static points, and rows */
 void lab_static_measure(lab_metrics_work *m);                 /* dead band, resolution, hysteresis, linearity */
 
-/* Free a path's memory. */
 void lab_path_free(lab_path *path);
 
 /* What the static figures set position against, and its span [Pa]. */

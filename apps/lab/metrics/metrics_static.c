@@ -20,7 +20,6 @@ static const double coarse = 0.1;        /* of the span: a dead band that is not
 static const double small_steps = 1.5;   /* times the smallest step of a staircase, up to which steps count as small */
 static const double whole = 0.8;         /* of the stroke that a loop covers at least */
 
-/* Whether a position is well off both stops. */
 static int is_off_stops(const lab_metrics_work *m, double x)
 {
   static const double inside = 0.02; /* share of the stroke that counts as the stop, at either end */

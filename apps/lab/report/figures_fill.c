@@ -67,13 +67,11 @@ static void lay_over(lab_panel *panel, const char *name, const char *unit, int c
   panel->x = column;
 }
 
-/* A column of n values. */
 static int column_of(const drawing *d, const double *value, size_t n, double scale)
 {
   return lab_figures_add_column(d->all, value, NULL, n, scale, -1);
 }
 
-/* A curve over time. */
 static void put_curve(const drawing *d, lab_panel *panel, int key, int form, const double *value, double scale)
 {
   lab_panel_curve(panel, key, form, lab_figures_add_column(d->all, value, d->kept, d->table->n, scale, -1));

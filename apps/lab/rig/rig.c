@@ -139,7 +139,6 @@ static int read_laws(const config_setting_t *group, lab_rig *rig, lab_error *err
   return LAB_OK;
 }
 
-/* The parameters of one effect. */
 static int read_effect(const config_setting_t *group, int effect, lab_rig *rig, lab_error *error)
 {
   const char *names[PNEU_PARAM_COUNT];

@@ -149,7 +149,6 @@ static int add_channels(lab_run *e, lab_error *error)
   return LAB_OK;
 }
 
-/* Whether the command is all that changes. */
 static int only_command_changes(const lab_schedule *s)
 {
   size_t i;

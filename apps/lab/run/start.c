@@ -46,7 +46,6 @@ static double mean(const double *value, size_t n, double *error2)
   return centre;
 }
 
-/* The first value that is there. */
 static double first_value(const double *value, size_t n)
 {
   size_t i = 0;

@@ -15,7 +15,6 @@ typedef struct field {
   lab_unknowns base; /* the final model with its slopes, with which all others begin */
 } field;
 
-/* Put what was found first last. */
 static void put_first_last(lab_candidate *c)
 {
   const lab_found first = c->found[0];

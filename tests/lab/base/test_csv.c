@@ -140,7 +140,6 @@ static void test_lab_csv_is_over__blank_lines_to_the_end__are_nothing(void **sta
   lab_csv_close(&csv);
 }
 
-/* Cells beyond the last that is kept are counted. */
 static void test_lab_csv_cut__many_cells__are_counted(void **state)
 {
   char text[3 * LAB_CSV_CELLS] = "y";

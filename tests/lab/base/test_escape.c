@@ -141,7 +141,6 @@ static void test_lab_make_plain__any_name__is_plain_and_as_long(void **state)
   }
 }
 
-/* A message is one line, plain, whatever it speaks of. */
 static void test_lab_fail__any_name__makes_a_plain_message(void **state)
 {
   int i;
@@ -375,7 +374,6 @@ static void test_lab_gnuplot_draw__folder_of_any_name__is_found(void **state)
 
 /* ---- Rig files ---- */
 
-/* A name is read as it is, or refused with its place. */
 static void test_lab_rig_read__any_name__is_read_or_refused(void **state)
 {
   int i;

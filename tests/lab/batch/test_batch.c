@@ -276,7 +276,6 @@ static void test_lab_done__torn__is_not_there(void **state)
   free(whole);
 }
 
-/* A line has as many cells as the header, whatever became of it. */
 static void test_lab_row__error__has_the_headers_cells(void **state)
 {
   char header[1024] = "";

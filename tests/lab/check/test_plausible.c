@@ -702,7 +702,6 @@ typedef struct humming {
   double jitter, lost;               /* of the row; of all rows */
 } humming;
 
-/* Amplitude that is taken off. */
 static double taken_off(const humming *h)
 {
   enum { N = 1200 };

@@ -42,7 +42,6 @@ static void stairs(element *e, const double *level, int n, double step)
   }
 }
 
-/* Measure an element in stairs alone. */
 static void measure_stairs(element e, const double *level, int n, double step)
 {
   record_new(LAB_COMMAND_SET_PRESSURE);

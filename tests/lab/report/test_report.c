@@ -97,7 +97,6 @@ static int forget_report(void **state)
   return scratch_close(state);
 }
 
-/* Write the report into a folder. */
 static void write_report(const lab_report *told, const char *folder)
 {
   lab_figures *figures;

@@ -236,7 +236,6 @@ static void test_lab_rig_read__log_group__becomes_the_format(void **state)
   assert_true(isnan(rig.log.constant[LAB_CHANNEL_P]));
 }
 
-/* Written and read again, the shape of a raw log is the same. */
 static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
 {
   lab_rig rig = read_rig(

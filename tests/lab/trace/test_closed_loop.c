@@ -131,7 +131,6 @@ static void open_loop(int columns)
     fail_msg("%s", error.text);
 }
 
-/* Run the loop on it. */
 static void close_loop(int columns)
 {
   lab_search_options options;

@@ -270,7 +270,6 @@ static void test_lab_free_term_where__long_stretch__is_nearly_everywhere(void **
   assert_where(&t, "nearly everywhere, x = 0 .. 20.0 mm; largest value 8.00 N");
 }
 
-/* What is held at 0 at both ends is a stretch, however long. */
 static void test_lab_free_term_where__long_stretch_with_ends_at_zero__is_a_stretch(void **state)
 {
   pneu_term t = flat(PNEU_TERM_SHOWN_PRESSURE, AT_P, 0, 5e5, 2e3);

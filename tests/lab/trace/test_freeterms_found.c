@@ -156,7 +156,6 @@ static void test_lab_score_free_terms__nothing_missing__is_chance(void **state)
   }
 }
 
-/* No room for one more term. */
 static void test_lab_score_free_terms__model_full_of_terms__has_no_slots(void **state)
 {
   lab_projection scan;
