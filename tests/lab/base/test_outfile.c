@@ -4,6 +4,7 @@
 #include "../../../apps/lab/base/outfile.h"
 
 static lab_error error;
+static lab_outfile out;
 static char path[512], part[520]; /* of the file in use, and of what is not whole of it */
 
 static void use(const char *name)
@@ -22,7 +23,6 @@ static void assert_content(const char *file, const char *want)
 /* Returns: the status of the whole. */
 static int write_text(const char *file, const char *text)
 {
-  lab_outfile out;
   int status = lab_out_open(&out, file, &error);
   if (status != LAB_OK)
     return status;
@@ -41,7 +41,6 @@ static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
 
 static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
 {
-  lab_outfile out;
   (void)state;
   use(scratch_text("old.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
@@ -54,7 +53,6 @@ static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
 
 static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void **state)
 {
-  lab_outfile out;
   (void)state;
   use(scratch_text("kept.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
@@ -67,7 +65,6 @@ static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void *
 
 static void test_lab_out_end__status_of_who_wrote__decides(void **state)
 {
-  lab_outfile out;
   (void)state;
   use(scratch_text("ended.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
@@ -151,7 +148,6 @@ static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
 
 static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(void **state)
 {
-  lab_outfile out;
   int i;
   (void)state;
   assert_int_equal(lab_out_open(&out, scratch_device("full", "/dev/full"), &error), LAB_OK);
@@ -172,7 +168,6 @@ static void test_lab_out_close__device__is_written_in_place(void **state)
 
 static void test_lab_out_open__no_path__is_standard_output(void **state)
 {
-  lab_outfile out;
   (void)state;
   assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
   assert_ptr_equal(out.file, stdout);

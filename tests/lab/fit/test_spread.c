@@ -10,6 +10,7 @@
 #include "../../../apps/lab/run/response.h"
 
 static lab_error error;
+static lab_fit_result got; /* of the last fit */
 
 enum { MOST = LAB_FIT_MAX };
 
@@ -65,7 +66,7 @@ static int slope(void *context, const double *theta, const double *r, int j, dou
 }
 
 /* Fit to the last digit, and look at the end. */
-static lab_fit_result fitted(const trial *c, double *theta)
+static void fit(const trial *c, double *theta)
 {
   const lab_fit_problem problem = {.n = c->n,
                                    .m = c->m,
@@ -77,11 +78,9 @@ static lab_fit_result fitted(const trial *c, double *theta)
                                    .enough = 1e-30,
                                    .enough_share = 1e-14};
   double chi2;
-  lab_fit_result result;
   memcpy(theta, c->start, (size_t)c->n * sizeof *theta);
-  if (lab_fit(&problem, theta, &chi2, &error) || lab_fit_spread(&problem, c->param, theta, &result, &error))
+  if (lab_fit(&problem, theta, &chi2, &error) || lab_fit_spread(&problem, c->param, theta, &got, &error))
     fail_msg("%s", error.text);
-  return result;
 }
 
 /* ---- Quantiles ---- */
@@ -162,21 +161,20 @@ static trial trial_of(line *data)
   return c;
 }
 
-static void check_line(const lab_fit_result *got, const double *at, const double *theta, const double inverse[3],
-                       double chi2, double variance)
+static void check_line(const double *at, const double *theta, const double inverse[3], double chi2, double variance)
 {
   const double quantile = 1.959963984540054;
   assert_close(at[0], theta[0], 1e-9, 0);
   assert_close(at[1], theta[1], 1e-9, 0);
-  assert_close(got->chi2, chi2, 0, 1e-9);
-  assert_close(got->reduced_chi2, chi2 / (LINE - 2), 0, 1e-9);
-  assert_close(got->covariance[0][0], variance * inverse[0], 0, 1e-7);
-  assert_close(got->covariance[0][1], variance * inverse[1], 0, 1e-7);
-  assert_close(got->covariance[1][0], variance * inverse[1], 0, 1e-7);
-  assert_close(got->covariance[1][1], variance * inverse[2], 0, 1e-7);
-  assert_close(got->deviation[1], sqrt(variance * inverse[2]), 0, 1e-7);
-  assert_close(got->high[1] - got->low[1], 2 * quantile * sqrt(variance * inverse[2]), 0, 1e-7);
-  assert_string_equal(got->undetermined, "");
+  assert_close(got.chi2, chi2, 0, 1e-9);
+  assert_close(got.reduced_chi2, chi2 / (LINE - 2), 0, 1e-9);
+  assert_close(got.covariance[0][0], variance * inverse[0], 0, 1e-7);
+  assert_close(got.covariance[0][1], variance * inverse[1], 0, 1e-7);
+  assert_close(got.covariance[1][0], variance * inverse[1], 0, 1e-7);
+  assert_close(got.covariance[1][1], variance * inverse[2], 0, 1e-7);
+  assert_close(got.deviation[1], sqrt(variance * inverse[2]), 0, 1e-7);
+  assert_close(got.high[1] - got.low[1], 2 * quantile * sqrt(variance * inverse[2]), 0, 1e-7);
+  assert_string_equal(got.undetermined, "");
 }
 
 static void test_lab_fit_spread__line__weighted_and_normal(void **state)
@@ -184,12 +182,11 @@ static void test_lab_fit_spread__line__weighted_and_normal(void **state)
   line data = make_line();
   const trial c = trial_of(&data);
   double at[2], theta[2], inverse[3], chi2;
-  lab_fit_result got;
   (void)state;
-  got = fitted(&c, at);
+  fit(&c, at);
   normal_equations(&data, theta, inverse, &chi2);
   assert_true(chi2 < LINE - 2);
-  check_line(&got, at, theta, inverse, chi2, 1);
+  check_line(at, theta, inverse, chi2, 1);
 }
 
 static void test_lab_fit_spread__more_left_than_noise__wider_by_its_size(void **state)
@@ -197,15 +194,14 @@ static void test_lab_fit_spread__more_left_than_noise__wider_by_its_size(void **
   line data = make_line();
   const trial c = trial_of(&data);
   double at[2], theta[2], inverse[3], chi2;
-  lab_fit_result got;
   int i;
   (void)state;
   for (i = 0; i < LINE; i++)
     data.sigma[i] /= 10;
-  got = fitted(&c, at);
+  fit(&c, at);
   normal_equations(&data, theta, inverse, &chi2);
   assert_true(chi2 > 2 * (LINE - 2));
-  check_line(&got, at, theta, inverse, chi2, chi2 / (LINE - 2));
+  check_line(at, theta, inverse, chi2, chi2 / (LINE - 2));
 }
 
 /* As many values as unknowns: no degrees of freedom, the noise is what it is said to be. */
@@ -218,8 +214,8 @@ static int quarter(void *data, const double *theta, double *r, lab_error *e)
   return LAB_OK;
 }
 
-/* A mean of 64 stretches of `size` values that differ by sqrt(3) times their noise from stretch to stretch, up and down:
- * as if there were 64 values, its variance is sum b^2/64^2 = 3/64; value by value it would be 3/(64 size). */
+/* A mean of 64 stretches of `size` values that differ by sqrt(3) times their noise from stretch to stretch, up and
+ * down: as if there were 64 values, its variance is sum b^2/64^2 = 3/64; value by value it would be 3/(64 size). */
 static int mean_residuals(void *context, const double *theta, double *r, lab_error *e)
 {
   const int size = *(const int *)context;
@@ -238,24 +234,22 @@ static void test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_s
   (void)state;
   for (k = 0; k < sizeof sizes / sizeof *sizes; k++) {
     trial c = {.m = (size_t)(64 * sizes[k]), .model = mean_residuals, .data = &sizes[k], .step = 1e-3};
-    lab_fit_result result;
     add(&c, "mean", 0.5, -10, 10);
-    result = fitted(&c, theta);
-    assert_close(result.deviation[0], sqrt(3.0 / 64), 0, 1e-8);
-    assert_close(result.high[0] - result.low[0], 2 * 1.959963984540054 * result.deviation[0], 0, 1e-8);
+    fit(&c, theta);
+    assert_close(got.deviation[0], sqrt(3.0 / 64), 0, 1e-8);
+    assert_close(got.high[0] - got.low[0], 2 * 1.959963984540054 * got.deviation[0], 0, 1e-8);
   }
 }
 
 static void test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says(void **state)
 {
   static trial c = {.m = MOST, .model = quarter, .step = 1e-3};
-  static lab_fit_result got;
   double at[MOST];
   int j;
   (void)state;
   for (j = 0; j < MOST; j++)
     add(&c, "x", 0.75, -5, 5);
-  got = fitted(&c, at);
+  fit(&c, at);
   assert_true(isnan(got.reduced_chi2));
   for (j = 0; j < MOST; j++) {
     assert_close(at[j], 0.25, 1e-9, 0);
@@ -279,11 +273,10 @@ static void test_lab_fit_spread__bound_active__is_said_and_the_other_alone_is_fr
 {
   trial c = {.m = 2, .model = valley, .step = 1e-5};
   double at[2];
-  lab_fit_result got;
   (void)state;
   add(&c, "x", 0.1, 0, 0.5);
   add(&c, "y", 1, 0, 2);
-  got = fitted(&c, at);
+  fit(&c, at);
   assert_true(at[0] == 0.5);
   assert_close(at[1], 0.25, 1e-8, 0);
   assert_int_equal(got.state[0], LAB_STATE_AT_UPPER);
@@ -302,11 +295,10 @@ static void check_one_side(double lower, double upper, int state)
   trial c = trial_of(&data);
   const double end = state == LAB_STATE_AT_LOWER ? lower : upper, side = state == LAB_STATE_AT_LOWER ? 1 : -1;
   double at[2], theta[2], inverse[3], chi2, sd, far;
-  lab_fit_result got;
   c.start[1] = 0.5 * (lower + upper);
   c.lower[1] = lower;
   c.upper[1] = upper;
-  got = fitted(&c, at);
+  fit(&c, at);
   far = side > 0 ? got.high[1] : got.low[1];
   normal_equations(&data, theta, inverse, &chi2);
   sd = sqrt(inverse[2] * fmax(1, got.reduced_chi2));
@@ -343,13 +335,12 @@ static void test_lab_fit_spread__product_of_two__pair_named(void **state)
   line data = make_line();
   trial c = {.m = LINE, .model = product, .data = &data, .sigma = data.sigma, .step = 1e-4};
   double at[4], theta[2], inverse[3], chi2;
-  lab_fit_result got;
   (void)state;
   add(&c, "a", 1, 0.1, 9);
   add(&c, "b", -1, -9, -0.1);
   add(&c, "c", 1, -9, 9);
   add(&c, "d", 2, 1, 3);
-  got = fitted(&c, at);
+  fit(&c, at);
   normal_equations(&data, theta, inverse, &chi2);
   assert_int_equal(got.state[0], LAB_STATE_UNDETERMINED);
   assert_int_equal(got.state[1], LAB_STATE_UNDETERMINED);
@@ -408,13 +399,13 @@ static const double sigma_p = 300, sigma_x = 3e-5;
 static int bench_residuals(void *context, const double *theta, double *r, lab_error *e)
 {
   const bench *data = context;
-  bench got = *data;
+  bench tried = *data;
   int i;
-  if (bench_run(theta, &got, e))
+  if (bench_run(theta, &tried, e))
     return e->status;
   for (i = 0; i < SAMPLES; i++) {
-    r[i] = (got.p[i] - data->p[i]) / sigma_p;
-    r[SAMPLES + i] = (got.x[i] - data->x[i]) / sigma_x;
+    r[i] = (tried.p[i] - data->p[i]) / sigma_p;
+    r[SAMPLES + i] = (tried.x[i] - data->x[i]) / sigma_x;
   }
   return LAB_OK;
 }
@@ -451,10 +442,9 @@ static void test_lab_fit_spread__library_with_noise__recovers_within_its_interva
   add(&c, "spring_rate", 5e5, 1e5, 1e6);
   add(&c, "spring_preload", 0.008, 0, 0.03);
   for (seed = 1; seed <= SEEDS; seed++) {
-    lab_fit_result got;
     double at[4];
     make_bench(truth, (uint64_t)seed, &data);
-    got = fitted(&c, at);
+    fit(&c, at);
     check_note("seed %d", seed);
     assert_between(got.reduced_chi2, 0.8, 1.2); /* 446 degrees of freedom: 1 +- 0.067, three times that */
     assert_string_equal(got.undetermined, "");
@@ -479,9 +469,8 @@ static void test_lab_fit_spread__model_fails__says_so(void **state)
   trial c = {.n = 1, .m = 2, .model = none, .upper = {1}};
   const lab_fit_problem problem = {
       .n = 1, .m = 2, .lower = c.lower, .upper = c.upper, .context = &c, .residuals = residuals, .slope = slope};
-  lab_fit_result result;
   (void)state;
-  assert_int_equal(lab_fit_spread(&problem, c.param, c.start, &result, &error), LAB_NUMERIC);
+  assert_int_equal(lab_fit_spread(&problem, c.param, c.start, &got, &error), LAB_NUMERIC);
   assert_string_equal(error.text, "no model here");
 }
 

@@ -5,6 +5,7 @@
 
 enum { SAMPLES = 301 };
 static const double dt = 0.01, t_end = 3;
+static lab_error error;
 
 /* A schedule on the stroke of the R1-400, with a supply that changes on its own, and while the command does not. */
 enum { ROWS = 6 };
@@ -26,7 +27,6 @@ static lab_response respond(const pneu_model *m, size_t n, const double *t_row, 
   lab_schedule schedule;
   double t[SAMPLES];
   lab_response response;
-  lab_error error;
   const pneu_state start = fixture_rest(m, 0, 0, &input[0]);
   const lab_simulation task = {.start = &start,
                                .schedule = &schedule,
@@ -189,7 +189,6 @@ static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(voi
   lab_schedule schedule = {0};
   lab_simulation task = {.start = &start, .schedule = &schedule, .t = at, .n = 6, .t_end = 100, .stats = &stats};
   lab_response r;
-  lab_error error;
   int i;
   (void)state;
   fixture_need("positioner");
@@ -286,7 +285,6 @@ static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
   pneu_stats stats;
   const lab_simulation task = {
       .start = &start, .schedule = &schedule, .t_end = t_end, .options = {.tol = 1e-6}, .stats = &stats};
-  lab_error error;
   (void)state;
   fixture_need("dead_time");
   fixture_need("channel_skew");
@@ -357,7 +355,6 @@ static void check_own_time(double skew, int integrator)
                                .t_end = 8,
                                .options = {.integrator = integrator, .tol = 1e-9}};
   lab_response response;
-  lab_error error;
   int i;
   for (i = 0; i < 3; i++) {
     input[i] = fixture_input(&m, 0);
@@ -398,7 +395,6 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
   const pneu_state start = fixture_rest(&yields, 0, 0, &input[0]);
   const lab_simulation task = {.start = &start, .schedule = &schedule, .rows = rows, .t = t, .n = 2};
   lab_response response;
-  lab_error error;
   (void)state;
   fixture_need("stop_compliance");
   assert_int_equal(lab_response_run(&yields, &task, &response, &error), LAB_OK);
@@ -419,7 +415,6 @@ static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **
   pneu_state start;
   const lab_simulation task = {.start = &start, .schedule = &schedule, .rows = rows, .t = t, .n = 2};
   lab_response response;
-  lab_error error;
   (void)state;
   fixture_need("start_temperature");
   fixture_set(&p, "start_excess", 30);
