@@ -12,6 +12,7 @@ enum { ROWS = 1001, COMMANDS = 5 };
 static const double spacing = 0.01; /* [s] */
 static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
 static const double u_cmd[2][COMMANDS] = {{1, 0, -1, 0.5, -0.5}, {0.8, 0, -1, 1, -0.7}};
+static lab_rig rig;
 static lab_changes changes; /* of the comparison that was made last */
 
 static void write_log(const second_rig *g, const double *u_of, const char *path)
@@ -20,17 +21,17 @@ static void write_log(const second_rig *g, const double *u_of, const char *path)
   virtual_write(g, &course, 10, spacing, path);
 }
 
-static void declare(lab_rig *rig)
+static void declare(void)
 {
-  virtual_declare(rig);
-  rig->fit[rig->n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  rig->fit[rig->n_fit++] = PNEU_PARAM_dry_friction;
-  rig->fit[rig->n_fit++] = PNEU_PARAM_spring_rate;
-  rig->fit[rig->n_fit++] = PNEU_PARAM_spring_preload;
+  virtual_declare(&rig);
+  rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_rate;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
 }
 
 /* Compare logs of a rig whose model is fitted to the first one and needs nothing more. */
-static void compare_logs(const lab_rig *rig, const char *const path[2])
+static void compare_logs(const char *const path[2])
 {
   static lab_unknowns u;
   lab_log log[2];
@@ -38,8 +39,8 @@ static void compare_logs(const lab_rig *rig, const char *const path[2])
   lab_error error = {0, ""};
   int i;
   for (i = 0; i < 2; i++)
-    virtual_open(rig, path[i], &log[i], &run[i]);
-  assert_int_equal(lab_unknowns_open(rig, run, 1, &u, &error), LAB_OK);
+    virtual_open(&rig, path[i], &log[i], &run[i]);
+  assert_int_equal(lab_unknowns_open(&rig, run, 1, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   assert_int_equal(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error), LAB_OK);
   for (i = 0; i < 2; i++)
@@ -48,28 +49,26 @@ static void compare_logs(const lab_rig *rig, const char *const path[2])
 
 static void compare_files(const char *rig_name, const char *then, const char *now)
 {
-  static lab_rig rig;
   const char *const path[2] = {scratch_path(then), scratch_path(now)};
   lab_error error = {0, ""};
   assert_int_equal(lab_rig_read(scratch_path(rig_name), &rig, &error), LAB_OK);
-  compare_logs(&rig, path);
+  compare_logs(path);
 }
 
-/* Compare logs of two rigs, as one is declared. */
-static void compare_as(const lab_rig *rig, const second_rig *then, const second_rig *now)
+/* Compare logs of two rigs, as they are declared. */
+static void compare_declared(const second_rig *then, const second_rig *now)
 {
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   write_log(then, u_cmd[0], path[0]);
   write_log(now, u_cmd[1], path[1]);
-  compare_logs(rig, path);
+  compare_logs(path);
 }
 
 static void compare(const second_rig *now)
 {
   const second_rig then = virtual_rig(7);
-  static lab_rig rig;
-  declare(&rig);
-  compare_as(&rig, &then, now);
+  declare();
+  compare_declared(&then, now);
 }
 
 /* One change of that name, whose interval holds the value now. */
@@ -99,12 +98,11 @@ static void test_lab_changes_find__another_day__is_unchanged(void **state)
   assert_close(changes.now, 1, 0.05, 0);
 }
 
-static void write_blind(const blind_trial *trial, const second_rig *rig, const blind_schedule *schedule,
-                        const char *name)
+static void write_blind(const blind_trial *trial, const second_rig *g, const blind_schedule *schedule, const char *name)
 {
   blind_rows rows;
   lab_error error = {0, ""};
-  assert_int_equal(blind_simulate(rig, schedule, trial->spacing, &rows, &error), LAB_OK);
+  assert_int_equal(blind_simulate(g, schedule, trial->spacing, &rows, &error), LAB_OK);
   assert_int_equal(blind_write_rows(&rows, trial->channels, scratch_folder, name, &error), LAB_OK);
   blind_rows_free(&rows);
 }
@@ -152,7 +150,6 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
 /* The zero of a sensor that each log has for itself is another every day. */
 static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
 {
-  static lab_rig rig;
   const int zero = pneu_param_find("position_bias.position_bias");
   second_rig then = virtual_rig(7), now = virtual_rig(8);
   (void)state;
@@ -160,11 +157,11 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
     skip();
   then.position_bias = 3e-4;
   now.position_bias = 15e-4;
-  declare(&rig);
+  declare();
   rig.fit[rig.n_fit] = zero;
   rig.fit_per_log[rig.n_fit++] = 1;
   rig.tolerance[zero] = 3e-4;
-  compare_as(&rig, &then, &now);
+  compare_declared(&then, &now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
   assert_int_equal(changes.n, 0);
 }
@@ -205,15 +202,14 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
  */
 static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
 {
-  static lab_rig rig;
   second_rig then = virtual_rig(7), now = virtual_rig(8);
   (void)state;
   now.fill_area *= 0.6;
   now.vent_area *= 0.6;
-  declare(&rig);
+  declare();
   rig.fit[rig.n_fit++] = PNEU_PARAM_area;
   rig.fit[rig.n_fit++] = PNEU_PARAM_dead_volume;
-  compare_as(&rig, &then, &now);
+  compare_declared(&then, &now);
   assert_int_equal(changes.n, 1);
   assert_int_equal(changes.change[0].param, LAB_PARAM_ORIFICE_AREA);
   assert_close(changes.change[0].now / changes.change[0].then, 0.6, 0, 0.02);
@@ -254,11 +250,10 @@ static void compare_on_the_way(const second_rig *early, const second_rig *late, 
   const second_rig then = virtual_rig(7);
   const second_course course = {t_cmd, u_cmd[1], COMMANDS, NULL, late, from};
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
-  static lab_rig rig;
-  declare(&rig);
+  declare();
   write_log(&then, u_cmd[0], path[0]);
   write_course(early, &course, 10, spacing, path[1]);
-  compare_logs(&rig, path);
+  compare_logs(path);
 }
 
 static void assert_since(const lab_onset *onset, double t, double within)
@@ -310,13 +305,12 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   const second_rig then = plant_rig(7);
   second_course course = {t_set, set, PLANT_COMMANDS, &positioner, NULL, 0};
-  static lab_rig rig;
   int i;
   for (i = 0; i < PLANT_COMMANDS; i++) {
     t_set[i] = 4 * i + 0.5;
     set[i] = 0.5 + 0.2 * sin(1.3 * i) + 0.1 * sin(0.31 * i);
   }
-  declare(&rig);
+  declare();
   rig.noise[LAB_CHANNEL_X] = 1e-4;
   rig.n_fit = 0;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
@@ -325,7 +319,7 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
   course.later = late;
   course.change = from;
   write_course(early, &course, PLANT_ROWS - 1, 1, path[1]);
-  compare_logs(&rig, path);
+  compare_logs(path);
 }
 
 /* ... comes back, and the positioner hides it as long as it suffices. */

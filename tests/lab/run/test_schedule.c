@@ -16,6 +16,7 @@ static lab_log seen;      /* the log that was read last */
 static lab_inputs inputs; /* of a run of it */
 static double load;       /* [N] force on the stem at a start */
 static int is_set;        /* whether the command is a set position then */
+static pneu_state start;  /* that was found last */
 
 /* The default rig, R1-400: spring 400 kN/m compressed 10 mm, area 400 cm^2, dry friction 480 N. */
 static int fresh_rig(void **state)
@@ -297,7 +298,6 @@ static void test_lab_inputs_from_log__missing_input__is_named(void **state)
 static pneu_state start_of(const char *text, double u)
 {
   pneu_input input;
-  pneu_state start;
   pneu_input_default(&model, &input);
   read_log(text);
   input.u = (pneu_real)u;
@@ -311,13 +311,12 @@ static pneu_state start_of(const char *text, double u)
 static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
 {
   char text[4096] = "t [s],u [1],p [kPa],x [mm]\n";
-  pneu_state start;
   int i;
   (void)state;
   for (i = 0; i < 50; i++)
     lab_append(text, sizeof text, "%d,0,%g,%g\n", i, 200 + (i * 7 % 5 - 2) * 0.1, 10 + (i * 3 % 5 - 2) * 0.01);
   strcat(text, "50,1,900,900\n");
-  start = start_of(text, 0);
+  start_of(text, 0);
   assert_close(start.p, 200e3, 1, 0);
   assert_close(start.x, 10e-3, 1e-6, 0);
   assert_close(start.v, 0, 0, 0);
@@ -327,12 +326,11 @@ static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
 static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows(void **state)
 {
   char text[65536] = "t [s],u [1],p [kPa],x [mm]\n";
-  pneu_state start;
   int i;
   (void)state;
   for (i = 0; i < 1000; i++)
     lab_append(text, sizeof text, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
-  start = start_of(text, 1);
+  start_of(text, 1);
   assert_close(start.p, 0, 1e-6, 0);
   assert_close(start.x, 0, 0, 0);
 }
@@ -418,10 +416,9 @@ static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_
 static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log(void **state)
 {
   static const pneu_term swing = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_CYCLE, 2, 0, 10, {0, 2000}};
-  pneu_state start;
   (void)state;
   assert_int_equal(pneu_model_terms(&model, &swing, 1), PNEU_OK);
-  start = start_of("t [s],u [1],p [kPa],x [mm]\n42.5,0,202,10\n43,1,202,10\n", 0);
+  start_of("t [s],u [1],p [kPa],x [mm]\n42.5,0,202,10\n43,1,202,10\n", 0);
   assert_close(start.p, 200e3, 1e-6, 0);
   assert_close(start.extra[model.clock], 42.5, 0, 0);
 }
@@ -441,21 +438,21 @@ static void test_lab_run_initial_state__down_and_near_ambient__is_vented(void **
 
 static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(void **state)
 {
-  pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
   (void)state;
+  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
   assert_true(start.x == 0);
   assert_int_equal(start.mode, PNEU_MODE_LOWER);
-  start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,19.97\n", 0);
+  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,19.97\n", 0);
   assert_close(start.x, 0.02, 1e-15, 0);
   assert_int_equal(start.mode, PNEU_MODE_UPPER);
-  start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0);
+  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0);
   assert_close(start.x, 0.02, 1e-15, 0);
 }
 
 static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen(void **state)
 {
-  pneu_state start = start_of("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0);
   (void)state;
+  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0);
   assert_close(start.x, 0.01, 1e-15, 0);
   assert_int_equal(start.mode, PNEU_MODE_STUCK);
 }
@@ -463,36 +460,35 @@ static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen
 /* A sensor's error is not in the state: bias and gain as the model has them are taken out. */
 static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there(void **state)
 {
-  pneu_state start;
   (void)state;
   fixture_set(&rig.params, "pressure_bias.pressure_bias", 1400);
   fixture_set(&rig.params, "position_gain.position_gain", 0.05);
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
-  start = start_of("t [s],u [1],p [Pa],x [mm]\n0,0,201400,10.5\n", 0);
+  start_of("t [s],u [1],p [Pa],x [mm]\n0,0,201400,10.5\n", 0);
   assert_close(start.p, 200e3, 1e-6, 0);
   assert_close(start.x, 10e-3, 0, 1.01 * 0.05 * 0.05 * 0.05); /* three rounds, each takes out all but the gain */
 }
 
 static void test_lab_run_initial_state__no_position__follows_from_pressure(void **state)
 {
-  pneu_state start = start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0);
   (void)state;
+  start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0);
   assert_close(start.x, 0.01, 1e-12, 0);
-  start = start_of("t [s],u [1],p [kPa]\n0,0,20\n", 0);
+  start_of("t [s],u [1],p [kPa]\n0,0,20\n", 0);
   assert_true(start.x == 0);
-  start = start_of("t [s],u [1],p [kPa]\n0,0,390\n", 0);
+  start_of("t [s],u [1],p [kPa]\n0,0,390\n", 0);
   assert_close(start.x, 0.02, 1e-15, 0);
 }
 
 static void test_lab_run_initial_state__no_pressure__follows_from_position(void **state)
 {
-  pneu_state start = start_of("t [s],u [1],x [mm]\n0,0,10\n", 0);
   (void)state;
+  start_of("t [s],u [1],x [mm]\n0,0,10\n", 0);
   assert_close(start.p, 200e3, 1e-6, 0);
-  start = start_of("t [s],u [1],x [mm]\n0,0,0.02\n", 0);
+  start_of("t [s],u [1],x [mm]\n0,0,0.02\n", 0);
   assert_close(start.p, 0, 0, 0);
   assert_true(start.x == 0);
-  start = start_of("t [s],u [1],x [mm]\n0,1,19.99\n", 1);
+  start_of("t [s],u [1],x [mm]\n0,1,19.99\n", 1);
   assert_close(start.p, 4e5, 0, 0);
 }
 
@@ -507,29 +503,27 @@ static void test_lab_run_initial_state__force_on_the_stem__counts_against_the_ai
 
 static void test_lab_run_initial_state__nothing_measured__is_empty_and_down(void **state)
 {
-  pneu_state start = start_of("t [s],u [1]\n0,0\n", 0);
   (void)state;
+  start_of("t [s],u [1]\n0,0\n", 0);
   assert_close(start.p, 0, 0, 0);
   assert_true(start.x == 0);
 }
 
 static void test_lab_run_initial_state__vessel__has_no_position(void **state)
 {
-  pneu_state start;
   (void)state;
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
-  start = start_of("t [s],u [1],p [kPa]\n0,-1,700\n", -1);
+  start_of("t [s],u [1],p [kPa]\n0,-1,700\n", -1);
   assert_close(start.p, 700e3, 1e-6, 0);
   assert_true(start.x == 0);
 }
 
 static void test_lab_run_initial_state__driven_channels__start_at_their_first_value(void **state)
 {
-  pneu_state start;
   (void)state;
   set_inputs(1, 1, 0, 0);
-  start = start_of("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0);
+  start_of("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0);
   assert_close(start.p, 12e3, 1e-6, 0);
   assert_close(start.x, 0.5e-3, 1e-15, 0);
 }
@@ -537,7 +531,6 @@ static void test_lab_run_initial_state__driven_channels__start_at_their_first_va
 static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
 {
   pneu_input input;
-  pneu_state start;
   (void)state;
   read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
   pneu_input_default(&model, &input);
