@@ -1029,6 +1029,46 @@ static void test_positioner__holds_and_ramps__always_end(void **state)
   }
 }
 
+/* Where the stem is after ten seconds of a ramp of 2.7 %/s, 10 mm of travel; events on the way.  In: edge  0: as usual
+ */
+static double ramped(double edge, long *events)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  pneu_options options;
+  pneu_workspace work = {0};
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  p.area = (pneu_real)0.01, p.dead_volume = (pneu_real)3e-5, p.stroke = (pneu_real)0.01;
+  p.spring_rate = 80000, p.spring_preload = (pneu_real)0.005;
+  p.moving_mass = (pneu_real)1.5, p.dry_friction = 28, p.viscous_friction = 600, p.damping = 0;
+  p.fill_area = (pneu_real)2.2e-7, p.vent_area = (pneu_real)2.8e-7, p.supply_pressure = (pneu_real)2e5;
+  fixture_set(&p, "gain", 30);
+  fixture_set(&p, "dead_band", 0.005);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  if (edge > 0)
+    m.band_edge = (pneu_real)edge;
+  input = set_position(&m, 0.1);
+  input.u_rate = (pneu_real)0.02667;
+  s = fixture_rest(&m, 45816, 0.001, &input);
+  pneu_options_default(&options);
+  assert_int_equal(pneu_run(&m, &s, &input, 10, &options, NULL, &work), PNEU_OK);
+  *events = work.stats.events;
+  return (double)s.x;
+}
+
+/* It goes in and out of its dead band 600 times, by 4 um; a wider edge of the band has it pass on in the mean. */
+static void test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_without_them(void **state)
+{
+  long pulses, none;
+  const double x = ramped(0, &pulses);
+  (void)state;
+  fixture_need("positioner");
+  assert_close(ramped(4e-4, &none), x, 4e-6, 0);
+  assert_between(pulses, 1000, 4000);
+  assert_between(none, 0, 40);
+}
+
 /* A leak pushes the stem out of the dead band, air is let in, and friction keeps the stem where it is until the
  * pressure has risen by the whole friction band, 2 F/A, so that the cycle begins again. */
 static void test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band(void **state)
@@ -1068,6 +1108,7 @@ int main(void)
       cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
       cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
       cmocka_unit_test(test_positioner__holds_and_ramps__always_end),
+      cmocka_unit_test(test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_without_them),
       cmocka_unit_test(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band),
   };
   footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);

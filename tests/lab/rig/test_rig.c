@@ -517,6 +517,31 @@ static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
   assert_comes_back(&rig);
 }
 
+/* The loop has worked before the record, unless the file says where its integral begins, or how well that is known. */
+static void test_lab_rig_free_integral__positioner_that_integrates__begins_anywhere_in_each_log(void **state)
+{
+  static const char *const known[] = {"positioner = { };\n",
+                                      "positioner = { integral_time = \"5 s\"; integral_start = \"0 %\"; };\n",
+                                      "positioner = { integral_time = \"5 s\"; };\ntolerance = { others = 0; };\n"};
+  size_t i;
+  lab_rig rig;
+  fixture_need("positioner");
+  (void)state;
+  rig = read_rig("positioner = { integral_time = \"5 s\"; };\n");
+  lab_rig_free_integral(&rig);
+  lab_rig_free_integral(&rig);
+  assert_int_equal(rig.n_fit, 1);
+  assert_int_equal(rig.fit[0], pneu_param_find("positioner.integral_start"));
+  assert_int_equal(rig.fit_per_log[0], 1);
+  assert_close(rig.tolerance[rig.fit[0]], 0.02, 0, 0);
+  assert_comes_back(&rig);
+  for (i = 0; i < sizeof known / sizeof *known; i++) {
+    rig = read_rig(known[i]);
+    lab_rig_free_integral(&rig);
+    assert_int_equal(rig.n_fit, 0);
+  }
+}
+
 static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state)
 {
   fixture_need("positioner");
@@ -692,6 +717,7 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__bad_effects__are_refused),
       cmocka_unit_test(test_lab_rig_write__declared_rig__comes_back_bit_for_bit),
       cmocka_unit_test(test_lab_rig_read__positioner__is_read_and_comes_back),
+      cmocka_unit_test(test_lab_rig_free_integral__positioner_that_integrates__begins_anywhere_in_each_log),
       cmocka_unit_test(test_lab_rig_read__positioner_that_is_wrong__is_refused),
       cmocka_unit_test(test_lab_rig_write__remark__heads_the_file),
       cmocka_unit_test(test_lab_rig_read__too_many_quantities__are_refused),

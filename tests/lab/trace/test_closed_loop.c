@@ -239,6 +239,34 @@ static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop
   assert_found("supply_droop", "supply_droop.supply_resistance", 1e8, 5e-2);
 }
 
+/* Half a row after all of them would be a dead time. */
+static void send_between_rows(void)
+{
+  size_t i;
+  for (i = 1; i < n_set; i++)
+    t_set[i] += i % 2 ? 0.013 : 0.004;
+}
+
+/* What resists as an orifice does is found by its form, beside which a linear one leaves more than noise. */
+static void test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized(void **state)
+{
+  send_between_rows();
+  g.tube_resistance = 1e8;
+  g.tube_turbulence = 1;
+  g.tube_volume = 5e-5;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("connecting_tube", "tube_resistance", 1e8, 5e-2);
+  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find("tube_volume")), 5e-5, 0, 5e-2);
+  begin(state);
+  send_between_rows();
+  g.supply_droop = 2e8;
+  g.supply_turbulence = 1;
+  g.supply_volume = 3e-4;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("supply_droop", "supply_resistance", 2e8, 5e-2);
+  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find("supply_volume")), 3e-4, 0, 5e-2);
+}
+
 static void test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized(void **state)
 {
   (void)state;
@@ -339,6 +367,7 @@ int main(void)
       CASE(test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance),
       CASE(test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis),
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
+      CASE(test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
       CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
       CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant),
