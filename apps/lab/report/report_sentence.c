@@ -71,15 +71,12 @@ static double full_flow(const about *a, double area)
   return (double)flow.q;
 }
 
-static pneu_real *named(pneu_params *params, const char *name)
-{
-  return pneu_param_at(params, pneu_param_find(name));
-}
-
-/* What a line takes that stands before the fill orifice, while that is wide open into an empty chamber [Pa]. */
+/* What a line takes that stands before the fill orifice, while that is wide open into an empty chamber [Pa]; not a
+ * number in a catalogue without supply_droop. */
 static double fill_drop(const about *a)
 {
   const int is_tube = a->param == pneu_param_find("tube_resistance");
+  const int resistance = pneu_param_find("supply_resistance"), turbulence = pneu_param_find("supply_turbulence");
   pneu_params was = a->rig.params;
   pneu_input input = {.u = 1, .supply_pressure = was.supply_pressure};
   const pneu_state state = {.T = was.ambient_temperature, .mode = PNEU_MODE_STUCK};
@@ -91,8 +88,11 @@ static double fill_drop(const about *a)
   for (i = PNEU_PARAM_BASE_COUNT; i < PNEU_PARAM_COUNT; i++)
     *pneu_param_at(&rig.params, i) = lab_param_info(i).neutral;
   rig.params.proportional_band = 0;
-  *named(&rig.params, "supply_resistance") = (pneu_real)a->value;
-  *named(&rig.params, "supply_turbulence") = *named(&was, is_tube ? "tube_turbulence" : "supply_turbulence");
+  if (resistance < 0 || turbulence < 0)
+    return (double)NAN;
+  *pneu_param_at(&rig.params, resistance) = (pneu_real)a->value;
+  *pneu_param_at(&rig.params, turbulence) =
+      *pneu_param_at(&was, is_tube ? pneu_param_find("tube_turbulence") : turbulence);
   if (lab_rig_model(&rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
     return (double)NAN;
   return (double)(input.supply_pressure - out.supply);
