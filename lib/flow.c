@@ -213,31 +213,33 @@ static void mixed_flow(const pneu_terms *t, const passage *at, int slopes, pneu_
   flow->dq_ddown += c * (nozzle_flow.dq_ddown - flow->dq_ddown);
 }
 
-/* Area of the orifice that loses `resistance` q_f at the full flow q_f of the fill orifice, while that is little beside
- * the pressure: there a law is area a sqrt(p_up (p_up - p_down)). */
-static pneu_real area_of(const pneu_terms *t, pneu_real resistance)
+void pneu_line_ready(const pneu_terms *t, pneu_line *line)
 {
   static const pneu_real little = 2 * PNEU_BLEND; /* of p_up */
   const pneu_params *p = &t->model->p;
-  const pneu_real T = p->supply_temperature, p_up = t->model->scale[0];
+  const pneu_real T = p->supply_temperature, p_up = t->model->scale[0], lost = line->resistance * line->turbulence;
   const passage at = {1, p_up, T, p_up * (1 - little)};
   pneu_flow flow;
+  line->area = line->lost = 0;
+  if (!(lost > 0 && p->fill_area > 0))
+    return;
   mixed_flow(t, &at, 0, &flow);
-  return PNEU_M(sqrt)(t->model->choked_gain * p->fill_area / (PNEU_M(sqrt)(T) * resistance) * little) * p_up / flow.q;
+  line->area =
+      PNEU_M(sqrt)(t->model->choked_gain * p->fill_area / (PNEU_M(sqrt)(T) * lost) * little) * p_up / flow.q;
 }
 
 void pneu_line_flow(const pneu_terms *t, const pneu_line *line, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                     pneu_flow *flow)
 {
-  const pneu_real lost = p_up - p_down, linear = line->resistance * (1 - line->turbulence);
-  pneu_real ratio, bend = 0, root, sum;
-  passage at = {0, p_up, T_up, p_down};
-  flow->dq_dup = 1 / linear;
-  flow->dq_ddown = -flow->dq_dup;
-  flow->q = lost * flow->dq_dup;
-  if (!(line->turbulence > 0 && t->model->p.fill_area > 0))
+  const pneu_real lost = p_up - p_down, linear = line->resistance * (line->area > 0 ? 1 - line->turbulence : 1);
+  const passage at = {line->area, p_up, T_up, p_down};
+  pneu_real ratio, bend, root, sum;
+  if (!(line->area > 0)) {
+    flow->dq_dup = 1 / linear;
+    flow->dq_ddown = -flow->dq_dup;
+    flow->q = lost * flow->dq_dup;
     return;
-  at.area = area_of(t, line->resistance * line->turbulence);
+  }
   mixed_flow(t, &at, 1, flow);
   ratio = flow->q > 0 ? lost / flow->q : 1 / flow->dq_dup;
   root = PNEU_M(sqrt)(linear * linear + 4 * ratio * ratio);
@@ -268,7 +270,7 @@ static pneu_real series_gap(const series *s, pneu_real p, pneu_flow *flow, pneu_
   *(s->before ? &at.p_up : &at.p_down) = p;
   mixed_flow(s->t, &at, 1, flow);
   *slope = s->before ? flow->dq_dup - through.dq_ddown : flow->dq_ddown - through.dq_dup;
-  s->line->lost = up - down;
+  s->line->lost = s->before ? up - down : down - up;
   return flow->q - through.q;
 }
 
@@ -297,6 +299,7 @@ static void flow_between(const pneu_terms *t, const passage *at, pneu_line *line
 {
   if (PNEU_EFFECT_COUNT > 0 && line && line->resistance > 0 && at->p_up > at->p_down) {
     const series s = {t, *at, line, before};
+    pneu_line_ready(t, line);
     series_flow(&s, flow);
   } else
     mixed_flow(t, at, t->extent == PNEU_EXTENT_SLOPES, flow);

@@ -87,18 +87,21 @@ int pneu_show(const pneu_model *model, const pneu_state *state, const pneu_input
 
 void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state)
 {
+  enum { ROUNDS = 2 }; /* a lag of the transducer follows what the positioner asks for, by its own state */
   pneu_terms t;
   pneu_real y[PNEU_STATE_MAX];
-  int i;
-  pneu_pack(model, state, y);
-  (void)pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t,
-                      NULL); /* pneu_state_rest has looked at what may fail */
-  t.opening = t.asked;
-  for (i = 0; i < model->n_active; i++) {
-    const int e = model->active[i];
-    const pneu_effect *effect = pneu_effect_at(e);
-    if (effect->start)
-      effect->start(&model->p.effect[model->param_of[e]], &t, &state->extra[model->state_of[e]]);
+  int i, round;
+  for (round = 0; round < ROUNDS; round++) {
+    pneu_pack(model, state, y);
+    (void)pneu_evaluate(model, state, input, y, PNEU_EXTENT_FLOWS, &t,
+                        NULL); /* pneu_state_rest has looked at what may fail */
+    t.opening = t.asked;
+    for (i = 0; i < model->n_active; i++) {
+      const int e = model->active[i];
+      const pneu_effect *effect = pneu_effect_at(e);
+      if (effect->start)
+        effect->start(&model->p.effect[model->param_of[e]], &t, &state->extra[model->state_of[e]]);
+    }
   }
 }
 

@@ -347,7 +347,8 @@ typedef void pneu_own_flow(const pneu_model *model, pneu_real area, pneu_real p_
 typedef struct pneu_line {
   pneu_real resistance; /* [Pa s/kg] at the full flow of the fill orifice; 0: none */
   pneu_real turbulence; /* [1] share of that which grows with the flow */
-  pneu_real lost;       /* [Pa] on it, where it is in series with an orifice */
+  pneu_real area;       /* [m2] of the orifice that resists as that share does; 0: none */
+  pneu_real lost;       /* [Pa] towards the chamber, where it is in series with an orifice */
 } pneu_line;
 
 /* Constant after pneu_model_init and pneu_model_terms; may lie in read-only memory.
@@ -374,7 +375,8 @@ struct pneu_model {
   pneu_real rate_exponent_rise;        /* [1] the same of the rate of pressure, while the temperature stays */
   pneu_real start_excess;              /* [K] by which gas is warmer than told where a state of rest begins */
   pneu_real band_edge;                 /* [1] of the stroke, over which a positioner's dead band opens while its set
-                                          position runs; may be changed after pneu_model_init, see effects/positioner.c */
+                                          position runs; may be changed after pneu_model_init to another above
+                                          0, see effects/positioner.c */
   pneu_line supply_loss;               /* on the way from the supply, without a volume */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */

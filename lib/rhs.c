@@ -79,7 +79,7 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
 /* What lies between the orifices and the outside, which a build without effects has not. */
 static void begin_lines(const pneu_model *model, const pneu_real *y, pneu_terms *t)
 {
-  static const pneu_line none = {0, 0, 0};
+  static const pneu_line none = {0, 0, 0, 0};
   t->supply_line = model->supply_loss;
   t->exhaust_line = none;
   if (model->supply_line >= 0)

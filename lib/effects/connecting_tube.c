@@ -28,7 +28,7 @@ static const pneu_param_info params[] = {
 static void transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
 {
   const pneu_real p_chamber = t->p, T_chamber = t->T;
-  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = t->supply_line.lost = 0;
   t->p = p;
   t->T = T;
   pneu_transducer_flow(t);
@@ -40,12 +40,13 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 {
   const pneu_params *p = &t->model->p;
   const pneu_real scale = t->model->scale[0], p_tube = state[0] * scale;
-  const pneu_line tube = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0};
+  pneu_line tube = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0, 0};
   pneu_real q, mixing;
   pneu_flow flow;
   rate[0] = 0;
   if (t->model->law.pressure_input)
     return;
+  pneu_line_ready(t, &tube);
   if (p_tube > t->p)
     pneu_line_flow(t, &tube, p_tube, p->ambient_temperature, t->p, &flow);
   else

@@ -20,13 +20,14 @@ static const pneu_param_info params[] = {
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
   const pneu_params *p = &t->model->p;
-  const pneu_line line = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0};
+  pneu_line line = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0, 0};
   const pneu_real scale = t->model->scale[0];
   const pneu_real supply = t->input->supply_pressure + p->ambient_pressure, left = state[0] * scale;
   pneu_flow flow;
   rate[0] = 0;
   if (!(param[VOLUME] >= LEAST_VOLUME) || t->model->law.pressure_input)
     return;
+  pneu_line_ready(t, &line);
   pneu_line_flow(t, &line, PNEU_M(fmax)(supply, left), p->supply_temperature, PNEU_M(fmin)(supply, left), &flow);
   rate[0] = p->gas_constant * p->supply_temperature / (param[VOLUME] * scale) *
             ((supply > left ? flow.q : -flow.q) - t->drawn);
@@ -40,10 +41,10 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 
 static void prepare(pneu_model *model, const pneu_real *param)
 {
-  if (param[VOLUME] >= LEAST_VOLUME)
+  if (param[VOLUME] >= LEAST_VOLUME && !model->law.pressure_input)
     model->supply_line = model->n_extra - 1;
   else
-    model->supply_loss = (pneu_line){param[RESISTANCE], param[TURBULENCE], 0};
+    model->supply_loss = (pneu_line){param[RESISTANCE], param[TURBULENCE], 0, 0};
 }
 
 const pneu_effect pneu_effect_record_supply_droop = {
