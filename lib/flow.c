@@ -224,8 +224,7 @@ void pneu_line_ready(const pneu_terms *t, pneu_line *line)
   if (!(lost > 0 && p->fill_area > 0))
     return;
   mixed_flow(t, &at, 0, &flow);
-  line->area =
-      PNEU_M(sqrt)(t->model->choked_gain * p->fill_area / (PNEU_M(sqrt)(T) * lost) * little) * p_up / flow.q;
+  line->area = PNEU_M(sqrt)(t->model->choked_gain * p->fill_area / (PNEU_M(sqrt)(T) * lost) * little) * p_up / flow.q;
 }
 
 void pneu_line_flow(const pneu_terms *t, const pneu_line *line, pneu_real p_up, pneu_real T_up, pneu_real p_down,

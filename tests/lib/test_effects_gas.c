@@ -376,6 +376,35 @@ static void check_backflow(void)
   assert_between(s.p, 2e5, 2.9e5);
 }
 
+/* Without a fill orifice there is no flow to compare with, and a line resists in proportion; where the vessel is fuller
+ * than the supply, what it loses on the way there is above it; a pressure that is the input draws nothing. */
+static void check_odd_lines(void)
+{
+  pneu_params p = fixture_vessel(1e-4);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  double supply;
+  fixture_set(&p, "supply_resistance", 1e8);
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = fixture_input(&m, 1);
+  input.supply_pressure = 100000;
+  s = fixture_rest(&m, 3e5, 0, &input);
+  supply = (double)fixture_look(&m, &s, &input).supply;
+  assert_close(supply, 1e5 + 1e8 * (double)fixture_look(&m, &s, &input).out, 1, 0);
+  fixture_set(&p, "supply_volume", 1e-4);
+  fixture_set(&p, "supply_turbulence", 1);
+  p.fill_area = 0;
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  s = fixture_rest(&m, 0, 0, &input);
+  s.extra[0] = (pneu_real)0.5;
+  fixture_run(&m, &s, &input, 0.01, FIXTURE_TOL, NULL);
+  supply = (1e5 + (double)p.ambient_pressure) / (double)m.scale[0];
+  assert_close(s.extra[0],
+               supply + (0.5 - supply) * exp(-0.01 * (double)p.gas_constant * (double)p.supply_temperature / 1e4), 0,
+               TOL(1e-9, 1e-5));
+}
+
 static void footprint_supply_droop(void)
 {
   static const double at[] = {0, 2e5, 3.5e5, 3.98e5};
@@ -406,6 +435,7 @@ static void footprint_supply_droop(void)
   check_supply_volume();
   check_small_supply_volume();
   check_backflow();
+  check_odd_lines();
 }
 
 static void footprint_exhaust_back_pressure(void)

@@ -10,6 +10,8 @@ enum { FEWEST = 20 };
 static const double on_grid = 1e-6; /* of a step */
 static const double coarse = 0.02;  /* of the distance of rows: a finer grid does no harm */
 static const double rounded = 0.55; /* of a step: the farthest from even stamps that rounding takes a stamp */
+static const double still_even =
+    2; /* the same where rows come late as well; beyond, rows are as far apart as it says */
 
 /* Whether every stamp is a multiple of `step`. */
 static int lies_on(const double *t, size_t n, double step)
@@ -109,7 +111,7 @@ static void spread(lab_log *log, size_t first, size_t n, double grid)
   if (most < rounded * grid) {
     farthest(t, n, grid, l, 1);
     log->clock_step = grid;
-  } else {
+  } else if (most < still_even * grid) {
     log->stamp_step = grid;
   }
 }

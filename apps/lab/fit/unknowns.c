@@ -392,6 +392,12 @@ int lab_unknowns_are_at_rows(const lab_unknowns *u)
   return sum > of_any * n;
 }
 
+/* Whether a parameter says nothing of an experiment: a positioner's integral where it is not in the loop. */
+static int is_of_no_part(const lab_run *run, int param)
+{
+  return param == pneu_param_find("positioner.integral_start") && lab_log_command(run->log) != LAB_CHANNEL_SP;
+}
+
 /* A parameter that each experiment has for itself, from one on. Where the rig file gives it a tolerance it is known to
  * that, in each. */
 static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first, lab_error *error)
@@ -401,6 +407,8 @@ static int add_per_log(lab_unknowns *u, const lab_rig *rig, int param, int first
   for (e = first; e < u->n_runs; e++) {
     char name[LAB_PARAM_NAME_TEXT];
     lab_unknown *x;
+    if (is_of_no_part(&u->run[e], param))
+      continue;
     if (lab_unknowns_add(u, param, lab_param_value(rig, param), error))
       return error->status;
     x = &u->unknown[u->n - 1];

@@ -55,21 +55,37 @@ static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
+/* The least noise of the position in runs that a positioner follows by a set position; infinite without such a run.
+ * In/out:  runs  their number grows */
+static double least_noise(const lab_logs *logs, int *runs)
+{
+  double noise = HUGE_VAL;
+  int e, c;
+  for (e = 0; e < logs->n; e++) {
+    const lab_run *x = &logs->run[e];
+    if (lab_log_command(x->log) != LAB_CHANNEL_SP)
+      continue;
+    ++*runs;
+    for (c = 0; c < x->n_channels; c++)
+      if (x->channel[c] == LAB_CHANNEL_X)
+        noise = fmin(noise, x->sigma[c]);
+  }
+  return noise;
+}
+
 /* What the loop was before the logs is unknown. Where a set position ramps, the stem goes in and out of the dead band
  * by less than the noise; a band whose edge is a share of the noise has it follow on a line, which takes a tenth of the
  * time, and has slopes. */
-static void prepare_positioner(lab_rig *rig, const lab_logs *logs)
+static void prepare_positioner(lab_answer *a)
 {
+  enum { FEW = LAB_FIT_MAX / 4 };  /* runs: each has an integral of its own */
   static const double share = 0.4; /* the stem is within half of that of where it is; a tenth in five logs */
-  double noise = HUGE_VAL;
-  int e, c;
-  for (e = 0; e < logs->n; e++)
-    for (c = 0; c < logs->run[e].n_channels; c++)
-      if (logs->run[e].channel[c] == LAB_CHANNEL_X)
-        noise = fmin(noise, logs->run[e].sigma[c]);
-  if (isfinite(noise) && rig->params.stroke > 0)
-    rig->band_edge = share * noise / (double)rig->params.stroke;
-  lab_rig_free_integral(rig);
+  int runs = 0;
+  const double now = least_noise(&a->now.logs, &runs), noise = fmin(now, least_noise(&a->then.logs, &runs));
+  if (isfinite(noise) && a->rig.params.stroke > 0)
+    a->rig.band_edge = share * noise / (double)a->rig.params.stroke;
+  if (runs > 0 && runs <= FEW)
+    lab_rig_free_integral(&a->rig);
 }
 
 /* Read every log before any fit, so that a bad one costs no waiting. */
@@ -88,8 +104,7 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
   if (lab_plausible_content(&a->rig, &a->now.logs.content, &a->now.logs.limitations, error) ||
       (q->n_baseline && lab_plausible_content(&a->rig, &a->then.logs.content, &a->then.logs.limitations, error)))
     return error->status;
-  if (lab_log_command(&a->now.logs.log[0]) == LAB_CHANNEL_SP)
-    prepare_positioner(&a->rig, &a->now.logs);
+  prepare_positioner(a);
   return read_held_out(q, a, error);
 }
 

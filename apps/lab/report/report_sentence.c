@@ -71,12 +71,11 @@ static double full_flow(const about *a, double area)
   return (double)flow.q;
 }
 
-/* What a line takes that stands before the fill orifice, while that is wide open into an empty chamber [Pa]; not a
- * number in a catalogue without supply_droop. */
+/* What a line takes that stands before the fill orifice, while that is wide open into an empty chamber [Pa]. */
 static double fill_drop(const about *a)
 {
   const int is_tube = a->param == pneu_param_find("tube_resistance");
-  const int resistance = pneu_param_find("supply_resistance"), turbulence = pneu_param_find("supply_turbulence");
+  const int turbulence = pneu_param_find(is_tube ? "tube_turbulence" : "supply_turbulence");
   pneu_params was = a->rig.params;
   pneu_input input = {.u = 1, .supply_pressure = was.supply_pressure};
   const pneu_state state = {.T = was.ambient_temperature, .mode = PNEU_MODE_STUCK};
@@ -88,12 +87,10 @@ static double fill_drop(const about *a)
   for (i = PNEU_PARAM_BASE_COUNT; i < PNEU_PARAM_COUNT; i++)
     *pneu_param_at(&rig.params, i) = lab_param_info(i).neutral;
   rig.params.proportional_band = 0;
-  if (resistance < 0 || turbulence < 0)
+  if (lab_rig_model(&rig, &model, &error))
     return (double)NAN;
-  *pneu_param_at(&rig.params, resistance) = (pneu_real)a->value;
-  *pneu_param_at(&rig.params, turbulence) =
-      *pneu_param_at(&was, is_tube ? pneu_param_find("tube_turbulence") : turbulence);
-  if (lab_rig_model(&rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
+  model.supply_loss = (pneu_line){(pneu_real)a->value, *pneu_param_at(&was, turbulence), 0, 0};
+  if (pneu_observe(&model, &state, &input, &out) != PNEU_OK)
     return (double)NAN;
   return (double)(input.supply_pressure - out.supply);
 }

@@ -159,33 +159,47 @@ static int params_of(const lab_found *found, int *count)
   return found->effect < 0 ? 0 : pneu_effect_params(found->effect, count);
 }
 
+/* The candidate with one form more of its last effect, or all of them, fitted.  In: option  which of its parameters;
+ * -1: all.  Returns: whether it has a form that it had not */
+static int add_options(lab_candidate *c, int option, lab_error *error)
+{
+  int i, count, any = 0;
+  const int first = params_of(&c->found[c->n_found - 1], &count);
+  c->u.slopes = NULL; /* those are of fewer unknowns */
+  for (i = first; i < first + count; i++)
+    if ((option < 0 || i == option) && lab_param_info(i).shape == PNEU_FORM_OPTION && lab_unknowns_find(&c->u, i) < 0 &&
+        !lab_unknowns_add(&c->u, i, (double)lab_param_info(i).value, error))
+      any++;
+  lab_unknowns_take(&c->u);
+  if (any > (option < 0)) /* all of one are that one */
+    return lab_candidate_fit(c, LAB_ROUNDS_ALL, error) != LAB_WORLD;
+  return 0;
+}
+
 int lab_candidate_try_options(lab_candidate *c, lab_error *error)
 {
-  lab_candidate *with;
-  int i, count, any = 0, status = LAB_OK;
+  lab_candidate *with, *best;
+  int i, count;
   const int first = params_of(&c->found[c->n_found - 1], &count);
+  error->status = LAB_OK;
   if (!c->quality.fitted || lab_is_noise(&c->quality) || lab_cpu_is_spent(c->u.until))
     return LAB_OK;
-  with = malloc(sizeof *with);
+  with = malloc(2 * sizeof *with);
   if (!with)
     return lab_fail_memory(error, "a candidate");
-  *with = *c;
-  with->u.slopes = NULL; /* those are of fewer unknowns */
-  for (i = first; i < first + count && status == LAB_OK; i++)
-    if (lab_param_info(i).shape == PNEU_FORM_OPTION && lab_unknowns_find(&c->u, i) < 0) {
-      status = lab_unknowns_add(&with->u, i, (double)lab_param_info(i).value, error);
-      any = 1;
-    }
-  if (any && status == LAB_OK) {
-    lab_unknowns_take(&with->u);
-    status = lab_candidate_fit(with, LAB_ROUNDS_ALL, error);
-    if (lab_candidate_by_bic(with, c) < 0) {
-      lab_unknowns_forget_slopes(&c->u);
-      *c = *with;
-    }
+  best = &with[1];
+  *best = *c;
+  for (i = first - 1; i < first + count && error->status != LAB_WORLD; i++) {
+    *with = *c;
+    if (add_options(with, i < first ? -1 : i, error) && lab_candidate_by_bic(with, best) < 0)
+      *best = *with;
+  }
+  if (best->u.n > c->u.n) {
+    lab_unknowns_forget_slopes(&c->u);
+    *c = *best;
   }
   free(with);
-  return status == LAB_WORLD ? status : LAB_OK;
+  return error->status == LAB_WORLD ? LAB_WORLD : LAB_OK;
 }
 
 int lab_candidate_stage(const lab_candidate *c, const lab_unknowns *declared, lab_candidate *staged, lab_error *error)

@@ -28,13 +28,20 @@ static int fit_in_time(lab_candidate *c, lab_error *error)
   return status;
 }
 
-/* Straight lines may lead to where a fit gets stuck, far from where the model, or one before it, had come. */
-static void keep_better(lab_candidate *whole, lab_candidate *best)
+/* Straight lines may lead to where a fit gets stuck, far from where the model, or one before it, had come. If it was
+ * one before it, that is where the search ends. */
+static void keep_better(lab_rounds *s)
 {
-  if (whole->quality.fitted && lab_candidate_by_bic(whole, best) < 0)
-    *best = *whole;
-  else
-    *whole = *best;
+  lab_candidate *best = &s->beam[0];
+  if (!s->whole.quality.fitted || lab_candidate_by_bic(&s->whole, best) >= 0) {
+    s->whole = *best;
+    return;
+  }
+  if (s->whole.n_found < best->n_found) {
+    s->over = 1;
+    s->result->n_path -= s->result->n_path > 1;
+  }
+  *best = s->whole;
 }
 
 int lab_rounds_unfold(lab_rounds *s, lab_error *error)
@@ -42,7 +49,7 @@ int lab_rounds_unfold(lab_rounds *s, lab_error *error)
   lab_candidate *best = &s->beam[0];
   int status = LAB_OK;
   if (!best->u.nuisance && (s->is_final || !lab_rounds_has_held(s))) { /* fitted to the end before */
-    keep_better(&s->whole, best);
+    keep_better(s);
     return status;
   }
   if (best->u.nuisance && lab_nuisance_return(&best->u, error))
@@ -54,7 +61,7 @@ int lab_rounds_unfold(lab_rounds *s, lab_error *error)
     *best = s->without;
     status = LAB_OK;
   } else if (status == LAB_OK) {
-    keep_better(&s->whole, best);
+    keep_better(s);
   }
   lab_rounds_note_values(s->result, &best->u);
   return status;
