@@ -22,7 +22,9 @@ int pneu_observe(const pneu_model *model, const pneu_state *state, const pneu_in
   out->mass_in = t.mass_in;
   out->mass_out = t.mass_out;
   out->heat = t.heat;
-  out->supply = t.supply - (PNEU_EFFECT_COUNT > 0 ? t.supply_line.lost : 0) - model->p.ambient_pressure;
+  out->supply = t.supply - model->p.ambient_pressure;
+  if (PNEU_EFFECT_COUNT > 0)
+    out->supply -= t.supply_line.lost;
   out->friction = t.friction;
   out->holding_force = pneu_stem_holding(&t);
   out->choked = t.choked;

@@ -22,7 +22,7 @@ pneu_real pneu_command_opening(const pneu_terms *t)
 static void flow_through(pneu_terms *t, pneu_real opening)
 {
   const pneu_params *p = &t->model->p;
-  const pneu_real before = PNEU_EFFECT_COUNT > 0 ? t->mass_in - t->mass_out : 0;
+  const pneu_real before = t->mass_in - t->mass_out; /* without effects nobody asks */
   if (opening > 0) {
     t->choked = pneu_exchange(t, opening * t->fill_area, t->supply, p->supply_temperature, &t->supply_line);
     if (PNEU_EFFECT_COUNT > 0)

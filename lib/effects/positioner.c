@@ -11,11 +11,11 @@
  * opening. u jumps at the edge of the dead band, where error control shortens the step: a stem that a leak pushes out
  * of the band stops by its friction where it is, and air is let in until p has risen by the friction band, 2 F/A; then
  * the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would be off
- * by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke about the band's own: the stem
+ * by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke: the stem
  * would go in and out of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of
  * travel. Without friction it does so everywhere. A short stroke goes in and out all the same: 10 mm at 0.3 mm/s sixty
- * times a second by 4 um, up to an edge of 3e-4 of it (pneu_model.band_edge), with which the stem is where it is in the
- * mean to 0.01 um.
+ * times a second by 4 um, up to an edge of 3e-4 of it (pneu_model.band_edge, then about the band's own), with which the
+ * stem is where it is in the mean to 0.01 um.
  *
  * Size: gain 10 to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
 #include "../internal.h"
@@ -46,10 +46,10 @@ static pneu_real clip(pneu_real value, pneu_real low, pneu_real high)
 /* Share of the opening that the dead band lets through. */
 static pneu_real outside(const pneu_terms *t, pneu_real error, pneu_real band)
 {
-  const pneu_real beyond = PNEU_M(fabs)(error) - band;
+  const pneu_real beyond = PNEU_M(fabs)(error) - band, edge = t->model->band_edge;
   if (!(band > 0))
     return 1;
-  return t->input->u_rate != 0 ? clip(PNEU_C(0.5) + beyond / t->model->band_edge, 0, 1) : beyond > 0;
+  return t->input->u_rate != 0 ? clip((edge > EDGE ? PNEU_C(0.5) : 0) + beyond / edge, 0, 1) : beyond > 0;
 }
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
