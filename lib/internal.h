@@ -152,17 +152,15 @@ void pneu_transducer_flow(pneu_terms *terms);
  * Returns: whether it is choked. */
 int pneu_exchange(pneu_terms *terms, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_line *line);
 
-/* Find the orifice that stands for the turbulence of a line: one under the model's law that by itself loses
- * resistance turbulence q_f at the full flow q_f of the fill orifice, were that little. A law begins as
- * area sqrt(p_up (p_up - p_down)); under ISO 6358 with a subsonic index other than 0.5 it is compared at a loss of 0.1
- * %. In/out:  line  area; nothing is lost yet */
-void pneu_line_ready(const pneu_terms *terms, pneu_line *line);
-
-/* Flow through a line that is ready, of a resistance above 0, q: linear q + (p_up - p_down) (q/q_o)^2 = p_up - p_down
- * is lost, where linear = resistance (1 - turbulence), and q_o is what passes the orifice. In:      p_up >= p_down [Pa]
- * abs, T_up [K] Out:     flow  q and its slopes in the pressures */
-void pneu_line_flow(const pneu_terms *terms, const pneu_line *line, pneu_real p_up, pneu_real T_up, pneu_real p_down,
-                    struct pneu_flow *flow);
+/* Flow [kg/s] from one volume to another through a line, either way (flow.c).
+ * In:      resistance  [Pa s/kg] at the full flow of the fill orifice; counts as 1e4 at least: with less both pressures
+ *                      are one to rounding, and the equations stiff for nothing
+ *          turbulence  [1] share of it that grows with the flow
+ *          p, T        [Pa] abs, [K] of either volume
+ * Out:     slope       in the pressure upstream [kg/(s Pa)]
+ * Returns: above 0 from `from` to `to` */
+pneu_real pneu_line_pass(const pneu_terms *terms, pneu_real resistance, pneu_real turbulence, pneu_real p_from,
+                         pneu_real T_from, pneu_real p_to, pneu_real T_to, pneu_real *slope);
 
 /* States of the active effects at rest.  In/out: state */
 void pneu_start_effects(const pneu_model *model, const pneu_input *input, pneu_state *state);

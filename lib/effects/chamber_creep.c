@@ -9,7 +9,8 @@
 enum { COMPLIANCE, TIME };
 
 static const pneu_param_info params[] = {
-    {"volume_compliance", "1/Pa", 0, PNEU_C(2.5e-6), PNEU_C(2e-8), 0, 0, "share by which the volume grows per pressure"},
+    {"volume_compliance", "1/Pa", 0, PNEU_C(2.5e-6), PNEU_C(2e-8), 0, 0,
+     "share by which the volume grows per pressure"},
     {"volume_time", "s", PNEU_C(0.2), PNEU_C(1e5), PNEU_C(5.0), PNEU_C(5.0), 1, "time constant with which it does"}};
 
 static int acts(const pneu_model *model, const pneu_real *param)

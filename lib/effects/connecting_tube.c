@@ -12,7 +12,6 @@
  * proportion to q^0.75. A kink, a filter or a fitting is an orifice, which resists in proportion to q: c = 1. */
 #include "../internal.h"
 
-#define LEAST  PNEU_C(1e4)                     /* [Pa s/kg] */
 #define MIXING (PNEU_C(1e-6) + 100 * PNEU_EPS) /* share of full pressure, above its rounding */
 
 enum { RESISTANCE, VOLUME, TURBULENCE };
@@ -40,19 +39,12 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 {
   const pneu_params *p = &t->model->p;
   const pneu_real scale = t->model->scale[0], p_tube = state[0] * scale;
-  pneu_line tube = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0, 0};
-  pneu_real q, mixing;
-  pneu_flow flow;
+  pneu_real q, mixing, slope;
   rate[0] = 0;
   if (t->model->law.pressure_input)
     return;
-  pneu_line_ready(t, &tube);
-  if (p_tube > t->p)
-    pneu_line_flow(t, &tube, p_tube, p->ambient_temperature, t->p, &flow);
-  else
-    pneu_line_flow(t, &tube, t->p, t->T, p_tube, &flow);
-  q = p_tube > t->p ? flow.q : -flow.q;
-  mixing = MIXING * scale * flow.dq_dup;
+  q = pneu_line_pass(t, param[RESISTANCE], param[TURBULENCE], p_tube, p->ambient_temperature, t->p, t->T, &slope);
+  mixing = MIXING * scale * slope;
   transducer_at(t, p_tube, p->ambient_temperature);
   rate[0] = p->gas_constant * p->ambient_temperature / (param[VOLUME] * scale) * (t->mass_in - t->mass_out - q);
   t->mass_in = (q + PNEU_M(sqrt)(q * q + mixing * mixing)) / 2;

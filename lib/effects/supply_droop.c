@@ -5,7 +5,6 @@
  * at least there, as a tube's does. */
 #include "../internal.h"
 
-#define LEAST        PNEU_C(1e4)  /* [Pa s/kg] */
 #define LEAST_VOLUME PNEU_C(1e-9) /* [m3]: a smaller one is none */
 
 enum { RESISTANCE, TURBULENCE, VOLUME };
@@ -20,17 +19,14 @@ static const pneu_param_info params[] = {
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
   const pneu_params *p = &t->model->p;
-  pneu_line line = {PNEU_M(fmax)(param[RESISTANCE], LEAST), param[TURBULENCE], 0, 0};
-  const pneu_real scale = t->model->scale[0];
-  const pneu_real supply = t->input->supply_pressure + p->ambient_pressure, left = state[0] * scale;
-  pneu_flow flow;
+  const pneu_real scale = t->model->scale[0], T = p->supply_temperature;
+  const pneu_real supply = t->input->supply_pressure + p->ambient_pressure;
+  pneu_real q, slope;
   rate[0] = 0;
   if (!(param[VOLUME] >= LEAST_VOLUME) || t->model->law.pressure_input)
     return;
-  pneu_line_ready(t, &line);
-  pneu_line_flow(t, &line, PNEU_M(fmax)(supply, left), p->supply_temperature, PNEU_M(fmin)(supply, left), &flow);
-  rate[0] = p->gas_constant * p->supply_temperature / (param[VOLUME] * scale) *
-            ((supply > left ? flow.q : -flow.q) - t->drawn);
+  q = pneu_line_pass(t, param[RESISTANCE], param[TURBULENCE], supply, T, state[0] * scale, T, &slope);
+  rate[0] = p->gas_constant * T / (param[VOLUME] * scale) * (q - t->drawn);
 }
 
 static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)

@@ -10,7 +10,7 @@ enum { FEWEST = 20 };
 static const double on_grid = 1e-6; /* of a step */
 static const double coarse = 0.02;  /* of the distance of rows: a finer grid does no harm */
 static const double rounded = 0.55; /* of a step: the farthest from even stamps that rounding takes a stamp */
-static const double still_even = 2; /* the same where rows come late as well */
+static const double still_even = 2; /* the same where rows come late as well: by judgement; 0.72 in two logs */
 
 /* Whether every stamp is a multiple of `step`. */
 static int lies_on(const double *t, size_t n, double step)

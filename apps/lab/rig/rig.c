@@ -563,7 +563,7 @@ int lab_rig_has_positioner(const lab_rig *rig)
 
 void lab_rig_free_integral(lab_rig *rig)
 {
-  static const double usual = 0.02; /* of the stroke: what opens an orifice by 0.4 at the usual gain */
+  static const double usual = 0.02; /* of the stroke: opens by 0.4 at the usual gain; by judgement */
   const int time = pneu_param_find("positioner.integral_time"), start = pneu_param_find("positioner.integral_start");
   if (start < 0 || !lab_rig_has_positioner(rig) || !(lab_param_value(rig, time) > 0) || lab_rig_fits(rig, start) ||
       !rig->assumed[start] || !isnan(rig->tolerance[start]) || rig->others_are_exact)

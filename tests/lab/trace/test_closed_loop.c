@@ -247,24 +247,27 @@ static void send_between_rows(void)
     t_set[i] += i % 2 ? 0.013 : 0.004;
 }
 
+/* A line of which resistance [Pa s/kg] and volume [m3] are found. */
+static void assert_line_found(const char *effect, const char *resistance, double value, const char *volume, double air)
+{
+  send_between_rows();
+  close_loop(WITH_SP | WITH_P);
+  assert_found(effect, resistance, value, 5e-2);
+  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find(volume)), air, 0, 5e-2);
+}
+
 /* What resists as an orifice does is found by its form, beside which a linear one leaves more than noise. */
 static void test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized(void **state)
 {
-  send_between_rows();
   g.tube_resistance = 1e8;
   g.tube_turbulence = 1;
   g.tube_volume = 5e-5;
-  close_loop(WITH_SP | WITH_P);
-  assert_found("connecting_tube", "tube_resistance", 1e8, 5e-2);
-  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find("tube_volume")), 5e-5, 0, 5e-2);
+  assert_line_found("connecting_tube", "tube_resistance", 1e8, "tube_volume", 5e-5);
   begin(state);
-  send_between_rows();
   g.supply_droop = 2e8;
   g.supply_turbulence = 1;
   g.supply_volume = 3e-4;
-  close_loop(WITH_SP | WITH_P);
-  assert_found("supply_droop", "supply_resistance", 2e8, 5e-2);
-  assert_close(*pneu_param_at(&u.rig.params, pneu_param_find("supply_volume")), 3e-4, 0, 5e-2);
+  assert_line_found("supply_droop", "supply_resistance", 2e8, "supply_volume", 3e-4);
 }
 
 static void test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized(void **state)
