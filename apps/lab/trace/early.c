@@ -206,7 +206,8 @@ static int begins_later(const lab_candidate *onset)
   return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][x->first];
 }
 
-int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, lab_error *error)
+int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, double *known,
+                  lab_error *error)
 {
   const size_t n = within->u.run->n;
   lab_candidate *c = malloc(sizeof *c);
@@ -222,6 +223,7 @@ int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab
     *within = *c;
   else if (status == LAB_OK && between[0] > 0)
     status = fit_onset(c, between, alpha, onset, begins, error);
+  *known = (double)between[0] / (double)n;
   onset->quality.fitted &= status == LAB_OK && lab_is_noise(&onset->quality) && begins_later(onset);
   free(c);
   return status == LAB_NUMERIC ? LAB_OK : status;

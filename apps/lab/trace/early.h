@@ -16,8 +16,9 @@
  *                  where the beginnings lead all the way, fitted so
  * Out:     onset   with what begins, fitted where that leaves only noise
  *          begins  scores of what may begin, about the values of the beginning
+ *          known   share of the run that is such a beginning
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins,
+int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, double *known,
                   lab_error *error);
 
 #endif
