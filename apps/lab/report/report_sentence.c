@@ -356,17 +356,24 @@ void lab_report_deviation(const lab_report *report, const lab_deviation *d, char
   add_deviation(text, report, d, 1);
 }
 
-/* Those beyond their tolerance, and those that begin.  Returns: their number */
+/* Whether it is an error of a sensor that is declared to have none: the sentence of its effect tells that. */
+static int is_of_sensor(const lab_deviation *d)
+{
+  return lab_param_is_of_sensor(d->param) && d->declared == 0;
+}
+
+/* Values beyond their tolerance, and those that begin.  Returns: their number */
 static int add_deviations(char *text, const lab_report *report, int is_hedged)
 {
   const lab_deviations *all = &report->deviations;
-  const int n = lab_report_count_told(report);
   char *begin;
-  int i, told = 0;
+  int i, n = 0, told = 0;
+  for (i = 0; i < all->n; i++)
+    n += lab_report_is_told(report, &all->of[i]) && !is_of_sensor(&all->of[i]);
   ADD(text, "%s", is_hedged && n > 0 ? " As far as the log tells, " : "");
   begin = text + strlen(text);
   for (i = 0; i < all->n && told < DEVIATIONS_TOLD; i++)
-    if (lab_report_is_told(report, &all->of[i])) {
+    if (lab_report_is_told(report, &all->of[i]) && !is_of_sensor(&all->of[i])) {
       ADD(text, "%s", told ? ", " : "");
       add_deviation(text, report, &all->of[i], told++ == 0);
     }
@@ -388,17 +395,24 @@ static void compare_vent(const lab_report *report, lab_rig *rig, int param)
     *pneu_param_at(&rig->params, param) = (pneu_real)(1 - passes * (double)(now->vent_area / declared->vent_area));
 }
 
+/* The sentence of an effect, at a rig's values, with when it begins. */
+static void tell_effect(const lab_report *report, const lab_rig *rig, int param, char text[LAB_FOUND_SENTENCE])
+{
+  char sentence[LAB_EFFECT_SENTENCE], since[LAB_SINCE_TEXT];
+  lab_effect_sentence(rig, pneu_effect_of(param), param, sentence);
+  lab_report_since(lab_report_onset(report, param), since);
+  snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
+}
+
 const char *lab_report_found_sentence(const lab_report *report, const lab_found *found, char text[LAB_FOUND_SENTENCE])
 {
-  char sentence[LAB_EFFECT_SENTENCE], where[LAB_WHERE_TEXT], since[LAB_SINCE_TEXT];
+  char where[LAB_WHERE_TEXT];
   lab_rig last;
   if (found->effect >= 0) {
     lab_rig_at(&report->completed->rig, INFINITY, &last);
     if (lab_param_is_vents_share(found->param))
       compare_vent(report, &last, found->param);
-    lab_effect_sentence(&last, found->effect, found->param, sentence);
-    lab_report_since(lab_report_onset(report, found->param), since);
-    snprintf(text, LAB_FOUND_SENTENCE, "%.*s%s%s.", (int)strlen(sentence) - 1, sentence, *since ? "," : "", since);
+    tell_effect(report, &last, found->param, text);
   } else
     snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
              lab_free_term_what(lab_report_term(report, found)),
@@ -418,6 +432,24 @@ static void add_found(char *text, const lab_report *report)
     if (r->found[i].effect >= 0)
       ADD(text, " (%s)", pneu_effect_at(r->found[i].effect)->name);
     ADD(text, ".");
+  }
+}
+
+/* Sensors that are off come last: what the valve does is asked first. */
+static void add_sensors(char *text, const lab_report *report)
+{
+  const lab_deviations *all = &report->deviations;
+  int i;
+  for (i = 0; i < all->n; i++) {
+    const lab_deviation *d = &all->of[i];
+    char sentence[LAB_FOUND_SENTENCE];
+    lab_rig last;
+    if (!lab_report_is_told(report, d) || !is_of_sensor(d))
+      continue;
+    lab_rig_at(&report->completed->rig, INFINITY, &last);
+    *pneu_param_at(&last.params, d->param) = (pneu_real)d->found;
+    tell_effect(report, &last, d->param, sentence);
+    ADD(text, " %s", sentence);
   }
 }
 
@@ -466,15 +498,14 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     return;
   }
   deviates = add_deviations(text, report, 0) > 0;
-  if (r->verdict == LAB_VERDICT_NONE) {
+  ADD(text, deviates && r->verdict != LAB_VERDICT_NONE ? ". " : "");
+  if (r->verdict == LAB_VERDICT_NONE)
     ADD(text, "%s", nothing(report, deviates));
-    return;
-  }
-  ADD(text, deviates ? ". " : "");
-  if (r->verdict == LAB_VERDICT_UNDECIDED)
+  else if (r->verdict == LAB_VERDICT_UNDECIDED)
     ADD(text, "Whether anything%s is missing, the search had no time to say.", deviates ? " else" : "");
   else
     add_found(text, report);
+  add_sensors(text, report);
 }
 
 /* ---- What that does to the error ---- */
