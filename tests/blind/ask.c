@@ -78,12 +78,13 @@ static void read_deviations(const cJSON *list, blind_answer *a)
   cJSON_ArrayForEach(item, list)
   {
     blind_deviation *d = &a->deviation[a->n_deviations];
-    const double declared = number(item, "declared");
+    const double declared = number(item, "declared"), over = declared != 0 ? declared : 1;
     if (a->n_deviations == BLIND_CANDIDATES)
       return;
     copy_word(cJSON_GetObjectItem(item, "parameter"), d->parameter);
-    d->ratio = number(item, "found") / declared;
-    read_interval(item, declared, &d->low, &d->high);
+    d->absolute = declared == 0;
+    d->ratio = number(item, "found") / over;
+    read_interval(item, over, &d->low, &d->high);
     d->beyond = cJSON_IsTrue(cJSON_GetObjectItem(item, "beyond"));
     d->since = read_since(item);
     a->n_deviations++;

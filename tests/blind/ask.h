@@ -13,9 +13,10 @@ typedef struct blind_since {
   double t, low, high; /* s */
 } blind_since;
 
-/* A declared value that is off, over what is declared. */
+/* A declared value that is off, over what is declared; where 0 is declared, itself, in its unit. */
 typedef struct blind_deviation {
   blind_word parameter;
+  int absolute; /* 0 is declared */
   double ratio, low, high;
   int beyond; /* its tolerance */
   blind_since since;

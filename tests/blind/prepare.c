@@ -9,7 +9,7 @@
 enum { PATHS = 1024 };
 
 /* Numbers of a trial whose files are kept, under the line of its truth, by which a changed one is known. */
-enum { NUMBERS = 1 + BLIND_AT_ONCE + BLIND_VALUES };
+enum { NUMBERS = 1 + sizeof(blind_visible) / sizeof(double) };
 
 static void numbers_path(const char *folder, char path[PATHS])
 {

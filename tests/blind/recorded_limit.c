@@ -234,7 +234,7 @@ static void instrument_columns(work *w)
 
 /* ---- Statistics ---- */
 
-/* Values first, then effects. */
+/* Values first, then effects, then the vent. */
 static int columns(work *w, lab_error *error)
 {
   if (value_columns(w, error) || effect_columns(w, error) || vent_column(w, error) || instant_columns(w, error))
@@ -257,15 +257,28 @@ static int statistic(work *w, int but, double *result, lab_error *error)
   return LAB_OK;
 }
 
-/* By its slope, as an interval is: what is off by more than that changes nothing in how well it is known. */
+/* By its slope, as an interval is: what is off by more than that changes nothing in how well it is known.
+ * In:  off  in what the column is of */
+static int slope_statistic(work *w, int column, double off, double *result, lab_error *error)
+{
+  const double *slope = w->column + (size_t)column * w->m;
+  size_t i;
+  for (i = 0; i < w->m; i++)
+    w->s[i] = i < w->n ? slope[i] * off : 0;
+  return statistic(w, column, result, error);
+}
+
 static int value_statistic(work *w, int value, double *result, lab_error *error)
 {
   const double off = blind_values[value].absolute ? w->r.off[value] : 1 - 1 / w->r.off[value];
-  const double *slope = w->column + (size_t)value * w->m;
-  size_t i;
-  for (i = 0; i < w->m; i++)
-    w->s[i] = i < w->n ? slope[i] * off / blind_known_to(&w->r, value) : 0;
-  return statistic(w, value, result, error);
+  return slope_statistic(w, value, off / blind_known_to(&w->r, value), result, error);
+}
+
+/* Its column is behind those of the effects. */
+static int vent_statistic(work *w, double *result, lab_error *error)
+{
+  const double off = 1 - 1 / w->r.vent;
+  return slope_statistic(w, BLIND_VALUES + w->r.t.n_missing, off / BLIND_VENT_KNOWN, result, error);
 }
 
 /* Of an effect less by `by`.  In: by  its size, or less */
@@ -321,7 +334,7 @@ static int all_statistics(const blind_recorded *r, work *w, blind_visible *v, la
     status = effect_at_limit(w, i, &v->effect[i], error);
   for (i = 0; i < BLIND_VALUES && status == LAB_OK; i++)
     status = value_statistic(w, i, &v->value[i], error);
-  return status;
+  return status == LAB_OK ? vent_statistic(w, &v->vent, error) : status;
 }
 
 int blind_recorded_visible(const blind_recorded *r, blind_visible *v, lab_error *error)

@@ -15,6 +15,7 @@
 typedef struct blind_visible {
   double effect[BLIND_AT_ONCE]; /* statistic of each missing effect at its size */
   double value[BLIND_VALUES];   /* of each value at what it is off */
+  double vent;                  /* of the vent at what it is off beside the fill orifice */
 } blind_visible;
 
 /* An interval of 95 % is 1.96 standard deviations to either side; what is off by twice that has at least this. */

@@ -37,7 +37,7 @@ static int is_filter(const blind_recorded *r, const blind_found *f)
   return (same(f->effect, "pressure_lag") && r->filter[0] > 0) || (same(f->effect, "position_lag") && r->filter[1] > 0);
 }
 
-/* An error of an instrument is as well told among the deviations: its declared value is 0, and the ratio infinite. */
+/* An error of an instrument is as well told among the deviations, where 0 is declared. */
 static int is_deviation(const blind_answer *a, const char *effect, double size)
 {
   int k, any = 0;
@@ -121,6 +121,28 @@ static int is_of(const blind_deviation *d, int value)
   return same(d->parameter, blind_values[value].name) || (orifice && same(blind_values[value].name, "orifice_area"));
 }
 
+/* The share by which the vent passes less than the fill orifice, beside what is declared of both. */
+static double true_restriction(const blind_recorded *r)
+{
+  const second_rig g = blind_recorded_later(r, BLIND_ALL), *declared = &r->t.declared;
+  return 1 - g.vent_area / g.fill_area * declared->fill_area / declared->vent_area;
+}
+
+static int is_restriction(const blind_deviation *d)
+{
+  return same(d->parameter, "vent_restriction");
+}
+
+/* NaN of what is not judged, say of a sensor. */
+static double truth_of(const blind_recorded *r, const blind_deviation *d)
+{
+  int i;
+  for (i = 0; i < BLIND_VALUES; i++)
+    if (is_of(d, i))
+      return blind_true_ratio(r, i);
+  return is_restriction(d) ? true_restriction(r) : (double)NAN;
+}
+
 static const blind_deviation *said_of(const blind_answer *a, int value)
 {
   int k;
@@ -154,18 +176,33 @@ static void count_due(const blind_recorded *r, const blind_visible *v, const bli
   }
 }
 
-/* Those of other parameters, say of a sensor, count as said and are not judged. */
+/* The vent is off by itself in every rig; where an effect narrows it, that is judged by its name. */
+static void count_vent_due(const blind_recorded *r, const blind_visible *v, const blind_answer *a, blind_record *record)
+{
+  const double restriction = true_restriction(r);
+  int i, k, found = 0;
+  for (i = 0; i < r->t.n_missing; i++)
+    if (same(r->t.missing[i].effect->name, "vent_restriction"))
+      return;
+  if (!(v->vent >= BLIND_DUE))
+    return;
+  for (k = 0; k < a->n_deviations; k++)
+    found |= is_restriction(&a->deviation[k]) && a->deviation[k].ratio * restriction > 0;
+  record->n_due++;
+  record->n_found += found;
+  append(record->due, "%s%svent_restriction %.3g", *record->due ? "; " : "", found ? "" : "NOT ", restriction);
+}
+
+/* What is not judged counts as said all the same. */
 static void count_said(const blind_recorded *r, const blind_answer *a, blind_record *record)
 {
-  int i, k;
+  int k;
   for (k = 0; k < a->n_deviations; k++) {
     const blind_deviation *d = &a->deviation[k];
-    append(record->deviations, "%s%s x%.3g [%.3g..%.3g]%s", k ? "; " : "", d->parameter, d->ratio, d->low, d->high,
-           d->beyond ? " beyond" : "");
+    append(record->deviations, "%s%s %s%.3g [%.3g..%.3g]%s", k ? "; " : "", d->parameter, d->absolute ? "" : "x",
+           d->ratio, d->low, d->high, d->beyond ? " beyond" : "");
     record->n_said++;
-    for (i = 0; i < BLIND_VALUES; i++)
-      if (is_of(d, i))
-        record->n_wrong += fabs(d->ratio - blind_true_ratio(r, i)) > d->high - d->low;
+    record->n_wrong += fabs(d->ratio - truth_of(r, d)) > d->high - d->low;
   }
 }
 
@@ -242,6 +279,7 @@ void blind_score_recorded(const blind_recorded *r, const blind_visible *v, const
   record->instrument = n.filter;
   record->cpu = a->cpu;
   count_due(r, v, a, record);
+  count_vent_due(r, v, a, record);
   count_said(r, a, record);
   score_onset(r, a, record);
 }

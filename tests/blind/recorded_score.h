@@ -10,8 +10,10 @@
  *   right        nothing is missing, or nothing visible, and none is said;
  *                or every effect named is missing, and every visible one is named;
  *                or what no catalogue has is called unlisted in the right equation
- *   partly       one of two, or a right name with another one besides; or a listed effect called unlisted, in its
- * equation overlooked   none is said, but something visible is missing wrong        whatever else is named
+ *   partly       one of two, or a right name with another one besides;
+ *                or a listed effect called unlisted, in its equation
+ *   overlooked   none is said, but something visible is missing
+ *   wrong        whatever else is named
  *
  * "Named" is as in the clean series: by its name, or in the list of what the log cannot tell from the one given, or
  * (visible, but not added) in that of what is significant but too small to be added. Filters on both sensors are
@@ -19,8 +21,10 @@
  * Confidently wrong are false alarm, overlooked and wrong.
  *
  * A deviation that is due is found if the report lists its parameter, off in the right direction; one that is said is
- * wrong if the truth is more than twice the stated interval away from what was found. An onset counts where what begins
- * was named, or found: within is a stated interval that holds the true instant.
+ * wrong if the truth is more than twice the stated interval away from what was found. That of the vent beside the fill
+ * orifice is told as vent_restriction. Deviations of sensors are not judged.
+ *
+ * An onset counts where what begins was named, or found: within is a stated interval that holds the true instant.
  * SPDX-License-Identifier: MIT */
 #ifndef BLIND_RECORDED_SCORE_H
 #define BLIND_RECORDED_SCORE_H

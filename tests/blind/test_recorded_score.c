@@ -27,6 +27,7 @@ static blind_recorded trial_with(const char *missing)
   r.beyond = r.onset_value = -1;
   r.onset = NAN;
   r.spacing = 0.01;
+  r.vent = 1;
   memset(&visible, 0, sizeof visible);
   for (i = 0; i < BLIND_VALUES; i++)
     r.off[i] = blind_values[i].absolute ? 0 : 1;
@@ -133,10 +134,10 @@ static void test_blind_score_recorded__instrument_among_the_deviations__is_not_o
   r.t.missing[0].size = -2.6e-5;
   visible.effect[0] = over(9);
   set_answer("none", "", "");
-  say("position_bias", (double)INFINITY, 0);
+  say("position_bias", 2e-5, 0);
   blind_score_recorded(&r, &visible, &answer, 100, &record);
   assert_string_equal(record.class, "overlooked");
-  answer.deviation[0].ratio = -(double)INFINITY;
+  answer.deviation[0].ratio = -2e-5;
   blind_score_recorded(&r, &visible, &answer, 100, &record);
   assert_string_equal(record.class, "right");
 }
@@ -208,6 +209,51 @@ static void test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_it
   assert_int_equal(record.n_wrong, 1);
 }
 
+/* The vent passes 0.9 of what the fill orifice does: restricted by a tenth. */
+static void test_blind_score_recorded__vent__is_judged_as_a_restriction(void **state)
+{
+  blind_recorded r = trial_with("");
+  (void)state;
+  r.vent = 0.9;
+  r.t.base.vent_area *= r.vent;
+  visible.vent = 1.01 * BLIND_DUE;
+  set_answer("none", "", "");
+  say("vent_restriction", 0.1 + 0.019, 0.01);
+  answer.deviation[0].absolute = 1;
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_int_equal(record.n_due, 1);
+  assert_int_equal(record.n_found, 1);
+  assert_int_equal(record.n_wrong, 0);
+  assert_string_equal(record.due, "vent_restriction 0.1");
+  assert_string_equal(record.deviations, "vent_restriction 0.119 [0.109..0.129]");
+  say("vent_restriction", -0.1, 0.01); /* the wrong way */
+  answer.deviation[0] = answer.deviation[--answer.n_deviations];
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_int_equal(record.n_found, 0);
+  assert_int_equal(record.n_wrong, 1);
+  visible.vent = 0.99 * BLIND_DUE;
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_int_equal(record.n_due, 0);
+}
+
+/* What narrows it further is an effect, and due by its name; what is said of the vent is of both. */
+static void test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_value(void **state)
+{
+  blind_recorded r = trial_with("vent_restriction");
+  (void)state;
+  r.t.missing[0].size = 0.2;
+  r.t.base.vent_area *= 0.9;
+  visible.vent = 1.01 * BLIND_DUE;
+  set_answer("none", "", "");
+  say("vent_restriction", 1 - 0.9 * 0.8, 0.001);
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_int_equal(record.n_due, 0);
+  assert_int_equal(record.n_wrong, 0);
+  answer.deviation[0].ratio = 0.1;
+  blind_score_recorded(&r, &visible, &answer, 100, &record);
+  assert_int_equal(record.n_wrong, 1);
+}
+
 /* ---- Onset ---- */
 
 static void test_blind_score_recorded__onset__counts_where_what_begins_was_named(void **state)
@@ -258,18 +304,24 @@ static void test_blind_answer_read__deviations_and_onset__are_taken(void **state
   static const char report[] =
       "{\"verdict\": \"effect\", \"condition\": \"deviates\", \"found\": [{\"effect\": \"chamber_leak\","
       " \"onset\": {\"t\": 3.5, \"unit\": \"s\", \"ci95\": [3, 4]}}], \"deviations\": [{\"parameter\": \"spring_rate\","
-      " \"declared\": 200, \"found\": 150, \"ci95\": [140, 160], \"ratio\": 0.75, \"beyond\": true}]}";
+      " \"declared\": 200, \"found\": 150, \"ci95\": [140, 160], \"ratio\": 0.75, \"beyond\": true},"
+      " {\"parameter\": \"vent_restriction\", \"declared\": 0, \"found\": -0.06, \"ci95\": [-0.07, -0.05],"
+      " \"ratio\": null, \"beyond\": false}]}";
   (void)state;
   assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
   assert_string_equal(answer.condition, "deviates");
   assert_close(answer.found[0].since.t, 3.5, 0, 0);
   assert_close(answer.found[0].since.high, 4, 0, 0);
-  assert_int_equal(answer.n_deviations, 1);
+  assert_int_equal(answer.n_deviations, 2);
   assert_string_equal(answer.deviation[0].parameter, "spring_rate");
   assert_close(answer.deviation[0].ratio, 0.75, 0, 0);
   assert_close(answer.deviation[0].low, 0.7, 0, 1e-15);
   assert_close(answer.deviation[0].beyond, 1, 0, 0);
   assert_true(isnan(answer.deviation[0].since.t));
+  assert_int_equal(answer.deviation[0].absolute, 0);
+  assert_int_equal(answer.deviation[1].absolute, 1);
+  assert_close(answer.deviation[1].ratio, -0.06, 0, 0);
+  assert_close(answer.deviation[1].high, -0.05, 0, 0);
 }
 
 static void test_blind_record_read__recorded__is_what_was_written(void **state)
@@ -362,6 +414,8 @@ int main(void)
       cmocka_unit_test(test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm),
       cmocka_unit_test(test_blind_score_recorded__deviation__is_found_by_name_and_direction),
       cmocka_unit_test(test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_its_width),
+      cmocka_unit_test(test_blind_score_recorded__vent__is_judged_as_a_restriction),
+      cmocka_unit_test(test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_value),
       cmocka_unit_test(test_blind_score_recorded__onset__counts_where_what_begins_was_named),
       cmocka_unit_test(test_blind_score_recorded__onset_of_a_value__is_that_of_its_deviation),
       cmocka_unit_test(test_blind_answer_read__deviations_and_onset__are_taken),
