@@ -205,14 +205,17 @@ static void choose_effects(blind_chance *c, blind_trial *t)
   }
 }
 
-static void draw_size(blind_chance *c, const second_rig *base, blind_missing *m)
+void blind_draw_missing(blind_chance *c, blind_trial *t, int which)
 {
+  blind_missing *m = &t->missing[which];
   const blind_effect *e = m->effect;
   const double sign = blind_uniform(c, 0, 1) < 0.5 && e->either_sign ? -1 : 1;
   int i;
-  m->size = sign * blind_log_uniform(c, e->lo, e->hi) * blind_scale_of(e->scale, base);
+  m->size = sign * blind_log_uniform(c, e->lo, e->hi) * blind_scale_of(e->scale, &t->base);
   for (i = 0; i < BLIND_SHAPES && e->shape[i].name; i++)
-    m->shape[i] = blind_log_uniform(c, e->shape[i].lo, e->shape[i].hi) * blind_scale_of(e->shape[i].scale, base);
+    m->shape[i] = blind_log_uniform(c, e->shape[i].lo, e->shape[i].hi) * blind_scale_of(e->shape[i].scale, &t->base);
+  if (e->step > 0)
+    t->step = fmin(t->step, e->step);
 }
 
 /* Mostly both channels, sometimes one; those that the effects are seen in are never left out. */
@@ -253,11 +256,8 @@ void blind_draw(uint64_t seed, int number, blind_trial *t)
     blind_scale_fitted(&t->base, i, 1 + blind_uniform(&c, -1, 1) * blind_fitted_of[i].off);
   draw_commands(&c, t);
   t->step = usual_step;
-  for (i = 0; i < t->n_missing; i++) {
-    draw_size(&c, &t->base, &t->missing[i]);
-    if (t->missing[i].effect->step > 0)
-      t->step = fmin(t->step, t->missing[i].effect->step);
-  }
+  for (i = 0; i < t->n_missing; i++)
+    blind_draw_missing(&c, t, i);
 }
 
 second_rig blind_truth(const blind_trial *t, unsigned which)

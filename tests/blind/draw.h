@@ -51,6 +51,9 @@ typedef struct blind_trial {
 /* A trial depends on nothing but the seed and its number. */
 void blind_draw(uint64_t seed, int number, blind_trial *trial);
 
+/* Size and shape of an effect, of which the generator's step may have to be shorter. */
+void blind_draw_missing(blind_chance *chance, blind_trial *trial, int which);
+
 /* The true rig, with the effects whose bit is set in `which`. */
 second_rig blind_truth(const blind_trial *trial, unsigned which);
 

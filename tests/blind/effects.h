@@ -51,6 +51,9 @@ int blind_is_listed(const blind_effect *effect);
 /* First row of that name; NULL if there is none. */
 const blind_effect *blind_effect_named(const char *name);
 
+/* The effect of that name whose line resists as an orifice does, for logs as recorded; NULL if it has none. */
+const blind_effect *blind_turbulent_of(const blind_effect *effect);
+
 double blind_scale_of(blind_scale *scale, const second_rig *rig);
 
 /* A field of a rig by its offset. */

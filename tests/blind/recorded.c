@@ -9,9 +9,10 @@
 /* ---- The tables ---- */
 
 const blind_share blind_imperfections[BLIND_IMPERFECTIONS] = {
-    {"positioner", 0.4}, {"ramps", 0.2}, {"tolerance", 0.25}, {"beyond", 0.25},      {"onset", 0.35},
-    {"filter", 0.3},     {"bits", 0.3},  {"rounding", 0.25},  {"jitter", 0.25},      {"hum", 0.2},
-    {"colour", 0.2},     {"drift", 0.2}, {"dropouts", 0.25},  {"noise_wrong", 0.15}, {"noise_untold", 0.6},
+    {"positioner", 0.4}, {"ramps", 0.2},        {"tolerance", 0.25},   {"beyond", 0.25},
+    {"onset", 0.35},     {"filter", 0.3},       {"bits", 0.3},         {"rounding", 0.25},
+    {"jitter", 0.25},    {"hum", 0.2},          {"colour", 0.2},       {"drift", 0.2},
+    {"dropouts", 0.25},  {"noise_wrong", 0.15}, {"noise_untold", 0.6}, {"turbulent", 0.5},
 };
 
 /* Trials of which only the declared values are off, so that what comes of that alone can be seen. */
@@ -219,6 +220,32 @@ second_rig blind_recorded_first(const blind_recorded *r, unsigned which)
   return blind_truth(&r->t, begins ? 0 : which);
 }
 
+/* ---- Lines ---- */
+
+static int any_line(const blind_trial *t)
+{
+  int i, any = 0;
+  for (i = 0; i < t->n_missing; i++)
+    any |= blind_turbulent_of(t->missing[i].effect) != NULL;
+  return any;
+}
+
+/* A line that begins within the log is a supply's and holds no air, which would have been there before. */
+static void draw_lines(blind_chance *c, blind_recorded *r)
+{
+  int i;
+  for (i = 0; i < r->t.n_missing; i++) {
+    blind_missing *m = &r->t.missing[i];
+    const blind_effect *line = blind_turbulent_of(m->effect);
+    if (!line || !has(r, BLIND_TURBULENT))
+      continue;
+    m->effect = line;
+    blind_draw_missing(c, &r->t, i);
+    if (has(r, BLIND_ONSET))
+      m->shape[0] = 0;
+  }
+}
+
 /* ---- Commands ---- */
 
 /* The schedule of the clean trial, in the time that this rig takes; ramps last up to half a move. */
@@ -349,12 +376,12 @@ static void draw_spoils(blind_chance *c, blind_recorded *r)
 
 /* ---- The whole ---- */
 
-static void draw_kinds(blind_chance *c, unsigned without, blind_recorded *r)
+static void draw_kinds(blind_chance *c, blind_chance *apart, unsigned without, blind_recorded *r)
 {
   const int plain = blind_uniform(c, 0, 1) < plain_share;
   int i;
   for (i = 0; i < BLIND_IMPERFECTIONS; i++) {
-    const int drawn = blind_uniform(c, 0, 1) < blind_imperfections[i].share;
+    const int drawn = blind_uniform(i < BLIND_TURBULENT ? c : apart, 0, 1) < blind_imperfections[i].share;
     if (drawn && !plain && !(without & (1u << i)))
       r->has |= 1u << i;
   }
@@ -364,6 +391,8 @@ static void draw_kinds(blind_chance *c, unsigned without, blind_recorded *r)
     r->has &= ~(1u << BLIND_NOISE_WRONG);
   if (has(r, BLIND_ONSET) && r->t.n_missing == 0) /* which is beyond */
     r->has &= ~(1u << BLIND_BEYOND);
+  if (!any_line(&r->t))
+    r->has &= ~(1u << BLIND_TURBULENT);
 }
 
 /* Which channels a loop is logged with; those that the effects are seen in are never left out. */
@@ -383,15 +412,17 @@ void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_reco
 {
   blind_chance c = blind_chance_of(seed + 1000003, (uint64_t)number);
   blind_chance of_vent = blind_chance_of(seed + 2000003, (uint64_t)number);
+  blind_chance apart = blind_chance_of(seed + 3000003, (uint64_t)number);
   double clean_time, at;
   memset(r, 0, sizeof *r);
   blind_draw(seed, number, &r->t);
   clean_time = blind_filling_time(&r->t.base);
-  draw_kinds(&c, without, r);
+  draw_kinds(&c, &apart, without, r);
   draw_loop(&c, r);
   draw_told(&c, r);
   r->vent = 1 + BLIND_VENT_KNOWN * normal(&of_vent);
   draw_values(&c, r);
+  draw_lines(&apart, r);
   r->spacing = draw_spacing(&c, r->loop);
   draw_positioner(&c, &r->positioner);
   if (r->loop == BLIND_OPEN)

@@ -9,7 +9,8 @@
 
 #include "draw.h"
 
-/* What may be said of a log, each with its share of the trials, in the order of blind_imperfections. */
+/* What may be said of a log, each with its share of the trials that can have it, in the order of blind_imperfections.
+ * From BLIND_TURBULENT on they are drawn apart, so that trials without them are as they were. */
 enum blind_imperfection {
   BLIND_POSITIONER, /* holds the stem at a set position */
   BLIND_RAMPS,      /* commands ramp, they do not step */
@@ -26,6 +27,7 @@ enum blind_imperfection {
   BLIND_DROPOUTS,    /* empty fields, missing rows */
   BLIND_NOISE_WRONG, /* the declared noise is off */
   BLIND_NOISE_UNTOLD,
+  BLIND_TURBULENT, /* a tube or a supply line that is missing resists as an orifice does, the supply's holds air */
   BLIND_IMPERFECTIONS
 };
 

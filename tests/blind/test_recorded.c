@@ -24,8 +24,65 @@ static void test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_cl
     blind_draw(1, k, &clean);
     assert_memory_equal(&r, &again, sizeof r);
     assert_memory_equal(&r.t.declared, &clean.declared, sizeof clean.declared);
-    assert_memory_equal(r.t.missing, clean.missing, sizeof clean.missing);
+    if (!(r.has & (1u << BLIND_TURBULENT)))
+      assert_memory_equal(r.t.missing, clean.missing, sizeof clean.missing);
   }
+}
+
+static int has(const blind_recorded *r, int imperfection)
+{
+  return (r->has >> imperfection) & 1;
+}
+
+/* A line by its name, a supply's or a tube's, or any other effect. */
+static int is_supply(const blind_missing *m)
+{
+  return strcmp(m->effect->name, "supply_droop") == 0;
+}
+
+static int is_line(const blind_missing *m)
+{
+  return is_supply(m) || strcmp(m->effect->name, "connecting_tube") == 0;
+}
+
+static void assert_turbulent(const blind_recorded *r, int which)
+{
+  const blind_missing *m = &r->t.missing[which];
+  const second_rig first = blind_recorded_first(r, BLIND_ALL), g = blind_recorded_later(r, BLIND_ALL);
+  const double chamber = g.dead_volume + g.area * g.stroke;
+  check_note("trial %d", r->t.number);
+  assert_between(m->size * blind_full_flow(&r->t.base) / r->t.base.supply, 0.00299, 0.301);
+  assert_close(is_supply(m) ? g.supply_droop : g.tube_resistance, m->size, 0, 0);
+  assert_close(is_supply(m) ? g.supply_turbulence : g.tube_turbulence, 1, 0, 0);
+  assert_close(first.supply_volume, g.supply_volume, 0, 0);
+  if (is_supply(m) && has(r, BLIND_ONSET))
+    assert_close(g.supply_volume, 0, 0, 0);
+  else if (is_supply(m) && r->beyond < 0)
+    assert_between(g.supply_volume / chamber, 0.0199, 0.301);
+}
+
+static void test_blind_draw_recorded__many__half_of_the_lines_are_turbulent(void **state)
+{
+  int lines = 0, turbulent = 0, begin = 0, k, i;
+  (void)state;
+  for (k = 0; k < 4000; k++) {
+    const blind_recorded r = draw(k);
+    const second_rig g = blind_recorded_later(&r, BLIND_ALL);
+    for (i = 0; i < r.t.n_missing; i++) {
+      if (!is_line(&r.t.missing[i]))
+        continue;
+      lines++;
+      turbulent += has(&r, BLIND_TURBULENT);
+      begin += has(&r, BLIND_TURBULENT) && has(&r, BLIND_ONSET);
+      if (has(&r, BLIND_TURBULENT))
+        assert_turbulent(&r, i);
+      else
+        assert_close(g.supply_turbulence + g.supply_volume + g.tube_turbulence, 0, 0, 0);
+    }
+  }
+  assert_between(lines, 150, 300);
+  assert_between((double)turbulent / lines, 0.35, 0.55); /* 0.45: some are plain */
+  assert_true(begin > 0);
 }
 
 static void test_blind_draw_recorded__many__imperfections_have_their_share(void **state)
@@ -41,7 +98,7 @@ static void test_blind_draw_recorded__many__imperfections_have_their_share(void 
   }
   for (i = 0; i < BLIND_IMPERFECTIONS; i++) {
     double share = 0.9 * blind_imperfections[i].share;
-    if (i == BLIND_ONSET) /* not every effect can begin */
+    if (i == BLIND_ONSET || i >= BLIND_TURBULENT) /* not every trial can have these */
       continue;
     if (i == BLIND_BEYOND) /* an onset takes its place where nothing is missing */
       share *= 1 - 0.15 * blind_imperfections[BLIND_ONSET].share;
@@ -134,6 +191,46 @@ static void test_blind_draw_recorded__without__has_none_of_it(void **state)
     assert_close(r.hum[0] + r.hum[1], 0, 0, 0);
     assert_memory_equal(r.off, all.off, sizeof r.off);
   }
+}
+
+/* ---- Lines ---- */
+
+/* p of the trial at a step of the generator, noise-free; to be freed. */
+static blind_fine run_at(const blind_recorded *r, double step)
+{
+  const second_rig g = blind_recorded_later(r, BLIND_ALL);
+  blind_fine fine;
+  assert_int_equal(blind_run_recorded(r, &g, &g, step, &fine, &error), LAB_OK);
+  return fine;
+}
+
+/* The least that is drawn follows at once: three times the step of the trial, as for what a log can show, is short
+ * enough. */
+static void assert_step_is_short_enough(const char *name)
+{
+  blind_recorded r = draw(0);
+  blind_missing *m = &r.t.missing[0];
+  blind_fine coarse, fine;
+  size_t i;
+  m->effect = blind_turbulent_of(blind_effect_named(name));
+  m->size = m->effect->lo * blind_scale_of(m->effect->scale, &r.t.base);
+  m->shape[0] = m->effect->shape[0].lo * blind_scale_of(m->effect->shape[0].scale, &r.t.base);
+  r.t.n_missing = 1;
+  r.end = r.move[2].t;
+  coarse = run_at(&r, 3 * m->effect->step);
+  fine = run_at(&r, 0.5 * m->effect->step);
+  check_note("%s", name);
+  for (i = 0; i < fine.rows.n; i++)
+    assert_close(coarse.rows.p[i], fine.rows.p[i], 1e-5 * r.t.base.supply, 0);
+  blind_fine_free(&coarse);
+  blind_fine_free(&fine);
+}
+
+static void test_blind_run_recorded__least_turbulent_lines__are_followed_at_their_step(void **state)
+{
+  (void)state;
+  assert_step_is_short_enough("supply_droop");
+  assert_step_is_short_enough("connecting_tube");
 }
 
 /* ---- Sensors and logger ---- */
@@ -430,11 +527,13 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial),
+      cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_lines_are_turbulent),
       cmocka_unit_test(test_blind_draw_recorded__many__imperfections_have_their_share),
       cmocka_unit_test(test_blind_draw_recorded__many__values_are_off_by_their_tolerance),
       cmocka_unit_test(test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth),
       cmocka_unit_test(test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off),
       cmocka_unit_test(test_blind_draw_recorded__without__has_none_of_it),
+      cmocka_unit_test(test_blind_run_recorded__least_turbulent_lines__are_followed_at_their_step),
       cmocka_unit_test(test_blind_spoil__nothing__shows_what_is_there),
       cmocka_unit_test(test_blind_spoil__filter__has_its_time_constant),
       cmocka_unit_test(test_blind_spoil__bits__are_steps_of_the_range),
