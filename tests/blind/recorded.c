@@ -9,10 +9,10 @@
 /* ---- The tables ---- */
 
 const blind_share blind_imperfections[BLIND_IMPERFECTIONS] = {
-    {"positioner", 0.4}, {"ramps", 0.2},        {"tolerance", 0.25},   {"beyond", 0.25},
-    {"onset", 0.35},     {"filter", 0.3},       {"bits", 0.3},         {"rounding", 0.25},
-    {"jitter", 0.25},    {"hum", 0.2},          {"colour", 0.2},       {"drift", 0.2},
-    {"dropouts", 0.25},  {"noise_wrong", 0.15}, {"noise_untold", 0.6}, {"turbulent", 0.5},
+    {"positioner", 0.4}, {"ramps", 0.2},    {"tolerance", 0.25}, {"beyond", 0.25},      {"onset", 0.35},
+    {"filter", 0.3},     {"bits", 0.3},     {"rounding", 0.25},  {"jitter", 0.25},      {"hum", 0.2},
+    {"colour", 0.2},     {"drift", 0.2},    {"dropouts", 0.25},  {"noise_wrong", 0.15}, {"noise_untold", 0.6},
+    {"turbulent", 0.5},  {"integral", 0.5},
 };
 
 /* Trials of which only the declared values are off, so that what comes of that alone can be seen. */
@@ -310,6 +310,14 @@ static void draw_positioner(blind_chance *c, second_positioner *k)
   k->cycle = 1e-3;
 }
 
+static void draw_integral(blind_chance *c, blind_recorded *r)
+{
+  const double opens = blind_uniform(c, -BLIND_INTEGRAL_OPENS, BLIND_INTEGRAL_OPENS);
+  if (r->loop == BLIND_OPEN || r->positioner.integral_time == 0)
+    r->has &= ~(1u << BLIND_INTEGRAL);
+  r->positioner.integral_start = has(r, BLIND_INTEGRAL) ? opens / r->positioner.gain : 0;
+}
+
 /* Rows a second of each way to log; a whole number of milliseconds, or of a fifth of one, between rows. */
 static double draw_spacing(blind_chance *c, int loop)
 {
@@ -425,6 +433,7 @@ void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_reco
   draw_lines(&apart, r);
   r->spacing = draw_spacing(&c, r->loop);
   draw_positioner(&c, &r->positioner);
+  draw_integral(&apart, r);
   if (r->loop == BLIND_OPEN)
     open_moves(&c, clean_time, r);
   else

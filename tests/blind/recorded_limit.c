@@ -6,9 +6,9 @@
 
 #include "limit.h"
 
-/* Values, instants, effects, the vent beside the fill orifice, and of two sensors zero, gain, lag and drift, and the
- * clock between them. */
-enum { INSTRUMENTS = 10, COLUMNS = BLIND_VALUES + BLIND_PIECES + BLIND_AT_ONCE + INSTRUMENTS };
+/* Values, instants, effects, the vent beside the fill orifice, the integral of a loop, and of two sensors zero, gain,
+ * lag and drift, and the clock between them. */
+enum { INSTRUMENTS = 11, COLUMNS = BLIND_VALUES + BLIND_PIECES + BLIND_AT_ONCE + INSTRUMENTS };
 
 /* Standard deviations of ordinary instruments: shares of the span, 1, s, shares of the span over the log, s. */
 static const double zero_known = 0.0025, gain_known = 0.0025, lag_known = 5e-3, drift_known = 0.0025,
@@ -159,6 +159,21 @@ static int vent_column(work *w, lab_error *error)
   return LAB_OK;
 }
 
+/* Where a loop has worked before, by the standard deviation of what it leaves. */
+static int integral_column(work *w, lab_error *error)
+{
+  blind_recorded r = w->r;
+  double *c;
+  if (!(r.has & (1u << BLIND_INTEGRAL)))
+    return LAB_OK;
+  c = next_column(w);
+  r.positioner.integral_start += slope_part * BLIND_INTEGRAL_OPENS / sqrt(3) / r.positioner.gain;
+  if (differ(w, &r, w->which, slope_part, c, error))
+    return error->status;
+  is_known(w, c);
+  return LAB_OK;
+}
+
 /* Where the stem is held, the set position is known at every row. */
 static int instant_columns(work *w, lab_error *error)
 {
@@ -237,7 +252,8 @@ static void instrument_columns(work *w)
 /* Values first, then effects, then the vent. */
 static int columns(work *w, lab_error *error)
 {
-  if (value_columns(w, error) || effect_columns(w, error) || vent_column(w, error) || instant_columns(w, error))
+  if (value_columns(w, error) || effect_columns(w, error) || vent_column(w, error) || integral_column(w, error) ||
+      instant_columns(w, error))
     return error->status;
   instrument_columns(w);
   return LAB_OK;

@@ -144,6 +144,8 @@ static void write_details(FILE *file, const blind_recorded *r)
   write_two(file, "hum", r->hum, 100, "%");
   write_two(file, "colour", r->colour, 1, "sigma");
   write_two(file, "drift", r->drift, 100, "%");
+  if (r->positioner.integral_start != 0)
+    fprintf(file, "; integral from %.3g %%", 100 * r->positioner.integral_start);
   if (r->rounding > 0)
     fprintf(file, "; time to %g ms", r->rounding * 1e3);
   if (r->jitter > 0)

@@ -172,9 +172,10 @@ static void test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off(void **st
   assert_between((double)more / seen, 0.3, 0.6);
 }
 
-/* What is left out leaves all else as it was. */
+/* What is left out leaves all else as it was, but for what a loop alone can have. */
 static void test_blind_draw_recorded__without__has_none_of_it(void **state)
 {
+  const unsigned of_loops = 1u << BLIND_INTEGRAL;
   unsigned without;
   int k;
   (void)state;
@@ -186,11 +187,31 @@ static void test_blind_draw_recorded__without__has_none_of_it(void **state)
     const blind_recorded all = draw(k);
     blind_recorded r;
     blind_draw_recorded(1, k, without, &r);
-    assert_int_equal(r.has, all.has & ~without);
+    assert_int_equal(r.has, all.has & ~(without | of_loops));
     assert_int_equal(r.loop, BLIND_OPEN);
     assert_close(r.hum[0] + r.hum[1], 0, 0, 0);
     assert_memory_equal(r.off, all.off, sizeof r.off);
   }
+}
+
+static void test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first(void **state)
+{
+  int loops = 0, worked = 0, up = 0, k;
+  (void)state;
+  for (k = 0; k < 4000; k++) {
+    const blind_recorded r = draw(k);
+    const second_positioner *p = &r.positioner;
+    const int can = r.loop != BLIND_OPEN && p->integral_time > 0;
+    check_note("trial %d", k);
+    loops += can;
+    worked += p->integral_start != 0;
+    up += p->integral_start > 0;
+    assert_int_equal(p->integral_start != 0, has(&r, BLIND_INTEGRAL));
+    assert_true(can || p->integral_start == 0);
+    assert_between(p->gain * p->integral_start, -0.3, 0.3);
+  }
+  assert_between((double)worked / loops, 0.45, 0.55);
+  assert_between((double)up / worked, 0.4, 0.6);
 }
 
 /* ---- Lines ---- */
@@ -528,6 +549,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial),
       cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_lines_are_turbulent),
+      cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first),
       cmocka_unit_test(test_blind_draw_recorded__many__imperfections_have_their_share),
       cmocka_unit_test(test_blind_draw_recorded__many__values_are_off_by_their_tolerance),
       cmocka_unit_test(test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth),
