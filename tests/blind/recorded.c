@@ -12,7 +12,7 @@ const blind_share blind_imperfections[BLIND_IMPERFECTIONS] = {
     {"positioner", 0.4}, {"ramps", 0.2},    {"tolerance", 0.25}, {"beyond", 0.25},      {"onset", 0.35},
     {"filter", 0.3},     {"bits", 0.3},     {"rounding", 0.25},  {"jitter", 0.25},      {"hum", 0.2},
     {"colour", 0.2},     {"drift", 0.2},    {"dropouts", 0.25},  {"noise_wrong", 0.15}, {"noise_untold", 0.6},
-    {"turbulent", 0.5},  {"integral", 0.5},
+    {"turbulent", 0.5},  {"integral", 0.5}, {"long_ramps", 0.3},
 };
 
 /* Trials of which only the declared values are off, so that what comes of that alone can be seen. */
@@ -280,6 +280,28 @@ static void set_moves(blind_chance *c, blind_recorded *r)
   r->end = t;
 }
 
+/* From the first set position slowly to the other side of the stroke, in half of the trials with as long a way back,
+ * over a third of the log or more; moves that would fall into that are not made. */
+static void draw_long_ramps(blind_chance *c, blind_recorded *r)
+{
+  const double share = blind_uniform(c, 1.0 / 3, 1), side = blind_uniform(c, 0.05, 0.3);
+  const int ways = blind_uniform(c, 0, 1) < 0.5 ? 1 : 2;
+  const double begins = r->move[1].t, lasts = fmin(share * r->end, r->end - begins), way = lasts / ways;
+  const double from = r->move[0].to, to = from < 0.5 ? 1 - side : side;
+  int next = 1;
+  if (r->loop == BLIND_OPEN)
+    r->has &= ~(1u << BLIND_LONG_RAMPS);
+  if (!has(r, BLIND_LONG_RAMPS))
+    return;
+  while (next < r->n_moves && r->move[next].t < begins + lasts)
+    next++;
+  memmove(&r->move[1 + ways], &r->move[next], (size_t)(r->n_moves - next) * sizeof r->move[0]);
+  r->n_moves += 1 + ways - next;
+  r->move[1] = (blind_move){begins, to, way};
+  if (ways == 2)
+    r->move[2] = (blind_move){begins + way, from, way};
+}
+
 /* A slow logger keeps on longer, with longer holds, up to some minutes. What takes minutes is run in longer steps,
  * where no effect asks for short ones. */
 static void stretch(blind_recorded *r)
@@ -438,6 +460,7 @@ void blind_draw_recorded(uint64_t seed, int number, unsigned without, blind_reco
     open_moves(&c, clean_time, r);
   else
     set_moves(&c, r);
+  draw_long_ramps(&apart, r);
   stretch(r);
   at = blind_uniform(&c, 0.3, 0.7) * r->end;
   r->onset = has(r, BLIND_ONSET) ? at : (double)NAN;

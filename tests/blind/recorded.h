@@ -27,8 +27,9 @@ enum blind_imperfection {
   BLIND_DROPOUTS,    /* empty fields, missing rows */
   BLIND_NOISE_WRONG, /* the declared noise is off */
   BLIND_NOISE_UNTOLD,
-  BLIND_TURBULENT, /* a tube or a supply line that is missing resists as an orifice does, the supply's holds air */
-  BLIND_INTEGRAL,  /* the loop has worked before: the integral of its positioner is not 0 at the first row */
+  BLIND_TURBULENT,  /* a tube or a supply line that is missing resists as an orifice does, the supply's holds air */
+  BLIND_INTEGRAL,   /* the loop has worked before: the integral of its positioner is not 0 at the first row */
+  BLIND_LONG_RAMPS, /* the set position goes slowly up or down over a third of the log or more */
   BLIND_IMPERFECTIONS
 };
 

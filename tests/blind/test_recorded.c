@@ -175,7 +175,7 @@ static void test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off(void **st
 /* What is left out leaves all else as it was, but for what a loop alone can have. */
 static void test_blind_draw_recorded__without__has_none_of_it(void **state)
 {
-  const unsigned of_loops = 1u << BLIND_INTEGRAL;
+  const unsigned of_loops = 1u << BLIND_INTEGRAL | 1u << BLIND_LONG_RAMPS;
   unsigned without;
   int k;
   (void)state;
@@ -212,6 +212,47 @@ static void test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_f
   }
   assert_between((double)worked / loops, 0.45, 0.55);
   assert_between((double)up / worked, 0.4, 0.6);
+}
+
+/* Time of its moves; the longest run of ramps without a hold between them. */
+static double longest_ramp(const blind_recorded *r)
+{
+  double longest = 0, begins = 0, ends = -1;
+  int i;
+  for (i = 0; i < r->n_moves; i++) {
+    const blind_move *m = &r->move[i];
+    assert_true(i == 0 || m->t >= ends);
+    begins = m->ramp > 0 && m->t > ends + 1e-9 ? m->t : begins;
+    ends = m->t + m->ramp;
+    longest = m->ramp > 0 ? fmax(longest, ends - begins) : longest;
+  }
+  assert_true(ends <= r->end * (1 + 1e-12));
+  return longest;
+}
+
+static void test_blind_draw_recorded__many__some_loops_follow_long_ramps(void **state)
+{
+  int loops = 0, ramps = 0, back = 0, whole = 0, k;
+  (void)state;
+  for (k = 0; k < 2000; k++) {
+    const blind_recorded r = draw(k);
+    const double from = r.move[0].to, to = r.move[1].to;
+    check_note("trial %d", k);
+    loops += r.loop != BLIND_OPEN;
+    if (r.loop == BLIND_OPEN || !has(&r, BLIND_LONG_RAMPS)) {
+      assert_int_equal(has(&r, BLIND_LONG_RAMPS), 0);
+      continue;
+    }
+    ramps++;
+    back += r.n_moves > 2 && r.move[2].ramp == r.move[1].ramp && r.move[2].to == from;
+    whole += longest_ramp(&r) > 0.9 * (r.end - r.move[1].t);
+    assert_true(longest_ramp(&r) > 0.33 * r.end);
+    assert_between(fabs(to - from), 0.2, 1);
+    assert_between(to, 0.05, 0.95);
+  }
+  assert_between((double)ramps / loops, 0.2, 0.34); /* 0.27: some are plain */
+  assert_between((double)back / ramps, 0.4, 0.6);
+  assert_true(whole > 0);
 }
 
 /* ---- Lines ---- */
@@ -550,6 +591,7 @@ int main(void)
       cmocka_unit_test(test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial),
       cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_lines_are_turbulent),
       cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first),
+      cmocka_unit_test(test_blind_draw_recorded__many__some_loops_follow_long_ramps),
       cmocka_unit_test(test_blind_draw_recorded__many__imperfections_have_their_share),
       cmocka_unit_test(test_blind_draw_recorded__many__values_are_off_by_their_tolerance),
       cmocka_unit_test(test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth),
