@@ -15,7 +15,8 @@ const blind_share blind_imperfections[BLIND_IMPERFECTIONS] = {
     {"turbulent", 0.5},  {"integral", 0.5}, {"long_ramps", 0.3},
 };
 
-/* Trials of which only the declared values are off, so that what comes of that alone can be seen. */
+/* Trials of which only the declared values are off, so that what comes of that alone can be seen; which form an effect
+ * has is no matter of the log. */
 static const double plain_share = 0.1;
 
 /* Tolerances are the documented defaults. Viscous friction is declared in two parts, of which the greater is fitted. */
@@ -412,7 +413,7 @@ static void draw_kinds(blind_chance *c, blind_chance *apart, unsigned without, b
   int i;
   for (i = 0; i < BLIND_IMPERFECTIONS; i++) {
     const int drawn = blind_uniform(i < BLIND_TURBULENT ? c : apart, 0, 1) < blind_imperfections[i].share;
-    if (drawn && !plain && !(without & (1u << i)))
+    if (drawn && (!plain || i == BLIND_TURBULENT) && !(without & (1u << i)))
       r->has |= 1u << i;
   }
   if (!may_begin(&r->t))
