@@ -350,10 +350,10 @@ int blind_recorded_summary_write(FILE *file, const blind_record *record, int n, 
       file,
       "# Blind trials of closeloop on logs as they are recorded\n\n%d trials, seed %" PRIu64
       ", written by `make blind`. Rigs and effects are those of the clean series (blind.md). What is declared is off "
-      "by what its tolerance allows, one value in some rigs by 3 to 6 times that; a positioner holds the stem in some; "
-      "sensors have filters, hum, noise with memory, drift; loggers round time, jitter and lose rows; what is wrong "
-      "may begin within the log. closeloop gets one log and the rig file, and %d s of CPU. Every trial is a line of "
-      "the "
+      "by what its tolerance allows, one value in some rigs by 3 to 6 times that; a positioner holds the stem in some, "
+      "along slow ramps or after work before the log; some lines resist as orifices; sensors have filters, hum, noise "
+      "with memory, drift; loggers round time, jitter and lose rows; what is wrong may begin within the log. closeloop "
+      "gets one log and the rig file, and %d s of CPU. Every trial is a line of the "
       "table beside this; `make blind-trial K=n SERIES=blind_recorded` repeats one.\n\n"
       "What counts as what, and what the log can show at best, is written in tests/blind/recorded_score.h and "
       "recorded_limit.h.\n\n",
@@ -362,7 +362,8 @@ int blind_recorded_summary_write(FILE *file, const blind_record *record, int n, 
   write_times(file, record, n, time);
   write_groups(file, record, n, time);
   fputs("\n## Misses, one by one\n\nAll that are not right, and those right ones of which a deviation or an onset is "
-        "not. Deviations: true value over declared; NOT: not found.\n\n",
+        "not. Deviations: true value over declared, of the vent the share by which it is narrower than "
+        "the fill orifice; NOT: not found.\n\n",
         file);
   blind_recorded_misses(file, record, n);
   free(time);
