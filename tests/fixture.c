@@ -143,6 +143,18 @@ fixture_sample fixture_look(const pneu_model *model, const pneu_state *state, co
   return s;
 }
 
+fixture_rig fixture_at(pneu_model model, double u, double pressure, double position)
+{
+  fixture_rig rig = {.m = model, .input = fixture_input(&model, u)};
+  rig.s = fixture_rest(&rig.m, pressure, position, &rig.input);
+  return rig;
+}
+
+fixture_sample fixture_see(const fixture_rig *rig)
+{
+  return fixture_look(&rig->m, &rig->s, &rig->input);
+}
+
 static int record_event(void *context, pneu_real t, const pneu_state *state, int mode_before)
 {
   fixture_events *e = context;
@@ -172,6 +184,11 @@ void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *i
     own.delay = &late;
   assert_int_equal(pneu_run(model, state, &own, (pneu_real)duration, &options, events ? &observer : NULL, &work),
                    PNEU_OK);
+}
+
+void fixture_go(fixture_rig *rig, double duration, double tol, fixture_events *events)
+{
+  fixture_run(&rig->m, &rig->s, &rig->input, duration, tol, events);
 }
 
 /* Where the samples of a trace go. */

@@ -71,10 +71,23 @@ pneu_state fixture_rest(const pneu_model *model, double pressure, double positio
 
 fixture_sample fixture_look(const pneu_model *model, const pneu_state *state, const pneu_input *input);
 
+/* A model, what drives it, and where it is. */
+typedef struct fixture_rig {
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+} fixture_rig;
+
+/* At rest under a command, as by fixture_rest. */
+fixture_rig fixture_at(pneu_model model, double u, double pressure, double position);
+
+fixture_sample fixture_see(const fixture_rig *rig);
+
 /* Run for `duration`, without input->delay under a command that has been acting; fails the test unless the run
  * succeeds. Out: events (may be NULL) */
 void fixture_run(const pneu_model *model, pneu_state *state, const pneu_input *input, double duration, double tol,
                  fixture_events *events);
+void fixture_go(fixture_rig *rig, double duration, double tol, fixture_events *events);
 
 /* Steps that the standard experiment takes, at tol 1e-6 (single: 1e-4); fails the test unless the run succeeds. */
 long fixture_steps(const pneu_model *model);

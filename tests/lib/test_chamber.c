@@ -30,14 +30,13 @@ static void test_pneu_run__choked_isothermal_blowdown__is_exponential(void **sta
   (void)state;
   p.critical_ratio = (pneu_real)0.528;
   for (j = 0; j < COUNT(laws); j++) {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, laws[j]);
-    const pneu_input input = fixture_input(&m, -0.5);
-    pneu_state s = fixture_rest(&m, p0 - (double)p.ambient_pressure, 0, &input);
+    fixture_rig rig =
+        fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, laws[j]), -0.5, p0 - (double)p.ambient_pressure, 0);
     for (i = 1; i <= 4; i++) {
-      fixture_run(&m, &s, &input, 0.5 * tau, FIXTURE_TOL, NULL);
+      fixture_go(&rig, 0.5 * tau, FIXTURE_TOL, NULL);
       check_note("%s, t = %g tau", pneu_flow_key(laws[j]), 0.5 * i);
-      assert_close(absolute(&p, &s), p0 * exp(-0.5 * i), 0, TOL(1e-9, 1e-4));
-      assert_close(s.T, p.ambient_temperature, 0, 0);
+      assert_close(absolute(&p, &rig.s), p0 * exp(-0.5 * i), 0, TOL(1e-9, 1e-4));
+      assert_close(rig.s.T, p.ambient_temperature, 0, 0);
     }
   }
 }
@@ -50,15 +49,13 @@ static void test_pneu_run__choked_adiabatic_blowdown__follows_the_power_law(void
   int i, j;
   (void)state;
   for (j = 0; j < COUNT(gases); j++) {
-    const pneu_model m = fixture_model(&p, gases[j], PNEU_FLOW_CHOKED);
-    const pneu_input input = fixture_input(&m, -1);
-    pneu_state s = fixture_rest(&m, p0 - (double)p.ambient_pressure, 0, &input);
+    fixture_rig rig = fixture_at(fixture_model(&p, gases[j], PNEU_FLOW_CHOKED), -1, p0 - (double)p.ambient_pressure, 0);
     for (i = 1; i <= 4; i++) {
       const double z = 1 + (g - 1) / 2 * 0.4 * i;
-      fixture_run(&m, &s, &input, 0.4 * tau, FIXTURE_TOL, NULL);
+      fixture_go(&rig, 0.4 * tau, FIXTURE_TOL, NULL);
       check_note("%s, t = %g tau", pneu_gas_key(gases[j]), 0.4 * i);
-      assert_close(absolute(&p, &s), p0 * pow(z, -2 * g / (g - 1)), 0, TOL(1e-9, 2e-4));
-      assert_close(s.T, (double)p.ambient_temperature * pow(z, -2), 0, TOL(1e-9, 1e-4));
+      assert_close(absolute(&p, &rig.s), p0 * pow(z, -2 * g / (g - 1)), 0, TOL(1e-9, 2e-4));
+      assert_close(rig.s.T, (double)p.ambient_temperature * pow(z, -2), 0, TOL(1e-9, 1e-4));
     }
   }
 }
@@ -69,15 +66,13 @@ static void test_pneu_run__isothermal_fill_by_paper_law__pressure_is_quadratic_i
   pneu_params p = fixture_vessel(1e-3);
   const double R = gas_constant(&p), T = (double)p.ambient_temperature, pu = 4e5 + (double)p.ambient_pressure;
   const double k = R * T * 1e-6 / 1e-3 * sqrt(2 * pu / (R * T)), s0 = sqrt(4e5);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 0, 0);
   int i;
   (void)state;
   for (i = 1; i <= 4; i++) {
     const double t = 0.2 * i * 2 * s0 / k, root = s0 - k * t / 2;
-    fixture_run(&m, &s, &input, 0.2 * 2 * s0 / k, FIXTURE_TOL, NULL);
-    assert_close(s.p, 4e5 - root * root, 0, TOL(1e-9, 1e-4));
+    fixture_go(&rig, 0.2 * 2 * s0 / k, FIXTURE_TOL, NULL);
+    assert_close(rig.s.p, 4e5 - root * root, 0, TOL(1e-9, 1e-4));
   }
 }
 
@@ -87,14 +82,12 @@ static void test_pneu_run__isothermal_vent_by_paper_law__follows_the_hyperbolic_
   pneu_params p = fixture_vessel(1e-3);
   const double R = gas_constant(&p), T = (double)p.ambient_temperature, pa = (double)p.ambient_pressure;
   const double k = R * T * 1e-6 / 1e-3 * sqrt(2 / (R * T)), c = acosh(2 * (4e5 + pa) / pa - 1);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, -1);
-  pneu_state s = fixture_rest(&m, 4e5, 0, &input);
+  fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -1, 4e5, 0);
   int i;
   (void)state;
   for (i = 1; i <= 4; i++) {
-    fixture_run(&m, &s, &input, 0.2 * c / k, FIXTURE_TOL, NULL);
-    assert_close(absolute(&p, &s), pa * (1 + cosh(c * (1 - 0.2 * i))) / 2, 0, TOL(1e-9, 1e-4));
+    fixture_go(&rig, 0.2 * c / k, FIXTURE_TOL, NULL);
+    assert_close(absolute(&p, &rig.s), pa * (1 + cosh(c * (1 - 0.2 * i))) / 2, 0, TOL(1e-9, 1e-4));
   }
 }
 
@@ -103,34 +96,29 @@ static void test_pneu_run__adiabatic_fill__keeps_the_first_law(void **state)
 {
   pneu_params p = fixture_vessel(1e-3);
   const double g = (double)p.heat_ratio, pa = (double)p.ambient_pressure, p0 = 2e4, T0 = 298.15, Ts = 350;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   int i;
   (void)state;
   p.supply_temperature = (pneu_real)Ts;
-  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  input = fixture_input(&m, 1);
-  s = fixture_rest(&m, p0 - pa, 0, &input);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, p0 - pa, 0);
   for (i = 0; i < 5; i++) {
     double p1;
-    fixture_run(&m, &s, &input, 0.6, FIXTURE_TOL, NULL);
-    p1 = absolute(&p, &s);
-    assert_close(s.T, p1 / ((p1 - p0) / (g * Ts) + p0 / T0), 0, TOL(1e-8, 1e-4));
+    fixture_go(&rig, 0.6, FIXTURE_TOL, NULL);
+    p1 = absolute(&p, &rig.s);
+    assert_close(rig.s.T, p1 / ((p1 - p0) / (g * Ts) + p0 / T0), 0, TOL(1e-8, 1e-4));
   }
-  assert_true(absolute(&p, &s) > 3e5);
+  assert_true(absolute(&p, &rig.s) > 3e5);
 }
 
 static void test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_times_supply_temperature(void **state)
 {
   pneu_params p = fixture_vessel(1e-3);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 50 - (double)p.ambient_pressure, 0, &input);
+  fixture_rig rig =
+      fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 50 - (double)p.ambient_pressure, 0);
   (void)state;
-  fixture_run(&m, &s, &input, 60, FIXTURE_TOL, NULL);
-  assert_close(s.p, 4e5, 0, TOL(1e-8, 1e-4));
-  assert_close(s.T, (double)p.heat_ratio * 298.15, 0, 1e-3);
+  fixture_go(&rig, 60, FIXTURE_TOL, NULL);
+  assert_close(rig.s.p, 4e5, 0, TOL(1e-8, 1e-4));
+  assert_close(rig.s.T, (double)p.heat_ratio * 298.15, 0, 1e-3);
 }
 
 static void test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure(void **state)
@@ -237,13 +225,11 @@ static void test_pneu_run__moved_shut_chamber__keeps_its_mass(void **state)
   int gas;
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
-    const pneu_model m = moved(gas, 1.3);
-    pneu_input input = fixture_input(&m, 0);
-    const pneu_state s0 = fixture_rest(&m, 2e5, 0, &input);
+    fixture_rig rig = fixture_at(moved(gas, 1.3), 0, 2e5, 0);
     pneu_state s;
-    expand(&m, 0.03, &s);
+    expand(&rig.m, 0.03, &s);
     check_note("%s", pneu_gas_key(gas));
-    assert_close(pneu_mass(&m, &s), pneu_mass(&m, &s0), 0, TOL(2e-9, 1e-4));
+    assert_close(pneu_mass(&rig.m, &s), pneu_mass(&rig.m, &rig.s), 0, TOL(2e-9, 1e-4));
   }
 }
 
@@ -326,14 +312,13 @@ static void test_pneu_run__film_conductance_to_infinity__is_isothermal(void **st
 static void test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma(void **state)
 {
   static fixture_sample a[320], b[320];
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_sample *out[2];
   int gas[2] = {PNEU_GAS_ENERGY, PNEU_GAS_POLYTROPIC}, i, n = 0;
   (void)state;
   out[0] = a;
   out[1] = b;
   for (i = 0; i < 2; i++) {
-    const pneu_model m = fixture_model(&p, gas[i], PNEU_FLOW_CHOKED);
+    const pneu_model m = fixture_r1_400(gas[i], PNEU_FLOW_CHOKED);
     fixture_stretch stretch[3];
     pneu_state s;
     fixture_standard(&m, stretch);
@@ -388,14 +373,12 @@ static void test_pneu_mass__each_law__is_pv_over_rt(void **state)
   int gas;
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
-    const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_PAPER);
-    const pneu_input input = fixture_input(&m, 0);
-    pneu_state s = fixture_rest(&m, 1e5, 0.005, &input);
+    fixture_rig rig = fixture_at(fixture_model(&p, gas, PNEU_FLOW_PAPER), 0, 1e5, 0.005);
     const double T = gas == PNEU_GAS_ISOTHERMAL ? 298.15 : 400;
-    s.T = 400;
+    rig.s.T = 400;
     check_note("%s", pneu_gas_key(gas));
-    assert_close(pneu_mass(&m, &s), (1e5 + pa) * V / (R * T), 0, TOL(1e-14, 1e-6));
-    assert_close(fixture_look(&m, &s, &input).m, (1e5 + pa) * V / (R * T), 0, TOL(1e-14, 1e-6));
+    assert_close(pneu_mass(&rig.m, &rig.s), (1e5 + pa) * V / (R * T), 0, TOL(1e-14, 1e-6));
+    assert_close(fixture_see(&rig).m, (1e5 + pa) * V / (R * T), 0, TOL(1e-14, 1e-6));
   }
 }
 
@@ -405,13 +388,11 @@ static void test_pneu_run__pressure_input__follows_the_straight_line(void **stat
   int gas;
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
-    const pneu_model m = fixture_model_roles(&p, gas, PNEU_FLOW_CHOKED, 1, 0);
-    pneu_input input = fixture_input(&m, 1);
-    pneu_state s = fixture_rest(&m, 1e4, 0, &input);
-    input.pressure_rate = (pneu_real)3e4;
-    fixture_run(&m, &s, &input, 2, TOL(1e-8, 1e-5), NULL);
-    assert_close(s.p, 7e4, 0, TOL(1e-10, 1e-5));
-    assert_close(fixture_look(&m, &s, &input).in, 0, 0, 0);
+    fixture_rig rig = fixture_at(fixture_model_roles(&p, gas, PNEU_FLOW_CHOKED, 1, 0), 1, 1e4, 0);
+    rig.input.pressure_rate = (pneu_real)3e4;
+    fixture_go(&rig, 2, TOL(1e-8, 1e-5), NULL);
+    assert_close(rig.s.p, 7e4, 0, TOL(1e-10, 1e-5));
+    assert_close(fixture_see(&rig).in, 0, 0, 0);
   }
 }
 
@@ -437,22 +418,20 @@ static void test_pneu_state_rest__outside_the_domain__is_refused(void **state)
 static void test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step(void **state)
 {
   static const double bad[][3] = {{-2e5, 300, 0.01}, {NAN, 300, 0.01}, {0, -1, 0.01}, {0, NAN, 0.01}, {0, 300, -0.01}};
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 1e5, 0.01, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 1e5, 0.01);
   pneu_output out;
   int i;
   (void)state;
-  s.mode = PNEU_MODE_UP;
+  rig.s.mode = PNEU_MODE_UP;
   for (i = 0; i < COUNT(bad); i++) {
     const pneu_real y[PNEU_STATE_MAX] = {(pneu_real)bad[i][0], (pneu_real)bad[i][1], (pneu_real)bad[i][2], 0};
     pneu_real dydt[PNEU_STATE_MAX];
     check_note("case %d", i);
-    assert_int_equal(pneu_rhs(&m, &s, &input, y, dydt), PNEU_RETRY_STATE);
-    s.p = y[0];
-    s.T = y[1];
-    s.x = y[2];
-    assert_int_equal(pneu_observe(&m, &s, &input, &out), PNEU_RETRY_STATE);
+    assert_int_equal(pneu_rhs(&rig.m, &rig.s, &rig.input, y, dydt), PNEU_RETRY_STATE);
+    rig.s.p = y[0];
+    rig.s.T = y[1];
+    rig.s.x = y[2];
+    assert_int_equal(pneu_observe(&rig.m, &rig.s, &rig.input, &out), PNEU_RETRY_STATE);
   }
 }
 

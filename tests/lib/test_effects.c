@@ -195,13 +195,11 @@ static pneu_params switched_on(int e)
 /* Run 1 s with one side of the model given. */
 static pneu_state run_with_given(const pneu_params *p, int gas, int pressure, int position)
 {
-  const pneu_model m = fixture_model_roles(p, gas, PNEU_FLOW_PAPER, pressure, position);
-  pneu_input input = fixture_input(&m, 0.5);
-  pneu_state s = fixture_rest(&m, 1e5, 0.002, &input);
-  input.pressure_rate = (pneu_real)1e5;
-  input.position_rate = (pneu_real)0.01;
-  fixture_run(&m, &s, &input, 1, TOL(1e-8, 1e-5), NULL);
-  return s;
+  fixture_rig rig = fixture_at(fixture_model_roles(p, gas, PNEU_FLOW_PAPER, pressure, position), 0.5, 1e5, 0.002);
+  rig.input.pressure_rate = (pneu_real)1e5;
+  rig.input.position_rate = (pneu_real)0.01;
+  fixture_go(&rig, 1, TOL(1e-8, 1e-5), NULL);
+  return rig.s;
 }
 
 static void test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance(void **state)
@@ -239,22 +237,18 @@ static void test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas(void 
 static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   (void)state;
   fixture_need("presliding");
   fixture_need("transducer_lag");
   fixture_set(&p, "presliding_length", 2e-5);
   fixture_set(&p, "transducer_time", 0.5);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 1.2e5, 0.001, &input);
-  input.u = 1;
-  fixture_run(&m, &s, &input, 0.4, TOL(1e-7, 1e-5), NULL);
-  assert_int_equal(m.n_extra, 2);
-  assert_close(fixture_look(&m, &s, &input).opening, 1 - exp(-0.4 / 0.5), TOL(1e-6, 1e-4), 0);
-  assert_close(s.extra[m.state_of[pneu_effect_find("presliding")]], 1, 0.02, 0);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 1.2e5, 0.001);
+  rig.input.u = 1;
+  fixture_go(&rig, 0.4, TOL(1e-7, 1e-5), NULL);
+  assert_int_equal(rig.m.n_extra, 2);
+  assert_close(fixture_see(&rig).opening, 1 - exp(-0.4 / 0.5), TOL(1e-6, 1e-4), 0);
+  assert_close(rig.s.extra[rig.m.state_of[pneu_effect_find("presliding")]], 1, 0.02, 0);
 }
 
 /* Slope of the rate of an effect's first state, at z, while the stem slides up. */
@@ -328,15 +322,11 @@ static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **sta
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     pneu_params p = fixture_vessel(1e-3);
     fixture_sample look;
-    pneu_model m;
-    pneu_input input;
-    pneu_state s;
+    fixture_rig rig;
     *pneu_param_at(&p, pneu_effect_params(e, NULL)) = pneu_effect_at(e)->param[0].value;
-    m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-    input = fixture_input(&m, 1);
-    s = fixture_rest(&m, 2e5, 0, &input);
-    fixture_run(&m, &s, &input, 0.1, TOL(1e-6, 1e-4), NULL);
-    look = fixture_look(&m, &s, &input);
+    rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 2e5, 0);
+    fixture_go(&rig, 0.1, TOL(1e-6, 1e-4), NULL);
+    look = fixture_see(&rig);
     check_note("%s", names[e]);
     assert_true(isfinite(look.p) && isfinite(look.T) && isfinite(look.m) && isfinite(look.in) &&
                 isfinite(look.friction));

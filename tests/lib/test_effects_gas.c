@@ -65,10 +65,8 @@ static void footprint_laminar_leak(void)
   assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, -5e4, 0, 20).p, seeped(&p, -5e4, 1.4 * rate, 20),
                TOL(1e-4, 20), TOL(1e-9, 1e-4));
   {
-    const pneu_model m = fixture_pressed(&p);
-    const pneu_input input = fixture_input(&m, 0);
-    const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
-    assert_close(fixture_look(&m, &s, &input).out, 0, 0, 0);
+    const fixture_rig rig = fixture_at(fixture_pressed(&p), 0, 2e5, 0);
+    assert_close(fixture_see(&rig).out, 0, 0, 0);
   }
 }
 
@@ -94,22 +92,18 @@ static void footprint_chamber_exponent(void)
 {
   const double n = 1.25;
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   double share, start;
   fixture_set(&p, "exponent_rise", n - 1);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.015, &input);
-  start = (double)s.p + (double)p.ambient_pressure;
-  share = (double)pneu_volume(&m, s.x);
-  input.position_rate = (pneu_real)-0.01;
-  fixture_run(&m, &s, &input, 1, TOL(1e-9, 1e-5), NULL);
-  share /= (double)pneu_volume(&m, s.x);
+  rig = fixture_at(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1), 0, 2e5, 0.015);
+  start = (double)rig.s.p + (double)p.ambient_pressure;
+  share = (double)pneu_volume(&rig.m, rig.s.x);
+  rig.input.position_rate = (pneu_real)-0.01;
+  fixture_go(&rig, 1, TOL(1e-9, 1e-5), NULL);
+  share /= (double)pneu_volume(&rig.m, rig.s.x);
   assert_between(share, 1.5, 4);
-  assert_close((double)s.p + (double)p.ambient_pressure, start * pow(share, n), 0, TOL(1e-7, 1e-4));
-  assert_close((double)s.T, (double)p.ambient_temperature * pow(share, n - 1), 0, TOL(1e-7, 1e-4));
+  assert_close((double)rig.s.p + (double)p.ambient_pressure, start * pow(share, n), 0, TOL(1e-7, 1e-4));
+  assert_close((double)rig.s.T, (double)p.ambient_temperature * pow(share, n - 1), 0, TOL(1e-7, 1e-4));
   assert_close((double)fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).g, (double)p.heat_ratio, 0, 0);
   exponent_of_rate(n);
   if (pneu_effect_find("heat_transfer") >= 0) {
@@ -128,10 +122,8 @@ static void footprint_porous_leak(void)
   fixture_set(&p, "porous_leak", c);
   fixture_set(&p, "crossover_pressure", crossover);
   for (i = 0; i < COUNT(at); i++) {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input input = fixture_input(&m, 0);
-    const pneu_state s = fixture_rest(&m, at[i], 0, &input);
-    const fixture_sample f = fixture_look(&m, &s, &input);
+    const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, at[i], 0);
+    const fixture_sample f = fixture_see(&rig);
     const double q = f.out - f.in, share = q / (c * crossover), squared = at[i] * (at[i] + 2 * pa);
     assert_close(q / c + share * fabs(share), squared, 0, TOL(1e-12, 1e-5));
   }
@@ -140,19 +132,16 @@ static void footprint_porous_leak(void)
                seeped(&p, -5e4, 1.4 * c * (double)p.gas_constant * (double)p.ambient_temperature / 1e-3, 20), 0,
                TOL(1e-4, 1e-3));
   for (driven = 0; driven < 2; driven++) {
-    const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, driven, 0);
-    const pneu_input input = fixture_input(&m, 0);
-    const pneu_state s = fixture_rest(&m, 2e5, 0, &input);
-    assert_true(driven == !(fixture_look(&m, &s, &input).out > 0));
+    const fixture_rig rig =
+        fixture_at(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, driven, 0), 0, 2e5, 0);
+    assert_true(driven == !(fixture_see(&rig).out > 0));
   }
 }
 
 static double inflow(const pneu_params *p, int flow, double pressure)
 {
-  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
-  const pneu_input input = fixture_input(&m, 1);
-  const pneu_state s = fixture_rest(&m, pressure, 0, &input);
-  return fixture_look(&m, &s, &input).in;
+  const fixture_rig rig = fixture_at(fixture_model(p, PNEU_GAS_ISOTHERMAL, flow), 1, pressure, 0);
+  return fixture_see(&rig).in;
 }
 
 static void footprint_choked_flow(void)
@@ -171,12 +160,10 @@ static void footprint_choked_flow(void)
     assert_true(nozzle < paper);
   }
   {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input input = fixture_input(&m, 1);
-    pneu_state s = fixture_rest(&m, 0, 0, &input);
-    assert_true(fixture_look(&m, &s, &input).choked);
-    s = fixture_rest(&m, 3e5, 0, &input);
-    assert_false(fixture_look(&m, &s, &input).choked);
+    fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 0, 0);
+    assert_true(fixture_see(&rig).choked);
+    rig.s = fixture_rest(&rig.m, 3e5, 0, &rig.input);
+    assert_false(fixture_see(&rig).choked);
   }
 }
 
@@ -271,20 +258,17 @@ static void check_turbulent_series(int flow, double resistance, double c, double
   pneu_params p = warm_supply();
   const double pa = (double)p.ambient_pressure, ps = 4e5 + pa;
   double loss, q;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   pneu_flow orifice;
   fixture_set(&p, "supply_resistance", resistance);
   fixture_set(&p, "supply_turbulence", c);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
-  input = fixture_input(&m, 1);
-  s = fixture_rest(&m, p_in, 0, &input);
-  q = fixture_look(&m, &s, &input).in;
-  loss = 4e5 - fixture_look(&m, &s, &input).supply;
-  pneu_orifice(&m, flow, p.fill_area, (pneu_real)(ps - loss), p.supply_temperature, (pneu_real)(p_in + pa), &orifice);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow), 1, p_in, 0);
+  q = fixture_see(&rig).in;
+  loss = 4e5 - fixture_see(&rig).supply;
+  pneu_orifice(&rig.m, flow, p.fill_area, (pneu_real)(ps - loss), p.supply_temperature, (pneu_real)(p_in + pa),
+               &orifice);
   check_note("%s, %g Pa s/kg, c = %g into %g Pa", pneu_flow_key(flow), resistance, c, p_in);
-  assert_close(line_loss(&m, resistance, c, ps, 350, ps - loss, q), loss, 0, TOL(1e-12, 1e-2));
+  assert_close(line_loss(&rig.m, resistance, c, ps, 350, ps - loss, q), loss, 0, TOL(1e-12, 1e-2));
   assert_close(q, (double)orifice.q, 0, TOL(1e-13, 1e-2));
 }
 
@@ -302,14 +286,12 @@ static void check_all_turbulent_series(void)
 /* The pressure at the transducer, shares of the supply's, a time after it stood at `from`. */
 static double line_recovers(const pneu_params *p, int flow, double from, double u, double time)
 {
-  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
-  const pneu_input input = fixture_input(&m, u);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
-  assert_close(s.extra[0], 1, 0, TOL(1e-15, 1e-7));
-  s.extra[0] = (pneu_real)from;
-  fixture_run(&m, &s, &input, time, FIXTURE_TOL, NULL);
-  assert_close((fixture_look(&m, &s, &input).supply + 101325) / (double)m.scale[0], s.extra[0], 0, TOL(1e-14, 1e-6));
-  return (double)s.extra[0];
+  fixture_rig rig = fixture_at(fixture_model(p, PNEU_GAS_ISOTHERMAL, flow), u, 0, 0);
+  assert_close(rig.s.extra[0], 1, 0, TOL(1e-15, 1e-7));
+  rig.s.extra[0] = (pneu_real)from;
+  fixture_go(&rig, time, FIXTURE_TOL, NULL);
+  assert_close((fixture_see(&rig).supply + 101325) / (double)rig.m.scale[0], rig.s.extra[0], 0, TOL(1e-14, 1e-6));
+  return (double)rig.s.extra[0];
 }
 
 /* Shut, a volume behind a resistance recovers as exp(-t R_g T/(R V)); drawn from by a choked flow K p_l, it falls to
@@ -359,21 +341,17 @@ static void check_backflow(void)
 {
   pneu_params p = fixture_vessel(1e-4);
   double held, left;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   fixture_set(&p, "supply_resistance", 1e10);
   fixture_set(&p, "supply_volume", 5e-5);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = fixture_input(&m, 1);
-  s = fixture_rest(&m, 3e5, 0, &input);
-  s.extra[0] = (pneu_real)0.4;
-  held = 1e-4 * (3e5 + (double)p.ambient_pressure) + 5e-5 * 0.4 * (double)m.scale[0];
-  fixture_run(&m, &s, &input, 0.02, FIXTURE_TOL, NULL);
-  left = 1e-4 * (double)(s.p + p.ambient_pressure) + 5e-5 * (double)(s.extra[0] * m.scale[0]);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), 1, 3e5, 0);
+  rig.s.extra[0] = (pneu_real)0.4;
+  held = 1e-4 * (3e5 + (double)p.ambient_pressure) + 5e-5 * 0.4 * (double)rig.m.scale[0];
+  fixture_go(&rig, 0.02, FIXTURE_TOL, NULL);
+  left = 1e-4 * (double)(rig.s.p + p.ambient_pressure) + 5e-5 * (double)(rig.s.extra[0] * rig.m.scale[0]);
   check_note("a vessel that fills the supply's volume");
   assert_between(left / held, 1 - TOL(1e-9, 1e-4), 1 + 2e-3);
-  assert_between(s.p, 2e5, 2.9e5);
+  assert_between(rig.s.p, 2e5, 2.9e5);
 }
 
 /* Without a fill orifice there is no flow to compare with, and a line resists in proportion; where the vessel is fuller
@@ -411,20 +389,14 @@ static void footprint_supply_droop(void)
   const pneu_params base = fixture_vessel(1e-4);
   pneu_params p = base;
   const double resistance = 5e7, pa = (double)base.ambient_pressure;
-  pneu_model m;
-  pneu_input input;
   int i, flow;
   fixture_set(&p, "supply_resistance", resistance);
   for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
     for (i = 0; i < COUNT(at); i++) {
-      fixture_sample look;
-      pneu_state s;
-      m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
-      input = fixture_input(&m, 1);
-      s = fixture_rest(&m, at[i], 0, &input);
-      look = fixture_look(&m, &s, &input);
+      const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow), 1, at[i], 0);
+      const fixture_sample look = fixture_see(&rig);
       check_note("%s from %g Pa", pneu_flow_key(flow), at[i]);
-      assert_close(look.in, flow_between(&m, 4e5 + pa - resistance * look.in, at[i] + pa), 0, TOL(1e-8, 1e-2));
+      assert_close(look.in, flow_between(&rig.m, 4e5 + pa - resistance * look.in, at[i] + pa), 0, TOL(1e-8, 1e-2));
       assert_close(look.supply, 4e5 - resistance * look.in, TOL(1e-6, 1), 0);
       assert_true(look.in < 0.99 * inflow(&base, flow, at[i]));
     }
@@ -448,13 +420,11 @@ static void footprint_exhaust_back_pressure(void)
   fixture_set(&p, "exhaust_resistance", resistance);
   for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
     for (i = 0; i < COUNT(at); i++) {
-      const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow);
-      const pneu_input input = fixture_input(&m, -1);
-      const pneu_state s = fixture_rest(&m, at[i], 0, &input);
-      const fixture_sample look = fixture_look(&m, &s, &input);
+      const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, flow), -1, at[i], 0);
+      const fixture_sample look = fixture_see(&rig);
       check_note("%s from %g Pa", pneu_flow_key(flow), at[i]);
-      assert_close(look.out, flow_between(&m, at[i] + pa, pa + resistance * look.out), 0, TOL(1e-8, 1e-2));
-      assert_true(look.out > 0 && (look.out < 0.99 * flow_between(&m, at[i] + pa, pa) || at[i] > 3e5));
+      assert_close(look.out, flow_between(&rig.m, at[i] + pa, pa + resistance * look.out), 0, TOL(1e-8, 1e-2));
+      assert_true(look.out > 0 && (look.out < 0.99 * flow_between(&rig.m, at[i] + pa, pa) || at[i] > 3e5));
     }
   assert_close(run_vessel(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.05).p,
                run_vessel(&base, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1, 0.05).p, TOL(1e-3, 10), 0);
@@ -475,12 +445,11 @@ static void footprint_vent_restriction(void)
 /* Flow out of a tube at pressure p_tube into the chamber at p [Pa abs], both at rest. */
 static double tube_flow(const pneu_params *p, int flow, double p_tube, double p_chamber)
 {
-  const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, flow);
-  const pneu_input shut = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, p_chamber - (double)p->ambient_pressure, 0, &shut);
+  fixture_rig rig =
+      fixture_at(fixture_model(p, PNEU_GAS_ISOTHERMAL, flow), 0, p_chamber - (double)p->ambient_pressure, 0);
   fixture_sample look;
-  s.extra[0] = (pneu_real)(p_tube / (double)m.scale[0]);
-  look = fixture_look(&m, &s, &shut);
+  rig.s.extra[0] = (pneu_real)(p_tube / (double)rig.m.scale[0]);
+  look = fixture_see(&rig);
   return look.in - look.out;
 }
 
@@ -645,28 +614,24 @@ static void footprint_start_temperature(void)
 {
   const double b = 30, P = 2e5 + 101325, Tw = 298.15;
   pneu_params p = fixture_vessel(1e-3);
-  pneu_model m;
-  pneu_input shut;
-  pneu_state s;
+  fixture_rig rig;
   pneu_shown shown;
   fixture_set(&p, "start_excess", b);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  shut = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0, &shut);
-  assert_close((double)s.T, Tw, 0, TOL(0, 1e-6));                      /* it has no temperature of its own */
-  m = fixture_model_roles(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 1, 0); /* nor where pressure drives it */
-  assert_close((double)m.start_excess, 0, 0, 0);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0);
+  assert_close((double)rig.s.T, Tw, 0, TOL(0, 1e-6));                      /* it has no temperature of its own */
+  rig.m = fixture_model_roles(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 1, 0); /* nor where pressure drives it */
+  assert_close((double)rig.m.start_excess, 0, 0, 0);
   if (pneu_effect_find("heat_transfer") < 0 || pneu_effect_find("temperature_lag") < 0)
     return;
   fixture_set(&p, "film_conductance", 5);
   fixture_set(&p, "temperature_time", 10);
-  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
-  s = fixture_rest(&m, 2e5, 0, &shut);
-  assert_close((double)s.T, Tw + b, 0, TOL(1e-12, 1e-6));
-  assert_int_equal(pneu_show(&m, &s, &shut, &shown), PNEU_OK);
+  rig.m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  rig.s = fixture_rest(&rig.m, 2e5, 0, &rig.input);
+  assert_close((double)rig.s.T, Tw + b, 0, TOL(1e-12, 1e-6));
+  assert_int_equal(pneu_show(&rig.m, &rig.s, &rig.input, &shown), PNEU_OK);
   assert_close((double)shown.temperature, Tw, 0, TOL(1e-12, 1e-6));
-  fixture_run(&m, &s, &shut, 20, FIXTURE_TOL, NULL);
-  assert_close((double)s.p + 101325, P * Tw / (Tw + b), 0, TOL(1e-6, 1e-4));
+  fixture_go(&rig, 20, FIXTURE_TOL, NULL);
+  assert_close((double)rig.s.p + 101325, P * Tw / (Tw + b), 0, TOL(1e-6, 1e-4));
 }
 
 static void footprint_heat_transfer(void)
@@ -792,10 +757,8 @@ static void footprint_transducer_lag(void)
       assert_close(late.extra[0], u * (1 - exp(-t / tau)), TOL(1e-8, 1e-4), 0);
     }
   {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input half = fixture_input(&m, 0.5);
-    const pneu_state rest = fixture_rest(&m, 0, 0, &half);
-    assert_close(fixture_look(&m, &rest, &half).opening, 0.5, 0, 0);
+    const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0.5, 0, 0);
+    assert_close(fixture_see(&rig).opening, 0.5, 0, 0);
   }
 }
 
@@ -803,17 +766,13 @@ static void footprint_transducer_lag(void)
 static void test_transducer_lag__regulator_at_rest__starts_from_its_opening(void **state)
 {
   pneu_params p = fixture_vessel(1e-3);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   (void)state;
   fixture_need("transducer_lag");
   fixture_set(&p, "transducer_time", 0.02);
   p.proportional_band = (pneu_real)1e4;
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 1.05e5);
-  s = fixture_rest(&m, 1e5, 0, &input);
-  assert_close(s.extra[0], 0.5, TOL(1e-12, 1e-5), 0);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1.05e5, 1e5, 0);
+  assert_close(rig.s.extra[0], 0.5, TOL(1e-12, 1e-5), 0);
 }
 
 /* The pressure of a prompt transducer, later by the dead time; test_delay.c has the rest. */
@@ -889,9 +848,7 @@ static void footprint_positioner(void)
              {0.02, 0, 0.4},   {0.0201, 0, 0.402}, {0.98, 1, -0.4},         {0.981, 1, 1},         {0.9799, 1, -0.402},
              {-3, 0.5, -1},    {3, 0.5, 1},        {0.98 + 1e-14, 1, -0.4}, {0.02 - 1e-14, 0, 0.4}};
   pneu_params p = positioned(20);
-  pneu_state s;
-  pneu_model m;
-  pneu_input input;
+  fixture_rig rig;
   double e;
   int i;
   fixture_set(&p, "dead_band", 0.01);
@@ -902,10 +859,8 @@ static void footprint_positioner(void)
     assert_close(asked(&p, law[i].set, law[i].x), law[i].opening, TOL(1e-12, 1e-5), 0);
   }
   /* without a set position the command is the opening */
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = fixture_input(&m, -0.3);
-  s = fixture_rest(&m, 1e5, 0.01, &input);
-  assert_close(fixture_look(&m, &s, &input).opening, -0.3, TOL(1e-15, 1e-7), 0);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), -0.3, 1e5, 0.01);
+  assert_close(fixture_see(&rig).opening, -0.3, TOL(1e-15, 1e-7), 0);
   check_note("the derivative, on a set position that ramps");
   p = positioned(20);
   fixture_set(&p, "derivative_time", 0.1);
@@ -926,15 +881,15 @@ static void footprint_positioner(void)
   p = positioned(20);
   p.supply_pressure = (pneu_real)9e5;
   fixture_set(&p, "leak_area", 5e-8);
-  s = follow(&p, 0.5);
-  e = 5e-8 * ((double)s.p + (double)p.ambient_pressure) / (20 * 0.893e-6 * (9e5 + (double)p.ambient_pressure));
-  assert_close((double)s.x / 0.02, 0.5 - e, TOL(1e-8, 1e-5), 0);
+  rig.s = follow(&p, 0.5);
+  e = 5e-8 * ((double)rig.s.p + (double)p.ambient_pressure) / (20 * 0.893e-6 * (9e5 + (double)p.ambient_pressure));
+  assert_close((double)rig.s.x / 0.02, 0.5 - e, TOL(1e-8, 1e-5), 0);
   /* in single precision a stem stays at rest against a ten-thousandth of the largest force */
-  assert_close(s.p, 400e3 * ((double)s.x + 0.01) / 0.04, TOL(1e-2, 1e-4 * 9e5), 0);
+  assert_close(rig.s.p, 400e3 * ((double)rig.s.x + 0.01) / 0.04, TOL(1e-2, 1e-4 * 9e5), 0);
   fixture_set(&p, "integral_time", 1);
-  s = follow(&p, 0.5);
-  assert_close((double)s.x / 0.02, 0.5, TOL(1e-7, 1e-5), 0);
-  assert_close(s.extra[0], e, TOL(1e-5, 1e-4), 1e-2);
+  rig.s = follow(&p, 0.5);
+  assert_close((double)rig.s.x / 0.02, 0.5, TOL(1e-7, 1e-5), 0);
+  assert_close(rig.s.extra[0], e, TOL(1e-5, 1e-4), 1e-2);
 }
 
 static void footprint_positioner_bend(void)
@@ -1064,7 +1019,7 @@ static void test_positioner__holds_and_ramps__always_end(void **state)
 static double ramped(double edge, long *events)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_options options;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   pneu_model m;
   pneu_input input;
@@ -1081,7 +1036,6 @@ static double ramped(double edge, long *events)
   input = set_position(&m, 0.1);
   input.u_rate = (pneu_real)0.02667;
   s = fixture_rest(&m, 45816, 0.001, &input);
-  pneu_options_default(&options);
   assert_int_equal(pneu_run(&m, &s, &input, 10, &options, NULL, &work), PNEU_OK);
   *events = work.stats.events;
   return (double)s.x;

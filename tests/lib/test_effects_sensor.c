@@ -303,23 +303,21 @@ static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void
     for (role = 0; role < 3; role++)
       for (n = 0; n < 2; n++) {
         const pneu_params p = fixture_params(FIXTURE_R1_400);
-        pneu_model m = fixture_model_roles(&p, gas, PNEU_FLOW_PAPER, role == 1, role == 2);
-        const pneu_input input = fixture_input(&m, 1);
-        const pneu_state good = fixture_rest(&m, 1e5, 0.01, &input);
-        pneu_state s = good;
-        assert_int_equal(pneu_model_terms(&m, &bias, n), PNEU_OK);
+        fixture_rig rig = fixture_at(fixture_model_roles(&p, gas, PNEU_FLOW_PAPER, role == 1, role == 2), 1, 1e5, 0.01);
+        pneu_state s = rig.s;
+        assert_int_equal(pneu_model_terms(&rig.m, &bias, n), PNEU_OK);
         check_note("%s, role %d, %d terms", pneu_gas_key(gas), role, n);
-        assert_int_equal(same_status(&m, &s, &input), PNEU_OK);
-        s.p = -m.p.ambient_pressure;
-        assert_int_equal(same_status(&m, &s, &input), PNEU_RETRY_STATE);
+        assert_int_equal(same_status(&rig.m, &s, &rig.input), PNEU_OK);
+        s.p = -rig.m.p.ambient_pressure;
+        assert_int_equal(same_status(&rig.m, &s, &rig.input), PNEU_RETRY_STATE);
         s.p = (pneu_real)NAN;
-        assert_int_equal(same_status(&m, &s, &input), PNEU_RETRY_STATE);
-        s = good;
+        assert_int_equal(same_status(&rig.m, &s, &rig.input), PNEU_RETRY_STATE);
+        s = rig.s;
         s.T = 0;
-        assert_int_equal(same_status(&m, &s, &input), m.thermal ? PNEU_RETRY_STATE : PNEU_OK);
-        s = good;
+        assert_int_equal(same_status(&rig.m, &s, &rig.input), rig.m.thermal ? PNEU_RETRY_STATE : PNEU_OK);
+        s = rig.s;
         s.x = -1;
-        assert_int_equal(same_status(&m, &s, &input), m.law.pressure_input ? PNEU_OK : PNEU_RETRY_STATE);
+        assert_int_equal(same_status(&rig.m, &s, &rig.input), rig.m.law.pressure_input ? PNEU_OK : PNEU_RETRY_STATE);
       }
 }
 

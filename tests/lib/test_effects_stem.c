@@ -6,12 +6,10 @@
 /* Pressure at which a stem at rest at x first moves while pressure runs from `from` at the given slope. */
 static double break_away_from(const pneu_params *p, double x, double from, double slope)
 {
-  const pneu_model m = fixture_pressed(p);
-  pneu_input input = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, from, x, &input);
+  fixture_rig rig = fixture_at(fixture_pressed(p), 0, from, x);
   fixture_events e;
-  input.pressure_rate = (pneu_real)slope;
-  fixture_run(&m, &s, &input, fabs(3e4 / slope), TOL(1e-7, 1e-5), &e);
+  rig.input.pressure_rate = (pneu_real)slope;
+  fixture_go(&rig, fabs(3e4 / slope), TOL(1e-7, 1e-5), &e);
   assert_true(e.n > 0);
   return e.p[0];
 }
@@ -25,15 +23,11 @@ static double break_away(const pneu_params *p)
 static pneu_state balance(const pneu_params *p, double pressure, double from)
 {
   pneu_params smooth = *p;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   smooth.dry_friction = 0;
-  m = fixture_pressed(&smooth);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, pressure, from, &input);
-  fixture_run(&m, &s, &input, 2, TOL(1e-9, 1e-5), NULL);
-  return s;
+  rig = fixture_at(fixture_pressed(&smooth), 0, pressure, from);
+  fixture_go(&rig, 2, TOL(1e-9, 1e-5), NULL);
+  return rig.s;
 }
 
 /* Acceleration of a sliding stem. */
@@ -58,21 +52,16 @@ static void footprint_stribeck_friction(void)
 {
   static const double v[] = {1e-4, -1e-3, 3e-3, 0.1};
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   int i;
   fixture_set(&p, "stribeck_excess", 0.25);
   fixture_set(&p, "stribeck_velocity", 2e-3);
   assert_close(break_away(&p), (4e5 * 0.01 + 480 * 1.25) / 0.04, TOL(1e-4, 20), 0);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.01, &input);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.01);
   for (i = 0; i < COUNT(v); i++) {
-    s.v = (pneu_real)v[i];
-    s.mode = v[i] > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
-    assert_close(fixture_look(&m, &s, &input).friction, 480 * (1 + 0.25 * exp(-v[i] * v[i] / 4e-6)), 0,
-                 TOL(1e-13, 1e-6));
+    rig.s.v = (pneu_real)v[i];
+    rig.s.mode = v[i] > 0 ? PNEU_MODE_UP : PNEU_MODE_DOWN;
+    assert_close(fixture_see(&rig).friction, 480 * (1 + 0.25 * exp(-v[i] * v[i] / 4e-6)), 0, TOL(1e-13, 1e-6));
   }
 }
 
@@ -84,20 +73,17 @@ static void footprint_friction_position(void)
   int i;
   fixture_set(&p, "friction_slope", 0.8);
   for (i = 0; i < COUNT(x); i++) {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input input = fixture_input(&m, 0);
-    const pneu_state s = fixture_rest(&m, 4e5 * (x[i] + 0.01) / 0.04, x[i], &input);
-    assert_close(fixture_look(&m, &s, &input).friction, 480 * (1 + 0.8 * x[i] / 0.02), 0, TOL(1e-13, 1e-6));
+    const fixture_rig rig =
+        fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 4e5 * (x[i] + 0.01) / 0.04, x[i]);
+    assert_close(fixture_see(&rig).friction, 480 * (1 + 0.8 * x[i] / 0.02), 0, TOL(1e-13, 1e-6));
   }
   assert_close(break_away(&p), (4e5 * 0.01 + 480) / 0.04, TOL(1e-4, 20), 0);
   assert_close(break_away_from(&p, 0.02, 2.9e5, -1e4), (4e5 * 0.03 - 480 * 1.8) / 0.04, TOL(1e-4, 20), 0);
   fixture_set(&p, "friction_slope", -1); /* none at the upper stop, nor beyond it */
   {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-    const pneu_input input = fixture_input(&m, 0);
-    pneu_state s = fixture_rest(&m, 3e5, 0.02, &input);
-    s.x = (pneu_real)0.0201;
-    assert_close(fixture_look(&m, &s, &input).friction, 0, 0, 0);
+    fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 3e5, 0.02);
+    rig.s.x = (pneu_real)0.0201;
+    assert_close(fixture_see(&rig).friction, 0, 0, 0);
   }
   assert_close(break_away_from(&p, 0.02, 3.1e5, -1e4), 4e5 * 0.03 / 0.04, TOL(1e-4, 20), 0);
 }
@@ -107,16 +93,12 @@ static void footprint_friction_pressure(void)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double f = 2e-3;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   fixture_set(&p, "friction_per_pressure", f);
   assert_close(break_away(&p), (4e5 * 0.01 + 480) / (0.04 - f), TOL(1e-4, 20), 0);
   assert_close(break_away_from(&p, 0.02, 2.9e5, -1e4), (4e5 * 0.03 - 480) / (0.04 + f), TOL(1e-4, 20), 0);
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, -2e4, 0, &input);
-  assert_close(fixture_look(&m, &s, &input).friction, 480, 0, 0);
+  rig = fixture_at(fixture_pressed(&p), 0, -2e4, 0);
+  assert_close(fixture_see(&rig).friction, 480, 0, 0);
 }
 
 /* Canudas de Wit 1995: z' = v - |v| z F/F(v) over d, friction F z + s1 d z', here with Stribeck's F(v). */
@@ -125,9 +107,7 @@ static void check_bristle(double v, double z)
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double F = 480, d = 2e-5, s1 = 800, excess = pneu_effect_find("stribeck_friction") < 0 ? 0 : 0.4;
   const double level = F * (1 + excess * exp(-v * v / 1e-4)), slip = v - fabs(v) * z * F / level;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
   fixture_set(&p, "presliding_length", d);
   fixture_set(&p, "bristle_damping", s1);
@@ -135,14 +115,12 @@ static void check_bristle(double v, double z)
     fixture_set(&p, "stribeck_excess", excess);
     fixture_set(&p, "stribeck_velocity", 1e-2);
   }
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.012, &input);
-  s.v = (pneu_real)v;
-  s.extra[0] = (pneu_real)z;
-  s.mode = v < 0 ? PNEU_MODE_DOWN : PNEU_MODE_UP;
-  assert_int_equal(pneu_pack(&m, &s, y), 4);
-  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.012);
+  rig.s.v = (pneu_real)v;
+  rig.s.extra[0] = (pneu_real)z;
+  rig.s.mode = v < 0 ? PNEU_MODE_DOWN : PNEU_MODE_UP;
+  assert_int_equal(pneu_pack(&rig.m, &rig.s, y), 4);
+  assert_int_equal(pneu_rhs(&rig.m, &rig.s, &rig.input, y, f), PNEU_OK);
   check_note("v = %g, z = %g", v, z);
   assert_close(f[1], slip / d, 1e-9, TOL(1e-12, 1e-5));
   assert_close(f[3], (2e5 * 0.04 - 4e5 * 0.022 - 1500 * v - F * z - s1 * slip) / 2, TOL(1e-9, 1e-2), TOL(1e-12, 1e-5));
@@ -182,21 +160,17 @@ static void test_presliding__no_friction__bristles_bend_all_the_way(void **state
 static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   fixture_events e;
   (void)state;
   fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 1.5e5, 0.004, &input);
-  input.pressure_rate = (pneu_real)-1e5;
-  fixture_run(&m, &s, &input, 1, TOL(1e-7, 1e-4), NULL);
-  assert_int_equal(s.mode, PNEU_MODE_LOWER);
-  input.pressure_rate = (pneu_real)1e5;
-  fixture_run(&m, &s, &input, 0.6, TOL(1e-7, 1e-4), &e);
+  rig = fixture_at(fixture_pressed(&p), 0, 1.5e5, 0.004);
+  rig.input.pressure_rate = (pneu_real)-1e5;
+  fixture_go(&rig, 1, TOL(1e-7, 1e-4), NULL);
+  assert_int_equal(rig.s.mode, PNEU_MODE_LOWER);
+  rig.input.pressure_rate = (pneu_real)1e5;
+  fixture_go(&rig, 0.6, TOL(1e-7, 1e-4), &e);
   assert_true(e.n > 0 && e.before[0] == PNEU_MODE_LOWER);
   assert_close(e.p[0], (4e5 * 0.01 - 480) / 0.04, 100, 0);
 }
@@ -234,21 +208,17 @@ static void test_presliding__at_rest__takes_few_steps(void **state)
     pneu_params p = fixture_params(FIXTURE_R1_400);
     const pneu_options options = fixture_options(TOL(1e-5, 1e-4));
     pneu_workspace work = {0};
-    pneu_model m;
-    pneu_input input;
-    pneu_state s;
+    fixture_rig rig;
     fixture_set(&p, "presliding_length", length[i]);
-    m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-    input = fixture_input(&m, 1);
-    s = fixture_rest(&m, 1.5e5, 0.003, &input);
-    fixture_run(&m, &s, &input, 2, TOL(1e-6, 1e-4), NULL);
-    assert_true((double)s.x > 0.005 && (double)s.v > 0);
-    input = fixture_input(&m, 0);
-    assert_int_equal(pneu_run(&m, &s, &input, 20, &options, NULL, &work), PNEU_OK);
+    rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 1.5e5, 0.003);
+    fixture_go(&rig, 2, TOL(1e-6, 1e-4), NULL);
+    assert_true((double)rig.s.x > 0.005 && (double)rig.s.v > 0);
+    rig.input = fixture_input(&rig.m, 0);
+    assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 20, &options, NULL, &work), PNEU_OK);
     check_note("length %g: %ld steps, %ld refused", length[i], work.stats.steps, work.stats.rejected);
     assert_between((double)work.stats.steps, 10, 400);
     assert_between((double)work.stats.rejected, 0, 100);
-    assert_between(fabs((double)s.v), 0, 1e-5);
+    assert_between(fabs((double)rig.s.v), 0, 1e-5);
   }
 }
 
@@ -257,24 +227,20 @@ static void test_pneu_switch__bristles__turns_round(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   (void)state;
   fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.012, &input);
-  s.mode = PNEU_MODE_UP;
-  s.v = -2 * m.velocity_resolved;
-  pneu_pack(&m, &s, y);
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
-  assert_close(g[0], m.velocity_resolved, 0, 1e-6);
-  pneu_switch(&m, &input, 0, &s);
-  assert_int_equal(s.mode, PNEU_MODE_DOWN);
-  assert_true(s.v == -2 * m.velocity_resolved);
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.012);
+  rig.s.mode = PNEU_MODE_UP;
+  rig.s.v = -2 * rig.m.velocity_resolved;
+  pneu_pack(&rig.m, &rig.s, y);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 2);
+  assert_close(g[0], rig.m.velocity_resolved, 0, 1e-6);
+  pneu_switch(&rig.m, &rig.input, 0, &rig.s);
+  assert_int_equal(rig.s.mode, PNEU_MODE_DOWN);
+  assert_true(rig.s.v == -2 * rig.m.velocity_resolved);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 2);
   assert_true(g[0] < 0);
 }
 
@@ -301,28 +267,22 @@ static void footprint_spring_hysteresis(void)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double d = 2e-3, F = 300, up = 1 - exp(-0.005 / d);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   fixture_set(&p, "hysteresis_force", F);
   fixture_set(&p, "hysteresis_length", d);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 1e5, 0, &input);
-  input.position_rate = (pneu_real)0.01;
-  fixture_run(&m, &s, &input, 0.5, FIXTURE_TOL, NULL);
-  assert_close(s.extra[0], up, TOL(1e-8, 1e-4), 0);
-  input.position_rate = (pneu_real)-0.02;
-  fixture_run(&m, &s, &input, 0.1, FIXTURE_TOL, NULL);
-  assert_close(s.extra[0], -1 + (1 + up) * exp(-0.002 / d), TOL(1e-8, 1e-4), 0);
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.01, &input);
-  s.extra[0] = (pneu_real)0.7;
-  fixture_run(&m, &s, &input, 1, FIXTURE_TOL, NULL);
-  assert_int_equal(s.mode, PNEU_MODE_STUCK);
-  assert_close(s.extra[0], 0.7, 0, TOL(1e-15, 1e-7));
-  assert_close(acceleration(&m, 2e5, 0.01, 0.01, 0.7) - acceleration(&m, 2e5, 0.01, 0.01, 0), -F * 0.7 / 2, 0,
+  rig = fixture_at(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1), 0, 1e5, 0);
+  rig.input.position_rate = (pneu_real)0.01;
+  fixture_go(&rig, 0.5, FIXTURE_TOL, NULL);
+  assert_close(rig.s.extra[0], up, TOL(1e-8, 1e-4), 0);
+  rig.input.position_rate = (pneu_real)-0.02;
+  fixture_go(&rig, 0.1, FIXTURE_TOL, NULL);
+  assert_close(rig.s.extra[0], -1 + (1 + up) * exp(-0.002 / d), TOL(1e-8, 1e-4), 0);
+  rig = fixture_at(fixture_pressed(&p), 0, 2e5, 0.01);
+  rig.s.extra[0] = (pneu_real)0.7;
+  fixture_go(&rig, 1, FIXTURE_TOL, NULL);
+  assert_int_equal(rig.s.mode, PNEU_MODE_STUCK);
+  assert_close(rig.s.extra[0], 0.7, 0, TOL(1e-15, 1e-7));
+  assert_close(acceleration(&rig.m, 2e5, 0.01, 0.01, 0.7) - acceleration(&rig.m, 2e5, 0.01, 0.01, 0), -F * 0.7 / 2, 0,
                TOL(1e-10, 1e-3));
 }
 
@@ -332,26 +292,20 @@ static void footprint_spring_creep(void)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double k = 8e4, tau = 0.4, v = 0.01, stroke = (double)p.stroke, behind = v * tau * (1 - exp(-0.5 / tau));
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   fixture_set(&p, "creep_stiffness", k);
   fixture_set(&p, "creep_time", tau);
-  m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 1e5, 0, &input);
-  input.position_rate = (pneu_real)v;
-  fixture_run(&m, &s, &input, 0.5, FIXTURE_TOL, NULL);
-  assert_close(s.extra[0], (0.005 - behind) / stroke, TOL(1e-9, 1e-5), 0);
-  input.position_rate = 0;
-  fixture_run(&m, &s, &input, 0.2, FIXTURE_TOL, NULL);
-  assert_close(s.extra[0], (0.005 - behind * exp(-0.2 / tau)) / stroke, TOL(1e-9, 1e-5), 0);
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e5, 0.01, &input);
-  assert_close(s.extra[0], 0.01 / stroke, 0, TOL(1e-15, 1e-6));
-  assert_close(acceleration(&m, 2e5, 0.01, 0.01, 0) - acceleration(&m, 2e5, 0.01, 0.01, 0.01 / stroke), -k * 0.01 / 2,
-               0, TOL(1e-10, 1e-3));
+  rig = fixture_at(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1), 0, 1e5, 0);
+  rig.input.position_rate = (pneu_real)v;
+  fixture_go(&rig, 0.5, FIXTURE_TOL, NULL);
+  assert_close(rig.s.extra[0], (0.005 - behind) / stroke, TOL(1e-9, 1e-5), 0);
+  rig.input.position_rate = 0;
+  fixture_go(&rig, 0.2, FIXTURE_TOL, NULL);
+  assert_close(rig.s.extra[0], (0.005 - behind * exp(-0.2 / tau)) / stroke, TOL(1e-9, 1e-5), 0);
+  rig = fixture_at(fixture_pressed(&p), 0, 2e5, 0.01);
+  assert_close(rig.s.extra[0], 0.01 / stroke, 0, TOL(1e-15, 1e-6));
+  assert_close(acceleration(&rig.m, 2e5, 0.01, 0.01, 0) - acceleration(&rig.m, 2e5, 0.01, 0.01, 0.01 / stroke),
+               -k * 0.01 / 2, 0, TOL(1e-10, 1e-3));
 }
 
 /* ---- geometry ---- */
@@ -404,54 +358,46 @@ static void footprint_stop_compliance(void)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double c = 2e-8, k = 4e5;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   p.dead_volume = (pneu_real)1e-4;
   fixture_set(&p, "stop_compliance", c);
   fixture_set(&p, "stop_damping", 1e4);
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 0, 0, &input);
-  assert_close(s.x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-9, 1e-4));
-  assert_int_equal(s.mode, PNEU_MODE_STUCK);
-  assert_close(fixture_rest(&m, 4e5, 0, &input).x, 0, 0, 0); /* pushed away from the stop, not into it */
-  assert_close(fixture_rest(&m, 0, 0.02, &input).x, (pneu_real)0.02, 0, 0);
-  s = fixture_rest(&m, 4e5, 0.02, &input);
-  assert_close((double)s.x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9), TOL(1e-9, 1e-3));
-  assert_close(fixture_rest(&m, 4e5, 0, &input).x, 0, 0, 0); /* the air lifts it off */
-  assert_close(fixture_rest(&m, 0, 0.02, &input).x, 0.02, 0, TOL(1e-15, 1e-7));
+  rig = fixture_at(fixture_pressed(&p), 0, 0, 0);
+  assert_close(rig.s.x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-9, 1e-4));
+  assert_int_equal(rig.s.mode, PNEU_MODE_STUCK);
+  assert_close(fixture_rest(&rig.m, 4e5, 0, &rig.input).x, 0, 0, 0); /* pushed away from the stop, not into it */
+  assert_close(fixture_rest(&rig.m, 0, 0.02, &rig.input).x, (pneu_real)0.02, 0, 0);
+  rig.s = fixture_rest(&rig.m, 4e5, 0.02, &rig.input);
+  assert_close((double)rig.s.x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9), TOL(1e-9, 1e-3));
+  assert_close(fixture_rest(&rig.m, 4e5, 0, &rig.input).x, 0, 0, 0); /* the air lifts it off */
+  assert_close(fixture_rest(&rig.m, 0, 0.02, &rig.input).x, 0.02, 0, TOL(1e-15, 1e-7));
   assert_close(balance(&p, 0, 0.001).x, -c * k * 0.01 / (1 + k * c), 0, TOL(1e-6, 1e-3));
   assert_close((double)balance(&p, 4e5, 0.015).x - 0.02, c * (4e5 * 0.04 - k * 0.03) / (1 + k * c), TOL(0, 3e-9),
                TOL(1e-6, 1e-2));
   /* contact 1/c s + d v, never pulling */
-  assert_close(acceleration(&m, 2e5, 0.0201, 0.01, 0), (8e3 - k * 0.0301 - 1500 * 0.01 - 480 - 1e-4 / c - 100) / 2,
+  assert_close(acceleration(&rig.m, 2e5, 0.0201, 0.01, 0), (8e3 - k * 0.0301 - 1500 * 0.01 - 480 - 1e-4 / c - 100) / 2,
                TOL(1e-6, 5), 0);
-  assert_close(acceleration(&m, 2e5, 0.0201, -1, 0), (8e3 - k * 0.0301 + 1500 + 480) / 2, TOL(1e-6, 5), 0);
-  assert_close(acceleration(&m, 2e5, -1e-4, -0.01, 0), (8e3 - k * 0.0099 + 15 + 480 + 1e-4 / c + 100) / 2, TOL(1e-6, 5),
-               0);
+  assert_close(acceleration(&rig.m, 2e5, 0.0201, -1, 0), (8e3 - k * 0.0301 + 1500 + 480) / 2, TOL(1e-6, 5), 0);
+  assert_close(acceleration(&rig.m, 2e5, -1e-4, -0.01, 0), (8e3 - k * 0.0099 + 15 + 480 + 1e-4 / c + 100) / 2,
+               TOL(1e-6, 5), 0);
 }
 
 /* A soft stop under a small dead volume would leave the gas no room: a rigid stop lies at a tenth of it. */
 static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   (void)state;
   fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-6);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, -1);
-  s = fixture_rest(&m, 0, 0, &input);
-  assert_int_equal(s.mode, PNEU_MODE_LOWER);
-  assert_close(pneu_volume(&m, s.x), 0.1 * (double)p.dead_volume, 0, TOL(1e-9, 1e-4));
-  input.u = 1;
-  fixture_run(&m, &s, &input, 8, TOL(1e-6, 1e-4), NULL);
-  input.u = -1;
-  fixture_run(&m, &s, &input, 8, TOL(1e-6, 1e-4), NULL);
-  assert_int_equal(s.mode, PNEU_MODE_LOWER);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -1, 0, 0);
+  assert_int_equal(rig.s.mode, PNEU_MODE_LOWER);
+  assert_close(pneu_volume(&rig.m, rig.s.x), 0.1 * (double)p.dead_volume, 0, TOL(1e-9, 1e-4));
+  rig.input.u = 1;
+  fixture_go(&rig, 8, TOL(1e-6, 1e-4), NULL);
+  rig.input.u = -1;
+  fixture_go(&rig, 8, TOL(1e-6, 1e-4), NULL);
+  assert_int_equal(rig.s.mode, PNEU_MODE_LOWER);
 }
 
 /* Behind a stop that hardly resists, rigid ones: above at twice the stroke, below at the stroke or, where the gas would
@@ -509,20 +455,16 @@ static void test_stop_compliance__very_stiff__stem_leaves_at_its_balance(void **
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double balance = ((double)p.spring_rate * (double)p.spring_preload + (double)p.dry_friction) / (double)p.area;
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   int i;
   (void)state;
   fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-9);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, (double)1e-3);
-  s = fixture_rest(&m, 0.9 * balance, 0, &input);
-  for (i = 0; i < 1000 && s.x < (pneu_real)1e-5; i++)
-    fixture_run(&m, &s, &input, 1e-3, TOL(1e-6, 1e-4), NULL);
-  assert_true(s.x >= (pneu_real)1e-5);
-  assert_close(s.p, balance, 0, 0.02);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), (double)1e-3, 0.9 * balance, 0);
+  for (i = 0; i < 1000 && rig.s.x < (pneu_real)1e-5; i++)
+    fixture_go(&rig, 1e-3, TOL(1e-6, 1e-4), NULL);
+  assert_true(rig.s.x >= (pneu_real)1e-5);
+  assert_close(rig.s.p, balance, 0, 0.02);
 }
 
 /* A stem that creeps into a soft stop as the supply is reached comes to rest there for good. */

@@ -98,12 +98,11 @@ static void own(const pneu_model *model, pneu_real area, pneu_real p_up, pneu_re
 
 static void test_pneu_run__own_flow_law__takes_the_place_of_the_declared_one(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_state s[2];
   int k, stretch;
   (void)state;
   for (k = 0; k < 2; k++) {
-    pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, k ? PNEU_FLOW_PAPER : PNEU_FLOW_ISO6358);
+    pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, k ? PNEU_FLOW_PAPER : PNEU_FLOW_ISO6358);
     m.own_flow = k ? own : NULL;
     for (stretch = 0; stretch < 2; stretch++) {
       const pneu_input input = fixture_input(&m, stretch ? -0.4 : 0.8);
@@ -326,12 +325,10 @@ static void test_pneu_observe__pressures_swapped__net_flow_changes_sign_only(voi
 static void test_pneu_observe__vacuum_at_open_vent__draws_ambient_air(void **state)
 {
   const pneu_params p = fixture_vessel(1e-3);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, -0.5);
-  const pneu_state s = fixture_rest(&m, -4e4, 0, &input);
-  const fixture_sample look = fixture_look(&m, &s, &input);
+  const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -0.5, -4e4, 0);
+  const fixture_sample look = fixture_see(&rig);
   (void)state;
-  assert_close(look.in, paper(&m, 0.5e-6, (double)p.ambient_pressure, 298.15, (double)p.ambient_pressure - 4e4), 0,
+  assert_close(look.in, paper(&rig.m, 0.5e-6, (double)p.ambient_pressure, 298.15, (double)p.ambient_pressure - 4e4), 0,
                TOL(1e-13, 1e-6));
   assert_close(look.out, 0, 0, 0);
 }
@@ -339,10 +336,8 @@ static void test_pneu_observe__vacuum_at_open_vent__draws_ambient_air(void **sta
 static void test_pneu_observe__shut__passes_nothing(void **state)
 {
   const pneu_params p = fixture_vessel(1e-3);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 0);
-  const pneu_state s = fixture_rest(&m, 1e5, 0, &input);
-  const fixture_sample look = fixture_look(&m, &s, &input);
+  const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 1e5, 0);
+  const fixture_sample look = fixture_see(&rig);
   (void)state;
   assert_true(look.in <= 0 && look.out <= 0);
 }
@@ -350,16 +345,12 @@ static void test_pneu_observe__shut__passes_nothing(void **state)
 static void test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_not_choked(void **state)
 {
   pneu_params p = fixture_vessel(1e-3);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   fixture_sample look;
   (void)state;
   p.fill_area = 0;
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = fixture_input(&m, 1);
-  s = fixture_rest(&m, 0, 0, &input);
-  look = fixture_look(&m, &s, &input);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), 1, 0, 0);
+  look = fixture_see(&rig);
   assert_close(look.in, 0, 0, 0);
   assert_int_equal(look.choked, 0);
 }

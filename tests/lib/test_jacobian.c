@@ -111,19 +111,15 @@ static void test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_
 static void test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_hand_side(void **state)
 {
   pneu_params p = fixture_vessel(1e-4);
-  pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
-  pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 1e5, 0, &input);
+  fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 1e5, 0);
   (void)state;
   check_note("vessel");
-  check_jacobian(&m, &s, &input, TOL(1e-6, 2e-2));
+  check_jacobian(&rig.m, &rig.s, &rig.input, TOL(1e-6, 2e-2));
   p = fixture_params(FIXTURE_R1_400);
   p.proportional_band = (pneu_real)5e4;
-  m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  input = fixture_input(&m, 2.2e5);
-  s = fixture_rest(&m, 2e5, 0.01, &input);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 2.2e5, 2e5, 0.01);
   check_note("regulator");
-  check_jacobian(&m, &s, &input, TOL(1e-5, 5e-2));
+  check_jacobian(&rig.m, &rig.s, &rig.input, TOL(1e-5, 5e-2));
 }
 
 static void test_pneu_jacobian__each_effect__is_the_slope_of_the_right_hand_side(void **state)
@@ -202,18 +198,14 @@ static void test_pneu_jacobian__chamber_without_air__is_refused(void **state)
   for (i = 0; i < COUNT(band); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     pneu_real y[PNEU_STATE_MAX], f0[PNEU_STATE_MAX] = {0}, jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
-    pneu_model m;
-    pneu_input input;
-    pneu_state s;
+    fixture_rig rig;
     p.proportional_band = (pneu_real)band[i];
-    m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-    input = fixture_input(&m, 1);
-    s = fixture_rest(&m, 1e5, 0.01, &input);
-    pneu_pack(&m, &s, y);
+    rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), 1, 1e5, 0.01);
+    pneu_pack(&rig.m, &rig.s, y);
     y[0] = -p.ambient_pressure + (pneu_real)TOL(1e-4, 1);
-    assert_int_equal(pneu_jacobian(&m, &s, &input, y, f0, jac), PNEU_OK);
+    assert_int_equal(pneu_jacobian(&rig.m, &rig.s, &rig.input, y, f0, jac), PNEU_OK);
     y[0] = (pneu_real)-2e5;
-    assert_int_equal(pneu_jacobian(&m, &s, &input, y, f0, jac), PNEU_RETRY_STATE);
+    assert_int_equal(pneu_jacobian(&rig.m, &rig.s, &rig.input, y, f0, jac), PNEU_RETRY_STATE);
   }
 }
 
@@ -222,17 +214,15 @@ static void test_pneu_step_try__singular_matrix__is_refused(void **state)
 {
   const pneu_real h = (pneu_real)1e-3, gamma = (pneu_real)(PNEU_ORDER == 5 ? 0.21193756319429014 : 0.57282);
   const pneu_params p = fixture_vessel(1e-3);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 1);
-  const pneu_state s = fixture_rest(&m, 1e5, 0, &input);
+  const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 1e5, 0);
   pneu_workspace work = {0};
   pneu_real error;
   (void)state;
-  pneu_pack(&m, &s, work.y0);
-  assert_int_equal(pneu_step_prepare(&m, &s, &input, &work), PNEU_OK);
-  assert_int_equal(pneu_step_try(&m, &s, &input, h, &work, &error), PNEU_OK);
+  pneu_pack(&rig.m, &rig.s, work.y0);
+  assert_int_equal(pneu_step_prepare(&rig.m, &rig.s, &rig.input, &work), PNEU_OK);
+  assert_int_equal(pneu_step_try(&rig.m, &rig.s, &rig.input, h, &work, &error), PNEU_OK);
   work.jac[0][0] = 1 / (gamma * h);
-  assert_int_equal(pneu_step_try(&m, &s, &input, h, &work, &error), PNEU_E_SINGULAR);
+  assert_int_equal(pneu_step_try(&rig.m, &rig.s, &rig.input, h, &work, &error), PNEU_E_SINGULAR);
 }
 
 int main(void)

@@ -76,40 +76,32 @@ static void test_pneu_run__free_fall__reaches_the_stop_at_the_known_time(void **
 static void test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency(void **state)
 {
   pneu_params p = bare();
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   const double w = sqrt(8e4 / 2);
   (void)state;
   p.spring_rate = (pneu_real)8e4;
   p.spring_preload = (pneu_real)0.005;
   p.dry_friction = 0;
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 8e4 * (0.05 + 0.005) / 0.04, 0.06, &input);
-  fixture_run(&m, &s, &input, 0.1, FIXTURE_TOL, NULL);
-  assert_close(s.x, 0.05 + 0.01 * cos(w * 0.1), TOL(2e-8, 2e-3), 0);
-  assert_close(s.v, -0.01 * w * sin(w * 0.1), TOL(2e-6, 2e-1), 0);
+  rig = fixture_at(fixture_pressed(&p), 0, 8e4 * (0.05 + 0.005) / 0.04, 0.06);
+  fixture_go(&rig, 0.1, FIXTURE_TOL, NULL);
+  assert_close(rig.s.x, 0.05 + 0.01 * cos(w * 0.1), TOL(2e-8, 2e-3), 0);
+  assert_close(rig.s.v, -0.01 * w * sin(w * 0.1), TOL(2e-6, 2e-1), 0);
 }
 
 /* Under a constant force against c v the velocity settles at force/c with time M/c. */
 static void test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity(void **state)
 {
   pneu_params p = bare();
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   const double c = 30 + 70, F = (2e4 * 0.04 - 480), t = 0.03;
   (void)state;
   p.viscous_friction = 30;
   p.damping = 70;
   p.stroke = 2;
-  m = fixture_pressed(&p);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 2e4, 0, &input);
-  fixture_run(&m, &s, &input, t, FIXTURE_TOL, NULL);
-  assert_close(s.v, F / c * (1 - exp(-c * t / 2)), 0, TOL(1e-8, 1e-4));
-  assert_close(s.x, F / c * (t - 2 / c * (1 - exp(-c * t / 2))), 0, TOL(1e-8, 1e-4));
+  rig = fixture_at(fixture_pressed(&p), 0, 2e4, 0);
+  fixture_go(&rig, t, FIXTURE_TOL, NULL);
+  assert_close(rig.s.v, F / c * (1 - exp(-c * t / 2)), 0, TOL(1e-8, 1e-4));
+  assert_close(rig.s.x, F / c * (t - 2 / c * (1 - exp(-c * t / 2))), 0, TOL(1e-8, 1e-4));
 }
 
 /* ---- break-away ---- */
@@ -204,38 +196,31 @@ static void test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop(void **s
 static void test_pneu_run__no_stroke__is_a_vessel(void **state)
 {
   const pneu_params p = fixture_vessel(1e-4);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 0, 0);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
   fixture_events e;
   (void)state;
-  assert_int_equal(s.mode, PNEU_MODE_FIXED);
-  assert_int_equal(pneu_dimension(&m, s.mode), 2);
-  assert_int_equal(pneu_pack(&m, &s, y), 2);
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 0);
-  fixture_run(&m, &s, &input, 5, 1e-5, &e);
-  assert_true(e.n == 0 && s.x == 0 && s.v == 0 && s.mode == PNEU_MODE_FIXED);
+  assert_int_equal(rig.s.mode, PNEU_MODE_FIXED);
+  assert_int_equal(pneu_dimension(&rig.m, rig.s.mode), 2);
+  assert_int_equal(pneu_pack(&rig.m, &rig.s, y), 2);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 0);
+  fixture_go(&rig, 5, 1e-5, &e);
+  assert_true(e.n == 0 && rig.s.x == 0 && rig.s.v == 0 && rig.s.mode == PNEU_MODE_FIXED);
 }
 
 static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **state)
 {
   static const double from[] = {-5e4, 0, 1.5e5, 3.9e5};
   pneu_params p = fixture_vessel(1e-3);
-  pneu_model m;
   int i, gas;
   (void)state;
   p.proportional_band = (pneu_real)2e4;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < COUNT(from); i++) {
-      pneu_input input;
-      pneu_state s;
-      m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
-      input = fixture_input(&m, 2e5);
-      s = fixture_rest(&m, from[i], 0, &input);
-      fixture_run(&m, &s, &input, 30, TOL(1e-8, 1e-5), NULL);
+      fixture_rig rig = fixture_at(fixture_model(&p, gas, PNEU_FLOW_CHOKED), 2e5, from[i], 0);
+      fixture_go(&rig, 30, TOL(1e-8, 1e-5), NULL);
       check_note("%s from %g Pa", pneu_gas_key(gas), from[i]);
-      assert_close(s.p, 2e5, TOL(1, 50), 0);
+      assert_close(rig.s.p, 2e5, TOL(1, 50), 0);
     }
 }
 
@@ -274,29 +259,24 @@ static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_pro
   (void)state;
   p.proportional_band = (pneu_real)2e4;
   for (i = 0; i < COUNT(over); i++) {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-    const pneu_input input = fixture_input(&m, 2e5);
-    const pneu_state s = fixture_rest(&m, 2e5 + over[i][0] * 2e4, 0, &input);
+    const fixture_rig rig =
+        fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), 2e5, 2e5 + over[i][0] * 2e4, 0);
     check_note("%g bands above", over[i][0]);
-    assert_close(fixture_look(&m, &s, &input).opening, over[i][1], TOL(1e-10, 1e-4), 0);
+    assert_close(fixture_see(&rig).opening, over[i][1], TOL(1e-10, 1e-4), 0);
   }
 }
 
 static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   (void)state;
   p.proportional_band = (pneu_real)5e3;
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 2e5);
-  s = fixture_rest(&m, 0, 0, &input);
-  fixture_run(&m, &s, &input, 60, TOL(1e-8, 1e-5), NULL);
-  assert_close(s.p, 2e5, TOL(1, 50), 0);
-  assert_int_equal(s.mode, PNEU_MODE_STUCK);
-  assert_between(4e5 * ((double)s.x + 0.01), 2e5 * 0.04 - 481, 2e5 * 0.04 + 481);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 2e5, 0, 0);
+  fixture_go(&rig, 60, TOL(1e-8, 1e-5), NULL);
+  assert_close(rig.s.p, 2e5, TOL(1, 50), 0);
+  assert_int_equal(rig.s.mode, PNEU_MODE_STUCK);
+  assert_between(4e5 * ((double)rig.s.x + 0.01), 2e5 * 0.04 - 481, 2e5 * 0.04 + 481);
 }
 
 static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void **state)
@@ -315,18 +295,14 @@ static void test_pneu_run__regulator_at_many_set_points__always_ends(void **stat
   for (band = 2e4; band < 1.1e5; band += 4e4)
     for (set = 105e3; set < 320e3; set += 500) {
       pneu_params p = fixture_params(FIXTURE_R1_400);
-      pneu_model m;
-      pneu_input input;
-      pneu_state s;
+      fixture_rig rig;
       p.dead_volume = (pneu_real)4e-5;
       p.proportional_band = (pneu_real)band;
-      m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-      input = fixture_input(&m, 0);
-      s = fixture_rest(&m, 0, 0, &input);
-      input.u = (pneu_real)set;
+      rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 0, 0);
+      rig.input.u = (pneu_real)set;
       check_note("band %g, set %g", band, set);
-      fixture_run(&m, &s, &input, 60, TOL(1e-6, 1e-4), NULL);
-      assert_close(s.p, set, 50, 0);
+      fixture_go(&rig, 60, TOL(1e-6, 1e-4), NULL);
+      assert_close(rig.s.p, set, 50, 0);
     }
 }
 
@@ -334,18 +310,14 @@ static void test_pneu_run__regulator_at_many_set_points__always_ends(void **stat
 static void test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   (void)state;
   fixture_need("transducer_lag");
   p.proportional_band = (pneu_real)5e4;
   fixture_set(&p, "transducer_time", 0.05);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 2e5);
-  s = fixture_rest(&m, 2e5, 0.01, &input);
-  fixture_run(&m, &s, &input, 1, TOL(1e-8, 1e-5), NULL);
-  assert_close(s.p, 2e5, TOL(1, 100), 0);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 2e5, 2e5, 0.01);
+  fixture_go(&rig, 1, TOL(1e-8, 1e-5), NULL);
+  assert_close(rig.s.p, 2e5, TOL(1, 100), 0);
 }
 
 static void test_pneu_regulator_opening__error_over_band__is_held_within_one(void **state)
@@ -427,39 +399,35 @@ static void test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_fo
 
 static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, 200e3, 0.01, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 200e3, 0.01);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
   (void)state;
-  pneu_pack(&m, &s, y);
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
+  pneu_pack(&rig.m, &rig.s, y);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 2);
   assert_close(g[0], -480, TOL(1e-8, 0.5), 0);
   assert_close(g[1], -480, TOL(1e-8, 0.5), 0);
   y[0] = (pneu_real)213e3;
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 2);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 2);
   assert_close(g[0], 40, TOL(1e-8, 0.5), 0);
   assert_close(g[1], -1000, TOL(1e-8, 0.5), 0);
-  s = fixture_rest(&m, 400e3, 0.02, &input);
-  pneu_pack(&m, &s, y);
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 1);
+  rig.s = fixture_rest(&rig.m, 400e3, 0.02, &rig.input);
+  pneu_pack(&rig.m, &rig.s, y);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 1);
   assert_close(g[0], -(16000 - 12000 + 480), TOL(1e-8, 0.5), 0);
 }
 
 /* A chamber without air has no balance of forces: nothing to tell of the stem. */
 static void test_pneu_settle__chamber_without_air__stem_stays(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, 213e3, 0.01, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 213e3, 0.01);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
   (void)state;
-  assert_int_equal(s.mode, PNEU_MODE_UP);
-  s.p = (pneu_real)-2e5;
-  pneu_settle(&m, &input, &s);
-  assert_int_equal(s.mode, PNEU_MODE_STUCK);
-  pneu_pack(&m, &s, y);
-  assert_int_equal(pneu_events(&m, &s, &input, y, g), 0);
+  assert_int_equal(rig.s.mode, PNEU_MODE_UP);
+  rig.s.p = (pneu_real)-2e5;
+  pneu_settle(&rig.m, &rig.input, &rig.s);
+  assert_int_equal(rig.s.mode, PNEU_MODE_STUCK);
+  pneu_pack(&rig.m, &rig.s, y);
+  assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 0);
 }
 
 /* ---- invariants under anything ---- */

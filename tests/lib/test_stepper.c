@@ -4,22 +4,12 @@
 /* ---- order ---- */
 
 /* A stretch without events: the stem slides up in mid-stroke. */
-typedef struct smooth {
-  pneu_model model;
-  pneu_input input;
-  pneu_state start;
-} smooth;
-
-static smooth sliding(int gas, int flow)
+static fixture_rig sliding(int gas, int flow)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  smooth s;
-  s.model = fixture_model(&p, gas, flow);
-  s.input = fixture_input(&s.model, 1);
-  s.start = fixture_rest(&s.model, 112.5e3, 0, &s.input);
-  fixture_run(&s.model, &s.start, &s.input, 0.5, TOL(1e-9, 1e-5), NULL);
-  assert_int_equal(s.start.mode, PNEU_MODE_UP);
-  return s;
+  fixture_rig rig = fixture_at(fixture_r1_400(gas, flow), 1, 112.5e3, 0);
+  fixture_go(&rig, 0.5, TOL(1e-9, 1e-5), NULL);
+  assert_int_equal(rig.s.mode, PNEU_MODE_UP);
+  return rig;
 }
 
 static double apart(const pneu_state *a, const pneu_state *b)
@@ -31,30 +21,28 @@ static double apart(const pneu_state *a, const pneu_state *b)
 
 #ifndef PNEU_SINGLE /* rounding in float is above the error of any step that is worth halving */
 /* A quick stretch: the stem flies up under pressure, hardly damped, and no rate is large for the steps. */
-static smooth flying(int gas, int flow)
+static fixture_rig flying(int gas, int flow)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  smooth s;
+  fixture_rig rig;
   p.viscous_friction = 0;
   p.damping = 100;
   p.fill_area = 1e-5;
-  s.model = fixture_model(&p, gas, flow);
-  s.input = fixture_input(&s.model, 1);
-  s.start = fixture_rest(&s.model, 2.8e5, 0.004, &s.input);
-  s.start.v = 0.5;
-  s.start.mode = PNEU_MODE_UP;
-  return s;
+  rig = fixture_at(fixture_model(&p, gas, flow), 1, 2.8e5, 0.004);
+  rig.s.v = 0.5;
+  rig.s.mode = PNEU_MODE_UP;
+  return rig;
 }
 
-static pneu_state in_steps(const smooth *s, double time, int n)
+static pneu_state in_steps(const fixture_rig *rig, double time, int n)
 {
   pneu_workspace work = {0};
-  pneu_state at = s->start;
-  pneu_input input = s->input;
+  pneu_state at = rig->s;
+  pneu_input input = rig->input;
   int i;
   for (i = 0; i < n; i++) {
-    input.elapsed = s->input.elapsed + (pneu_real)(time * i / n);
-    assert_int_equal(pneu_step(&s->model, &at, &input, (pneu_real)(time / n), &work), PNEU_OK);
+    input.elapsed = rig->input.elapsed + (pneu_real)(time * i / n);
+    assert_int_equal(pneu_step(&rig->m, &at, &input, (pneu_real)(time / n), &work), PNEU_OK);
   }
   assert_int_equal(work.stats.steps, n);
   return at;
@@ -65,14 +53,14 @@ enum { ORDER = PNEU_ORDER, EVALUATIONS = PNEU_ORDER == 5 ? 8 : 3, COARSEST = PNE
 
 static void check_order(int gas, double u_rate)
 {
-  smooth s = flying(gas, PNEU_FLOW_PAPER);
+  fixture_rig rig = flying(gas, PNEU_FLOW_PAPER);
   pneu_state exact;
   double error[4];
   int j;
-  s.input.u_rate = (pneu_real)u_rate;
-  exact = in_steps(&s, 2e-3, 512);
+  rig.input.u_rate = (pneu_real)u_rate;
+  exact = in_steps(&rig, 2e-3, 512);
   for (j = 0; j < 4; j++) {
-    const pneu_state at = in_steps(&s, 2e-3, COARSEST << j);
+    const pneu_state at = in_steps(&rig, 2e-3, COARSEST << j);
     error[j] = apart(&at, &exact);
   }
   check_note("%s, u_rate %g: %g %g %g %g", pneu_gas_key(gas), u_rate, error[0], error[1], error[2], error[3]);
@@ -99,11 +87,11 @@ static double dense_error;
 
 static int look_inside(void *context, const pneu_step_view *view)
 {
-  const smooth *s = context;
+  const fixture_rig *rig = context;
   double theta;
   dense_error = 0;
   for (theta = 0.2; theta < 0.9; theta += 0.2) {
-    const pneu_state exact = in_steps(s, theta * view->h, 64);
+    const pneu_state exact = in_steps(rig, theta * view->h, 64);
     pneu_state at;
     pneu_dense(view, theta, &at);
     dense_error = fmax(dense_error, apart(&at, &exact));
@@ -114,8 +102,8 @@ static int look_inside(void *context, const pneu_step_view *view)
 static void test_pneu_dense__smooth_stretch__has_its_order(void **state)
 {
   const double longest = ORDER == 5 ? 1e-4 : 2e-4, power = ORDER == 5 ? 5 : 3, below = ORDER == 5 ? 0.3 : 0.7;
-  const smooth s = flying(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
-  smooth context = s;
+  const fixture_rig rig = flying(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  fixture_rig context = rig;
   pneu_observer observer = {look_inside, NULL, NULL};
   pneu_options options = fixture_options(1e-2);
   double error[3];
@@ -124,9 +112,9 @@ static void test_pneu_dense__smooth_stretch__has_its_order(void **state)
   observer.context = &context;
   for (i = 0; i < 3; i++) {
     pneu_workspace work = {0};
-    pneu_state at = s.start;
+    pneu_state at = rig.s;
     options.h_max = work.h = longest / (1 << i);
-    assert_int_equal(pneu_run(&s.model, &at, &s.input, 1, &options, &observer, &work), PNEU_E_STOPPED);
+    assert_int_equal(pneu_run(&rig.m, &at, &rig.input, 1, &options, &observer, &work), PNEU_E_STOPPED);
     error[i] = dense_error;
   }
   check_note("%g %g %g", error[0], error[1], error[2]);
@@ -153,23 +141,19 @@ static int ends_meet(void *context, const pneu_step_view *view)
 
 static void test_pneu_dense__at_the_ends__is_the_step_itself(void **state)
 {
-  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_observer observer = {ends_meet, NULL, NULL};
-  pneu_options options;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  pneu_state at = s.start;
   (void)state;
-  pneu_options_default(&options);
-  assert_int_equal(pneu_run(&s.model, &at, &s.input, 5, &options, &observer, &work), PNEU_OK);
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 5, &options, &observer, &work), PNEU_OK);
 }
 
 /* A stem so light in so thick an oil that its velocity dies within 1e-11 s. */
 static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   pneu_workspace work = {0};
   (void)state;
   p.spring_rate = p.dry_friction = 0;
@@ -177,12 +161,10 @@ static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
   p.damping = (pneu_real)1e5;
   p.dead_volume = 10;
   p.stroke = 1;
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 0);
-  s = fixture_rest(&m, 1e4, 0.5, &input);
-  s.v = 1;
-  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_OK);
-  assert_close(s.v, 1e4 * 0.04 / (1e5 + 500), 1e-5, 1e-2);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 1e4, 0.5);
+  rig.s.v = 1;
+  assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-3, &work), PNEU_OK);
+  assert_close(rig.s.v, 1e4 * 0.04 / (1e5 + 500), 1e-5, 1e-2);
 }
 
 /* ---- events ---- */
@@ -205,11 +187,9 @@ static void test_pneu_run__break_away__is_located_to_a_nanosecond(void **state)
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (i = 0; i < COUNT(tol); i++) {
       const pneu_params p = fixture_params(actuator);
-      const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-      const pneu_input input = fixture_input(&m, 1);
-      pneu_state s = fixture_rest(&m, 0, 0, &input);
+      fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 0, 0);
       fixture_events e;
-      fixture_run(&m, &s, &input, 0.1, TOL(tol[i], 1e-5), &e);
+      fixture_go(&rig, 0.1, TOL(tol[i], 1e-5), &e);
       check_note("actuator %d, tol %g", actuator, tol[i]);
       assert_int_equal(e.before[0], PNEU_MODE_LOWER);
       assert_int_equal(e.after[0], PNEU_MODE_UP);
@@ -248,29 +228,25 @@ static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state
   p.spring_rate = (pneu_real)(w * w * 2);
   p.spring_preload = p.dry_friction = p.viscous_friction = p.damping = 0;
   for (turn = 0.5; turn < 4.5; turn += 0.25) {
-    const pneu_model m = fixture_pressed(&p);
-    const pneu_input input = fixture_input(&m, 0);
-    pneu_state s = fixture_rest(&m, w * w * 2 * 0.018 / 0.04, 0.018, &input);
+    fixture_rig rig = fixture_at(fixture_pressed(&p), 0, w * w * 2 * 0.018 / 0.04, 0.018);
     pneu_workspace work = {0};
-    s.v = (pneu_real)(0.005 * w);
+    rig.s.v = (pneu_real)(0.005 * w);
     check_note("w dt = %g", turn);
-    assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)(turn / w), &work), PNEU_OK);
-    assert_between(s.x, 0, 0.02 + 1e-8);
+    assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)(turn / w), &work), PNEU_OK);
+    assert_between(rig.s.x, 0, 0.02 + 1e-8);
   }
 }
 
 static void test_pneu_step__force_jumps__stem_moves_at_once_in_one_step(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  pneu_input input = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.01);
   pneu_workspace work = {0};
   (void)state;
-  input.force = 1000;
-  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-4, &work), PNEU_OK);
-  assert_int_equal(s.mode, PNEU_MODE_DOWN);
+  rig.input.force = 1000;
+  assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-4, &work), PNEU_OK);
+  assert_int_equal(rig.s.mode, PNEU_MODE_DOWN);
   assert_int_equal(work.stats.steps, 1);
-  assert_true(s.v < 0);
+  assert_true(rig.s.v < 0);
 }
 
 /* The same by single steps: the state just after the event tells its time. */
@@ -319,34 +295,31 @@ static void test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics(vo
 #ifndef PNEU_SINGLE
 static pneu_state fill_for(double time, double tol, double h_max, pneu_stats *stats)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 0, 0);
   pneu_options options = fixture_options(tol);
   pneu_workspace work = {0};
   options.h_max = (pneu_real)h_max;
-  assert_int_equal(pneu_run(&m, &s, &input, (pneu_real)time, &options, NULL, &work), PNEU_OK);
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, (pneu_real)time, &options, NULL, &work), PNEU_OK);
   if (stats)
     *stats = work.stats;
-  return s;
+  return rig.s;
 }
 
 /* Largest error of x over six seconds of filling and six of venting in steps of dt, in units of stroke. */
 static double error_in_steps(int gas, int flow, double dt)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model(&p, gas, flow);
-  pneu_input input = fixture_input(&m, 1);
-  pneu_state at = fixture_rest(&m, 0, 0, &input), exact = at;
+  fixture_rig rig = fixture_at(fixture_model(&p, gas, flow), 1, 0, 0);
+  pneu_state exact = rig.s;
   pneu_workspace work = {0};
   const int n = (int)(6 / dt + 0.5);
   double worst = 0;
   int i;
   for (i = 0; i < 2 * n; i++) {
-    input.u = i < n ? 1 : -1;
-    assert_int_equal(pneu_step(&m, &at, &input, (pneu_real)dt, &work), PNEU_OK);
-    fixture_run(&m, &exact, &input, dt, 1e-9, NULL);
-    worst = fmax(worst, fabs((double)at.x - (double)exact.x) / (double)p.stroke);
+    rig.input.u = i < n ? 1 : -1;
+    assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)dt, &work), PNEU_OK);
+    fixture_run(&rig.m, &exact, &rig.input, dt, 1e-9, NULL);
+    worst = fmax(worst, fabs((double)rig.s.x - (double)exact.x) / (double)p.stroke);
   }
   return worst;
 }
@@ -412,44 +385,39 @@ static void test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures(v
 static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  fixture_rig rig;
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   (void)state;
   fixture_need("transducer_lag");
   fixture_set(&p, "transducer_time", 0.02);
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  input = fixture_input(&m, 1);
-  s = fixture_rest(&m, 4e5 - 0.1, 0.02, &input);
-  input.u = -1;
-  assert_int_equal(pneu_run(&m, &s, &input, 15, &options, NULL, &work), PNEU_OK);
+  rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 4e5 - 0.1, 0.02);
+  rig.input.u = -1;
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 15, &options, NULL, &work), PNEU_OK);
   assert_between(work.stats.steps, 10, 400);
 }
 
 static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
 {
-  const smooth s = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  pneu_state one = s.start, two = s.start;
+  const fixture_rig rig = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  pneu_state one = rig.s, two = rig.s;
   (void)state;
-  fixture_run(&s.model, &one, &s.input, 2, TOL(1e-9, 1e-5), NULL);
-  fixture_run(&s.model, &two, &s.input, 0.7, TOL(1e-9, 1e-5), NULL);
-  fixture_run(&s.model, &two, &s.input, 1.3, TOL(1e-9, 1e-5), NULL);
+  fixture_run(&rig.m, &one, &rig.input, 2, TOL(1e-9, 1e-5), NULL);
+  fixture_run(&rig.m, &two, &rig.input, 0.7, TOL(1e-9, 1e-5), NULL);
+  fixture_run(&rig.m, &two, &rig.input, 1.3, TOL(1e-9, 1e-5), NULL);
   assert_close(apart(&one, &two), 0, TOL(2e-9, 1e-4), 0);
 }
 
 static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
-  pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input), was = s;
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 2e5, 0.01);
+  pneu_state was = rig.s;
   (void)state;
-  input.force = 2000;
-  fixture_run(&m, &s, &input, 0, 1e-5, NULL);
-  assert_int_equal(s.mode, PNEU_MODE_DOWN);
-  s.mode = was.mode;
-  assert_memory_equal(&s, &was, sizeof s);
+  rig.input.force = 2000;
+  fixture_go(&rig, 0, 1e-5, NULL);
+  assert_int_equal(rig.s.mode, PNEU_MODE_DOWN);
+  rig.s.mode = was.mode;
+  assert_memory_equal(&rig.s, &was, sizeof rig.s);
 }
 
 /* Every end of a run is reached, whatever its length: sums of steps round. */
@@ -492,16 +460,14 @@ static int stop_at_event(void *context, pneu_real t, const pneu_state *state, in
 
 static int run_observed(walk *w, double duration, int stop_event)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 0, 0);
   pneu_observer observer = {follow, NULL, NULL};
   pneu_options options = fixture_options(1e-4);
   pneu_workspace work = {0};
   observer.context = w;
   observer.event = stop_event ? stop_at_event : NULL;
   options.h_max = (pneu_real)w->h_max;
-  return pneu_run(&m, &s, &input, (pneu_real)duration, &options, &observer, &work);
+  return pneu_run(&rig.m, &rig.s, &rig.input, (pneu_real)duration, &options, &observer, &work);
 }
 
 #if PNEU_ORDER == 4
@@ -531,15 +497,13 @@ static int look_at_bend(void *context, const pneu_step_view *view)
 /* With order 4 position and velocity inside a step tell the same story. */
 static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 0, 0);
   bend b = {0, 0};
   const pneu_observer observer = {look_at_bend, NULL, &b};
   const pneu_options options = fixture_options(1e-3);
   pneu_workspace work = {0};
   (void)state;
-  assert_int_equal(pneu_run(&m, &s, &input, 3, &options, &observer, &work), PNEU_OK);
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 3, &options, &observer, &work), PNEU_OK);
   check_note("off by %g of %g m", b.off, b.bent);
   assert_between(b.bent, 1e-6, 1e-2);
   assert_between(b.off, 0, TOL(1e-15, 4e-9));
@@ -568,15 +532,13 @@ static int note_first(void *context, const pneu_step_view *view)
 
 static void test_pneu_run__step_to_try_first__is_tried_and_forgotten(void **state)
 {
-  const smooth s = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  fixture_rig rig = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_observer observer = {note_first, NULL, NULL};
-  pneu_options options;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  pneu_state at = s.start;
   (void)state;
-  pneu_options_default(&options);
   work.h = (pneu_real)1e-5;
-  assert_int_equal(pneu_run(&s.model, &at, &s.input, 1, &options, &observer, &work), PNEU_OK);
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, &observer, &work), PNEU_OK);
   assert_close(first_h, 1e-5, 0, TOL(1e-15, 1e-6));
   assert_close(work.h, 0, 0, 0);
 }
@@ -594,21 +556,20 @@ static void test_pneu_run__observer_stops__says_so(void **state)
 
 static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
 {
-  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   pneu_workspace clean = {0}, dirty;
-  pneu_options options;
-  pneu_state a = s.start, b = s.start;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
+  pneu_state a = rig.s, b = rig.s;
   (void)state;
   memset(&dirty, 0xff, sizeof dirty);
   dirty.h = 0;
   dirty.stats = clean.stats;
-  pneu_options_default(&options);
-  assert_int_equal(pneu_run(&s.model, &a, &s.input, 2, &options, NULL, &clean), PNEU_OK);
-  assert_int_equal(pneu_run(&s.model, &b, &s.input, 2, &options, NULL, &dirty), PNEU_OK);
+  assert_int_equal(pneu_run(&rig.m, &a, &rig.input, 2, &options, NULL, &clean), PNEU_OK);
+  assert_int_equal(pneu_run(&rig.m, &b, &rig.input, 2, &options, NULL, &dirty), PNEU_OK);
   assert_memory_equal(&a, &b, sizeof a);
   memset(&dirty, 0xff, sizeof dirty);
-  assert_int_equal(pneu_step(&s.model, &a, &s.input, (pneu_real)1e-3, &clean), PNEU_OK);
-  assert_int_equal(pneu_step(&s.model, &b, &s.input, (pneu_real)1e-3, &dirty), PNEU_OK);
+  assert_int_equal(pneu_step(&rig.m, &a, &rig.input, (pneu_real)1e-3, &clean), PNEU_OK);
+  assert_int_equal(pneu_step(&rig.m, &b, &rig.input, (pneu_real)1e-3, &dirty), PNEU_OK);
   assert_memory_equal(&a, &b, sizeof a);
 }
 
@@ -621,20 +582,19 @@ static void test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run(vo
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       const pneu_params p = fixture_params(actuator);
-      const pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
-      pneu_input input = fixture_input(&m, 1);
-      pneu_state fixed = fixture_rest(&m, 0, 0, &input), adaptive = fixed;
+      fixture_rig rig = fixture_at(fixture_model(&p, gas, PNEU_FLOW_CHOKED), 1, 0, 0);
+      pneu_state adaptive = rig.s;
       pneu_workspace work = {0};
       check_note("actuator %d, %s", actuator, pneu_gas_key(gas));
       for (i = 1; i <= 12000; i++) {
         if (i == 6001)
-          input.u = -1;
-        assert_int_equal(pneu_step(&m, &fixed, &input, (pneu_real)1e-3, &work), PNEU_OK);
+          rig.input.u = -1;
+        assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-3, &work), PNEU_OK);
         if (i % 200)
           continue;
-        fixture_run(&m, &adaptive, &input, 0.2, TOL(1e-9, 1e-5), NULL);
-        assert_close(fixed.x, adaptive.x, TOL(1e-5, 1e-3) * (double)p.stroke, 0);
-        assert_close(fixed.p, adaptive.p, TOL(100, 1000), 0);
+        fixture_run(&rig.m, &adaptive, &rig.input, 0.2, TOL(1e-9, 1e-5), NULL);
+        assert_close(rig.s.x, adaptive.x, TOL(1e-5, 1e-3) * (double)p.stroke, 0);
+        assert_close(rig.s.p, adaptive.p, TOL(100, 1000), 0);
       }
     }
 }
@@ -922,19 +882,15 @@ static void test_pneu_step__filled_in_it__ends_at_the_supply(void **state)
   (void)state;
   for (i = 0; i < sizeof fill / sizeof fill[0]; i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
-    pneu_model m;
-    pneu_input input;
-    pneu_state s;
+    fixture_rig rig;
     pneu_workspace work = {0};
     fixture_set(&p, "stroke", 0);
     fixture_set(&p, "dead_volume", fill[i].volume);
     fixture_set(&p, "fill_area", fill[i].orifice);
-    m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, fill[i].flow);
-    input = fixture_input(&m, 1);
-    s = fixture_rest(&m, fill[i].from, 0, &input);
-    assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)fill[i].dt, &work), PNEU_OK);
-    check_note("vessel %d: %g Pa", (int)i, (double)s.p);
-    assert_close(s.p, (double)input.supply_pressure, 0, 1e-3);
+    rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, fill[i].flow), 1, fill[i].from, 0);
+    assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)fill[i].dt, &work), PNEU_OK);
+    check_note("vessel %d: %g Pa", (int)i, (double)rig.s.p);
+    assert_close(rig.s.p, (double)rig.input.supply_pressure, 0, 1e-3);
   }
 }
 
@@ -981,14 +937,14 @@ static void test_pneu_step__starts_into_a_stop__is_at_rest_there(void **state)
   (void)state;
   p.moving_mass = (pneu_real)0.2;
   for (upper = 0; upper < 2; upper++) {
-    const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-    const pneu_input input = fixture_input(&m, upper ? -1 : 1);
-    pneu_state s = fixture_rest(&m, upper ? 0 : 3e5, upper ? (double)p.stroke : 0, &input), still = s;
+    fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), upper ? -1 : 1,
+                                 upper ? 0 : 3e5, upper ? (double)p.stroke : 0);
+    pneu_state still = rig.s;
     pneu_workspace work = {0};
-    s.v = (pneu_real)(upper ? 0.5 : -0.5);
-    assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_OK);
-    assert_int_equal(pneu_step(&m, &still, &input, (pneu_real)1e-3, &work), PNEU_OK);
-    assert_memory_equal(&s, &still, sizeof s);
+    rig.s.v = (pneu_real)(upper ? 0.5 : -0.5);
+    assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-3, &work), PNEU_OK);
+    assert_int_equal(pneu_step(&rig.m, &still, &rig.input, (pneu_real)1e-3, &work), PNEU_OK);
+    assert_memory_equal(&rig.s, &still, sizeof rig.s);
   }
 }
 
@@ -1029,10 +985,9 @@ static void check_spoilt_run(const pneu_model *m, const scene *at, int i, double
 {
   pneu_input input = fixture_input(m, 1);
   pneu_state s = fixture_rest(m, at->p, at->x, &input);
-  pneu_options options;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   int status;
-  pneu_options_default(&options);
   s.v = (pneu_real)at->v;
   spoil(i, value, &input, &s);
   status = pneu_run(m, &s, &input, (pneu_real)0.1, &options, NULL, &work);
@@ -1074,17 +1029,16 @@ static void test_pneu_run__nan_in_state_or_input__is_refused(void **state)
 static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **state)
 {
   static const double dt[] = {-1e-3, NAN, INFINITY};
-  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
   (void)state;
   for (i = 0; i < COUNT(dt); i++) {
-    pneu_state at = s.start;
+    pneu_state at = rig.s;
     pneu_workspace work = {0};
-    int status;
-    status = pneu_step(&s.model, &at, &s.input, (pneu_real)dt[i], &work);
+    const int status = pneu_step(&rig.m, &at, &rig.input, (pneu_real)dt[i], &work);
     check_note("dt = %g: %s", dt[i], pneu_status_text(status));
     assert_between(status, -99, -1);
-    assert_memory_equal(&at, &s.start, sizeof at);
+    assert_memory_equal(&at, &rig.s, sizeof at);
   }
 }
 
@@ -1092,48 +1046,46 @@ static void test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_st
 {
   static const double bad[][2] = {{NAN, 1e-6},   {INFINITY, 1e-6}, {-1, 1e-6}, {-1e-9, 1e-6}, {1, NAN},
                                   {1, INFINITY}, {1, 0},           {1, -1},    {1, 9e-11},    {1, 1.1e-2}};
-  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
   (void)state;
   for (i = 0; i < COUNT(bad); i++) {
-    pneu_state at = s.start;
+    pneu_state at = rig.s;
     const pneu_options options = fixture_options(bad[i][1]);
     pneu_workspace work = {0};
-    int status;
-    status = pneu_run(&s.model, &at, &s.input, (pneu_real)bad[i][0], &options, NULL, &work);
+    const int status = pneu_run(&rig.m, &at, &rig.input, (pneu_real)bad[i][0], &options, NULL, &work);
     check_note("duration %g, tol %g: %s", bad[i][0], bad[i][1], pneu_status_text(status));
     assert_int_equal(status, PNEU_E_NONFINITE);
-    assert_memory_equal(&at, &s.start, sizeof at);
+    assert_memory_equal(&at, &rig.s, sizeof at);
   }
 }
 
 static void test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_taken(void **state)
 {
   static const double good[][2] = {{0, 1e-6}, {1e-3, TOL(1e-10, 1e-6)}, {1e-3, 1e-2}};
-  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
   (void)state;
   for (i = 0; i < COUNT(good); i++) {
-    pneu_state at = s.start;
+    pneu_state at = rig.s;
     const pneu_options options = fixture_options(good[i][1]);
     pneu_workspace work = {0};
     check_note("duration %g, tol %g", good[i][0], good[i][1]);
-    assert_int_equal(pneu_run(&s.model, &at, &s.input, (pneu_real)good[i][0], &options, NULL, &work), PNEU_OK);
-    assert_true((at.x != s.start.x) == (good[i][0] > 0));
+    assert_int_equal(pneu_run(&rig.m, &at, &rig.input, (pneu_real)good[i][0], &options, NULL, &work), PNEU_OK);
+    assert_true((at.x != rig.s.x) == (good[i][0] > 0));
   }
 }
 
 static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void **state)
 {
-  const smooth s = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
-  pneu_state at = s.start;
-  pneu_options options;
+  const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
+  pneu_state at = rig.s;
+  pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   (void)state;
-  pneu_options_default(&options);
   options.max_steps = 3;
-  assert_int_equal(pneu_run(&s.model, &at, &s.input, 10, &options, NULL, &work), PNEU_E_STEP_COUNT);
-  assert_true(state_is_finite(&at) && at.p != s.start.p);
+  assert_int_equal(pneu_run(&rig.m, &at, &rig.input, 10, &options, NULL, &work), PNEU_E_STEP_COUNT);
+  assert_true(state_is_finite(&at) && at.p != rig.s.p);
   assert_between(work.stats.steps, 1, 3);
 }
 
@@ -1141,19 +1093,17 @@ static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void *
 static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void **state)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
-  const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1);
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;
-  pneu_options options;
+  fixture_rig rig = fixture_at(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1), 1, 1e5, 0.01);
+  pneu_state before;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   (void)state;
-  pneu_options_default(&options);
-  s.x = -1;
-  before = s;
-  assert_int_equal(pneu_run(&m, &s, &input, 1, &options, NULL, &work), PNEU_E_NONFINITE);
-  s = before;
-  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_E_NONFINITE);
-  assert_memory_equal(&s, &before, sizeof s);
+  rig.s.x = -1;
+  before = rig.s;
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, NULL, &work), PNEU_E_NONFINITE);
+  rig.s = before;
+  assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-3, &work), PNEU_E_NONFINITE);
+  assert_memory_equal(&rig.s, &before, sizeof rig.s);
 }
 
 /* A stem that creeps to rest at the first instant of a long step: the dense output of the whole step has the event, and
@@ -1203,45 +1153,38 @@ static int turn_force(void *context, pneu_real t, const pneu_state *state, int b
 
 static void test_pneu_run__event_after_event_at_one_time__is_ended(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  pneu_input input = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
-  const pneu_observer observer = {NULL, turn_force, &input};
-  pneu_options options;
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.01);
+  const pneu_observer observer = {NULL, turn_force, &rig.input};
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   (void)state;
-  pneu_options_default(&options);
-  input.force = 1e9;
-  s.v = (pneu_real)1e-6;
-  assert_int_equal(pneu_run(&m, &s, &input, 1, &options, &observer, &work), PNEU_E_EVENTS);
+  rig.input.force = 1e9;
+  rig.s.v = (pneu_real)1e-6;
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, &observer, &work), PNEU_E_EVENTS);
 }
 
 /* Numbers, but so large that no slope is one. */
 static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
 {
   const pneu_params p = fixture_vessel(1e-3);
-  const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, -1);
-  pneu_state s = fixture_rest(&m, 1e5, 0, &input);
-  pneu_options options;
+  fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), -1, 1e5, 0);
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
   (void)state;
-  pneu_options_default(&options);
-  s.p = s.T = (pneu_real)TOL(1e300, 1e37);
-  assert_int_equal(pneu_run(&m, &s, &input, 1, &options, NULL, &work), PNEU_E_STEP_SIZE);
+  rig.s.p = rig.s.T = (pneu_real)TOL(1e300, 1e37);
+  assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, NULL, &work), PNEU_E_STEP_SIZE);
 }
 
 static void test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept(void **state)
 {
-  const pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, -1);
-  pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;
+  fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), -1, 1e5, 0.01);
+  pneu_state before;
   pneu_workspace work = {0};
   (void)state;
-  s.p = s.T = (pneu_real)TOL(1e300, 1e37);
-  before = s;
-  assert_int_equal(pneu_step(&m, &s, &input, (pneu_real)1e-3, &work), PNEU_E_SINGULAR);
-  assert_memory_equal(&s, &before, sizeof s);
+  rig.s.p = rig.s.T = (pneu_real)TOL(1e300, 1e37);
+  before = rig.s;
+  assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-3, &work), PNEU_E_SINGULAR);
+  assert_memory_equal(&rig.s, &before, sizeof rig.s);
 }
 
 /* So loose a tolerance lets a step end below vacuum: it is refused. */

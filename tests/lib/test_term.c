@@ -53,9 +53,8 @@ static pneu_term good_term(void)
 
 static int offer(const pneu_term *term)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term before = good_term();
-  pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   int status;
   add(&m, &before, 1);
   status = pneu_model_terms(&m, term, 1);
@@ -65,9 +64,8 @@ static int offer(const pneu_term *term)
 
 static void test_pneu_model_terms__good_terms__are_used_where_they_lie(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term term[2] = {good_term(), good_term()};
-  pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   (void)state;
   assert_int_equal(m.n_terms, 0);
   add(&m, term, 2);
@@ -140,9 +138,8 @@ static void test_pneu_model_terms__ends_swapped_or_equal__are_refused(void **sta
 
 static void test_pneu_model_terms__negative_count__is_refused(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term term = good_term();
-  pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   (void)state;
   assert_int_equal(pneu_model_terms(&m, &term, -1), PNEU_E_PARAM);
   assert_int_equal(m.n_terms, 0);
@@ -381,9 +378,8 @@ static void without_clock(const pneu_model *m, pneu_real f[PNEU_STATE_MAX])
 static void test_pneu_run__no_terms__is_the_base_model_bit_for_bit(void **state)
 {
   static fixture_sample base[SAMPLES], none[SAMPLES];
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term term = good_term();
-  pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   (void)state;
   standard(&m, 1e-5, base);
   add(&m, &term, 1);
@@ -399,7 +395,6 @@ static void test_pneu_run__no_terms__is_the_base_model_bit_for_bit(void **state)
 static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_bit(void **state)
 {
   static const int modes[] = {PNEU_MODE_UP, PNEU_MODE_DOWN, PNEU_MODE_STUCK, PNEU_MODE_LOWER};
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_term term[ALL];
   uint64_t seed = 3;
   int i, gas;
@@ -407,7 +402,7 @@ static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_b
   all_of_nothing(term);
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < 200; i++) {
-      pneu_model base = fixture_model(&p, gas, PNEU_FLOW_CHOKED), m = base;
+      pneu_model base = fixture_r1_400(gas, PNEU_FLOW_CHOKED), m = base;
       const pneu_input input = fixture_input(&base, fixture_random(&seed, -1, 1));
       pneu_state s = fixture_rest(&base, fixture_random(&seed, -5e4, 5e5), fixture_random(&seed, 0, 0.02), &input);
       pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX] = {0}, g[PNEU_STATE_MAX] = {0};
@@ -427,13 +422,12 @@ static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_b
 static void test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_tolerance(void **state)
 {
   static fixture_sample base[SAMPLES], nothing[SAMPLES];
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_term term[ALL];
   int gas, n, others;
   (void)state;
   all_of_nothing(term);
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
-    pneu_model m = fixture_model(&p, gas, PNEU_FLOW_PAPER);
+    pneu_model m = fixture_r1_400(gas, PNEU_FLOW_PAPER);
     n = standard(&m, FIXTURE_TOL, base);
     add(&m, term, ALL);
     others = standard(&m, FIXTURE_TOL, nothing);
@@ -482,9 +476,8 @@ static int part_strokes(const pneu_model *m, fixture_sample *out)
 static double apart(const pneu_params *p, int n, int equation, int argument, double from, double to, curve *f)
 {
   static fixture_sample effect[SAMPLES], table[SAMPLES];
-  const pneu_params base = fixture_params(FIXTURE_R1_400);
   const pneu_model with_effect = fixture_model(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  pneu_model m = fixture_model(&base, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   pneu_term term;
   int samples;
   leaky = m;
@@ -585,10 +578,9 @@ static void test_pneu_run__rough_tables__take_a_bounded_number_of_steps(void **s
 /* Firmware's steps of 1 ms end where the run with error control does. */
 static void test_pneu_step__terms__follow_the_run(void **state)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term term[2] = {sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 17, 0, 0.02, bump),
                              sampled(PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 17, 0, 4e5, relief)};
-  pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
+  pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_input input = fixture_input(&m, 1);
   static pneu_workspace work;
   pneu_state a, b;
@@ -664,13 +656,11 @@ static void test_pneu_run__flow_through_zero__settles_there(void **state)
   (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < COUNT(start); i++) {
-      pneu_model m = fixture_model(&p, gas, PNEU_FLOW_CHOKED);
-      const pneu_input input = fixture_input(&m, 0);
-      pneu_state s = fixture_rest(&m, start[i], 0, &input);
-      add(&m, &term, 1);
-      fixture_run(&m, &s, &input, 600, TOL(1e-8, 1e-4), NULL);
+      fixture_rig rig = fixture_at(fixture_model(&p, gas, PNEU_FLOW_CHOKED), 0, start[i], 0);
+      add(&rig.m, &term, 1);
+      fixture_go(&rig, 600, TOL(1e-8, 1e-4), NULL);
       check_note("%s from %g Pa", pneu_gas_key(gas), start[i]);
-      assert_close(s.p, 1e5, 0, TOL(1e-5, 1e-2));
+      assert_close(rig.s.p, 1e5, 0, TOL(1e-5, 1e-2));
     }
 }
 
@@ -679,13 +669,11 @@ static void test_pneu_run__constant_heat__raises_the_pressure(void **state)
 {
   const pneu_params p = fixture_vessel(1e-3);
   const pneu_term term = {PNEU_TERM_HEAT, PNEU_TERM_OVER_OPENING, 2, 0, 1, {10, 500}};
-  pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  const pneu_input input = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, 0, 0, &input);
+  fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 0, 0, 0);
   (void)state;
-  add(&m, &term, 1);
-  fixture_run(&m, &s, &input, 3, FIXTURE_TOL, NULL);
-  assert_close(s.p, 0.4 * 10 * 3 / 1e-3, 0, TOL(1e-8, 1e-3));
+  add(&rig.m, &term, 1);
+  fixture_go(&rig, 3, FIXTURE_TOL, NULL);
+  assert_close(rig.s.p, 0.4 * 10 * 3 / 1e-3, 0, TOL(1e-8, 1e-3));
 }
 
 int main(void)

@@ -28,8 +28,7 @@ static void add(pneu_model *m, const pneu_term *term, int n)
 
 static pneu_model plain_model(void)
 {
-  const pneu_params p = fixture_params(FIXTURE_R1_400);
-  return fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
+  return fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
 }
 
 /* ---- The series ---- */
@@ -282,11 +281,10 @@ static double break_away(double amplitude, double period, double begin, double p
   pneu_model m = fixture_pressed(&p);
   const pneu_input input = fixture_input(&m, 0);
   static pneu_workspace work;
-  pneu_options options;
+  const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_state s;
   int status;
   add(&m, &term, 1);
-  pneu_options_default(&options);
   s = fixture_rest(&m, 4e5 * 0.02 / 0.04, 0.01, &input);
   assert_int_equal(s.mode, PNEU_MODE_STUCK);
   s.extra[m.clock] = (pneu_real)begin;
@@ -390,13 +388,11 @@ static void test_pneu_add_terms__supply_below_vacuum__stays_above_it(void **stat
 {
   static const double value[] = {-1e7, 0};
   const pneu_term term = cycle(PNEU_TERM_SUPPLY, 1, 2, value);
-  pneu_model m = plain_model();
-  const pneu_input input = fixture_input(&m, 1);
-  pneu_state s = fixture_rest(&m, 2e5, 0.01, &input);
+  fixture_rig rig = fixture_at(plain_model(), 1, 2e5, 0.01);
   (void)state;
-  add(&m, &term, 1);
-  s.extra[m.clock] = 0;
-  assert_close(fixture_look(&m, &s, &input).supply, -0.999 * 101325, TOL(1e-6, 1), 0);
+  add(&rig.m, &term, 1);
+  rig.s.extra[rig.m.clock] = 0;
+  assert_close(fixture_see(&rig).supply, -0.999 * 101325, TOL(1e-6, 1), 0);
 }
 
 int main(void)
