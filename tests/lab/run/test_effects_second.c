@@ -2,6 +2,7 @@
  * tests/second: the same parameters, the same random commands, the same measured channels. */
 #include "../../fixture.h"
 
+#include "../../../apps/lab/base/text.h"
 #include "../../../apps/lab/run/response.h"
 #include "../../second/rig.h"
 
@@ -29,13 +30,6 @@ static void widen(apart *d, double p, double x, double T)
     fixture_set(p, name, g->field);                                                                                    \
   } while (0)
 
-static void set_chamber_creep(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("volume_compliance", growth, 2e-6);
-  g->growth_time = 0.3;
-  fixture_set(p, "volume_time", g->growth_time);
-}
-
 static void set_chamber_exponent(pneu_params *p, second_rig *g, double size)
 {
   g->gas = SECOND_ENERGY; /* without heat, by another exponent */
@@ -61,13 +55,6 @@ static void set_choked_flow(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "choked_share", 1);
 }
 
-static void set_porous_leak(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("porous_leak", porous_leak, 3e-16);
-  g->crossover = 3e5;
-  fixture_set(p, "crossover_pressure", g->crossover);
-}
-
 static void set_presliding(pneu_params *p, second_rig *g, double size)
 {
   const double length = 3e-5 * size;
@@ -75,13 +62,6 @@ static void set_presliding(pneu_params *p, second_rig *g, double size)
   g->bristle_damping = 1e3;
   fixture_set(p, "presliding_length", length);
   fixture_set(p, "bristle_damping", g->bristle_damping);
-}
-
-static void set_spring_creep(pneu_params *p, second_rig *g, double size)
-{
-  BOTH("creep_stiffness", creep, 8e4);
-  g->creep_time = 0.4;
-  fixture_set(p, "creep_time", g->creep_time);
 }
 
 static void set_start_temperature(pneu_params *p, second_rig *g, double size)
@@ -139,7 +119,8 @@ typedef struct effect_case {
     const char *param;
     size_t field;
     double value;
-  } same[2]; /* which are these, at size 1 */
+    int is_form; /* whatever the size */
+  } same[2];     /* which are these, at size 1 */
 } effect_case;
 
 static void set_case(const effect_case *c, pneu_params *p, second_rig *g, double size)
@@ -148,15 +129,16 @@ static void set_case(const effect_case *c, pneu_params *p, second_rig *g, double
   if (c->set)
     c->set(p, g, size);
   for (i = 0; i < COUNT(c->same) && c->same[i].param; i++) {
-    const double value = c->same[i].value * size;
+    const double value = c->same[i].value * (c->same[i].is_form ? 1 : size);
     *(double *)((char *)g + c->same[i].field) = value;
     fixture_set(p, c->same[i].param, value);
   }
 }
 
 /* clang-format off */
-#define CASE(name, p, x, T) {#name, {p, x, T}, set_##name, {{NULL, 0, 0}}}
-#define SAME(param, field, value) {#param, offsetof(second_rig, field), value}
+#define CASE(name, p, x, T) {#name, {p, x, T}, set_##name, {{NULL, 0, 0, 0}}}
+#define SAME(param, field, value) {#param, offsetof(second_rig, field), value, 0}
+#define FORM(param, field, value) {#param, offsetof(second_rig, field), value, 1}
 static const effect_case cases[] = {
     {"area_variation",         {3e-6, 2e-7, 2e-6}, NULL, {SAME(area_loss, area_slope, 0.08)}},
     {"chamber_leak",           {2e-6, 5e-8, 8e-7}, NULL, {SAME(leak_area, leak_area, 3e-8)}},
@@ -170,7 +152,8 @@ static const effect_case cases[] = {
     {"friction_pressure",      {4e-6, 2e-7, 3e-6}, NULL, {SAME(friction_per_pressure, friction_pressure, 1e-3)}},
     {"heat_transfer",          {3e-6, 2e-7, 2e-6}, NULL, {SAME(film_conductance, heat, 3)}},
     {"laminar_leak",           {2e-6, 7e-8, 2e-6}, NULL, {SAME(laminar_leak, laminar_leak, 2e-16)}},
-    CASE(porous_leak,           3e-6, 1e-7, 2e-6),
+    {"porous_leak",            {3e-6, 1e-7, 2e-6}, NULL, {SAME(porous_leak, porous_leak, 3e-16),
+                                                          FORM(crossover_pressure, crossover, 3e5)}},
     {"position_bias",          {3e-6, 2e-7, 2e-6}, NULL, {SAME(position_bias, position_bias, -4e-4)}},
     {"position_gain",          {5e-6, 2e-7, 3e-6}, NULL, {SAME(position_gain, position_gain, 0.05)}},
     {"position_lag",           {3e-6, 2e-9, 2e-6}, NULL, {SAME(position_time, position_lag, 0.05)}},
@@ -189,14 +172,16 @@ static const effect_case cases[] = {
     CASE(travel_limit,          4e-6, 2e-7, 2e-6),
     CASE(vent_restriction,      3e-6, 2e-7, 2e-6),
     CASE(wall_temperature,      2e-6, 8e-8, 2e-6),
-    CASE(chamber_creep,         3e-6, 2e-7, 2e-6),
-    CASE(spring_creep,          2e-6, 7e-8, 3e-7),
+    {"chamber_creep",          {3e-6, 2e-7, 2e-6}, NULL, {SAME(volume_compliance, growth, 2e-6),
+                                                          FORM(volume_time, growth_time, 0.3)}},
+    {"spring_creep",           {2e-6, 7e-8, 3e-7}, NULL, {SAME(creep_stiffness, creep, 8e4),
+                                                          FORM(creep_time, creep_time, 0.4)}},
 };
 /* clang-format on */
 
 /* In place of a chamber law. */
 static const effect_case exponent = CASE(chamber_exponent, 6e-7, 4e-8, 2e-7);
-static const effect_case rate_exponent = {"chamber_exponent", {6e-7, 4e-8, 2e-7}, set_rate_exponent, {{NULL, 0, 0}}};
+static const effect_case rate_exponent = {"chamber_exponent", {6e-7, 4e-8, 2e-7}, set_rate_exponent, {{NULL, 0, 0, 0}}};
 
 /* Before anything happens. */
 static const effect_case begins = CASE(start_temperature, 3e-6, 2e-7, 2e-6);
@@ -270,12 +255,6 @@ static void set_positioner_start(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "integral_start", other.integral_start);
 }
 
-static void set_positioner_bend(pneu_params *p, second_rig *g, double size)
-{
-  set_positioner(p, g, size);
-  BOTH("flow_bend", bend, 0.3);
-}
-
 static void set_positioner_dead_band(pneu_params *p, second_rig *g, double size)
 {
   set_positioner(p, g, size);
@@ -283,52 +262,29 @@ static void set_positioner_dead_band(pneu_params *p, second_rig *g, double size)
   fixture_set(p, "dead_band_excess", 0.01 * size);
 }
 
-static void set_positioner_overlap(pneu_params *p, second_rig *g, double size)
-{
-  set_positioner(p, g, size);
-  BOTH("overlap", overlap, 0.05);
-}
-
-static void set_positioner_underlap(pneu_params *p, second_rig *g, double size)
-{
-  set_positioner(p, g, size);
-  BOTH("overlap", overlap, -0.05);
-}
-
-static void set_positioner_span(pneu_params *p, second_rig *g, double size)
-{
-  set_positioner_integral(p, g, size);
-  BOTH("span_excess", span, 0.05);
-}
-
-static void set_positioner_zero(pneu_params *p, second_rig *g, double size)
-{
-  set_positioner_integral(p, g, size);
-  BOTH("zero_shift", zero, 5e-4);
-}
-
 /* A leak that the positioner makes up for, at the edge of its dead band, and a spool that is late. */
 static void set_positioner_beside_others(pneu_params *p, second_rig *g, double size)
 {
+  set_positioner_integral(p, g, size);
   set_positioner(p, g, size);
-  set_positioner_zero(p, g, size);
+  BOTH("zero_shift", zero, 5e-4);
   BOTH("leak_area", leak_area, 3e-8);
   BOTH("transducer_time", transducer_lag, 0.05);
   BOTH("dead_time", dead_time, 0.033);
-  set_positioner_bend(p, g, size);
+  BOTH("flow_bend", bend, 0.3);
 }
 
 /* clang-format off */
 static const effect_case positioned[] = {
     CASE(positioner,               5e-5, 2e-5, 3e-6),
-    CASE(positioner_bend,          1e-5, 2e-5, 3e-6),
+    {"positioner_bend",           {1e-5, 2e-5, 3e-6}, set_positioner, {SAME(flow_bend, bend, 0.3)}},
     CASE(positioner_beside_others, 2e-5, 3e-5, 6e-6),
     CASE(positioner_dead_band,     6e-5, 4e-5, 5e-6),
     CASE(positioner_integral,      7e-5, 2e-4, 2e-5),
-    CASE(positioner_overlap,       6e-5, 3e-5, 2e-6),
-    CASE(positioner_span,          8e-5, 1e-4, 4e-5),
-    CASE(positioner_underlap,      3e-4, 7e-5, 2e-6),
-    CASE(positioner_zero,          6e-5, 9e-5, 3e-5),
+    {"positioner_overlap",        {6e-5, 3e-5, 2e-6}, set_positioner, {SAME(overlap, overlap, 0.05)}},
+    {"positioner_span",           {8e-5, 1e-4, 4e-5}, set_positioner_integral, {SAME(span_excess, span, 0.05)}},
+    {"positioner_underlap",       {3e-4, 7e-5, 2e-6}, set_positioner, {SAME(overlap, overlap, -0.05)}},
+    {"positioner_zero",           {6e-5, 9e-5, 3e-5}, set_positioner_integral, {SAME(zero_shift, zero, 5e-4)}},
     CASE(positioner_start,         1e-4, 3e-4, 5e-5),
 };
 /* clang-format on */
@@ -364,16 +320,14 @@ static double time_to(const pneu_model *m, pneu_state *s, double u, double level
  * from ambient, where the two sides blend their flow laws in different ways. */
 static void random_commands(run *e, uint64_t seed)
 {
-  const pneu_model m = fixture_model(&e->p, e->gas, e->flow);
-  const pneu_input shut = fixture_input(&m, 0);
-  pneu_state s = fixture_rest(&m, 0, 0, &shut);
+  fixture_rig rig = fixture_at(fixture_model(&e->p, e->gas, e->flow), 0, 0, 0);
   double t = 0.2;
   for (e->n = 1; e->n < CHANGES && t < t_end; e->n++) {
     const int fill = e->n % 2 == 1;
     const double level = fill ? fixture_random(&seed, 2.2e5, 3.5e5) : fixture_random(&seed, 0.5e5, 1.8e5);
     e->t[e->n] = t;
     e->u[e->n] = (fill ? 1 : -1) * fmin(fixture_random(&seed, 0.2, 1.6), 1);
-    t += time_to(&m, &s, e->u[e->n], level);
+    t += time_to(&rig.m, &rig.s, e->u[e->n], level);
   }
 }
 
@@ -568,6 +522,19 @@ static void test_lab_response_run__positioner__is_that_of_the_second_implementat
     }
 }
 
+/* Give an experiment some of the first n effects, at random sizes, and append their names. */
+static void set_some(run *e, int n, double share, uint64_t *seed, char *what, size_t room)
+{
+  int i;
+  for (i = 0; i < n; i++) {
+    const double size = fixture_random(seed, 0.3, 1.5), chance = fixture_random(seed, 0, 1);
+    if (chance > share || !comparable(&cases[i], e->gas))
+      continue;
+    set_case(&cases[i], &e->p, &e->g, size);
+    lab_append(what, room, " %s", cases[i].name);
+  }
+}
+
 /* Some of the effects at once, at random sizes: order and interplay. Effects that are newer than the first sets take
  * part in the last ones only, lest the first become others. */
 static void test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation(void **state)
@@ -577,21 +544,14 @@ static void test_lab_response_run__random_sets_of_effects__agree_with_the_second
                                {7e-6, 6e-7, 3e-15}, {3e-8, 3e-8, 4e-9}, {8e-7, 6e-8, 3e-15}, {3e-8, 2e-8, 8e-9},
                                {2e-7, 2e-8, 3e-15}, {3e-5, 6e-8, 2e-5}, {2e-6, 6e-8, 3e-15}, {8e-5, 5e-5, 3e-5}};
   uint64_t seed = 5;
-  int draw, i;
+  int draw;
   (void)state;
   for (draw = 0; draw < COUNT(most); draw++) {
     const int *law = laws[draw % 2];
     run e = random_experiment((uint64_t)(100 + draw), law[0], law[1]);
-    const int n = COUNT(cases) - (draw < FIRST_SETS ? NEWER : 0);
     char what[600];
-    int at = snprintf(what, sizeof what, "set %d", draw);
-    for (i = 0; i < n; i++) {
-      const double size = fixture_random(&seed, 0.3, 1.5), chance = fixture_random(&seed, 0, 1);
-      if (chance > 0.35 || !comparable(&cases[i], law[0]))
-        continue;
-      set_case(&cases[i], &e.p, &e.g, size);
-      at += snprintf(what + at, sizeof what - (size_t)at, " %s", cases[i].name);
-    }
+    snprintf(what, sizeof what, "set %d", draw);
+    set_some(&e, COUNT(cases) - (draw < FIRST_SETS ? NEWER : 0), 0.35, &seed, what, sizeof what);
     assert_agrees(&e, &most[draw], what);
   }
 }
@@ -603,7 +563,7 @@ static void test_lab_response_run__lines_in_random_sets__agree_with_the_second_i
                                            {4e-8, 2e-9, 2e-7},  {7e-5, 2e-6, 3e-15}, {7e-7, 2e-7, 3e-15},
                                            {2e-6, 5e-8, 9e-9},  {3e-5, 6e-7, 2e-5}};
   uint64_t seed = 6;
-  int draw, i;
+  int draw;
   (void)state;
   fixture_need("connecting_tube");
   fixture_need("supply_droop");
@@ -611,14 +571,8 @@ static void test_lab_response_run__lines_in_random_sets__agree_with_the_second_i
     const int *law = laws[draw / 2 % 2];
     run e = random_experiment((uint64_t)(220 + draw), law[0], law[1]);
     char what[600];
-    int at = snprintf(what, sizeof what, "%s,", lines[draw].name);
-    for (i = 0; i < COUNT(cases); i++) {
-      const double size = fixture_random(&seed, 0.3, 1.5), chance = fixture_random(&seed, 0, 1);
-      if (chance > 0.3 || !comparable(&cases[i], law[0]))
-        continue;
-      set_case(&cases[i], &e.p, &e.g, size);
-      at += snprintf(what + at, sizeof what - (size_t)at, " %s", cases[i].name);
-    }
+    snprintf(what, sizeof what, "%s,", lines[draw].name);
+    set_some(&e, COUNT(cases), 0.3, &seed, what, sizeof what);
     set_line(&lines[draw], &e.p, &e.g);
     assert_agrees(&e, &most[draw], what);
   }
@@ -632,8 +586,10 @@ typedef struct term_case {
   int equation, argument;
   double from, to;
   int isothermal_only;
-  void (*set)(second_rig *g);
   double (*curve)(const second_rig *g, double argument);
+  void (*set)(second_rig *g); /* NULL: */
+  size_t field;               /* only this one, */
+  double value;
 } term_case;
 
 static void set_bump(second_rig *g)
@@ -663,19 +619,9 @@ static double relief(const second_rig *g, double p)
   return -g->relief_area * open * sqrt(2 * upstream * fmax(p, 0) / (g->gas_constant * g->ambient_temperature));
 }
 
-static void set_cubic(second_rig *g)
-{
-  g->spring_cubic = 8e7;
-}
-
 static double cubic(const second_rig *g, double x)
 {
   return g->spring_cubic * x * x * x;
-}
-
-static void set_seal(second_rig *g)
-{
-  g->friction_pressure = 1e-3;
 }
 
 static double seal(const second_rig *g, double p)
@@ -683,19 +629,9 @@ static double seal(const second_rig *g, double p)
   return g->friction_pressure * fabs(p);
 }
 
-static void set_shown_pressure(second_rig *g)
-{
-  g->pressure_gain = -0.04;
-}
-
 static double shown_pressure(const second_rig *g, double p)
 {
   return g->pressure_gain * p;
-}
-
-static void set_shown_position(second_rig *g)
-{
-  g->position_gain = 0.05;
 }
 
 static double shown_position(const second_rig *g, double x)
@@ -704,14 +640,16 @@ static double shown_position(const second_rig *g, double x)
 }
 
 static const term_case terms[] = {
-    {"bump", PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, set_bump, bump},
-    {"relief", PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 0, 4e5, 1, set_relief, relief},
-    {"cubic", PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, set_cubic, cubic},
-    {"seal", PNEU_TERM_FRICTION, PNEU_TERM_OVER_PRESSURE, 0, 4e5, 0, set_seal, seal},
-    {"shown pressure", PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_PRESSURE, -1e5, 4e5, 0, set_shown_pressure,
-     shown_pressure},
-    {"shown position", PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, set_shown_position,
-     shown_position},
+    {"bump", PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, bump, set_bump, 0, 0},
+    {"relief", PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 0, 4e5, 1, relief, set_relief, 0, 0},
+    {"cubic", PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, cubic, NULL, offsetof(second_rig, spring_cubic),
+     8e7},
+    {"seal", PNEU_TERM_FRICTION, PNEU_TERM_OVER_PRESSURE, 0, 4e5, 0, seal, NULL,
+     offsetof(second_rig, friction_pressure), 1e-3},
+    {"shown pressure", PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_PRESSURE, -1e5, 4e5, 0, shown_pressure, NULL,
+     offsetof(second_rig, pressure_gain), -0.04},
+    {"shown position", PNEU_TERM_SHOWN_POSITION, PNEU_TERM_OVER_POSITION, 0, 0.02, 0, shown_position, NULL,
+     offsetof(second_rig, position_gain), 0.05},
 };
 
 static void sample_term(const term_case *c, const second_rig *g, int n, pneu_term *term)
@@ -771,7 +709,10 @@ static void check_term(const term_case *c, const int *law, int knots)
   const double same = 1e-5;
   run e = random_experiment(9, law[0], law[1]);
   apart d, allowed, without;
-  c->set(&e.g);
+  if (c->set)
+    c->set(&e.g);
+  else
+    *(double *)((char *)&e.g + c->field) = c->value;
   without = compare(&e);
   sample_term(c, &e.g, knots, &e.term[0]);
   e.n_terms = 1;
