@@ -417,28 +417,17 @@ static const char *verdict_of(const table *t, int number, int laws, int law)
 }
 
 /* The tables of a study, with some number of threads. */
-typedef struct made {
-  table overall, actuators, thresholds;
-} made;
-
-static void make_tables(const study *s, int threads, made *m)
+static void make_tables(const study *s, int threads, table made[CONCLUSION_TABLES])
 {
   const int before = omp_get_max_threads();
   finding *found;
+  int i;
   omp_set_num_threads(threads);
   assert_int_equal(conclusions_try(s, &found, &error), LAB_OK);
   omp_set_num_threads(before);
-  conclusions_table(s, found, CONCLUSION_OVERALL, &m->overall);
-  conclusions_table(s, found, CONCLUSION_ACTUATORS, &m->actuators);
-  conclusions_table(s, found, CONCLUSION_THRESHOLDS, &m->thresholds);
+  for (i = 0; i < CONCLUSION_TABLES; i++)
+    conclusions_table(s, found, i, &made[i]);
   free(found);
-}
-
-static void close_tables(made *m)
-{
-  table_close(&m->overall);
-  table_close(&m->actuators);
-  table_close(&m->thresholds);
 }
 
 static void assert_same_tables(const table *one, const table *two)
@@ -460,38 +449,41 @@ static const char *verdict_on(const table *t, int number, int actuator, int law)
 static void test_conclusions__whole_study__every_row_whatever_the_threads(void **state)
 {
   static study s;
-  made one, two;
+  table one[CONCLUSION_TABLES], two[CONCLUSION_TABLES];
+  const table *overall = &one[CONCLUSION_OVERALL], *actuators = &one[CONCLUSION_ACTUATORS];
   size_t row;
+  int i;
   (void)state;
   read_study(&s);
-  make_tables(&s, 1, &one);
-  make_tables(&s, 3, &two);
-  assert_same_tables(&one.overall, &two.overall);
-  assert_same_tables(&one.actuators, &two.actuators);
-  assert_same_tables(&one.thresholds, &two.thresholds);
-  assert_int_equal(table_rows(&one.overall), CONCLUSIONS * 4);
-  assert_int_equal(table_rows(&one.actuators), CONCLUSIONS * 4 * 4);
-  assert_int_equal(table_rows(&one.thresholds), CONCLUSIONS * 2 * 4);
-  for (row = 0; row < table_rows(&one.overall); row++)
-    check_row(&s, &one.overall, row);
-  for (row = 0; row < table_rows(&one.actuators); row++) {
+  make_tables(&s, 1, one);
+  make_tables(&s, 3, two);
+  for (i = 0; i < CONCLUSION_TABLES; i++)
+    assert_same_tables(&one[i], &two[i]);
+  assert_int_equal(table_rows(overall), CONCLUSIONS * 4);
+  assert_int_equal(table_rows(actuators), CONCLUSIONS * 4 * 4);
+  assert_int_equal(table_rows(&one[CONCLUSION_THRESHOLDS]), CONCLUSIONS * 2 * 4);
+  for (row = 0; row < table_rows(overall); row++)
+    check_row(&s, overall, row);
+  for (row = 0; row < table_rows(actuators); row++) {
     check_note("row %d", (int)row);
-    assert_null(strstr(table_at(&one.actuators, row, 9)->text, "nan"));
-    assert_false(isnan(table_at(&one.actuators, row, 5)->number));
+    assert_null(strstr(table_at(actuators, row, 9)->text, "nan"));
+    assert_false(isnan(table_at(actuators, row, 5)->number));
   }
   /* what follows from closed forms: PAPER.md 4.1, 5.5, 6.4, 6.7, 7.2 */
-  assert_string_equal(verdict_of(&one.overall, 1, 4, 0), "contradicted");
-  assert_string_equal(verdict_of(&one.overall, 11, 4, 0), "holds");
-  assert_string_equal(verdict_of(&one.overall, 14, 4, 0), "holds");
-  assert_string_equal(verdict_of(&one.overall, 14, 4, 1), "contradicted");
-  assert_string_equal(verdict_of(&one.overall, 16, 4, 1), "holds");
-  assert_contains(verdict_of(&one.overall, 6, 4, 0), "not the spring");
-  assert_contains(verdict_of(&one.overall, 17, 4, 0), "return is idle");
-  assert_contains(verdict_of(&one.overall, 18, 4, 3), "exergy of the air (r1-400)");
-  assert_string_equal(verdict_on(&one.actuators, 3, 0, 0), "holds");
-  assert_contains(verdict_on(&one.actuators, 3, 1, 0), "holds when p_s is above");
-  close_tables(&one);
-  close_tables(&two);
+  assert_string_equal(verdict_of(overall, 1, 4, 0), "contradicted");
+  assert_string_equal(verdict_of(overall, 11, 4, 0), "holds");
+  assert_string_equal(verdict_of(overall, 14, 4, 0), "holds");
+  assert_string_equal(verdict_of(overall, 14, 4, 1), "contradicted");
+  assert_string_equal(verdict_of(overall, 16, 4, 1), "holds");
+  assert_contains(verdict_of(overall, 6, 4, 0), "not the spring");
+  assert_contains(verdict_of(overall, 17, 4, 0), "return is idle");
+  assert_contains(verdict_of(overall, 18, 4, 3), "exergy of the air (r1-400)");
+  assert_string_equal(verdict_on(actuators, 3, 0, 0), "holds");
+  assert_contains(verdict_on(actuators, 3, 1, 0), "holds when p_s is above");
+  for (i = 0; i < CONCLUSION_TABLES; i++) {
+    table_close(&one[i]);
+    table_close(&two[i]);
+  }
 }
 
 /* One conclusion of made-up findings: 1.15 on the printed actuator, 1.01 on its twin. */

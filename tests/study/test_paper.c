@@ -370,25 +370,41 @@ static void test_paper_agreement__digits__three_words(void **state)
   assert_string_equal(paper_agreement(1.0, (double)NAN, 1, 1), "no");
 }
 
-static size_t row_named(const table *t, const char *item)
+static table numbers;
+
+static int make_numbers(void **state)
+{
+  (void)state;
+  paper_numbers_table(&numbers);
+  return 0;
+}
+
+static int close_numbers(void **state)
+{
+  (void)state;
+  table_close(&numbers);
+  return 0;
+}
+
+static size_t row_named(const char *item)
 {
   size_t i;
-  for (i = 0; i < table_rows(t); i++)
-    if (!strcmp(table_text(t, i, "item"), item))
+  for (i = 0; i < table_rows(&numbers); i++)
+    if (!strcmp(table_text(&numbers, i, "item"), item))
       return i;
   fail_msg("no row %s", item);
   return 0;
 }
 
 /* A text of the row of an item. */
-static const char *text_of(const table *t, const char *item, const char *column)
+static const char *text_of(const char *item, const char *column)
 {
-  return table_text(t, row_named(t, item), column);
+  return table_text(&numbers, row_named(item), column);
 }
 
-static double computed(const table *t, const char *item)
+static double computed(size_t row)
 {
-  return table_at(t, row_named(t, item), (size_t)table_column(t, "computed"))->number;
+  return table_at(&numbers, row, (size_t)table_column(&numbers, "computed"))->number;
 }
 
 /* the numbers by hand: fractions and roots, derived in study/PAPER.md */
@@ -444,37 +460,31 @@ static void test_paper_numbers__required_items__hand_values(void **state)
       {"conclusion2.r1-400", sqrt(320.0 / 160.0) * 341.325 / 181.325, "yes"},
       {"assumption5.r1-400.fill", 101.325 / 501.325 * pow(1.2, 3.5), "no"},
   };
-  table t;
   size_t i;
   (void)state;
-  paper_numbers_table(&t);
   for (i = 0; i < sizeof want / sizeof want[0]; i++) {
     check_note("%s", want[i].item);
-    assert_close(computed(&t, want[i].item), want[i].want, 1e-9, 1e-10);
-    assert_string_equal(text_of(&t, want[i].item, "agrees"), want[i].agrees);
+    assert_close(computed(row_named(want[i].item)), want[i].want, 1e-9, 1e-10);
+    assert_string_equal(text_of(want[i].item, "agrees"), want[i].agrees);
   }
-  table_close(&t);
 }
 
 static void test_paper_numbers__conclusion_10__unbounded(void **state)
 {
-  table t;
-  double ratio;
+  const double ratio = computed(row_named("conclusion10.ratio"));
   (void)state;
-  paper_numbers_table(&t);
-  ratio = computed(&t, "conclusion10.ratio");
   assert_true(isinf(ratio) && ratio > 0);
-  assert_string_equal(text_of(&t, "conclusion10.ratio", "agrees"), "no");
-  table_close(&t);
+  assert_string_equal(text_of("conclusion10.ratio", "agrees"), "no");
 }
 
-static void check_complete(const table *t, size_t i)
+static void check_complete(size_t i)
 {
-  const char *agrees = table_text(t, i, "agrees"), *cause = table_text(t, i, "cause"), *kind = table_text(t, i, "kind");
-  const char *statement = table_text(t, i, "statement"), *severity = table_text(t, i, "severity");
-  check_note("%s", table_text(t, i, "item"));
-  assert_true(*table_text(t, i, "item") && *table_text(t, i, "quantity"));
-  assert_contains(table_text(t, i, "note"), "(PAPER.md ");
+  const char *agrees = table_text(&numbers, i, "agrees"), *cause = table_text(&numbers, i, "cause"),
+             *kind = table_text(&numbers, i, "kind");
+  const char *statement = table_text(&numbers, i, "statement"), *severity = table_text(&numbers, i, "severity");
+  check_note("%s", table_text(&numbers, i, "item"));
+  assert_true(*table_text(&numbers, i, "item") && *table_text(&numbers, i, "quantity"));
+  assert_contains(table_text(&numbers, i, "note"), "(PAPER.md ");
   assert_contains("yes no rounding", agrees);
   assert_int_equal(*cause != 0, !strcmp(agrees, "no") && *statement); /* where there is one to have */
   assert_contains("arithmetic derivation data modelling", kind);
@@ -483,23 +493,20 @@ static void check_complete(const table *t, size_t i)
   assert_int_equal(*severity != 0, *cause != 0);
   assert_null(strchr(cause, ',')); /* the last columns can be counted with awk */
   assert_null(strchr(statement, ','));
-  assert_string_equal(table_text(t, i, "counted"), *statement ? "yes" : "no");
-  if (isnan(table_at(t, i, (size_t)table_column(t, "computed"))->number))
+  assert_string_equal(table_text(&numbers, i, "counted"), *statement ? "yes" : "no");
+  if (isnan(computed(i)))
     assert_string_equal(agrees, "no"); /* a matter of form; else a claim whose value nobody computes */
-  assert_int_equal(row_named(t, table_text(t, i, "item")), i);
+  assert_int_equal(row_named(table_text(&numbers, i, "item")), i);
 }
 
 static void test_paper_numbers__every_row__complete_and_unique(void **state)
 {
-  table t;
   size_t i;
   (void)state;
-  paper_numbers_table(&t);
-  assert_true(table_rows(&t) > 100);
-  for (i = 0; i < table_rows(&t); i++)
-    check_complete(&t, i);
-  assert_true(isnan(table_at(&t, row_named(&t, "assumption2.r1-400"), 3)->number)); /* a claim without a number */
-  table_close(&t);
+  assert_true(table_rows(&numbers) > 100);
+  for (i = 0; i < table_rows(&numbers); i++)
+    check_complete(i);
+  assert_true(isnan(table_at(&numbers, row_named("assumption2.r1-400"), 3)->number)); /* a claim without a number */
 }
 
 /* What only gives an order of magnitude, follows from another row, or was never said, does not count. */
@@ -517,50 +524,40 @@ static void test_paper_numbers__no_statement_of_the_paper__not_counted(void **st
                                        "eq2.initial_acceleration",
                                        "conclusion15.asymmetry",
                                        "a1.r1-400.preload"};
-  table t;
   size_t i;
   (void)state;
-  paper_numbers_table(&t);
   for (i = 0; i < sizeof asides / sizeof *asides; i++) {
     check_note("%s", asides[i]);
-    assert_string_equal(text_of(&t, asides[i], "counted"), "no");
+    assert_string_equal(text_of(asides[i], "counted"), "no");
   }
-  assert_string_equal(text_of(&t, "table1.3", "counted"), "yes");
-  table_close(&t);
+  assert_string_equal(text_of("table1.3", "counted"), "yes");
 }
 
 static void test_paper_numbers__statements__all_conclusions_among_them(void **state)
 {
-  table t;
   size_t i;
   int number;
   (void)state;
-  paper_numbers_table(&t);
   for (number = 1; number <= 18; number++) {
     char name[24];
     int found = 0;
     snprintf(name, sizeof name, "conclusion %d", number);
-    for (i = 0; i < table_rows(&t); i++)
-      found |= strcmp(table_text(&t, i, "statement"), name) == 0;
+    for (i = 0; i < table_rows(&numbers); i++)
+      found |= strcmp(table_text(&numbers, i, "statement"), name) == 0;
     check_note("%s", name);
     assert_true(found);
   }
-  table_close(&t);
 }
 
 static void test_paper_numbers__same_fault__same_cause_and_severity(void **state)
 {
-  table t;
   (void)state;
-  paper_numbers_table(&t);
-  assert_string_equal(
-      text_of(&t, "conclusion13.springs_3", "cause"),
-      text_of(&t, "conclusion4.37-13", "cause")); /* a limit at a pressure that the stem does not reach */
-  assert_string_equal(text_of(&t, "conclusion13.springs_3", "severity"), "conclusion");
-  assert_string_equal(text_of(&t, "eq46.outflow", "severity"), "form");
-  assert_string_equal(text_of(&t, "table1.6", "severity"), "number");
-  assert_contains(text_of(&t, "a1.r1-400.spring_rate", "note"), "may differ from the nominal values");
-  table_close(&t);
+  assert_string_equal(text_of("conclusion13.springs_3", "cause"),
+                      text_of("conclusion4.37-13", "cause")); /* a limit at a pressure that the stem does not reach */
+  assert_string_equal(text_of("conclusion13.springs_3", "severity"), "conclusion");
+  assert_string_equal(text_of("eq46.outflow", "severity"), "form");
+  assert_string_equal(text_of("table1.6", "severity"), "number");
+  assert_contains(text_of("a1.r1-400.spring_rate", "note"), "may differ from the nominal values");
 }
 
 /* The names of the columns, as they will stand in the file */
@@ -575,11 +572,8 @@ static void assert_header(const table *t, const char *want)
 
 static void test_paper_numbers__all__header(void **state)
 {
-  table t;
   (void)state;
-  paper_numbers_table(&t);
-  assert_header(&t, "item,quantity,unit,printed,computed,agrees,note,kind,cause,statement,severity,counted");
-  table_close(&t);
+  assert_header(&numbers, "item,quantity,unit,printed,computed,agrees,note,kind,cause,statement,severity,counted");
 }
 
 /* ---- Figures ---- */
@@ -718,5 +712,5 @@ int main(void)
       cmocka_unit_test(test_paper_figure__fig07_paper_flow__solves_eq33),
       cmocka_unit_test(test_paper_figure__fig08_paper_flow__rises_to_golden_ratio),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return cmocka_run_group_tests(tests, make_numbers, close_numbers);
 }
