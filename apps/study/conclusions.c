@@ -183,8 +183,8 @@ static void add_overall(const study *s, const finding *found, int i, int all_of_
   const conclusion *c = &conclusions[i];
   char verdict[VERDICT_TEXT], evidence[EVIDENCE_TEXT], each[FINDING_TEXT] = "";
   finding all = {0};
-  (void)all_of_them;
   int a, first = 0, differ = 0;
+  (void)all_of_them;
   for (a = 0; a < s->n_printed; a++) {
     const finding *one = found_of(s, found, a, law, i);
     const int mine = verdict_of(c, one);

@@ -82,10 +82,7 @@ double paper_crossing(paper_flow flow, double pa_over_ps)
   int i;
   for (i = 0; i < HALVINGS; i++) {
     double q = 0.5 * (lo + hi);
-    if (flow(1.0 + a, q + a) > flow(q + a, a))
-      lo = q;
-    else
-      hi = q;
+    *(flow(1.0 + a, q + a) > flow(q + a, a) ? &lo : &hi) = q;
   }
   return 0.5 * (lo + hi);
 }
@@ -202,10 +199,7 @@ double paper_symmetric_bench(const paper_case *c)
     return (double)NAN;
   for (i = 0; i < HALVINGS; i++) {
     double p_bl = 0.5 * (lo + hi);
-    if (falls_slower(c, p_bl, width))
-      lo = p_bl;
-    else
-      hi = p_bl;
+    *(falls_slower(c, p_bl, width) ? &lo : &hi) = p_bl;
   }
   return 0.5 * (lo + hi);
 }

@@ -132,32 +132,23 @@ const study_tables spring_and_air = {
  * Another spring rate on the way down than on the way up, as the paper varies it in Fig. 15 (hypothesis 1), and a vent
  * unlike the fill (hypothesis 5). Table A1 has neither, so that there is nothing to take away; here each is added. */
 
-/* A parameter of the way down, changed by its ratio to that of the way up. */
-static void other_rate(pneu_params *p, double ratio)
-{
-  p->spring_preload /= ratio; /* the force at rest stays */
-  p->spring_rate *= ratio;
-}
-
-static void other_orifice(pneu_params *p, double ratio)
-{
-  p->vent_area *= ratio;
-}
-
-enum { RATIOS = 7 };
+enum { RATE, ORIFICE, RATIOS = 7 };
 
 static const struct {
   const char *name;
-  void (*apply)(pneu_params *p, double ratio);
-  double ratio[RATIOS]; /* 0 ends; the spring must let the supply fill the chamber before it falls */
-} differences[] = {{"spring_rate", other_rate, {0.25, 0.5, 0.8, 1, 1.25}},
-                   {"orifice", other_orifice, {0.25, 0.5, 0.8, 1, 1.25, 2, 4}}};
-enum { ORIFICE = 1 };
+  double ratio[RATIOS]; /* down over up; 0 ends; the spring must let the supply fill the chamber before it falls */
+} differences[] = {
+    [RATE] = {"spring_rate", {0.25, 0.5, 0.8, 1, 1.25}}, [ORIFICE] = {"orifice", {0.25, 0.5, 0.8, 1, 1.25, 2, 4}}};
 
 static int measure_difference(const study_cell *c, int which, double ratio, lab_asymmetry *r, lab_error *error)
 {
   pneu_params down = c->rig->params;
-  differences[which].apply(&down, ratio);
+  if (which == ORIFICE)
+    down.vent_area *= ratio;
+  else {
+    down.spring_preload /= ratio; /* the force at rest stays */
+    down.spring_rate *= ratio;
+  }
   return stroke_measure(&c->rig->params, &down, &c->laws, r, error);
 }
 

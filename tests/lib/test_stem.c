@@ -241,10 +241,7 @@ static void test_pneu_settle__push_within_rounding__stem_stays(void **state)
     const double middle = (stays + leaves) / 2;
     const pneu_state s = fixture_rest(&m, balanced + middle, 0.01, &input);
     assert_true(s.mode == PNEU_MODE_STUCK || s.mode == PNEU_MODE_UP);
-    if (s.mode == PNEU_MODE_STUCK)
-      stays = middle;
-    else
-      leaves = middle;
+    *(s.mode == PNEU_MODE_STUCK ? &stays : &leaves) = middle;
   }
   assert_close(leaves * 0.04, 64 * 2.22e-16 * largest, 0, 0.1);
 }

@@ -270,10 +270,7 @@ static double stem_at(const paper_case *c, int direction, double mass)
   int i;
   for (i = 0; i < 50; i++) {
     double x = 0.5 * (lo + hi);
-    if (mass_at(c, direction, x) < mass)
-      lo = x;
-    else
-      hi = x;
+    *(mass_at(c, direction, x) < mass ? &lo : &hi) = x;
   }
   return 0.5 * (lo + hi);
 }

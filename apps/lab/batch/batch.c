@@ -44,8 +44,7 @@ static lab_cost cost_since(double start)
   struct rusage use;
   getrusage(RUSAGE_SELF, &use);
   cost.seconds = lab_clock() - start;
-  cost.cpu = (double)(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-             1e-6 * (double)(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  cost.cpu = lab_cpu_time();
   cost.memory = (double)use.ru_maxrss / 1024; /* in kB on Linux */
   return cost;
 }
