@@ -52,7 +52,37 @@ static void set_columns(const char *a, const char *b, const char *c)
     strcpy(format.column[format.n_columns], text[format.n_columns]);
 }
 
-#define CHANNEL(name) (rows.value[LAB_CHANNEL_##name])
+/* All rows of a channel; NAN is a gap. */
+static void check_column(int channel, double tol, const double *want, size_t n)
+{
+  size_t i;
+  assert_int_equal(rows.n, n);
+  for (i = 0; i < n; i++) {
+    const double got = rows.value[channel][i];
+    check_note("%s of row %zu", lab_channels[channel].key, i);
+    if (isnan(want[i]))
+      assert_true(isnan(got));
+    else
+      assert_close(got, want[i], tol, 0);
+  }
+}
+#define LIST(type, ...)               (const type[]){__VA_ARGS__}, sizeof((const type[]){__VA_ARGS__}) / sizeof(type)
+#define assert_column(name, tol, ...) check_column(LAB_CHANNEL_##name, tol, LIST(double, __VA_ARGS__))
+
+/* Where runs begin, and where the last one ends. */
+static void check_runs(const size_t *want, size_t n)
+{
+  assert_int_equal(rows.n_runs + 1, n);
+  assert_memory_equal(rows.run, want, n * sizeof *want);
+}
+#define assert_runs(...) check_runs(LIST(size_t, __VA_ARGS__))
+
+static void check_lines(const int *want, size_t n)
+{
+  assert_int_equal(rows.n, n);
+  assert_memory_equal(rows.line, want, n * sizeof *want);
+}
+#define assert_lines(...) check_lines(LIST(int, __VA_ARGS__))
 
 /* ---- Good logs ---- */
 
@@ -61,36 +91,31 @@ static void test_lab_log_read__documented_format__gives_si(void **state)
   (void)state;
   read_log("# a remark\nt [ms],u [%],p [bar],x [mm],T [degC],force [kN]\n"
            "0,0,0,0,25,0\n# another\n10,50,1.5,2.5,26,-0.25\n");
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(TIME)[1], 0.01, 1e-15, 0);
-  assert_close(CHANNEL(U)[1], 0.5, 1e-15, 0);
-  assert_close(CHANNEL(P)[1], 150000, 1e-9, 0);
-  assert_close(CHANNEL(X)[1], 0.0025, 1e-15, 0);
-  assert_close(CHANNEL(T)[1], 299.15, 1e-12, 0);
-  assert_close(CHANNEL(FORCE)[1], -250, 1e-12, 0);
-  assert_null(CHANNEL(PS));
-  assert_int_equal(rows.line[0], 3);
-  assert_int_equal(rows.line[1], 5);
-  assert_int_equal(rows.n_runs, 1);
-  assert_int_equal(rows.run[0], 0);
-  assert_int_equal(rows.run[1], 2);
+  assert_column(TIME, 1e-15, 0, 0.01);
+  assert_column(U, 1e-15, 0, 0.5);
+  assert_column(P, 1e-9, 0, 150000);
+  assert_column(X, 1e-15, 0, 0.0025);
+  assert_column(T, 1e-12, 298.15, 299.15);
+  assert_column(FORCE, 1e-12, 0, -250);
+  assert_null(rows.value[LAB_CHANNEL_PS]);
+  assert_lines(3, 5);
+  assert_runs(0, 2);
 }
 
 static void test_lab_log_read__absolute_pressures__become_gauge(void **state)
 {
   (void)state;
   read_log("t [s],p_abs [kPa],ps_abs [bar],p2_abs [Pa]\n0,120,5,100000\n");
-  assert_close(CHANNEL(P)[0], 20000, 1e-9, 0);
-  assert_close(CHANNEL(PS)[0], 400000, 1e-9, 0);
-  assert_close(CHANNEL(P2)[0], 0, 1e-9, 0);
+  assert_column(P, 1e-9, 20000);
+  assert_column(PS, 1e-9, 400000);
+  assert_column(P2, 1e-9, 0);
 }
 
 static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted(void **state)
 {
   (void)state;
   read_log("\xEF\xBB\xBF\"t [s]\", \"u [1]\"\r\n0, 1\r\n1, 0\r\n\r\n \r\n");
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(U)[0], 1, 0, 0);
+  assert_column(U, 0, 1, 0);
 }
 
 /* A mark in quotes is text, and a number in quotes is a number. */
@@ -98,8 +123,7 @@ static void test_lab_log_read__cells_in_quotes__are_cells(void **state)
 {
   (void)state;
   read_log("\"t [s]\",u [1],\"-\"\n\"0\",\"1\",\"hall 2, \"\"east\"\"\"\n1,0,west\n");
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(U)[0], 1, 0, 0);
+  assert_column(U, 0, 1, 0);
 }
 
 static void test_lab_log_command_changes__between_two_rows__counts(void **state)
@@ -121,34 +145,29 @@ static void test_lab_log_read__last_line_without_end__counts(void **state)
 {
   (void)state;
   read_log("\xEF\xBB\xBFt [s],u [1]\n0,0\n1,0.5");
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(U)[1], 0.5, 0, 0);
+  assert_column(U, 0, 0, 0.5);
 }
 
 static void test_lab_log_read__empty_field_or_nan__is_a_gap(void **state)
 {
   (void)state;
   read_log("t [s],u [1],p [kPa],x [mm]\n0,0,,1\n1,0,nan,NaN\n2,0,3,\n");
-  assert_true(isnan(CHANNEL(P)[0]));
-  assert_true(isnan(CHANNEL(P)[1]));
-  assert_true(isnan(CHANNEL(X)[1]));
-  assert_true(isnan(CHANNEL(X)[2]));
-  assert_close(CHANNEL(P)[2], 3000, 1e-9, 0);
+  assert_column(P, 1e-9, NAN, NAN, 3000);
+  assert_column(X, 1e-15, 1e-3, NAN, NAN);
 }
 
 static void test_lab_log_read__column_named_minus__is_ignored(void **state)
 {
   (void)state;
   read_log("t [s],-,p [kPa]\n0,what,1\n1,ever,2\n");
-  assert_close(CHANNEL(P)[1], 2000, 1e-9, 0);
+  assert_column(P, 1e-9, 1000, 2000);
 }
 
 static void test_lab_log_read__uneven_times__are_kept(void **state)
 {
   (void)state;
   read_log("t [s],u [1]\n-1,0\n0.001,0\n7.25,0\n");
-  assert_close(CHANNEL(TIME)[0], -1, 0, 0);
-  assert_close(CHANNEL(TIME)[2], 7.25, 0, 0);
+  assert_column(TIME, 0, -1, 0.001, 7.25);
 }
 
 /* ---- Raw logger files ---- */
@@ -159,8 +178,8 @@ static void test_lab_log_read__semicolons_and_decimal_comma__are_read(void **sta
   format.delimiter = ';';
   format.decimal = ',';
   read_log("t [s];p [bar]\n0,5;1,25\n");
-  assert_close(CHANNEL(TIME)[0], 0.5, 0, 0);
-  assert_close(CHANNEL(P)[0], 125000, 1e-9, 0);
+  assert_column(TIME, 0, 0.5);
+  assert_column(P, 1e-9, 125000);
 }
 
 static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state)
@@ -170,9 +189,8 @@ static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state
   format.thousands = '.';
   set_columns("t [ms]", "-", "p [bar]");
   read_log("902.000;3.658;7.315\r\n1.003.000;3.658;7.316\r\n");
-  assert_close(CHANNEL(TIME)[0], 0.902, 1e-15, 0);
-  assert_close(CHANNEL(TIME)[1], 1.003, 1e-15, 0);
-  assert_close(CHANNEL(P)[1], 731600, 1e-9, 0);
+  assert_column(TIME, 1e-15, 0.902, 1.003);
+  assert_column(P, 1e-9, 731500, 731600);
 }
 
 static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
@@ -182,9 +200,9 @@ static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
   format.skip_lines = 2;
   set_columns("t [ms]", "x [mm]", "force [N]");
   read_log("Logger 7\nTime\tLaser\tForce\n0.000\t-0.018\t50.178\n11.000\t0.004\t50.193\n");
-  assert_int_equal(rows.line[0], 3);
-  assert_close(CHANNEL(X)[0], -18e-6, 1e-18, 0);
-  assert_close(CHANNEL(FORCE)[1], 50.193, 0, 1e-15);
+  assert_lines(3, 4);
+  assert_column(X, 1e-18, -18e-6, 4e-6);
+  assert_column(FORCE, 50.193e-15, 50.178, 50.193);
 }
 
 static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
@@ -193,13 +211,12 @@ static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
   size_t i;
   (void)state;
   read_log("t [s],p [kPaa]\n0,120\n");
-  assert_close(CHANNEL(P)[0], 20000, 1e-9, 0);
+  assert_column(P, 1e-9, 20000);
   for (i = 0; i < sizeof units / sizeof *units; i++) {
     char text[64];
     snprintf(text, sizeof text, "t [s],p [%s]\n0,1.2\n", units[i]);
-    check_note("%s", units[i]);
     read_log(text);
-    assert_close(CHANNEL(P)[0], 20000, 1e-9, 0);
+    assert_column(P, 1e-9, 20000);
   }
 }
 
@@ -209,8 +226,8 @@ static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state
   format.delimiter = ';';
   set_columns("t [s]", "p_abs [hPa]", "u [1/4096]");
   read_log("0;1029.27;0\n0.01;1029.4;2048\n");
-  assert_close(CHANNEL(U)[1], 0.5, 0, 0);
-  assert_close(CHANNEL(P)[0], 2927, 1e-9, 0);
+  assert_column(U, 0, 0, 0.5);
+  assert_column(P, 1e-9, 2927, 2940);
 }
 
 static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
@@ -220,8 +237,8 @@ static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
   format.offset[LAB_CHANNEL_X] = 0.070;
   format.scale[LAB_CHANNEL_P] = 2;
   read_log("t [s],x [mm],p_abs [kPa]\n0,65,110\n");
-  assert_close(CHANNEL(X)[0], 0.005, 1e-15, 0);
-  assert_close(CHANNEL(P)[0], 20000, 1e-9, 0);
+  assert_column(X, 1e-15, 0.005);
+  assert_column(P, 1e-9, 20000);
 }
 
 static void test_lab_log_read__constants__fill_a_channel(void **state)
@@ -229,8 +246,7 @@ static void test_lab_log_read__constants__fill_a_channel(void **state)
   (void)state;
   format.constant[LAB_CHANNEL_U] = -1;
   read_log("t [s],p [kPa]\n0,1\n1,2\n");
-  assert_close(CHANNEL(U)[0], -1, 0, 0);
-  assert_close(CHANNEL(U)[1], -1, 0, 0);
+  assert_column(U, 0, -1, -1);
 }
 
 static void test_lab_log_read__time_step__makes_time(void **state)
@@ -238,8 +254,7 @@ static void test_lab_log_read__time_step__makes_time(void **state)
   (void)state;
   format.time_step = 0.5;
   read_log("p [kPa],x [mm]\n0,1\n1,2\n2,3\n");
-  assert_close(CHANNEL(TIME)[0], 0, 0, 0);
-  assert_close(CHANNEL(TIME)[2], 1, 0, 0);
+  assert_column(TIME, 0, 0, 0.5, 1);
 }
 
 static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(void **state)
@@ -249,9 +264,7 @@ static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(v
   format.damaged = LAB_DAMAGED_DROP;
   format.from = 0.5;
   read_log("p [kPa],x [mm]\n0,1\n1,2\nbad,2\n3,3\n");
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(TIME)[0], 0.5, 0, 0);
-  assert_close(CHANNEL(TIME)[1], 1.5, 0, 0);
+  assert_column(TIME, 0, 0.5, 1.5);
 }
 
 static void test_lab_log_read__falling_time__starts_a_run(void **state)
@@ -259,11 +272,7 @@ static void test_lab_log_read__falling_time__starts_a_run(void **state)
   (void)state;
   format.new_run = LAB_RUN_T_DROPS;
   read_log("t [ms],p [bar]\n13,0\n20,1\n1,0\n21,1\n30,2\n0,0\n");
-  assert_int_equal(rows.n_runs, 3);
-  assert_int_equal(rows.run[0], 0);
-  assert_int_equal(rows.run[1], 2);
-  assert_int_equal(rows.run[2], 5);
-  assert_int_equal(rows.run[3], 6);
+  assert_runs(0, 2, 5, 6);
 }
 
 static void test_lab_log_read__many_runs__are_all_listed(void **state)
@@ -286,9 +295,8 @@ static void test_lab_log_read__window__keeps_rows_inside_and_counts_the_others(v
   format.from = 1;
   format.to = 2;
   read_log("t [s],p [bar]\n0,0\n1,1\n2,2\n3,3\n");
-  assert_int_equal(rows.n, 2);
   assert_int_equal(rows.outside, 2);
-  assert_close(CHANNEL(TIME)[0], 1, 0, 0);
+  assert_column(TIME, 0, 1, 2);
 }
 
 static void test_lab_log_read__damaged_rows_to_drop__are_counted(void **state)
@@ -298,9 +306,8 @@ static void test_lab_log_read__damaged_rows_to_drop__are_counted(void **state)
   format.new_run = LAB_RUN_T_DROPS;
   read_log("t [ms],p [bar]\n0,1\n127136, 904, 306\n5,0.5\n7,x\n5,1\n9\n8,0.25\n0,1\n");
   assert_int_equal(rows.dropped, 4);
-  assert_int_equal(rows.n, 4);
-  assert_int_equal(rows.n_runs, 2);
-  assert_int_equal(rows.line[1], 4);
+  assert_lines(2, 4, 8, 9);
+  assert_runs(0, 3, 4);
 }
 
 static void set_long_format(void)
@@ -322,16 +329,11 @@ static void test_lab_log_read__long_format__joins_rows_of_one_time(void **state)
   set_long_format();
   format.constant[LAB_CHANNEL_U] = -1;
   read_log("quantity,t_s,value\np_bar_abs,0,8\np_bar_abs,2,7\nT_K,1,290\nT_K,2,280\nwall,2,300\nT_K,0,298\n");
-  assert_int_equal(rows.n, 3);
-  assert_close(CHANNEL(TIME)[1], 1, 0, 0);
-  assert_close(CHANNEL(P)[0], 700000, 1e-9, 0);
-  assert_true(isnan(CHANNEL(P)[1]));
-  assert_close(CHANNEL(P)[2], 600000, 1e-9, 0);
-  assert_close(CHANNEL(T)[0], 298, 0, 0);
-  assert_close(CHANNEL(T)[2], 280, 0, 0);
-  assert_close(CHANNEL(U)[2], -1, 0, 0);
-  assert_int_equal(rows.line[0], 2);
-  assert_int_equal(rows.line[1], 4);
+  assert_column(TIME, 0, 0, 1, 2);
+  assert_column(P, 1e-9, 700000, NAN, 600000);
+  assert_column(T, 0, 298, 290, 280);
+  assert_column(U, 0, -1, -1, -1);
+  assert_lines(2, 4, 3);
 }
 
 static void test_lab_log_read__long_format_with_command__holds_it(void **state)
@@ -341,9 +343,7 @@ static void test_lab_log_read__long_format_with_command__holds_it(void **state)
   strcpy(format.quantity[1].word, "valve");
   strcpy(format.quantity[1].column, "u [1]");
   read_log("quantity,t_s,value\nvalve,0,1\nvalve,2,-1\np_bar_abs,1,2\np_bar_abs,3,2\n");
-  assert_int_equal(rows.n, 4);
-  assert_close(CHANNEL(U)[1], 1, 0, 0);
-  assert_close(CHANNEL(U)[3], -1, 0, 0);
+  assert_column(U, 0, 1, 1, -1, -1);
 }
 
 static void test_lab_log_read__position_in_percent__is_of_the_stroke(void **state)
@@ -351,8 +351,7 @@ static void test_lab_log_read__position_in_percent__is_of_the_stroke(void **stat
   (void)state;
   format.stroke = 0.02;
   read_log("t [s],x [%]\n0,50\n1,100\n");
-  assert_close(CHANNEL(X)[0], 0.01, 0, 1e-15);
-  assert_close(CHANNEL(X)[1], 0.02, 0, 1e-15);
+  assert_column(X, 1e-17, 0.01, 0.02);
 }
 
 static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **state)
@@ -366,8 +365,7 @@ static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **sta
     char text[80];
     snprintf(text, sizeof text, "t [s],sp [%s],x [mm]\n0,0,0\n1,%g,1\n", units[i], half[i]);
     read_log(text);
-    check_note("[%s]", units[i]);
-    assert_close(CHANNEL(SP)[1], 0.5, 1e-15, 0);
+    assert_column(SP, 1e-15, 0, 0.5);
     assert_int_equal(lab_log_command(&rows), LAB_CHANNEL_SP);
     assert_int_equal(lab_log_command_changes(&rows, 0, 1), 1);
   }
@@ -382,9 +380,7 @@ static void test_lab_log_read__set_position_as_a_current__is_4_to_20_mA(void **s
 {
   (void)state;
   read_log("t [s],sp [mA],x [mm]\n0,4,0\n1,8,0\n2,20,1\n");
-  assert_close(CHANNEL(SP)[0], 0, 1e-12, 0);
-  assert_close(CHANNEL(SP)[1], 0.25, 1e-12, 0);
-  assert_close(CHANNEL(SP)[2], 1, 1e-12, 0);
+  assert_column(SP, 1e-12, 0, 0.25, 1);
 }
 
 static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void **state)
@@ -392,7 +388,7 @@ static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void
   (void)state;
   read_log("t [s],sp [%],u [1],x [mm]\n0,10,0,0\n1,,1,0\n2,20,1,0\n");
   assert_int_equal(lab_log_command(&rows), LAB_CHANNEL_U);
-  assert_true(isnan(CHANNEL(SP)[1]));
+  assert_column(SP, 1e-15, 0.1, NAN, 0.2);
   assert_int_equal(lab_log_command_changes(&rows, 1, 2), 0);
   read_log("t [s],x [mm]\n0,1\n1,2\n");
   assert_int_equal(lab_log_command(&rows), -1);
@@ -403,7 +399,7 @@ static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void *
   (void)state;
   format.command_is_pressure = 1;
   read_log("t [s],u [kPa]\n0,80\n");
-  assert_close(CHANNEL(U)[0], 80000, 1e-9, 0);
+  assert_column(U, 1e-9, 80000);
 }
 
 /* ---- Rows put into shape ---- */
@@ -419,10 +415,8 @@ static void test_lab_log_read__weights__add_columns_up(void **state)
   memcpy(format.weight, weight, sizeof weight);
   format.offset[LAB_CHANNEL_P] = 7;
   read_log("0,1012,1010,1007,1006\n1,1050,1010,1026,1006\n2,1050,,1026,1006\n");
-  assert_close(CHANNEL(TIME)[1], 1, 0, 0);
-  assert_close(CHANNEL(P)[0], 150 + 7, 1e-9, 0);
-  assert_close(CHANNEL(P)[1], 3000 + 7, 1e-9, 0);
-  assert_true(isnan(CHANNEL(P)[2]));
+  assert_column(TIME, 1e-15, 0, 1, 2);
+  assert_column(P, 1e-9, 150 + 7, 3000 + 7, NAN);
 }
 
 static void test_lab_log_read__way_back__is_reversed(void **state)
@@ -432,14 +426,10 @@ static void test_lab_log_read__way_back__is_reversed(void **state)
   format.time_step = 10;
   format.way_back = LAB_CHANNEL_P;
   read_log("up,0,0\nup,5,0\nup,10,1\ndown,0,0\ndown,4,2\ndown,10,3\n");
-  assert_int_equal(rows.n, 6);
-  assert_close(CHANNEL(P)[2], 10000, 1e-9, 0);
-  assert_close(CHANNEL(P)[3], 10000, 1e-9, 0);
-  assert_close(CHANNEL(P)[4], 4000, 1e-9, 0);
-  assert_close(CHANNEL(P)[5], 0, 1e-9, 0);
-  assert_close(CHANNEL(X)[3], 3e-3, 1e-12, 0);
-  assert_close(CHANNEL(TIME)[4], 40, 0, 0);
-  assert_int_equal(rows.line[3], 6);
+  assert_column(P, 1e-9, 0, 5000, 10000, 10000, 4000, 0);
+  assert_column(X, 1e-12, 0, 0, 1e-3, 3e-3, 2e-3, 0);
+  assert_column(TIME, 0, 0, 10, 20, 30, 40, 50);
+  assert_lines(1, 2, 3, 6, 5, 4);
 }
 
 static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state)
@@ -460,14 +450,10 @@ static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_ru
   format.new_run = LAB_RUN_T_DROPS;
   format.every = 2;
   read_log("0,1\n1,2\n2,3\n0,4\n1,5\n2,6\n3,7\n");
-  assert_int_equal(rows.n, 4);
-  assert_int_equal(rows.n_runs, 2);
-  assert_int_equal(rows.run[1], 2);
-  assert_int_equal(rows.run[2], 4);
-  assert_close(CHANNEL(P)[1], 3e5, 1e-6, 0);
-  assert_close(CHANNEL(TIME)[2], 0, 0, 0);
-  assert_close(CHANNEL(P)[3], 6e5, 1e-6, 0);
-  assert_int_equal(rows.line[3], 6);
+  assert_runs(0, 2, 4);
+  assert_column(TIME, 0, 0, 2, 0, 2);
+  assert_column(P, 1e-6, 1e5, 3e5, 4e5, 6e5);
+  assert_lines(1, 3, 4, 6);
 }
 
 static void test_lab_log_read__held_out__takes_other_rows_and_another_window(void **state)
@@ -481,13 +467,11 @@ static void test_lab_log_read__held_out__takes_other_rows_and_another_window(voi
   format.holdout_to = 5;
   format.holdout_first = 1;
   read_log(text);
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(TIME)[1], 2, 0, 0);
+  assert_column(TIME, 0, 0, 2);
   lab_log_format_hold_out(&format);
   read_log(text);
-  assert_int_equal(rows.n, 2);
-  assert_close(CHANNEL(TIME)[0], 3, 0, 0);
-  assert_close(CHANNEL(P)[1], 6e5, 1e-6, 0);
+  assert_column(TIME, 0, 3, 5);
+  assert_column(P, 1e-6, 4e5, 6e5);
   format.first = 4;
   assert_refused(text, "log.csv:3", "before log.first");
 }
@@ -500,8 +484,8 @@ static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
   strcpy(format.name[LAB_CHANNEL_PS], "_p [bar]");
   assert_int_equal(lab_log_read(scratch_text("tube_l3_p4.5_start.csv", "0,1\n1,2\n"), &format, ambient, &rows, &error),
                    LAB_OK);
-  assert_close(CHANNEL(X)[1], 0.3, 1e-15, 0);
-  assert_close(CHANNEL(PS)[0], 4.5e5, 1e-9, 0);
+  assert_column(X, 1e-15, 0.3, 0.3);
+  assert_column(PS, 1e-9, 4.5e5, 4.5e5);
   assert_refused("0,1\n1,2\n", "log.csv", "\"_l\" and a number in the file's name");
 }
 
@@ -512,15 +496,10 @@ static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
   format.new_run = LAB_RUN_T_DROPS;
   format.runs = LAB_RUNS_MEAN;
   read_log("5,1,0\n20,2,1\n5,3,nan\n18,7,5\n4,9,9\n");
-  assert_int_equal(rows.n, 4);
-  assert_int_equal(rows.n_runs, 1);
-  assert_int_equal(rows.run[1], 4);
-  assert_close(CHANNEL(TIME)[1], 5e-3, 1e-12, 0);
-  assert_close(CHANNEL(P)[0], 9e5, 1e-6, 0);
-  assert_close(CHANNEL(P)[1], 2e5, 1e-6, 0);
-  assert_close(CHANNEL(P2)[1], 0, 1e-6, 0);
-  assert_close(CHANNEL(P)[2], 7e5, 1e-6, 0);
-  assert_close(CHANNEL(P)[3], 2e5, 1e-6, 0);
+  assert_runs(0, 4);
+  assert_column(TIME, 1e-12, 4e-3, 5e-3, 18e-3, 20e-3);
+  assert_column(P, 1e-6, 9e5, 2e5, 7e5, 2e5);
+  assert_column(P2, 1e-6, 9e5, 0, 5e5, 1e5);
   assert_int_equal(rows.line[0], 5);
 }
 
@@ -545,20 +524,10 @@ static void test_lab_log_read__lead__comes_before_each_run(void **state)
   format.new_run = LAB_RUN_T_DROPS;
   set_lead();
   read_log("5,1\n20,2\n5,3\n");
-  assert_int_equal(rows.n, 7);
-  assert_int_equal(rows.n_runs, 2);
-  assert_int_equal(rows.run[1], 4);
-  assert_int_equal(rows.run[2], 7);
-  assert_close(CHANNEL(TIME)[0], -1e-3, 0, 0);
-  assert_close(CHANNEL(TIME)[4], -1e-3, 0, 0);
-  assert_close(CHANNEL(TIME)[6], 5e-3, 1e-12, 0);
-  assert_close(CHANNEL(P)[0], 5, 0, 0);
-  assert_true(isnan(CHANNEL(P)[1]));
-  assert_close(CHANNEL(P)[3], 2e5, 1e-6, 0);
-  assert_close(CHANNEL(U)[0], 0, 0, 0);
-  assert_close(CHANNEL(U)[1], 1, 0, 0);
-  assert_close(CHANNEL(U)[3], 1, 0, 0);
-  assert_close(CHANNEL(U)[4], 0, 0, 0);
+  assert_runs(0, 4, 7);
+  assert_column(TIME, 0, -1e-3, 0, 5e-3, 20e-3, -1e-3, 0, 5e-3);
+  assert_column(P, 1e-6, 5, NAN, 1e5, 2e5, 5, NAN, 3e5);
+  assert_column(U, 0, 0, 1, 1, 1, 0, 1, 1);
   assert_int_equal(rows.line[4], 3);
 }
 
@@ -572,12 +541,8 @@ static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **
   format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_P + 1;
   format.lead_last[0][LAB_CHANNEL_PS] = LAB_CHANNEL_P + 1;
   read_log("5,nan\n20,2\n21,4\n5,3\n6,5\n");
-  assert_int_equal(rows.n, 9);
-  assert_close(CHANNEL(P)[0], 2e5, 1e-6, 0);
-  assert_close(CHANNEL(PS)[0], 4e5, 1e-6, 0);
-  assert_true(isnan(CHANNEL(PS)[1]));
-  assert_close(CHANNEL(P)[5], 3e5, 1e-6, 0);
-  assert_close(CHANNEL(PS)[5], 5e5, 1e-6, 0);
+  assert_column(P, 1e-6, 2e5, NAN, NAN, 2e5, 4e5, 3e5, NAN, 3e5, 5e5);
+  assert_column(PS, 1e-6, 4e5, NAN, NAN, NAN, NAN, 5e5, NAN, NAN, NAN);
 }
 
 /* A command that the lead does not give is that of the first row, which it is in effect before. */
@@ -588,9 +553,7 @@ static void test_lab_log_read__lead_without_command__has_that_of_the_first_row(v
   set_lead();
   format.lead[0][LAB_CHANNEL_U] = NAN;
   read_log("1,0.25,5\n2,0.75,6\n");
-  assert_int_equal(rows.n, 4);
-  assert_close(CHANNEL(U)[0], 0.25, 0, 0);
-  assert_close(CHANNEL(U)[1], 1, 0, 0);
+  assert_column(U, 0, 0.25, 1, 0.25, 0.75);
 }
 
 /* A lead may name a channel that has only gaps in the run. */
@@ -602,8 +565,7 @@ static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
   format.lead[0][LAB_CHANNEL_P] = NAN;
   format.lead_first[0][LAB_CHANNEL_P] = LAB_CHANNEL_X + 1;
   read_log("1,5,\n2,6,\n");
-  assert_int_equal(rows.n, 4);
-  assert_true(isnan(CHANNEL(P)[0]));
+  assert_column(P, 0, NAN, NAN, 5, 6);
 }
 
 static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(void **state)
@@ -628,9 +590,7 @@ static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_line
   strcpy(format.quantity[1].word, "b");
   strcpy(format.quantity[1].column, "x [m]");
   read_log("a,0,1\nb,0,2\na,1,3\n");
-  assert_int_equal(rows.n, 2);
-  assert_int_equal(rows.line[0], 1);
-  assert_int_equal(rows.line[1], 3);
+  assert_lines(1, 3);
 }
 
 static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
