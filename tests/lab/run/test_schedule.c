@@ -81,21 +81,6 @@ static void test_lab_inputs_from_log__bend__is_an_entry_of_its_own(void **state)
   assert_close(inputs.schedule.input[2].pressure_rate, 2e3, 1e-9, 0);
 }
 
-static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
-{
-  (void)state;
-  read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
-  drive(0);
-  assert_int_equal(inputs.schedule.n, 3);
-  assert_close(inputs.schedule.t[0], 0, 0, 0);
-  assert_close(inputs.schedule.t[1], 2, 0, 0);
-  assert_close(inputs.schedule.t[2], 4, 0, 0);
-  assert_close(inputs.schedule.input[1].u, 1, 0, 0);
-  assert_close(inputs.schedule.input[2].u, -0.5, 0, 0);
-  assert_close(inputs.schedule.input[0].supply_pressure, 4e5, 0, 0);
-  assert_close(inputs.schedule.input[0].pressure_rate, 0, 0, 0);
-}
-
 /* Commands t, u, u_rate, and no others. */
 static void assert_commands(const lab_schedule *s, const double row[][3], int n)
 {
@@ -106,6 +91,17 @@ static void assert_commands(const lab_schedule *s, const double row[][3], int n)
     assert_close(s->input[i].u, row[i][1], 1e-15, 0);
     assert_close(s->input[i].u_rate, row[i][2], 1e-15, 0);
   }
+}
+
+static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
+{
+  static const double row[][3] = {{0, 0, 0}, {2, 1, 0}, {4, -0.5, 0}};
+  (void)state;
+  read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
+  drive(0);
+  assert_commands(&inputs.schedule, row, 3);
+  assert_close(inputs.schedule.input[0].supply_pressure, 4e5, 0, 0);
+  assert_close(inputs.schedule.input[0].pressure_rate, 0, 0, 0);
 }
 
 static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
@@ -308,6 +304,15 @@ static pneu_state start_of(const char *text, double u)
   return start;
 }
 
+/* Begin at this command with this pressure and position; what is 0 is so to the bit. */
+static void assert_start(const char *text, double u, double p, double x)
+{
+  start_of(text, u);
+  check_note("start at u = %g of %s", u, text);
+  assert_close(start.p, p, p > 0 ? 1e-9 : 0, 0);
+  assert_close(start.x, x, x > 0 ? 1e-15 : 0, 0);
+}
+
 static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
 {
   char text[4096] = "t [s],u [1],p [kPa],x [mm]\n";
@@ -330,9 +335,7 @@ static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_fir
   (void)state;
   for (i = 0; i < 1000; i++)
     lab_append(text, sizeof text, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
-  start_of(text, 1);
-  assert_close(start.p, 0, 1e-6, 0);
-  assert_close(start.x, 0, 0, 0);
+  assert_start(text, 1, 0, 0);
 }
 
 /* A move in the first of many rows hardly shifts their mean, but it is where the run begins. */
@@ -373,8 +376,8 @@ static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills
   (void)state;
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
-  assert_close(start_of("t [s],u [1],p [kPa]\n0,1,\n1,-1,350\n", 1).p, 4e5, 0, 0);
-  assert_close(start_of("t [s],u [1],p [kPa]\n0,0,\n1,1,150\n", 0).p, 0, 0, 0);
+  assert_start("t [s],u [1],p [kPa]\n0,1,\n1,-1,350\n", 1, 4e5, 0);
+  assert_start("t [s],u [1],p [kPa]\n0,0,\n1,1,150\n", 0, 0, 0);
 }
 
 /* A log of the set position alone: at rest there, or fully vented or filled beyond a cut-off. */
@@ -388,8 +391,8 @@ static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_re
   is_set = 1;
   assert_close(start_of(text, 0.3).x, 0.3 * (double)rig.params.stroke, 1e-9, 0);
   assert_close(start_of(text, 0.3).p, 4e5 * (0.01 + 0.006) / 0.04, 1e-3, 0);
-  assert_true(start_of(text, 0.005).p == 0 && start_of(text, 0.005).x == 0);
-  assert_true(start_of(text, 0).p == 0 && start_of(text, 0).x == 0);
+  assert_start(text, 0.005, 0, 0);
+  assert_start(text, 0, 0, 0);
 }
 
 /* Without a cut-off a positioner ends where its dead band does, and what holds the stem there is all that the chamber
@@ -442,18 +445,15 @@ static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(voi
   start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
   assert_true(start.x == 0);
   assert_int_equal(start.mode, PNEU_MODE_LOWER);
-  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,19.97\n", 0);
-  assert_close(start.x, 0.02, 1e-15, 0);
+  assert_start("t [s],u [1],p [kPa],x [mm]\n0,0,400,19.97\n", 0, 4e5, 0.02);
   assert_int_equal(start.mode, PNEU_MODE_UPPER);
-  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0);
-  assert_close(start.x, 0.02, 1e-15, 0);
+  assert_start("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0, 4e5, 0.02);
 }
 
 static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen(void **state)
 {
   (void)state;
-  start_of("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0);
-  assert_close(start.x, 0.01, 1e-15, 0);
+  assert_start("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0, 205e3, 0.01);
   assert_int_equal(start.mode, PNEU_MODE_STUCK);
 }
 
@@ -472,24 +472,17 @@ static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_th
 static void test_lab_run_initial_state__no_position__follows_from_pressure(void **state)
 {
   (void)state;
-  start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0);
-  assert_close(start.x, 0.01, 1e-12, 0);
-  start_of("t [s],u [1],p [kPa]\n0,0,20\n", 0);
-  assert_true(start.x == 0);
-  start_of("t [s],u [1],p [kPa]\n0,0,390\n", 0);
-  assert_close(start.x, 0.02, 1e-15, 0);
+  assert_start("t [s],u [1],p [kPa]\n0,0,200\n", 0, 200e3, 0.01);
+  assert_start("t [s],u [1],p [kPa]\n0,0,20\n", 0, 20e3, 0);
+  assert_start("t [s],u [1],p [kPa]\n0,0,390\n", 0, 390e3, 0.02);
 }
 
 static void test_lab_run_initial_state__no_pressure__follows_from_position(void **state)
 {
   (void)state;
-  start_of("t [s],u [1],x [mm]\n0,0,10\n", 0);
-  assert_close(start.p, 200e3, 1e-6, 0);
-  start_of("t [s],u [1],x [mm]\n0,0,0.02\n", 0);
-  assert_close(start.p, 0, 0, 0);
-  assert_true(start.x == 0);
-  start_of("t [s],u [1],x [mm]\n0,1,19.99\n", 1);
-  assert_close(start.p, 4e5, 0, 0);
+  assert_start("t [s],u [1],x [mm]\n0,0,10\n", 0, 200e3, 0.01);
+  assert_start("t [s],u [1],x [mm]\n0,0,0.02\n", 0, 0, 0);
+  assert_start("t [s],u [1],x [mm]\n0,1,19.99\n", 1, 4e5, 0.02);
 }
 
 /* 400 N more against the air take 10 kPa more, or let the stem down by 1 mm. */
@@ -497,16 +490,14 @@ static void test_lab_run_initial_state__force_on_the_stem__counts_against_the_ai
 {
   (void)state;
   load = 400;
-  assert_close(start_of("t [s],u [1],x [mm]\n0,0,10\n", 0).p, 210e3, 1e-6, 0);
-  assert_close(start_of("t [s],u [1],p [kPa]\n0,0,200\n", 0).x, 9e-3, 1e-12, 0);
+  assert_start("t [s],u [1],x [mm]\n0,0,10\n", 0, 210e3, 0.01);
+  assert_start("t [s],u [1],p [kPa]\n0,0,200\n", 0, 200e3, 9e-3);
 }
 
 static void test_lab_run_initial_state__nothing_measured__is_empty_and_down(void **state)
 {
   (void)state;
-  start_of("t [s],u [1]\n0,0\n", 0);
-  assert_close(start.p, 0, 0, 0);
-  assert_true(start.x == 0);
+  assert_start("t [s],u [1]\n0,0\n", 0, 0, 0);
 }
 
 static void test_lab_run_initial_state__vessel__has_no_position(void **state)
@@ -514,18 +505,14 @@ static void test_lab_run_initial_state__vessel__has_no_position(void **state)
   (void)state;
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
-  start_of("t [s],u [1],p [kPa]\n0,-1,700\n", -1);
-  assert_close(start.p, 700e3, 1e-6, 0);
-  assert_true(start.x == 0);
+  assert_start("t [s],u [1],p [kPa]\n0,-1,700\n", -1, 700e3, 0);
 }
 
 static void test_lab_run_initial_state__driven_channels__start_at_their_first_value(void **state)
 {
   (void)state;
   set_inputs(1, 1, 0, 0);
-  start_of("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0);
-  assert_close(start.p, 12e3, 1e-6, 0);
-  assert_close(start.x, 0.5e-3, 1e-15, 0);
+  assert_start("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0, 12e3, 0.5e-3);
 }
 
 static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
