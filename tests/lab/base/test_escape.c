@@ -22,16 +22,14 @@ static lab_error error;
 /* Names of strangers; the first ones are names that must work. */
 static const char *const names[] = {"press 2",
                                     "hall 2/press 1",
-                                    "Dr\xC3\xBC"
-                                    "cker \xE2\x84\x96 7",
+                                    "Dr\u00FCcker \xE2\x84\x96 7",
                                     "=1+1",
                                     "+1",
                                     "-1",
                                     "@SUM(A1)",
                                     "=cmd|' /C calc'!A0",
                                     "\t=1",
-                                    "\xEF\xBC\x9D"
-                                    "1+1",
+                                    "\uFF1D1+1",
                                     "it's \"quoted\"",
                                     "`touch hit`",
                                     "$(touch hit)",
@@ -41,10 +39,8 @@ static const char *const names[] = {"press 2",
                                     "' onmouseover='alert(1)",
                                     "a\nb",
                                     "a\r\n=1+1",
-                                    "\xE2\x80\xAE"
-                                    "gpj.exe",
-                                    "\xE2\x81\xA6"
-                                    "turned",
+                                    "\u202Egpj.exe",
+                                    "\u2066turned",
                                     "../../etc/passwd",
                                     "/etc/passwd",
                                     "..",
@@ -187,11 +183,7 @@ static void test_lab_put_html__any_name__is_text(void **state)
   (void)state;
   for_each_name(lab_put_html, look_at_html);
   assert_written(lab_put_html, "<b> & \"it's\"", "&lt;b&gt; &amp; &quot;it&#39;s&quot;");
-  assert_written(lab_put_html,
-                 "Dr\xC3\xBC"
-                 "cker",
-                 "Dr\xC3\xBC"
-                 "cker");
+  assert_written(lab_put_html, "Dr\u00FCcker", "Dr\u00FCcker");
   assert_written(lab_put_html, "caf\xE9 \xE2\x80\xAE", "caf\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
@@ -230,11 +222,7 @@ static void test_lab_put_users_cell__any_name__is_no_formula(void **state)
   assert_written(lab_put_users_cell, "press 2", "press 2");
   assert_written(lab_put_users_cell, "=1+1", "'=1+1");
   assert_written(lab_put_users_cell, "\t=1", "' =1");
-  assert_written(lab_put_users_cell,
-                 "\xEF\xBC\x9D"
-                 "1",
-                 "'\xEF\xBC\x9D"
-                 "1");
+  assert_written(lab_put_users_cell, "\uFF1D1", "'\uFF1D1");
   assert_written(lab_put_users_cell, "-5 bar, \"cold\"", "\"'-5 bar, \"\"cold\"\"\"");
 }
 
