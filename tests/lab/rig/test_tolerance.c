@@ -11,7 +11,8 @@ static const char *with(const char *group)
   static char text[512];
   snprintf(text, sizeof text,
            "actuator = { spring_rate = \"400 kN/m\"; stroke = \"20 mm\"; };\n"
-           "supply = { pressure = \"4 bar\"; };\n%s",
+           "supply = { pressure = \"4 bar\"; };\n"
+           "transducer = { fill_area = \"1 mm^2\"; vent_area = \"2 mm^2\"; };\n%s",
            group);
   return text;
 }
@@ -37,29 +38,26 @@ static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **stat
   assert_close(lab_tolerance(&rig, bias()), 0.0025 * 4e5, 0, 1e-12);
 }
 
+/* How well a parameter is known by a rig file with this group. */
+static void assert_tolerance(const char *group, int param, double want)
+{
+  rig = read_rig(with(group));
+  check_note("%s", group);
+  assert_close(lab_tolerance(&rig, param), want, 0, 1e-12);
+}
+
 /* Where one factor of both areas is fitted, the vent is still off beside the fill orifice. */
 static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter(void **state)
 {
   const int vent = pneu_param_find("vent_restriction");
-  const char *areas = "transducer = { fill_area = \"1 mm^2\"; vent_area = \"2 mm^2\"; };\n";
-  char text[256];
   (void)state;
   if (vent < 0)
     skip();
-  rig = read_rig(with(areas));
-  assert_close(lab_tolerance(&rig, vent), 0, 0, 0);
-  snprintf(text, sizeof text, "%sfit = (\"orifice_area\");", areas);
-  rig = read_rig(with(text));
-  assert_close(lab_tolerance(&rig, vent), 0.05, 0, 1e-12);
-  snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { vent_area = \"0.4 mm^2\"; };", areas);
-  rig = read_rig(with(text));
-  assert_close(lab_tolerance(&rig, vent), 0.05, 0, 1e-12);
-  snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { vent_restriction = \"10 %%\"; };", areas);
-  rig = read_rig(with(text));
-  assert_close(lab_tolerance(&rig, vent), 0.1, 0, 1e-12);
-  snprintf(text, sizeof text, "%sfit = (\"orifice_area\"); tolerance = { others = 0; };", areas);
-  rig = read_rig(with(text));
-  assert_close(lab_tolerance(&rig, vent), 0, 0, 0);
+  assert_tolerance("", vent, 0);
+  assert_tolerance("fit = (\"orifice_area\");", vent, 0.05);
+  assert_tolerance("fit = (\"orifice_area\"); tolerance = { vent_area = \"0.4 mm^2\"; };", vent, 0.05);
+  assert_tolerance("fit = (\"orifice_area\"); tolerance = { vent_restriction = \"10 %\"; };", vent, 0.1);
+  assert_tolerance("fit = (\"orifice_area\"); tolerance = { others = 0; };", vent, 0);
 }
 
 static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
@@ -76,15 +74,11 @@ static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(voi
 {
   const int gain = pneu_param_find("gain");
   (void)state;
-  rig = read_rig(with("positioner = { gain = 30; };"));
-  assert_close(lab_tolerance(&rig, gain), 0.2 * 30, 0, 1e-12);
   assert_string_equal(lab_tolerance_name(gain), "positioner.gain");
-  rig = read_rig(with("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };"));
-  assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
-  rig = read_rig(with("positioner = { gain = 30; }; tolerance = { positioner_gain = \"10 %\"; };"));
-  assert_close(lab_tolerance(&rig, gain), 3, 0, 1e-12);
-  rig = read_rig(with(""));
-  assert_close(lab_tolerance(&rig, gain), 0, 0, 0);
+  assert_tolerance("positioner = { gain = 30; };", gain, 0.2 * 30);
+  assert_tolerance("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };", gain, 3);
+  assert_tolerance("positioner = { gain = 30; }; tolerance = { positioner_gain = \"10 %\"; };", gain, 3);
+  assert_tolerance("", gain, 0);
 }
 
 static void test_lab_tolerance_read__others__are_exact(void **state)

@@ -21,12 +21,19 @@ static pneu_input input_of(const pneu_model *m, int i, int j)
   return input;
 }
 
+static lab_response run(const pneu_model *m, const lab_simulation *task)
+{
+  lab_response response;
+  if (lab_response_run(m, task, &response, &error))
+    fail_msg("%s", error.text);
+  return response;
+}
+
 static lab_response respond(const pneu_model *m, size_t n, const double *t_row, const pneu_input *input, double shift,
                             int integrator)
 {
-  lab_schedule schedule;
+  const lab_schedule schedule = {n, t_row, input};
   double t[SAMPLES];
-  lab_response response;
   const pneu_state start = fixture_rest(m, 0, 0, &input[0]);
   const lab_simulation task = {.start = &start,
                                .schedule = &schedule,
@@ -37,12 +44,7 @@ static lab_response respond(const pneu_model *m, size_t n, const double *t_row, 
   int i;
   for (i = 0; i < SAMPLES; i++)
     t[i] = fmin(fmax(i * dt - shift, 0), t_end);
-  schedule.n = n;
-  schedule.t = t_row;
-  schedule.input = input;
-  if (lab_response_run(m, &task, &response, &error))
-    fail_msg("%s", error.text);
-  return response;
+  return run(m, &task);
 }
 
 static lab_response respond_to_rows(const pneu_model *m, double shift, int integrator)
@@ -186,8 +188,14 @@ static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(voi
   pneu_input input[2];
   pneu_state start;
   pneu_stats stats = {0};
-  lab_schedule schedule = {0};
-  lab_simulation task = {.start = &start, .schedule = &schedule, .t = at, .n = 6, .t_end = 100, .stats = &stats};
+  const lab_schedule schedule = {2, row, input};
+  const lab_simulation task = {.start = &start,
+                               .schedule = &schedule,
+                               .t = at,
+                               .n = 6,
+                               .t_end = 100,
+                               .stats = &stats,
+                               .options = {.max_steps = 20000}};
   lab_response r;
   int i;
   (void)state;
@@ -211,12 +219,7 @@ static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(voi
     input[i].u_rate = (pneu_real)(i ? 0 : 0.01);
   }
   start = fixture_rest(&m, 0, 0, &input[0]);
-  schedule.n = 2;
-  schedule.t = row;
-  schedule.input = input;
-  task.options = (lab_response_options){.max_steps = 20000};
-  if (lab_response_run(&m, &task, &r, &error))
-    fail_msg("%s", error.text);
+  r = run(&m, &task);
   check_note("%ld steps", stats.steps);
   assert_true(stats.steps > 20000);
   for (i = 1; i < 5; i++)
@@ -365,8 +368,7 @@ static void check_own_time(double skew, int integrator)
   assert_int_equal(pneu_model_terms(&m, term, 2), PNEU_OK);
   m.position_skew = (pneu_real)skew;
   start = fixture_rest(&m, 2e5, 0.01, &input[0]);
-  if (lab_response_run(&m, &task, &response, &error))
-    fail_msg("%s", error.text);
+  response = run(&m, &task);
   for (i = 0; i < COUNT(t); i++) {
     check_note("integrator %d, skew %g s, t = %g s", integrator, skew, t[i]);
     assert_close(response.p[i] - 2e5, cycle_at(&term[0], t[i]), 1e-5, 0);
@@ -397,7 +399,7 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
   lab_response response;
   (void)state;
   fixture_need("stop_compliance");
-  assert_int_equal(lab_response_run(&yields, &task, &response, &error), LAB_OK);
+  response = run(&yields, &task);
   assert_true(response.x[0] > (double)rigid.p.stroke);
   assert_close(response.x[1], (double)rigid.p.stroke, 1e-9, 0);
   lab_response_free(&response);
@@ -423,7 +425,7 @@ static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **
   after = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   input[0] = input[1] = fixture_input(&before, 0);
   start = fixture_rest(&before, 2e5, 0, &input[0]);
-  assert_int_equal(lab_response_run(&before, &task, &response, &error), LAB_OK);
+  response = run(&before, &task);
   assert_close(response.T[0], warm, 1e-6, 0);
   assert_close(response.T[1], warm, 1e-6, 0);
   lab_response_free(&response);
