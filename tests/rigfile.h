@@ -12,8 +12,7 @@ static inline lab_rig read_rig(const char *text)
 {
   lab_error error;
   lab_rig rig;
-  if (lab_rig_read(scratch_text("rig.cfg", text), &rig, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_rig_read(scratch_text("rig.cfg", text), &rig, &error));
   return rig;
 }
 
@@ -39,8 +38,7 @@ static inline lab_rig write_and_read(const lab_rig *rig, const char *remark)
   assert_non_null(file);
   lab_rig_write(file, rig, remark);
   assert_int_equal(fclose(file), 0);
-  if (lab_rig_read(path, &again, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_rig_read(path, &again, &error));
   return again;
 }
 

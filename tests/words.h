@@ -7,6 +7,13 @@
 
 #include "check.h"
 
+/* Fail unless a call of the lab returns LAB_OK; prints the message of `error`. */
+#define succeed(call)                                                                                                  \
+  do {                                                                                                                 \
+    if ((call) != LAB_OK)                                                                                              \
+      fail_msg("%s", error.text);                                                                                      \
+  } while (0)
+
 /* Fail unless `text` contains `part`; prints both. */
 #define assert_contains(text, part) check_contains((text), (part), __FILE__, __LINE__)
 

@@ -35,8 +35,7 @@ static void test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_lef
   alone_fit fit;
   (void)state;
   declare();
-  if (alone_fit_log(&rig, log_of(1.2, 0), LAB_CHANNEL_X, &fit, &error))
-    fail_msg("%s", error.text);
+  succeed(alone_fit_log(&rig, log_of(1.2, 0), LAB_CHANNEL_X, &fit, &error));
   assert_int_equal(fit.n, 1);
   assert_string_equal(fit.value[0].name, "spring_preload");
   assert_true(fit.value[0].half > 0 && fit.value[0].half < 0.01 * truth);
@@ -52,8 +51,7 @@ static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state
   (void)state;
   declare();
   rig.fit_per_log[0] = 1;
-  if (alone_fit_log(&rig, log_of(0.8, 0), LAB_CHANNEL_X, &fit, &error))
-    fail_msg("%s", error.text);
+  succeed(alone_fit_log(&rig, log_of(0.8, 0), LAB_CHANNEL_X, &fit, &error));
   assert_int_equal(fit.n, 1);
   assert_close(fit.value[0].value, 0.8 * 0.01, fit.value[0].half, 0);
   assert_close(fit.common, fit.left, 0, 1e-3);
@@ -67,8 +65,7 @@ static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void 
   alone_fit fit;
   (void)state;
   declare();
-  if (alone_fit_sensor(&rig, log_of(1, lag), "position_lag.position_time", LAB_CHANNEL_X, &fit, &error))
-    fail_msg("%s", error.text);
+  succeed(alone_fit_sensor(&rig, log_of(1, lag), "position_lag.position_time", LAB_CHANNEL_X, &fit, &error));
   assert_int_equal(fit.n, 1);
   assert_string_equal(fit.value[0].name, "position_lag.position_time");
   assert_true(fit.value[0].half < 0.1 * lag);

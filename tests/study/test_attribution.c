@@ -8,16 +8,15 @@ static lab_error error;
 static study *read_study(void)
 {
   static study s;
-  if (study_read("study/hypotheses.cfg", &s, &error))
-    fail_msg("%s", error.text);
+  succeed(study_read("study/hypotheses.cfg", &s, &error));
   snprintf(s.results, sizeof s.results, "%s", scratch_folder);
   return &s;
 }
 
 static void make(const study_tables *tables, const study *s, const char *name, table *t)
 {
-  if (study_make(s, tables, &error) || table_load(s, name, t, &error))
-    fail_msg("%s", error.text);
+  succeed(study_make(s, tables, &error));
+  succeed(table_load(s, name, t, &error));
 }
 
 /* The R1-400 as Eq. (1) has it under every law; the 37-13 as printed falls as a lag unless the flow chokes. */

@@ -13,8 +13,7 @@ static lab_error error;
 
 static void read_study(study *s)
 {
-  if (study_read("study/hypotheses.cfg", s, &error) != LAB_OK)
-    fail_msg("%s", error.text);
+  succeed(study_read("study/hypotheses.cfg", s, &error));
 }
 
 /* ---- Judging ---- */

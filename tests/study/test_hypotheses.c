@@ -1,5 +1,5 @@
 /* apps/study/hypotheses: when a verdict flips; what each cause does without the other */
-#include "../check.h"
+#include "../words.h"
 
 #include <math.h>
 
@@ -9,8 +9,7 @@ static lab_error error;
 
 static void read_study(study *s)
 {
-  if (study_read("study/hypotheses.cfg", s, &error))
-    fail_msg("%s", error.text);
+  succeed(study_read("study/hypotheses.cfg", s, &error));
 }
 
 static const double below = 0.1;
@@ -49,8 +48,7 @@ static void check_law(const lab_rig *rig, int gas, int flow, int is_central)
   const pneu_laws laws = study_laws(rig, gas, flow);
   verdict_strokes strokes;
   check_note("%s, %s, %s", rig->name, pneu_gas_key(gas), pneu_flow_key(flow));
-  if (verdict_measure(rig, &laws, &strokes, &error))
-    fail_msg("%s", error.text);
+  succeed(verdict_measure(rig, &laws, &strokes, &error));
   assert_true(strokes.base.asymmetry_signed > 0.01);
   assert_int_equal(judged(&strokes, H1_RATE), is_central ? VERDICT_NECESSARY : VERDICT_OPPOSITE);
   assert_int_equal(judged(&strokes, H2_PRELOAD), VERDICT_NOT_CONFIRMED);

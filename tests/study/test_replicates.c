@@ -16,9 +16,8 @@ static double repeat_of(const char *rig, const char *judged, const char *logs, c
   double repeat;
   snprintf(text, sizeof text, "set = { folder = \".\"; judged = \"%s\"; fit = ( %s ); holdout = ( ); %s };", judged,
            logs, more);
-  if (lab_config_read(&config, scratch_text("set.cfg", text), &error) ||
-      replicates_repeat(config_lookup(&config, "set"), rig, scratch_path("."), &repeat, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_config_read(&config, scratch_text("set.cfg", text), &error));
+  succeed(replicates_repeat(config_lookup(&config, "set"), rig, scratch_path("."), &repeat, &error));
   config_destroy(&config);
   return repeat;
 }

@@ -19,8 +19,7 @@ static lab_error error;
 
 static const config_setting_t *read_sets(config_t *config, const char *text)
 {
-  if (lab_config_read(config, scratch_text("sets.cfg", text), &error))
-    fail_msg("%s", error.text);
+  succeed(lab_config_read(config, scratch_text("sets.cfg", text), &error));
   return config_lookup(config, "sets");
 }
 
@@ -133,8 +132,7 @@ static int report_on(const char *set, sets_result result)
 static const char *text_on(const char *set, sets_result result)
 {
   static char *text;
-  if (report_on(set, result))
-    fail_msg("%s", error.text);
+  succeed(report_on(set, result));
   free(text);
   return text = scratch_read(scratch_path("REPORT.md"));
 }
@@ -283,8 +281,7 @@ static void test_sets_report__sets_that_did_not_run__stay_in_the_table(void **st
   (void)state;
   result[0] = (sets_result){.set = config_setting_get_elem(list, 0), .state = SETS_ABSENT, .repeat = (double)NAN};
   result[1] = (sets_result){.set = config_setting_get_elem(list, 1), .state = SETS_FAILED, .repeat = (double)NAN};
-  if (sets_report(result, 2, scratch_path("."), &error))
-    fail_msg("%s", error.text);
+  succeed(sets_report(result, 2, scratch_path("."), &error));
   text = scratch_read(scratch_path("REPORT.md"));
   assert_contains(text, "| [T two](two/report.json) | position | - | - | - | - | - | - | data absent | |");
   assert_contains(text, "| [T three](three/report.json) | position | - | - | - | - | - | - | closeloop failed | |");
@@ -348,8 +345,7 @@ static void test_sets_left__slow_wave__correlated_at_lag_1(void **state)
   for (i = 0; i < 100; i++)
     snprintf(text + strlen(text), sizeof text - strlen(text), "%d,%d,%.3f,0\n", 1 + i / 50, i,
              i < 50 ? sin(0.1 * i) : (i % 2 ? 1.0 : -1.0));
-  if (table_load_file(scratch_text("left.csv", text), &t, &error))
-    fail_msg("%s", error.text);
+  succeed(table_load_file(scratch_text("left.csv", text), &t, &error));
   assert_int_equal(sets_left_runs(&t), 2);
   assert_int_equal(sets_left_of(&t, 1, "p", &left, &error), LAB_OK);
   assert_int_equal(left.n, 50);
@@ -381,8 +377,7 @@ static void test_sets_cfg__words__hold_no_figures(void **state)
   size_t w;
   int i;
   (void)state;
-  if (lab_config_read(&config, "study/measured/sets.cfg", &error))
-    fail_msg("%s", error.text);
+  succeed(lab_config_read(&config, "study/measured/sets.cfg", &error));
   list = config_lookup(&config, "sets");
   assert_true(config_setting_length(list) > 0);
   for (i = 0; i < config_setting_length(list); i++)

@@ -42,8 +42,7 @@ static void test_study_read__whole_file__is_taken_up(void **state)
 {
   (void)state;
   unsetenv("MEASURED");
-  if (study_read(file_with("", ""), &s, &error))
-    fail_msg("%s", error.text);
+  succeed(study_read(file_with("", ""), &s, &error));
   assert_int_equal(s.n_actuators, 1);
   assert_int_equal(s.subject, 0);
   assert_int_equal(s.n_gas, 2);

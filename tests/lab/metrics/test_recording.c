@@ -17,12 +17,6 @@ static lab_run run;
 static lab_unknowns u;
 static lab_metrics measured, predicted;
 
-#define succeed(call)                                                                                                  \
-  do {                                                                                                                 \
-    if ((call) != LAB_OK)                                                                                              \
-      fail_msg("%s", error.text);                                                                                      \
-  } while (0)
-
 /* ---- Full strokes of the independent rig ---- */
 
 static const char *write_log(void)

@@ -32,11 +32,9 @@ static lab_rig draft_of(const char *log, const char *const *sheet, int n)
   FILE *file = fopen(scratch_path("draft.cfg"), "w");
   lab_rig rig;
   assert_non_null(file);
-  if (lab_draft_write(file, log, sheet, n, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_draft_write(file, log, sheet, n, &error));
   assert_int_equal(fclose(file), 0);
-  if (lab_rig_read(scratch_path("draft.cfg"), &rig, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_rig_read(scratch_path("draft.cfg"), &rig, &error));
   free(text);
   text = scratch_read(scratch_path("draft.cfg"));
   return rig;

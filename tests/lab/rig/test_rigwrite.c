@@ -397,8 +397,7 @@ static void test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_re
   assert_int_equal(lab_rig_read(put_file("trace.cfg", put_model), &again, &error), LAB_DATA);
   assert_contains(error.text, "position_time does nothing");
   lab_rig_drop_idle(&rig);
-  if (lab_rig_read(put_file("no_trace.cfg", put_model), &again, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_rig_read(put_file("no_trace.cfg", put_model), &again, &error));
   assert_close(*pneu_param_at(&again.params, idle), 0, 0, 0);
   assert_close(*pneu_param_at(&again.params, acts), 30, 0, 0);
 }

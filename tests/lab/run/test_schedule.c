@@ -50,15 +50,13 @@ static void set_inputs(int p, int x, int ps, int force)
 static void read_log(const char *text)
 {
   lab_log_free(&seen);
-  if (lab_log_read(scratch_text("log.csv", text), &rig.log, 101325, &seen, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_log_read(scratch_text("log.csv", text), &rig.log, 101325, &seen, &error));
 }
 
 static void drive(size_t run)
 {
   lab_inputs_free(&inputs);
-  if (lab_inputs_from_log(&model, &rig, &seen, run, &inputs, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_inputs_from_log(&model, &rig, &seen, run, &inputs, &error));
 }
 
 /* ---- Schedules ---- */
@@ -299,8 +297,7 @@ static pneu_state start_of(const char *text, double u)
   input.u = (pneu_real)u;
   input.force = (pneu_real)load;
   input.set_position = is_set;
-  if (lab_run_initial_state(&model, &input, &seen, 0, &start, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_run_initial_state(&model, &input, &seen, 0, &start, &error));
   return start;
 }
 
@@ -533,8 +530,7 @@ static void test_lab_standard_experiment__default_model__fills_and_vents(void **
   const lab_response_options options = {.tol = 1e-6};
   lab_response response;
   (void)state;
-  if (lab_standard_experiment(&model, &options, &response, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_standard_experiment(&model, &options, &response, &error));
   assert_int_equal(response.n, 3051);
   assert_close(response.t[1], 0.01, 1e-15, 0);
   assert_close(response.t[3050], 30.5, 1e-12, 0);
