@@ -30,16 +30,19 @@ static study *made_up(void)
   return &s;
 }
 
-/* The report where one table has rows, and the others none, to be freed. */
-static char *report_with(const char *name, const char *text)
+static char *text; /* of the last report */
+
+/* The report where one table has rows, and the others none: `text` then. */
+static void report_with(const char *name, const char *rows)
 {
   size_t i;
   for (i = 0; i < sizeof empty / sizeof *empty; i++)
     if (!scratch_exists(scratch_path(empty[i][0])))
       scratch_text(empty[i][0], empty[i][1]);
-  scratch_text(name, text);
+  scratch_text(name, rows);
   succeed(report_make(made_up(), &error));
-  return scratch_read(scratch_path("REPORT.md"));
+  free(text);
+  text = scratch_read(scratch_path("REPORT.md"));
 }
 
 static const char *const numbers =
@@ -57,28 +60,25 @@ static const char *const numbers =
 /* Eq. 1 disagrees in one of its rows, 7 is printed once and tried twice, e is an aside. */
 static void test_report__rows_of_one_statement__counted_once(void **state)
 {
-  char *text = report_with("paper_numbers.csv", numbers);
   (void)state;
+  report_with("paper_numbers.csv", numbers);
   assert_contains(text, "Of 5 ");
   assert_contains(text, " 1 are ");
   assert_contains(text, "\n\n4 are not, 2 numbers");
   assert_contains(text, "None turns with a threshold");
-  free(text);
 }
 
 static void test_report__three_causes__each_once_by_what_it_changes(void **state)
 {
-  char *text = report_with("paper_numbers.csv", numbers);
   (void)state;
+  report_with("paper_numbers.csv", numbers);
   assert_contains(text, "|\n| a gap | modelling | Eq. 4 | |\n\n"
                         "A number: a slip (data; 5 printed, 6 computed).\n"
                         "Matters of form: a sign.\n");
-  free(text);
 }
 
 static void test_report__laws_that_differ__counted_and_marked(void **state)
 {
-  char *text;
   (void)state;
   scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
                                             "1,one,printed,isothermal,paper,1,,1,holds,e\n"
@@ -86,21 +86,19 @@ static void test_report__laws_that_differ__counted_and_marked(void **state)
                                             "1,one-bench,bench,isothermal,paper,1,,1,contradicted,e\n"
                                             "2,one,printed,isothermal,paper,1,,1,holds when it rains,e\n"
                                             "2,one,printed,isothermal,choked,1,,1,holds when it snows,e\n");
-  text = report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
-                                                   "depends_on\n"
-                                                   "1,printed,isothermal,paper,holds,,,,,,set\n"
-                                                   "1,printed,isothermal,choked,contradicted,,,,,,\"threshold, set\"\n"
-                                                   "2,printed,isothermal,paper,holds when,,,,,,\n");
+  report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
+                                            "depends_on\n"
+                                            "1,printed,isothermal,paper,holds,,,,,,set\n"
+                                            "1,printed,isothermal,choked,contradicted,,,,,,\"threshold, set\"\n"
+                                            "2,printed,isothermal,paper,holds when,,,,,,\n");
   assert_contains(text, "| the paper concludes | one | depends on | remark |");
   assert_contains(text, "| holds (1 of 2), contradicted (1 of 2) | threshold, set |");
   assert_contains(text, "| holds when | |");
-  free(text);
 }
 
 /* 2 has a mark, 3 fails in one law. */
 static void test_report__conclusions_that_hold_throughout__in_words(void **state)
 {
-  char *text;
   (void)state;
   scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
                                             "1,one,printed,isothermal,paper,1,,1,contradicted,e\n"
@@ -109,9 +107,9 @@ static void test_report__conclusions_that_hold_throughout__in_words(void **state
                                             "3,one,printed,isothermal,choked,1,,1,contradicted,e\n"
                                             "11,one,printed,isothermal,paper,1,,1,holds,e\n"
                                             "11,one,printed,isothermal,choked,1,,1,holds,e\n");
-  text = report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
-                                                   "depends_on\n"
-                                                   "2,printed,isothermal,paper,holds,,,,,,threshold\n");
+  report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
+                                            "depends_on\n"
+                                            "2,printed,isothermal,paper,holds,,,,,,threshold\n");
   assert_contains(
       text, "these hold:\n\n11 fall: theoretical change free of parameters (as the theoretical change; over their "
             "travels the actuators differ).\n");
@@ -119,21 +117,19 @@ static void test_report__conclusions_that_hold_throughout__in_words(void **state
   assert_contains(text, "\n| 2 | ");
   assert_contains(text, "\n| 3 | ");
   assert_null(strstr(text, "\n| 11 | "));
-  free(text);
 }
 
 /* 20 % is left in one law, 5 % in the other: two verdicts; the other actuator is the same in both. */
 static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
 {
-  char *text = report_with("hypotheses_thresholds.csv", "actuator,hypothesis,gas,flow,share_left,share_left_signed,"
-                                                        "share_alone,share_alone_signed,depends_on_threshold\n"
-                                                        "one,H2,a,b,0.2,0.2,,,yes\none,H2,a,c,0.05,-0.05,,,no\n"
-                                                        "one-bench,H2,a,b,1.5,1.5,,,no\n");
   (void)state;
+  report_with("hypotheses_thresholds.csv", "actuator,hypothesis,gas,flow,share_left,share_left_signed,"
+                                           "share_alone,share_alone_signed,depends_on_threshold\n"
+                                           "one,H2,a,b,0.2,0.2,,,yes\none,H2,a,c,0.05,-0.05,,,no\n"
+                                           "one-bench,H2,a,b,1.5,1.5,,,no\n");
   assert_contains(text, "| H2 preload of the spring | not confirmed | -5..20 %: differs by law † | 150 %: not "
                         "confirmed |");
   assert_contains(text, "† turns with a threshold");
-  free(text);
 }
 
 static void test_report__no_table__data_error(void **state)
