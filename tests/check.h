@@ -14,6 +14,9 @@
 #include <string.h>
 #include <cmocka.h>
 
+/* Every test of cmocka is handed a state, and hardly any uses it. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
 /* A tolerance for each precision of the library under test. */
 #ifdef PNEU_SINGLE
 #define TOL(in_double, in_single) (in_single)

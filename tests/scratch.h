@@ -16,7 +16,6 @@ static char scratch_folder[64];
 
 static inline int scratch_open(void **state)
 {
-  (void)state;
   strcpy(scratch_folder, "/tmp/libpneu-test-XXXXXX");
   return mkdtemp(scratch_folder) ? 0 : -1;
 }
@@ -100,7 +99,6 @@ static inline void scratch_remove(const char *path)
 
 static inline int scratch_close(void **state)
 {
-  (void)state;
   scratch_remove(scratch_folder);
   return 0;
 }

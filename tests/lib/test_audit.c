@@ -136,7 +136,6 @@ static void check_run(const pneu_params *p, int gas, int flow)
 static void test_pneu_run__each_actuator_and_law__keeps_mass_and_energy(void **state)
 {
   int actuator, gas, flow;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
       for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
@@ -151,7 +150,6 @@ static void test_pneu_run__each_actuator_and_law__keeps_mass_and_energy(void **s
 static void test_pneu_run__swept_ratio_and_other_index__keeps_mass_and_energy(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  (void)state;
   p.swept_ratio = (pneu_real)0.85;
   p.polytropic_index = (pneu_real)1.2;
   p.heat_ratio = (pneu_real)1.3;
@@ -188,38 +186,32 @@ static void check_effect(const char *name)
 
 static void test_chamber_exponent__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("chamber_exponent");
 }
 
 static void test_chamber_leak__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("chamber_leak");
 }
 
 static void test_choked_flow__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("choked_flow");
 }
 
 static void test_heat_transfer__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("heat_transfer");
 }
 
 static void test_connecting_tube__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("connecting_tube");
 }
 
 /* With a volume at the transducer, and in series with it. */
 static void test_supply_droop__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("supply_droop");
   check_effect_without("supply_droop", "supply_volume");
 }
@@ -230,7 +222,6 @@ static void test_supply_droop__volume__keeps_mass(void **state)
   const double R = 2e8, V = 5e-5;
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas;
-  (void)state;
   fixture_need("supply_droop");
   fixture_set(&p, "supply_resistance", R);
   fixture_set(&p, "supply_volume", V);
@@ -255,19 +246,16 @@ static void test_supply_droop__volume__keeps_mass(void **state)
 
 static void test_transducer_lag__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("transducer_lag");
 }
 
 static void test_vent_restriction__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("vent_restriction");
 }
 
 static void test_stribeck_friction__run__keeps_mass_and_energy(void **state)
 {
-  (void)state;
   check_effect("stribeck_friction");
 }
 
@@ -280,7 +268,6 @@ static void test_free_terms__run__keep_mass_and_energy(void **state)
       {PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 3, 0, 400000, {(pneu_real)1e-5, 0, (pneu_real)-2e-5}},
       {PNEU_TERM_HEAT, PNEU_TERM_OVER_OPENING, 3, -1, 1, {-3, 1, 2}}};
   int gas, n;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (n = 1; n <= COUNT(term); n++) {
       pneu_model m = fixture_r1_400(gas, PNEU_FLOW_CHOKED);

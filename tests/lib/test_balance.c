@@ -24,7 +24,6 @@ static void test_pneu_balance_pressure__base_model__is_spring_load_and_friction_
   static const double place[] = {0, 0.007, 0.02}, force[] = {0, 150, -4000};
   const pneu_params p = loaded(NULL, 0);
   int i, k, direction;
-  (void)state;
   for (i = 0; i < COUNT(place); i++)
     for (k = 0; k < COUNT(force); k++)
       for (direction = -1; direction <= 1; direction++) {
@@ -37,7 +36,6 @@ static void test_pneu_balance_pressure__base_model__is_spring_load_and_friction_
 static void test_pneu_balance_pressure__load_that_pulls__is_below_vacuum(void **state)
 {
   const pneu_params p = loaded(NULL, 0);
-  (void)state;
   assert_close(balance(&p, 0, -20000, 0), (4e5 * 0.01 + 300 - 20000) / 0.04, TOL(1e-9, 0.5), 0);
 }
 
@@ -53,7 +51,6 @@ static void test_pneu_balance_pressure__each_effect_on_forces__counts(void **sta
               {"friction_slope", 0.5, spring / A, (spring + F * 1.375) / A},
               {"stribeck_excess", 0.3, spring / A, (spring + F * 1.3) / A}};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(form); i++) {
     const pneu_params p = loaded(form[i].param, form[i].value);
     check_note("%s", form[i].param);
@@ -65,7 +62,6 @@ static void test_pneu_balance_pressure__each_effect_on_forces__counts(void **sta
 static void test_pneu_balance_pressure__seals_that_hold_whatever_the_pressure__has_none(void **state)
 {
   const pneu_params p = loaded("friction_per_pressure", 0.05);
-  (void)state;
   assert_true(isnan(balance(&p, 0.01, 0, 1)));
   assert_close(balance(&p, 0.01, 0, -1), (4e5 * 0.02 + 300 - 480) / 0.09, TOL(1e-8, 0.5), 0);
 }
@@ -88,7 +84,6 @@ static void test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_st
 {
   static const double x = 0.01;
   int e, direction;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     pneu_params p = loaded(NULL, 0);
     pneu_param_info info;

@@ -27,7 +27,6 @@ static void test_pneu_run__choked_isothermal_blowdown__is_exponential(void **sta
   pneu_params p = fixture_vessel(2e-3);
   const double tau = blowdown_time(&p, 0.5e-6), p0 = 20e5;
   int i, j;
-  (void)state;
   p.critical_ratio = (pneu_real)0.528;
   for (j = 0; j < COUNT(laws); j++) {
     fixture_rig rig =
@@ -47,7 +46,6 @@ static void test_pneu_run__choked_adiabatic_blowdown__follows_the_power_law(void
   pneu_params p = fixture_vessel(2e-3);
   const double tau = blowdown_time(&p, 1e-6), p0 = 20e5, g = (double)p.heat_ratio;
   int i, j;
-  (void)state;
   for (j = 0; j < COUNT(gases); j++) {
     fixture_rig rig = fixture_at(fixture_model(&p, gases[j], PNEU_FLOW_CHOKED), -1, p0 - (double)p.ambient_pressure, 0);
     for (i = 1; i <= 4; i++) {
@@ -68,7 +66,6 @@ static void test_pneu_run__isothermal_fill_by_paper_law__pressure_is_quadratic_i
   const double k = R * T * 1e-6 / 1e-3 * sqrt(2 * pu / (R * T)), s0 = sqrt(4e5);
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 0, 0);
   int i;
-  (void)state;
   for (i = 1; i <= 4; i++) {
     const double t = 0.2 * i * 2 * s0 / k, root = s0 - k * t / 2;
     fixture_go(&rig, 0.2 * 2 * s0 / k, FIXTURE_TOL, NULL);
@@ -84,7 +81,6 @@ static void test_pneu_run__isothermal_vent_by_paper_law__follows_the_hyperbolic_
   const double k = R * T * 1e-6 / 1e-3 * sqrt(2 / (R * T)), c = acosh(2 * (4e5 + pa) / pa - 1);
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -1, 4e5, 0);
   int i;
-  (void)state;
   for (i = 1; i <= 4; i++) {
     fixture_go(&rig, 0.2 * c / k, FIXTURE_TOL, NULL);
     assert_close(absolute(&p, &rig.s), pa * (1 + cosh(c * (1 - 0.2 * i))) / 2, 0, TOL(1e-9, 1e-4));
@@ -98,7 +94,6 @@ static void test_pneu_run__adiabatic_fill__keeps_the_first_law(void **state)
   const double g = (double)p.heat_ratio, pa = (double)p.ambient_pressure, p0 = 2e4, T0 = 298.15, Ts = 350;
   fixture_rig rig;
   int i;
-  (void)state;
   p.supply_temperature = (pneu_real)Ts;
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, p0 - pa, 0);
   for (i = 0; i < 5; i++) {
@@ -115,7 +110,6 @@ static void test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_time
   pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig =
       fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 50 - (double)p.ambient_pressure, 0);
-  (void)state;
   fixture_go(&rig, 60, FIXTURE_TOL, NULL);
   assert_close(rig.s.p, 4e5, 0, TOL(1e-8, 1e-4));
   assert_close(rig.s.T, (double)p.heat_ratio * 298.15, 0, 1e-3);
@@ -125,7 +119,6 @@ static void test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure(vo
 {
   const pneu_params p = fixture_vessel(1e-4);
   int gas, flow;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
       const pneu_model m = fixture_model(&p, gas, flow);
@@ -145,7 +138,6 @@ static void test_pneu_run__loose_tolerance__pressure_keeps_within_supply_and_amb
   static fixture_sample s[2001];
   static const double volume[] = {1e-6, 1e-5, 1e-4, 1e-3}, tol[] = {1e-3, 1e-4, 1e-5};
   int i, j, k, flow;
-  (void)state;
   for (flow = 0; flow < PNEU_FLOW_COUNT; flow++)
     for (i = 0; i < COUNT(volume); i++)
       for (j = 0; j < COUNT(tol); j++) {
@@ -199,7 +191,6 @@ static void test_pneu_run__moved_shut_chamber__keeps_p_times_volume_to_the_n(voi
 {
   static const double n[] = {1, 1.1, 1.25, 1.4, 1.6};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(n); i++) {
     const pneu_model m = moved(PNEU_GAS_POLYTROPIC, n[i]);
     pneu_state s;
@@ -213,7 +204,6 @@ static void test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isoth
 {
   const pneu_model energy = moved(PNEU_GAS_ENERGY, 1.2), isothermal = moved(PNEU_GAS_ISOTHERMAL, 1.2);
   pneu_state s;
-  (void)state;
   assert_close(expand(&energy, 0.05, &s), pow(2, -1.4), 0, TOL(1e-9, 1e-4));
   assert_close(s.T, 298.15 * pow(2, -0.4), 0, TOL(1e-9, 1e-4));
   assert_close(expand(&isothermal, 0.05, &s), 0.5, 0, TOL(1e-9, 1e-4));
@@ -223,7 +213,6 @@ static void test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isoth
 static void test_pneu_run__moved_shut_chamber__keeps_its_mass(void **state)
 {
   int gas;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
     fixture_rig rig = fixture_at(moved(gas, 1.3), 0, 2e5, 0);
     pneu_state s;
@@ -238,7 +227,6 @@ static void test_pneu_run__swept_ratio_zero__movement_leaves_the_pressure(void *
   pneu_params p = moved(PNEU_GAS_ENERGY, 1.4).p;
   pneu_model m;
   pneu_state s;
-  (void)state;
   p.swept_ratio = 0;
   m = fixture_model_roles(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 0, 1);
   assert_close(expand(&m, 0.05, &s), 1, 0, 0);
@@ -260,7 +248,6 @@ static void test_pneu_run__isothermal_pumping__takes_the_logarithmic_work(void *
   const pneu_model m = moved(PNEU_GAS_ISOTHERMAL, 1.4);
   const double pa = (double)m.p.ambient_pressure, p0 = 2e5 + pa;
   int back;
-  (void)state;
   for (back = 0; back < 2; back++) {
     fixture_stretch stretch;
     pneu_state at;
@@ -280,7 +267,6 @@ static void test_pneu_run__film_resistance_to_zero__is_isothermal(void **state)
   pneu_params p = moved(PNEU_GAS_ISOTHERMAL, 1.4).p;
   double apart = 1;
   int i;
-  (void)state;
   fixture_need("heat_transfer");
   for (i = 0; i < 3; i++) {
     pneu_model m;
@@ -301,7 +287,6 @@ static void test_pneu_run__film_conductance_to_infinity__is_isothermal(void **st
   pneu_params p = moved(PNEU_GAS_ENERGY, 1.4).p;
   pneu_model m;
   pneu_state s;
-  (void)state;
   fixture_need("heat_transfer");
   fixture_set(&p, "film_conductance", TOL(1e5, 1e3));
   m = fixture_model_roles(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER, 0, 1);
@@ -314,7 +299,6 @@ static void test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_
   static fixture_sample a[320], b[320];
   fixture_sample *out[2];
   int gas[2] = {PNEU_GAS_ENERGY, PNEU_GAS_POLYTROPIC}, i, n = 0;
-  (void)state;
   out[0] = a;
   out[1] = b;
   for (i = 0; i < 2; i++) {
@@ -339,7 +323,6 @@ static void test_pneu_run__film_between__lies_between_isothermal_and_adiabatic(v
   pneu_params p = moved(PNEU_GAS_ENERGY, 1.4).p;
   double last = pow(2, -1.4);
   int i;
-  (void)state;
   fixture_need("heat_transfer");
   for (i = 0; i < COUNT(G); i++) {
     pneu_model m;
@@ -359,7 +342,6 @@ static void test_pneu_volume__along_the_stroke__is_dead_volume_and_swept(void **
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
-  (void)state;
   p.swept_ratio = (pneu_real)0.8;
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   assert_close(pneu_volume(&m, 0), 2e-6, 0, TOL(1e-15, 1e-6));
@@ -371,7 +353,6 @@ static void test_pneu_mass__each_law__is_pv_over_rt(void **state)
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const double pa = (double)p.ambient_pressure, V = 2e-6 + 0.04 * 0.005, R = gas_constant(&p);
   int gas;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
     fixture_rig rig = fixture_at(fixture_model(&p, gas, PNEU_FLOW_PAPER), 0, 1e5, 0.005);
     const double T = gas == PNEU_GAS_ISOTHERMAL ? 298.15 : 400;
@@ -386,7 +367,6 @@ static void test_pneu_run__pressure_input__follows_the_straight_line(void **stat
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
     fixture_rig rig = fixture_at(fixture_model_roles(&p, gas, PNEU_FLOW_CHOKED, 1, 0), 1, 1e4, 0);
     rig.input.pressure_rate = (pneu_real)3e4;
@@ -406,7 +386,6 @@ static void test_pneu_state_rest__outside_the_domain__is_refused(void **state)
                                   {0, 300, NAN},     {INFINITY, 300, 0}, {0, INFINITY, 0}};
   pneu_state s;
   int i;
-  (void)state;
   for (i = 0; i < COUNT(bad); i++) {
     check_note("case %d", i);
     assert_int_equal(pneu_state_rest(&m, (pneu_real)bad[i][0], (pneu_real)bad[i][1], (pneu_real)bad[i][2], &input, &s),
@@ -421,7 +400,6 @@ static void test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step(voi
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 1e5, 0.01);
   pneu_output out;
   int i;
-  (void)state;
   rig.s.mode = PNEU_MODE_UP;
   for (i = 0; i < COUNT(bad); i++) {
     const pneu_real y[PNEU_STATE_MAX] = {(pneu_real)bad[i][0], (pneu_real)bad[i][1], (pneu_real)bad[i][2], 0};

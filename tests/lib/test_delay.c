@@ -51,7 +51,6 @@ static void test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_ch
 {
   loop l;
   pneu_state before;
-  (void)state;
   fixture_need("dead_time");
   begin(&l, 0.02, SLOTS, 0);
   l.input.delay = NULL;
@@ -65,7 +64,6 @@ static void test_pneu_run_and_step__line_without_dead_time__change_not_a_bit(voi
 {
   loop a, b;
   int i;
-  (void)state;
   begin(&a, 0, SLOTS, 0);
   begin(&b, 0, SLOTS, 0);
   b.input.delay = NULL;
@@ -84,7 +82,6 @@ static void test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_comman
   static const double u[] = {1, -1, 0.5}, duration[] = {0.5, 0.03, 1.0};
   loop late, prompt;
   int i;
-  (void)state;
   fixture_need("dead_time");
   begin(&late, 0.0415, SLOTS, 0);
   begin(&prompt, 0, SLOTS, 0);
@@ -105,7 +102,6 @@ static void test_pneu_step__dead_time__commands_act_to_the_instant(void **state)
   loop late, prompt;
   pneu_output out;
   int i;
-  (void)state;
   fixture_need("dead_time");
   begin(&late, dead_time, SLOTS, 0);
   begin(&prompt, 0, SLOTS, 0);
@@ -127,7 +123,6 @@ static void test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing(v
 {
   loop l, before;
   int i;
-  (void)state;
   fixture_need("dead_time");
   begin(&l, 0.02, 5, 0);
   for (i = 0; i < 5; i++)
@@ -153,7 +148,6 @@ static void test_pneu_delay__many_changes__no_time_is_lost(void **state)
   pneu_late slot[SLOTS];
   pneu_delay d;
   int i;
-  (void)state;
   pneu_delay_begin(&d, slot, SLOTS, 0);
   for (i = 1; i <= TURNS; i++) {
     assert_int_equal(pneu_delay_give(&d, (pneu_real)0.0205, (pneu_real)i), PNEU_OK);
@@ -169,7 +163,6 @@ static void test_pneu_delay_give__shorter_than_before__keeps_the_order(void **st
 {
   pneu_late slot[SLOTS];
   pneu_delay d;
-  (void)state;
   pneu_delay_begin(&d, slot, SLOTS, 0);
   assert_int_equal(pneu_delay_give(&d, (pneu_real)0.5, 1), PNEU_OK);
   assert_int_equal(pneu_delay_give(&d, (pneu_real)0.1, 2), PNEU_OK);
@@ -212,7 +205,6 @@ static void check_followed(double length, double dt)
 
 static void test_pneu_delay_follow__running_signal__is_interpolated(void **state)
 {
-  (void)state;
   check_followed(0.11, 0.02);
   check_followed(0.033, 0.02);
   check_followed(0.005, 0.02);
@@ -222,7 +214,6 @@ static void test_pneu_delay_follow__no_room__says_so(void **state)
 {
   pneu_late slot[2];
   pneu_delay d;
-  (void)state;
   pneu_delay_begin(&d, slot, 2, 0);
   assert_int_equal(pneu_delay_follow(&d, 1, (pneu_real)0.1, 1), PNEU_OK); /* held, and then ran */
   assert_int_equal(pneu_delay_follow(&d, 1, (pneu_real)0.1, 2), PNEU_E_DELAY);

@@ -22,7 +22,6 @@ static void test_pneu_effect_at__each__has_a_complete_record(void **state)
 {
   static const char *const equations[] = {"mass", "energy", "force", "command", "sensor"};
   int e, i, known;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     const pneu_effect *effect = pneu_effect_at(e);
     check_note("%s", names[e]);
@@ -40,7 +39,6 @@ static void test_pneu_effect_at__each__has_a_complete_record(void **state)
 static void test_pneu_effect_at__parameters__start_off_neutral_and_within_bounds(void **state)
 {
   int e, k, count;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     pneu_effect_params(e, &count);
     for (k = 0; k < count; k++) {
@@ -95,7 +93,6 @@ static void test_pneu_run__each_effect_neutral__is_the_base_model_bit_for_bit(vo
 {
   static fixture_sample base[SAMPLES], neutral[SAMPLES];
   int e, gas, flow;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
       const pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -158,7 +155,6 @@ static void test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model(
 {
   static fixture_sample base[SAMPLES], small[SAMPLES];
   int e;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     int gas, n;
     pneu_params p = ground(e, &gas);
@@ -205,7 +201,6 @@ static pneu_state run_with_given(const pneu_params *p, int gas, int pressure, in
 static void test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance(void **state)
 {
   int e, gas;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       const pneu_params base = fixture_params(FIXTURE_R1_400), p = switched_on(e);
@@ -221,7 +216,6 @@ static void test_pneu_run__effect_of_anything_but_force__leaves_the_force_balanc
 static void test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas(void **state)
 {
   int e, gas;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       const pneu_params base = fixture_params(FIXTURE_R1_400), p = switched_on(e);
@@ -238,7 +232,6 @@ static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **st
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
-  (void)state;
   fixture_need("presliding");
   fixture_need("transducer_lag");
   fixture_set(&p, "presliding_length", 2e-5);
@@ -276,7 +269,6 @@ static pneu_real own_slope(const pneu_model *m, int e, pneu_real z, pneu_real st
 static void test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere(void **state)
 {
   int e, gas, k;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     static const double z[] = {0, 1e-7, 0.3};
     pneu_params p = ground(e, &gas);
@@ -297,7 +289,6 @@ static void test_pneu_run__all_effects_together__stays_physical(void **state)
 {
   static fixture_sample s[SAMPLES];
   int gas, i, e, n;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     for (e = 0; e < PNEU_EFFECT_COUNT; e++)
@@ -318,7 +309,6 @@ static void test_pneu_run__all_effects_together__stays_physical(void **state)
 static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **state)
 {
   int e;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     pneu_params p = fixture_vessel(1e-3);
     fixture_sample look;

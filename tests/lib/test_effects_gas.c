@@ -539,7 +539,6 @@ static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void
   pneu_state s;
   pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
   const double R = 3e7, q = 3e4 / R;
-  (void)state;
   fixture_need("connecting_tube");
   fixture_set(&p, "tube_resistance", R);
   m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
@@ -561,7 +560,6 @@ static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(vo
   static const double resistance[] = {1, 1e3, 1e5, 1e7}, share[] = {0, 0.5, 1};
   pneu_params p = fixture_params(FIXTURE_37_13);
   int i, k;
-  (void)state;
   fixture_need("connecting_tube");
   for (i = 0; i < COUNT(resistance); i++)
     for (k = 0; k < COUNT(share); k++) {
@@ -580,7 +578,6 @@ static void test_supply_droop__small_volume__is_not_stiff_at_rest(void **state)
   static const double resistance[] = {1, 1e5, 1e7}, share[] = {0, 0.5, 1}, volume[] = {1e-12, 1e-9, 1e-6, 1e-3};
   pneu_params p = fixture_params(FIXTURE_37_13);
   int i, k, j;
-  (void)state;
   fixture_need("supply_droop");
   for (i = 0; i < COUNT(resistance); i++)
     for (k = 0; k < COUNT(share); k++)
@@ -669,7 +666,6 @@ static void footprint_heat_transfer(void)
 static void test_heat_transfer__parameter_of_another_law__does_not_act(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  (void)state;
   fixture_need("heat_transfer");
   fixture_set(&p, "film_conductance", 2);
   fixture_set(&p, "free_convection", 2);
@@ -767,7 +763,6 @@ static void test_transducer_lag__regulator_at_rest__starts_from_its_opening(void
 {
   pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig;
-  (void)state;
   fixture_need("transducer_lag");
   fixture_set(&p, "transducer_time", 0.02);
   p.proportional_band = (pneu_real)1e4;
@@ -976,7 +971,6 @@ static footprint footprints[] = {
 
 static void test_effects_def__each_effect_on_the_gas__has_a_footprint_test(void **state)
 {
-  (void)state;
   footprint_complete(footprints, COUNT(footprints), "mass energy command");
 }
 
@@ -987,7 +981,6 @@ static void test_positioner__holds_and_ramps__always_end(void **state)
   enum { LOOPS = 40, STRETCHES = 20 };
   uint64_t seed = 5;
   int loop, i;
-  (void)state;
   for (loop = 0; loop < LOOPS; loop++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     double set = 0;
@@ -1046,7 +1039,6 @@ static void test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_
 {
   long pulses, none;
   const double x = ramped(0, &pulses);
-  (void)state;
   fixture_need("positioner");
   assert_close(ramped(4e-4, &none), x, 4e-6, 0);
   assert_between(pulses, 1000, 4000);
@@ -1063,7 +1055,6 @@ static void test_positioner__leak_at_the_dead_band__pressure_swings_over_the_fri
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  (void)state;
   fixture_set(&p, "gain", 20);
   fixture_set(&p, "dead_band", 0.003);
   fixture_set(&p, "leak_area", 3e-8);

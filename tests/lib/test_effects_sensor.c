@@ -71,7 +71,6 @@ static void test_gain_and_bias__together__are_affine(void **state)
   static const char *const needed[] = {"pressure_bias", "pressure_gain", "position_bias", "position_gain"};
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(needed); i++) {
     fixture_need(needed[i]);
     fixture_set(&p, needed[i], i == 0 ? 1e3 : i == 2 ? 1e-3 : 0.1);
@@ -155,7 +154,6 @@ static footprint footprints[] = {
 
 static void test_effects_def__each_effect_on_a_sensor__has_a_footprint_test(void **state)
 {
-  (void)state;
   footprint_complete(footprints, COUNT(footprints), "sensor");
 }
 
@@ -204,7 +202,6 @@ static pneu_state filling(const pneu_model *m, pneu_input *input)
 static void test_pneu_show__every_effect__is_as_observed(void **state)
 {
   int e, gas, driven;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     const pneu_effect *effect = pneu_effect_at(e);
     int other = 0;
@@ -227,7 +224,6 @@ static void test_pneu_show__every_effect__is_as_observed(void **state)
 static void test_pneu_show__no_effect__is_the_truth(void **state)
 {
   int gas;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
     const pneu_model m = fixture_r1_400(gas, PNEU_FLOW_PAPER);
     pneu_input input;
@@ -246,7 +242,6 @@ static void test_pneu_show__all_sensors_at_once__are_as_observed(void **state)
   pneu_input input;
   pneu_state s;
   int e, any = 0;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
     if (!strcmp(pneu_effect_at(e)->equation, "sensor")) {
       switch_on(e, &p);
@@ -266,7 +261,6 @@ static void test_pneu_show__free_terms__are_as_observed(void **state)
       {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_OPENING, 2, -1, 1, {3e3, 5e3}},
       {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {30, 60}}};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(term); i++) {
     pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
     pneu_input input;
@@ -298,7 +292,6 @@ static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void
 {
   static const pneu_term bias = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, 1, {3e3, 3e3}};
   int gas, n, role;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (role = 0; role < 3; role++)
       for (n = 0; n < 2; n++) {
@@ -327,7 +320,6 @@ static void test_lags__of_next_to_no_time__are_none(void **state)
 {
   static const char *const lag[] = {"pressure_time", "position_time", "temperature_time", "transducer_time"};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(lag); i++) {
     const pneu_params p = with(lag[i], 2e-19), none = with(lag[i], 0);
     const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
@@ -344,7 +336,6 @@ static void test_lags__of_next_to_no_time__are_none(void **state)
 static void test_lags__from_a_nanosecond_on__act(void **state)
 {
   const pneu_params at = with("pressure_time", 1e-9), below = with("pressure_time", 0.999e-9);
-  (void)state;
   assert_int_equal(fixture_model(&at, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 1);
   assert_int_equal(fixture_model(&below, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
 }

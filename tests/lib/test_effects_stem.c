@@ -128,7 +128,6 @@ static void check_bristle(double v, double z)
 
 static void test_presliding__moving__friction_is_that_of_lugre(void **state)
 {
-  (void)state;
   fixture_need("presliding");
   check_bristle(3e-3, 0.3);
   check_bristle(-3e-3, 0.3);
@@ -143,7 +142,6 @@ static void test_presliding__no_friction__bristles_bend_all_the_way(void **state
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  (void)state;
   fixture_need("presliding");
   p.dry_friction = 0;
   fixture_set(&p, "presliding_length", 2e-5);
@@ -162,7 +160,6 @@ static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
   fixture_events e;
-  (void)state;
   fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
   rig = fixture_at(fixture_pressed(&p), 0, 1.5e5, 0.004);
@@ -202,7 +199,6 @@ static void test_presliding__at_rest__takes_few_steps(void **state)
 {
   static const double length[] = {4e-7, 2e-5, 2e-4};
   int i;
-  (void)state;
   fixture_need("presliding");
   for (i = 0; i < COUNT(length); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -228,7 +224,6 @@ static void test_pneu_switch__bristles__turns_round(void **state)
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
   fixture_rig rig;
-  (void)state;
   fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.012);
@@ -387,7 +382,6 @@ static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(vo
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
-  (void)state;
   fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-6);
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -1, 0, 0);
@@ -407,7 +401,6 @@ static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(voi
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
   pneu_input input;
-  (void)state;
   fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-4);
   p.swept_ratio = (pneu_real)0.5;
@@ -432,7 +425,6 @@ static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
   static const double compliance[] = {1e-8, 1e-10, 1e-12};
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int i;
-  (void)state;
   fixture_need("stop_compliance");
   for (i = 0; i < COUNT(compliance); i++) {
     pneu_model m;
@@ -457,7 +449,6 @@ static void test_stop_compliance__very_stiff__stem_leaves_at_its_balance(void **
   const double balance = ((double)p.spring_rate * (double)p.spring_preload + (double)p.dry_friction) / (double)p.area;
   fixture_rig rig;
   int i;
-  (void)state;
   fixture_need("stop_compliance");
   fixture_set(&p, "stop_compliance", 1e-9);
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), (double)1e-3, 0.9 * balance, 0);
@@ -478,7 +469,6 @@ static void test_stop_compliance__creeping_in__does_not_chatter(void **state)
                {9 * 1e-9, 33e4, 18 * 1e-5, PNEU_GAS_POLYTROPIC, PNEU_FLOW_ISO6358},
                {79 * 1e-9, 43e4, 12 * 1e-5, PNEU_GAS_POLYTROPIC, PNEU_FLOW_CHOKED}};
   int i;
-  (void)state;
   fixture_need("stop_compliance");
   for (i = 0; i < COUNT(creep); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -507,7 +497,6 @@ static footprint footprints[] = {
 
 static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void **state)
 {
-  (void)state;
   footprint_complete(footprints, COUNT(footprints), "force");
 }
 

@@ -60,7 +60,6 @@ static void check_formula(int law, const pneu_params *p)
 static void test_pneu_orifice__each_law__follows_its_formula(void **state)
 {
   int law;
-  (void)state;
   for (law = 0; law < PNEU_FLOW_COUNT; law++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     check_formula(law, &p);
@@ -77,7 +76,6 @@ static void test_pneu_orifice__area__is_a_factor(void **state)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   int law;
-  (void)state;
   for (law = 0; law < PNEU_FLOW_COUNT; law++) {
     const pneu_flow one = orifice(&m, law, 1e-6, 3e5, 300, 2e5), three = orifice(&m, law, 3e-6, 3e5, 300, 2e5);
     const pneu_flow none = orifice(&m, law, 0, 3e5, 300, 2e5);
@@ -100,7 +98,6 @@ static void test_pneu_run__own_flow_law__takes_the_place_of_the_declared_one(voi
 {
   pneu_state s[2];
   int k, stretch;
-  (void)state;
   for (k = 0; k < 2; k++) {
     pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, k ? PNEU_FLOW_PAPER : PNEU_FLOW_ISO6358);
     m.own_flow = k ? own : NULL;
@@ -136,7 +133,6 @@ static void test_pneu_orifice__slopes__match_central_differences(void **state)
   static const double r[] = {0.02, 0.1, 0.25, 0.29, 0.31, 0.5, 0.54, 0.7, 0.9, 0.99, 0.999, 0.9994};
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int law, i, other;
-  (void)state;
   for (other = 0; other < 2; other++) {
     pneu_model m;
     p.subsonic_index = (pneu_real)(other ? 0.6 : 0.5);
@@ -154,7 +150,6 @@ static void test_pneu_orifice__slopes_within_the_blend__match_central_difference
   static const double w[] = {1e-6, 1e-5, 1e-4, 2e-4, 4.9e-4, 5.1e-4};
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int law, i, other;
-  (void)state;
   for (other = 0; other < 2; other++) {
     pneu_model m;
     p.subsonic_index = other ? 0.6 : 0.5;
@@ -195,7 +190,6 @@ static void test_pneu_orifice__edge_of_the_blend__value_slope_and_curvature_are_
 {
   static const double index[] = {0.5, 0.4, 0.62};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(index); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     pneu_model m;
@@ -212,7 +206,6 @@ static void test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double pu = 4e5;
   int law, i;
-  (void)state;
   for (law = 0; law < PNEU_FLOW_COUNT; law++) {
     const pneu_flow zero = orifice(&m, law, 1e-6, pu, 300, pu);
     check_note("%s", pneu_flow_key(law));
@@ -236,7 +229,6 @@ static void test_pneu_orifice__at_choking__value_and_slope_are_continuous(void *
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double critical[PNEU_FLOW_COUNT] = {0, pow(1 / 1.2, 3.5), 0.3};
   int law;
-  (void)state;
   for (law = 0; law < PNEU_FLOW_COUNT; law++) {
     const double pu = 5e5, e = TOL(1e-7, 1e-5);
     const pneu_flow below = orifice(&m, law, 1e-6, pu, 300, pu * (critical[law] - e));
@@ -257,7 +249,6 @@ static void test_pneu_orifice__below_choking__flow_ignores_the_far_side(void **s
   static const int laws[] = {PNEU_FLOW_CHOKED, PNEU_FLOW_ISO6358};
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(laws); i++) {
     const pneu_flow vacuum = orifice(&m, laws[i], 1e-6, 5e5, 300, 0), low = orifice(&m, laws[i], 1e-6, 5e5, 300, 1e5);
     check_note("%s", pneu_flow_key(laws[i]));
@@ -272,7 +263,6 @@ static void test_pneu_orifice__iso6358_choked__equals_the_nozzle(void **state)
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_flow iso = orifice(&m, PNEU_FLOW_ISO6358, 1e-6, 7e5, 350, 1e5);
   const pneu_flow isentropic = orifice(&m, PNEU_FLOW_CHOKED, 1e-6, 7e5, 350, 1e5);
-  (void)state;
   assert_close(iso.q, isentropic.q, 0, TOL(1e-14, 1e-6));
   assert_close(iso.dq_dT, isentropic.dq_dT, 0, TOL(1e-14, 1e-6));
 }
@@ -283,7 +273,6 @@ static void test_pneu_sonic_conductance__one_square_millimetre__is_what_catalogu
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double C = (double)pneu_sonic_conductance(&m, (pneu_real)1e-6), R = (double)p.gas_constant;
-  (void)state;
   assert_close(C * 1e8, 1 / 5.02, 0, 5e-3);
   assert_close(C * 1e5 / (R * 293.15) * 6e5 * sqrt(293.15 / 330), choked_nozzle(&m, 1e-6, 6e5, 330), 0,
                TOL(1e-13, 1e-6));
@@ -313,7 +302,6 @@ static void test_pneu_observe__pressures_swapped__net_flow_changes_sign_only(voi
 {
   static const double other[] = {1e5, 2e5, 2.9e5, 2.9999e5};
   int law, i;
-  (void)state;
   for (law = 0; law < PNEU_FLOW_COUNT; law++)
     for (i = 0; i < COUNT(other); i++) {
       check_note("%s, %g Pa", pneu_flow_key(law), other[i]);
@@ -327,7 +315,6 @@ static void test_pneu_observe__vacuum_at_open_vent__draws_ambient_air(void **sta
   const pneu_params p = fixture_vessel(1e-3);
   const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -0.5, -4e4, 0);
   const fixture_sample look = fixture_see(&rig);
-  (void)state;
   assert_close(look.in, paper(&rig.m, 0.5e-6, (double)p.ambient_pressure, 298.15, (double)p.ambient_pressure - 4e4), 0,
                TOL(1e-13, 1e-6));
   assert_close(look.out, 0, 0, 0);
@@ -338,7 +325,6 @@ static void test_pneu_observe__shut__passes_nothing(void **state)
   const pneu_params p = fixture_vessel(1e-3);
   const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 1e5, 0);
   const fixture_sample look = fixture_see(&rig);
-  (void)state;
   assert_true(look.in <= 0 && look.out <= 0);
 }
 
@@ -347,7 +333,6 @@ static void test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_
   pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig;
   fixture_sample look;
-  (void)state;
   p.fill_area = 0;
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), 1, 0, 0);
   look = fixture_see(&rig);
@@ -362,7 +347,6 @@ static void test_pneu_observe__choked__is_reported_while_it_lasts(void **state)
   const pneu_input input = fixture_input(&m, 1);
   const double p_s = 4e5 + (double)p.ambient_pressure, edge = 0.528281787717 * p_s - (double)p.ambient_pressure;
   pneu_state s = fixture_rest(&m, edge - 100, 0, &input);
-  (void)state;
   assert_true(fixture_look(&m, &s, &input).choked);
   s = fixture_rest(&m, edge + 100, 0, &input);
   assert_false(fixture_look(&m, &s, &input).choked);

@@ -84,7 +84,6 @@ static void test_pneu_jacobian__each_law_and_mode__is_the_slope_of_the_right_han
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas, flow;
-  (void)state;
   p.supply_temperature = 280;
   p.ambient_temperature = 310;
   p.polytropic_index = (pneu_real)1.25;
@@ -100,7 +99,6 @@ static void test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas, i;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 1; i < 4; i++) {
       const pneu_model m = fixture_model_roles(&p, gas, PNEU_FLOW_CHOKED, i & 1, i >> 1);
@@ -112,7 +110,6 @@ static void test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_
 {
   pneu_params p = fixture_vessel(1e-4);
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 1e5, 0);
-  (void)state;
   check_note("vessel");
   check_jacobian(&rig.m, &rig.s, &rig.input, TOL(1e-6, 2e-2));
   p = fixture_params(FIXTURE_R1_400);
@@ -125,7 +122,6 @@ static void test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_
 static void test_pneu_jacobian__each_effect__is_the_slope_of_the_right_hand_side(void **state)
 {
   int e, gas;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -160,7 +156,6 @@ static void test_pneu_invert__random_matrices__times_itself_is_one(void **state)
   pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX];
   uint64_t seed = 5;
   int n, try, i, j;
-  (void)state;
   for (n = 1; n <= PNEU_STATE_MAX; n++)
     for (try = 0; try < 50; try++) {
       for (i = 0; i < n; i++)
@@ -175,7 +170,6 @@ static void test_pneu_invert__zeros_on_the_diagonal__are_pivoted(void **state)
 {
   pneu_real cycle[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{0, 2, 0}, {0, 0, 3}, {4, 0, 0}};
   pneu_real swapped[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{0, 1}, {1, 0}};
-  (void)state;
   check_inverse(3, cycle, TOL(1e-15, 1e-6));
   check_inverse(2, swapped, TOL(1e-15, 1e-6));
 }
@@ -184,7 +178,6 @@ static void test_pneu_invert__singular_or_nan__is_refused(void **state)
 {
   pneu_real singular[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{1, 2}, {2, 4}};
   pneu_real nan[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{(pneu_real)NAN, 1}, {1, (pneu_real)NAN}};
-  (void)state;
   assert_int_equal(pneu_invert(2, singular), PNEU_E_SINGULAR);
   assert_int_equal(pneu_invert(2, nan), PNEU_E_SINGULAR);
 }
@@ -194,7 +187,6 @@ static void test_pneu_jacobian__chamber_without_air__is_refused(void **state)
 {
   static const double band[] = {0, 5e4}; /* analytic, and by differences */
   int i;
-  (void)state;
   for (i = 0; i < COUNT(band); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     pneu_real y[PNEU_STATE_MAX], f0[PNEU_STATE_MAX] = {0}, jac[PNEU_STATE_MAX][PNEU_STATE_MAX];
@@ -217,7 +209,6 @@ static void test_pneu_step_try__singular_matrix__is_refused(void **state)
   const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 1e5, 0);
   pneu_workspace work = {0};
   pneu_real error;
-  (void)state;
   pneu_pack(&rig.m, &rig.s, work.y0);
   assert_int_equal(pneu_step_prepare(&rig.m, &rig.s, &rig.input, &work), PNEU_OK);
   assert_int_equal(pneu_step_try(&rig.m, &rig.s, &rig.input, h, &work, &error), PNEU_OK);

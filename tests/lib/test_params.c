@@ -27,7 +27,6 @@ static void test_pneu_model_init__defaults__are_accepted(void **state)
 {
   pneu_params p;
   int bad = -2;
-  (void)state;
   pneu_params_default(&p);
   assert_int_equal(init(&p, &bad), PNEU_OK);
   assert_int_equal(bad, -1);
@@ -37,7 +36,6 @@ static void test_pneu_model_init__defaults__are_accepted(void **state)
 static void test_pneu_model_init__each_parameter_outside_its_bounds__is_refused_by_name(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     double out;
@@ -59,7 +57,6 @@ static void test_pneu_model_init__form_left_at_0__is_accepted_where_its_effect_i
   pneu_params p;
   pneu_param_info info;
   int e, i, k, count, bad, forms = 0;
-  (void)state;
   pneu_params_default(&p);
   memset(p.effect, 0, sizeof p.effect);
   assert_int_equal(init(&p, &bad), PNEU_OK);
@@ -84,7 +81,6 @@ static void test_pneu_model_init__two_bad_parameters__names_the_first(void **sta
 {
   pneu_params p;
   int bad;
-  (void)state;
   pneu_params_default(&p);
   p.moving_mass = -1;
   p.heat_ratio = 5;
@@ -99,7 +95,6 @@ static void test_pneu_model_init__unknown_law__is_refused(void **state)
   pneu_params p;
   pneu_model model;
   int i;
-  (void)state;
   pneu_params_default(&p);
   for (i = 0; i < COUNT(bad); i++) {
     pneu_laws law = {0, 0, 0, 0};
@@ -114,7 +109,6 @@ static void test_pneu_model_init__same_arguments__same_model_whatever_was_there(
   const pneu_laws law = {PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1};
   pneu_params p;
   pneu_model a, b;
-  (void)state;
   memset(&a, 0x55, sizeof a);
   memset(&b, 0xaa, sizeof b);
   pneu_params_default(&p);
@@ -126,7 +120,6 @@ static void test_pneu_model_init__same_arguments__same_model_whatever_was_there(
 static void test_pneu_params_default__base__is_table_a1(void **state)
 {
   pneu_params p;
-  (void)state;
   pneu_params_default(&p);
   assert_close(p.area, 0.04, 0, TOL(0, 1e-7));
   assert_close(p.dead_volume, 2e-6, 0, TOL(0, 1e-7));
@@ -148,7 +141,6 @@ static void test_pneu_params_default__effects__are_neutral_and_none_acts(void **
   pneu_params p;
   pneu_model model;
   int i;
-  (void)state;
   pneu_params_default(&p);
   for (i = PNEU_PARAM_BASE_COUNT; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
@@ -165,7 +157,6 @@ static void test_pneu_params_default__effects__are_neutral_and_none_acts(void **
 static void test_pneu_param_describe__each__is_complete_and_its_values_within_bounds(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     assert_int_equal(pneu_param_describe(i, &info), PNEU_OK);
@@ -182,7 +173,6 @@ static void test_pneu_param_describe__names__are_unique(void **state)
 {
   pneu_param_info a, b;
   int i, j;
-  (void)state;
   for (i = 0; i < PNEU_PARAM_COUNT; i++)
     for (j = 0; j < i; j++) {
       pneu_param_describe(i, &a);
@@ -195,7 +185,6 @@ static void test_pneu_param_find__each_name_alone_and_after_its_effect__is_its_i
 {
   char full[128];
   int i;
-  (void)state;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     const int e = pneu_effect_of(i);
@@ -217,7 +206,6 @@ static void test_pneu_param_find__what_is_not_there__is_not_found(void **state)
   static const char *const none[] = {"",      ".",     "Area",          "area ",
                                      ".area", "area.", "actuator.area", "chamber_lea.leak_area"};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(none); i++)
     assert_int_equal(pneu_param_find(none[i]), -1);
   assert_int_equal(pneu_effect_find("leak"), -1);
@@ -229,7 +217,6 @@ static void test_pneu_param_describe__out_of_range__is_refused(void **state)
 {
   pneu_param_info info;
   pneu_params p;
-  (void)state;
   assert_int_equal(pneu_param_describe(-1, &info), PNEU_E_PARAM);
   assert_int_equal(pneu_param_describe(PNEU_PARAM_COUNT, &info), PNEU_E_PARAM);
   assert_null(pneu_param_at(&p, -1));
@@ -244,7 +231,6 @@ static void test_pneu_param_at__each__is_a_place_of_its_own_inside(void **state)
 {
   pneu_params p;
   int i;
-  (void)state;
   pneu_params_default(&p);
   for (i = 0; i < PNEU_PARAM_COUNT; i++)
     *pneu_param_at(&p, i) = (pneu_real)(1000 + i);
@@ -257,7 +243,6 @@ static void test_pneu_param_at__each__is_a_place_of_its_own_inside(void **state)
 static void test_pneu_effect_params__ranges__fill_the_list_in_order(void **state)
 {
   int i, next = PNEU_PARAM_BASE_COUNT;
-  (void)state;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
     pneu_param_info info;
     int count = 0, k;
@@ -277,7 +262,6 @@ static void test_pneu_effect_params__ranges__fill_the_list_in_order(void **state
 
 static void test_pneu_text__in_and_out_of_range__has_words(void **state)
 {
-  (void)state;
   assert_string_equal(pneu_status_text(PNEU_OK), "success");
   assert_string_equal(pneu_status_text(PNEU_E_STOPPED), "stopped by the observer");
   assert_string_equal(pneu_status_text(-77), "unknown");
@@ -294,7 +278,6 @@ static void test_pneu_text__in_and_out_of_range__has_words(void **state)
 static void test_pneu_options_default__each__is_as_documented(void **state)
 {
   pneu_options options;
-  (void)state;
   pneu_options_default(&options);
   assert_close(options.tol, TOL(1e-6, 1e-4), 0, TOL(1e-15, 1e-7));
   assert_close(options.h_max, 0, 0, 0);

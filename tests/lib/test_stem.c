@@ -34,7 +34,6 @@ static void check_slide(double v0, double pressure)
 
 static void test_pneu_run__coulomb_slide__stops_at_the_known_time_and_place(void **state)
 {
-  (void)state;
   check_slide(0.5, 0);
   check_slide(-0.5, 0);
   check_slide(0.8, 6000);
@@ -65,7 +64,6 @@ static void check_fall(double from, double to, double force)
 
 static void test_pneu_run__free_fall__reaches_the_stop_at_the_known_time(void **state)
 {
-  (void)state;
   check_fall(0.1, 0, 2 * 9.80665);
   check_fall(0.03, 0, 2 * 9.80665);
   check_fall(0, 0.1, -2 * 9.80665);
@@ -78,7 +76,6 @@ static void test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency(
   pneu_params p = bare();
   fixture_rig rig;
   const double w = sqrt(8e4 / 2);
-  (void)state;
   p.spring_rate = (pneu_real)8e4;
   p.spring_preload = (pneu_real)0.005;
   p.dry_friction = 0;
@@ -94,7 +91,6 @@ static void test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity(void
   pneu_params p = bare();
   fixture_rig rig;
   const double c = 30 + 70, F = (2e4 * 0.04 - 480), t = 0.03;
-  (void)state;
   p.viscous_friction = 30;
   p.damping = 70;
   p.stroke = 2;
@@ -128,7 +124,6 @@ static void test_pneu_run__pressure_ramp__breaks_away_at_the_exact_pressure(void
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const double k = 4e5, F = 480, A = 0.04, x0 = 0.01, tol = TOL(1e-4, 20);
-  (void)state;
   assert_close(leaves_at(&p, 0, 0, 1e4, 0), (k * x0 + F) / A, tol, 0);
   assert_close(leaves_at(&p, 2e5, 0.01, 1e4, 0), (k * (0.01 + x0) + F) / A, tol, 0);
   assert_close(leaves_at(&p, 2e5, 0.01, -1e4, 0), (k * (0.01 + x0) - F) / A, tol, 0);
@@ -139,7 +134,6 @@ static void test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area
 {
   static const double friction[] = {20, 100, 480};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(friction); i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     p.dry_friction = (pneu_real)friction[i];
@@ -153,7 +147,6 @@ static void test_pneu_run__forces__are_positive_against_the_air(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double base = leaves_at(&p, 0, 0, 1e4, 0);
-  (void)state;
   assert_close(leaves_at(&p, 0, 0, 1e4, 200) - base, 200 / 0.04, TOL(1e-3, 20), 0);
   p.external_force = 300;
   assert_close(leaves_at(&p, 0, 0, 1e4, 200) - base, 500 / 0.04, TOL(1e-3, 20), 0);
@@ -171,7 +164,6 @@ static void test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop(void **s
   fixture_stretch stretch[2];
   pneu_state at;
   int i, n, sliding[2] = {0, 0};
-  (void)state;
   stretch[0].duration = stretch[1].duration = 40;
   stretch[0].input = stretch[1].input = fixture_input(&m, 0);
   stretch[0].input.pressure_rate = (pneu_real)rate;
@@ -199,7 +191,6 @@ static void test_pneu_run__no_stroke__is_a_vessel(void **state)
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 0, 0);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
   fixture_events e;
-  (void)state;
   assert_int_equal(rig.s.mode, PNEU_MODE_FIXED);
   assert_int_equal(pneu_dimension(&rig.m, rig.s.mode), 2);
   assert_int_equal(pneu_pack(&rig.m, &rig.s, y), 2);
@@ -213,7 +204,6 @@ static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **st
   static const double from[] = {-5e4, 0, 1.5e5, 3.9e5};
   pneu_params p = fixture_vessel(1e-3);
   int i, gas;
-  (void)state;
   p.proportional_band = (pneu_real)2e4;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < COUNT(from); i++) {
@@ -236,7 +226,6 @@ static void test_pneu_settle__push_within_rounding__stem_stays(void **state)
   const double largest = (4e5 + p.ambient_pressure) * 0.04 + 4e5 * 0.03;
   double stays = 0, leaves = 1e-6; /* [Pa] beyond balance */
   int i;
-  (void)state;
   for (i = 0; i < 40; i++) {
     const double middle = (stays + leaves) / 2;
     const pneu_state s = fixture_rest(&m, balanced + middle, 0.01, &input);
@@ -253,7 +242,6 @@ static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_pro
   static const double over[][2] = {{-0.5, 0.5}, {0.25, -0.25}, {-1.005, 1}, {1.005, -1}, {-3, 1}, {3, -1}};
   pneu_params p = fixture_vessel(1e-4);
   int i;
-  (void)state;
   p.proportional_band = (pneu_real)2e4;
   for (i = 0; i < COUNT(over); i++) {
     const fixture_rig rig =
@@ -267,7 +255,6 @@ static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_t
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
-  (void)state;
   p.proportional_band = (pneu_real)5e3;
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 2e5, 0, 0);
   fixture_go(&rig, 60, TOL(1e-8, 1e-5), NULL);
@@ -279,7 +266,6 @@ static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_t
 static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void **state)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  (void)state;
   assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 0), 0.005, 0, 1e-6);
   assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 1), 0.015, 0, 1e-6);
 }
@@ -288,7 +274,6 @@ static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void
 static void test_pneu_run__regulator_at_many_set_points__always_ends(void **state)
 {
   double band, set;
-  (void)state;
   for (band = 2e4; band < 1.1e5; band += 4e4)
     for (set = 105e3; set < 320e3; set += 500) {
       pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -308,7 +293,6 @@ static void test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays(void *
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
-  (void)state;
   fixture_need("transducer_lag");
   p.proportional_band = (pneu_real)5e4;
   fixture_set(&p, "transducer_time", 0.05);
@@ -319,7 +303,6 @@ static void test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays(void *
 
 static void test_pneu_regulator_opening__error_over_band__is_held_within_one(void **state)
 {
-  (void)state;
   assert_close(pneu_regulator_opening(100, 90, 40), 0.25, 0, 0);
   assert_close(pneu_regulator_opening(90, 100, 40), -0.25, 0, 0);
   assert_close(pneu_regulator_opening(500, 90, 40), 1, 0, 0);
@@ -344,7 +327,6 @@ static void test_pneu_settle__at_rest__mode_follows_the_balance_of_forces(void *
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 0);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(cases); i++) {
     pneu_state s = fixture_rest(&m, cases[i].p, cases[i].x, &input);
     s.v = (pneu_real)cases[i].v;
@@ -379,7 +361,6 @@ static void test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_fo
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_input input = fixture_input(&m, 0);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(cases); i++) {
     pneu_state s = fixture_rest(&m, cases[i].p, 0.01, &input);
     const int rests = cases[i].before != PNEU_MODE_UP && cases[i].before != PNEU_MODE_DOWN;
@@ -398,7 +379,6 @@ static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(voi
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 200e3, 0.01);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
-  (void)state;
   pneu_pack(&rig.m, &rig.s, y);
   assert_int_equal(pneu_events(&rig.m, &rig.s, &rig.input, y, g), 2);
   assert_close(g[0], -480, TOL(1e-8, 0.5), 0);
@@ -418,7 +398,6 @@ static void test_pneu_settle__chamber_without_air__stem_stays(void **state)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 213e3, 0.01);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
-  (void)state;
   assert_int_equal(rig.s.mode, PNEU_MODE_UP);
   rig.s.p = (pneu_real)-2e5;
   pneu_settle(&rig.m, &rig.input, &rig.s);
@@ -492,7 +471,6 @@ static void run_at_random(const pneu_model *m, uint64_t seed)
 static void test_pneu_run__random_commands_and_forces__modes_mean_what_they_say(void **state)
 {
   int actuator, gas, flow;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
       for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
@@ -509,7 +487,6 @@ static void test_pneu_observe__driven_stem__shows_the_force_that_holds_it(void *
   static const double speed[] = {0.01, -0.02, 0};
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int i;
-  (void)state;
   p.external_force = 30;
   for (i = 0; i < COUNT(speed); i++) {
     const pneu_model m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 1, 1);

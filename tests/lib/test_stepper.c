@@ -70,14 +70,12 @@ static void check_order(int gas, double u_rate)
 
 static void test_pneu_step__smooth_stretch__converges_with_its_order(void **state)
 {
-  (void)state;
   check_order(PNEU_GAS_ISOTHERMAL, 0);
   check_order(PNEU_GAS_ENERGY, 0);
 }
 
 static void test_pneu_step__command_that_runs__converges_with_its_order(void **state)
 {
-  (void)state;
   check_order(PNEU_GAS_ISOTHERMAL, -400);
   check_order(PNEU_GAS_ENERGY, -400);
 }
@@ -108,7 +106,6 @@ static void test_pneu_dense__smooth_stretch__has_its_order(void **state)
   pneu_options options = fixture_options(1e-2);
   double error[3];
   int i;
-  (void)state;
   observer.context = &context;
   for (i = 0; i < 3; i++) {
     pneu_workspace work = {0};
@@ -145,7 +142,6 @@ static void test_pneu_dense__at_the_ends__is_the_step_itself(void **state)
   const pneu_observer observer = {ends_meet, NULL, NULL};
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 5, &options, &observer, &work), PNEU_OK);
 }
 
@@ -155,7 +151,6 @@ static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
   pneu_workspace work = {0};
-  (void)state;
   p.spring_rate = p.dry_friction = 0;
   p.moving_mass = (pneu_real)1e-4;
   p.damping = (pneu_real)1e5;
@@ -183,7 +178,6 @@ static void test_pneu_run__break_away__is_located_to_a_nanosecond(void **state)
 {
   static const double tol[] = {1e-6, 1e-8, 1e-10};
   int actuator, i;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (i = 0; i < COUNT(tol); i++) {
       const pneu_params p = fixture_params(actuator);
@@ -202,7 +196,6 @@ static void test_pneu_run__rough_steps__event_lies_on_its_root(void **state)
 {
   static const double tol[] = {1e-2, 1e-3, 1e-4};
   int actuator, i, gas;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
       for (i = 0; i < COUNT(tol); i++) {
@@ -224,7 +217,6 @@ static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double w = 200;
   double turn;
-  (void)state;
   p.spring_rate = (pneu_real)(w * w * 2);
   p.spring_preload = p.dry_friction = p.viscous_friction = p.damping = 0;
   for (turn = 0.5; turn < 4.5; turn += 0.25) {
@@ -241,7 +233,6 @@ static void test_pneu_step__force_jumps__stem_moves_at_once_in_one_step(void **s
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.01);
   pneu_workspace work = {0};
-  (void)state;
   rig.input.force = 1000;
   assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-4, &work), PNEU_OK);
   assert_int_equal(rig.s.mode, PNEU_MODE_DOWN);
@@ -258,7 +249,6 @@ static void test_pneu_step__break_away_within_a_step__is_located(void **state)
   const double t = break_away_time(&p);
   pneu_state before = fixture_rest(&m, 0, 0, &input), after;
   pneu_workspace work = {0};
-  (void)state;
   fixture_run(&m, &before, &input, 0.95 * t, FIXTURE_TOL, NULL);
   after = before;
   assert_int_equal(pneu_step(&m, &before, &input, (pneu_real)(0.05 * t - TOL(2e-9, 3e-6)), &work), PNEU_OK);
@@ -271,7 +261,6 @@ static void test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics(vo
 {
   static const int want[] = {PNEU_MODE_UP, PNEU_MODE_UPPER, PNEU_MODE_DOWN, PNEU_MODE_LOWER};
   int actuator, gas, flow;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
       for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
@@ -329,7 +318,6 @@ static void test_pneu_step__fill_and_vent__is_as_exact_as_documented(void **stat
 {
   static const double dt[] = {1e-3, 1e-2, 5e-2}, most[2][3] = {{1e-5, 1e-4, 1e-4}, {4e-6, 5e-5, 5e-5}};
   int gas, flow, i;
-  (void)state;
   for (gas = PNEU_GAS_ISOTHERMAL; gas <= PNEU_GAS_ENERGY; gas += PNEU_GAS_ENERGY - PNEU_GAS_ISOTHERMAL)
     for (flow = PNEU_FLOW_PAPER; flow <= PNEU_FLOW_CHOKED; flow++)
       for (i = 0; i < COUNT(dt); i++) {
@@ -344,7 +332,6 @@ static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
   const pneu_state exact = fill_for(1.2, 1e-10, 0, NULL);
   long steps = 0;
   int i;
-  (void)state;
   for (i = 0; i < COUNT(tol); i++) {
     pneu_stats stats;
     const pneu_state s = fill_for(1.2, tol[i], 0, &stats);
@@ -363,7 +350,6 @@ static void test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures(v
 {
   static fixture_sample s[320];
   int actuator, gas, flow, i, n;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
       for (flow = 0; flow < PNEU_FLOW_COUNT; flow++) {
@@ -388,7 +374,6 @@ static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **
   fixture_rig rig;
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   fixture_need("transducer_lag");
   fixture_set(&p, "transducer_time", 0.02);
   rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 1, 4e5 - 0.1, 0.02);
@@ -401,7 +386,6 @@ static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
 {
   const fixture_rig rig = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   pneu_state one = rig.s, two = rig.s;
-  (void)state;
   fixture_run(&rig.m, &one, &rig.input, 2, TOL(1e-9, 1e-5), NULL);
   fixture_run(&rig.m, &two, &rig.input, 0.7, TOL(1e-9, 1e-5), NULL);
   fixture_run(&rig.m, &two, &rig.input, 1.3, TOL(1e-9, 1e-5), NULL);
@@ -412,7 +396,6 @@ static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 2e5, 0.01);
   pneu_state was = rig.s;
-  (void)state;
   rig.input.force = 2000;
   fixture_go(&rig, 0, 1e-5, NULL);
   assert_int_equal(rig.s.mode, PNEU_MODE_DOWN);
@@ -426,7 +409,6 @@ static void test_pneu_run__any_duration__reaches_its_end(void **state)
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   uint64_t seed = 3;
   int i;
-  (void)state;
   for (i = 0; i < 3000; i++) {
     const pneu_input input = fixture_input(&m, i % 2 ? 1 : -1);
     const double duration = pow(10, fixture_random(&seed, -4, 1));
@@ -502,7 +484,6 @@ static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void 
   const pneu_observer observer = {look_at_bend, NULL, &b};
   const pneu_options options = fixture_options(1e-3);
   pneu_workspace work = {0};
-  (void)state;
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 3, &options, &observer, &work), PNEU_OK);
   check_note("off by %g of %g m", b.off, b.bent);
   assert_between(b.bent, 1e-6, 1e-2);
@@ -513,7 +494,6 @@ static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void 
 static void test_pneu_run__longest_step__is_kept_and_steps_join(void **state)
 {
   walk w = {0, 0.01, 0, 0};
-  (void)state;
   assert_int_equal(run_observed(&w, 3, 0), PNEU_OK);
   assert_close(w.t, 3, TOL(1e-14, 1e-5), 0);
   assert_true(w.steps >= 300);
@@ -536,7 +516,6 @@ static void test_pneu_run__step_to_try_first__is_tried_and_forgotten(void **stat
   const pneu_observer observer = {note_first, NULL, NULL};
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   work.h = (pneu_real)1e-5;
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, &observer, &work), PNEU_OK);
   assert_close(first_h, 1e-5, 0, TOL(1e-15, 1e-6));
@@ -547,7 +526,6 @@ static void test_pneu_run__observer_stops__says_so(void **state)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   walk w = {0, 1, 0, 5}, at_event = {0, 1, 0, 0};
-  (void)state;
   assert_int_equal(run_observed(&w, 3, 0), PNEU_E_STOPPED);
   assert_int_equal(w.steps, 5);
   assert_int_equal(run_observed(&at_event, 3, 1), PNEU_E_STOPPED);
@@ -560,7 +538,6 @@ static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
   pneu_workspace clean = {0}, dirty;
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_state a = rig.s, b = rig.s;
-  (void)state;
   memset(&dirty, 0xff, sizeof dirty);
   dirty.h = 0;
   dirty.stats = clean.stats;
@@ -578,7 +555,6 @@ static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
 static void test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run(void **state)
 {
   int actuator, gas, i;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       const pneu_params p = fixture_params(actuator);
@@ -609,7 +585,6 @@ static void test_pneu_step__anywhere__work_is_bounded(void **state)
 {
   uint64_t seed = 11;
   int i;
-  (void)state;
   for (i = 0; i < 4000; i++) {
     const pneu_params p = fixture_params(i % 2);
     const pneu_model m = fixture_model(&p, i % PNEU_GAS_COUNT, i % PNEU_FLOW_COUNT);
@@ -695,7 +670,6 @@ static void test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_t
 {
   uint64_t seed = 77;
   int i, j, held = 0, refused = 0;
-  (void)state;
   for (i = 0; i < 1000; i++) {
     const pneu_model m = odd_model(&seed, i);
     pneu_input input = fixture_input(&m, 0);
@@ -762,7 +736,6 @@ static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void 
   pneu_state s, small;
   pneu_workspace work = {0};
   int status;
-  (void)state;
   ringing_bristles(1e3, &m, &input, &s);
   small = in_small_steps(&m, &s, &input, dt);
   status = pneu_step(&m, &s, &input, (pneu_real)dt, &work);
@@ -782,7 +755,6 @@ static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **s
   pneu_flow inflow;
   double mass;
   int i;
-  (void)state;
   ringing_bristles(0, &m, &input, &s);
   for (i = 0; i < 100; i++) {
     const pneu_real supply = input.supply_pressure + m.p.ambient_pressure;
@@ -810,7 +782,6 @@ static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_
   pneu_state s, before;
   pneu_workspace work = {0};
   int i, held = 0, refused = 0;
-  (void)state;
   ringing_bristles(0, &m, &input, &s);
   m.p.fill_area *= 9;
   m.p.vent_area *= 9;
@@ -843,7 +814,6 @@ static void test_pneu_run__stem_caught_again__stays_between_its_stops(void **sta
   pneu_input input;
   pneu_state s;
   pneu_workspace work = {0};
-  (void)state;
   fixture_set(&p, "area", 0.0144458394);
   fixture_set(&p, "dead_volume", 0.000307301321);
   fixture_set(&p, "stroke", 0.0282713436);
@@ -879,7 +849,6 @@ static void test_pneu_step__filled_in_it__ends_at_the_supply(void **state)
   } fill[] = {{1.00273e-05, 5.08716e-06, 283033, 0.00731021, PNEU_FLOW_ISO6358},
               {2.2356e-06, 4.28345e-06, 77908.2, 0.00216812, PNEU_FLOW_PAPER}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof fill / sizeof fill[0]; i++) {
     pneu_params p = fixture_params(FIXTURE_R1_400);
     fixture_rig rig;
@@ -901,7 +870,6 @@ static void test_pneu_step__stribeck_friction_lets_go_in_it__as_small_steps(void
   const double dt = 0.00157464409;
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas, k;
-  (void)state;
   fixture_set(&p, "area", 0.0278677);
   fixture_set(&p, "dead_volume", 2.56254e-05);
   fixture_set(&p, "stroke", 0.0431504);
@@ -934,7 +902,6 @@ static void test_pneu_step__starts_into_a_stop__is_at_rest_there(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int upper;
-  (void)state;
   p.moving_mass = (pneu_real)0.2;
   for (upper = 0; upper < 2; upper++) {
     fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED), upper ? -1 : 1,
@@ -1010,19 +977,16 @@ static void check_all_spoilt(spoilt *check, double value)
 
 static void test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept(void **state)
 {
-  (void)state;
   check_all_spoilt(check_spoilt_step, NAN);
 }
 
 static void test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept(void **state)
 {
-  (void)state;
   check_all_spoilt(check_spoilt_step, INFINITY);
 }
 
 static void test_pneu_run__nan_in_state_or_input__is_refused(void **state)
 {
-  (void)state;
   check_all_spoilt(check_spoilt_run, NAN);
 }
 
@@ -1031,7 +995,6 @@ static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **
   static const double dt[] = {-1e-3, NAN, INFINITY};
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(dt); i++) {
     pneu_state at = rig.s;
     pneu_workspace work = {0};
@@ -1048,7 +1011,6 @@ static void test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_st
                                   {1, INFINITY}, {1, 0},           {1, -1},    {1, 9e-11},    {1, 1.1e-2}};
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(bad); i++) {
     pneu_state at = rig.s;
     const pneu_options options = fixture_options(bad[i][1]);
@@ -1065,7 +1027,6 @@ static void test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_tak
   static const double good[][2] = {{0, 1e-6}, {1e-3, TOL(1e-10, 1e-6)}, {1e-3, 1e-2}};
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(good); i++) {
     pneu_state at = rig.s;
     const pneu_options options = fixture_options(good[i][1]);
@@ -1082,7 +1043,6 @@ static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void *
   pneu_state at = rig.s;
   pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   options.max_steps = 3;
   assert_int_equal(pneu_run(&rig.m, &at, &rig.input, 10, &options, NULL, &work), PNEU_E_STEP_COUNT);
   assert_true(state_is_finite(&at) && at.p != rig.s.p);
@@ -1097,7 +1057,6 @@ static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void *
   pneu_state before;
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   rig.s.x = -1;
   before = rig.s;
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, NULL, &work), PNEU_E_NONFINITE);
@@ -1114,7 +1073,6 @@ static void test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end(v
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  (void)state;
   fixture_need("chamber_leak");
   fixture_need("position_lag");
   p.area = (pneu_real)0.039694711790763969;
@@ -1157,7 +1115,6 @@ static void test_pneu_run__event_after_event_at_one_time__is_ended(void **state)
   const pneu_observer observer = {NULL, turn_force, &rig.input};
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   rig.input.force = 1e9;
   rig.s.v = (pneu_real)1e-6;
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, &observer, &work), PNEU_E_EVENTS);
@@ -1170,7 +1127,6 @@ static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), -1, 1e5, 0);
   const pneu_options options = fixture_options(TOL(1e-6, 1e-4));
   pneu_workspace work = {0};
-  (void)state;
   rig.s.p = rig.s.T = (pneu_real)TOL(1e300, 1e37);
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, NULL, &work), PNEU_E_STEP_SIZE);
 }
@@ -1180,7 +1136,6 @@ static void test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), -1, 1e5, 0.01);
   pneu_state before;
   pneu_workspace work = {0};
-  (void)state;
   rig.s.p = rig.s.T = (pneu_real)TOL(1e300, 1e37);
   before = rig.s;
   assert_int_equal(pneu_step(&rig.m, &rig.s, &rig.input, (pneu_real)1e-3, &work), PNEU_E_SINGULAR);
@@ -1194,7 +1149,6 @@ static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
   pneu_model m;
   pneu_input input;
   double h;
-  (void)state;
   p.ambient_pressure = 1000;
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   input = fixture_input(&m, -1);
@@ -1214,7 +1168,6 @@ static void test_pneu_step__outside_documented_ranges__is_refused_and_state_kept
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   int i;
-  (void)state;
   for (i = 0; i < 6; i++) {
     pneu_input input = fixture_input(&m, 1);
     pneu_state s = fixture_rest(&m, 1e5, 0.01, &input), before;

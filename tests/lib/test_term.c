@@ -66,7 +66,6 @@ static void test_pneu_model_terms__good_terms__are_used_where_they_lie(void **st
 {
   const pneu_term term[2] = {good_term(), good_term()};
   pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  (void)state;
   assert_int_equal(m.n_terms, 0);
   add(&m, term, 2);
   assert_int_equal(m.n_terms, 2);
@@ -78,7 +77,6 @@ static void test_pneu_model_terms__good_terms__are_used_where_they_lie(void **st
 static void test_pneu_model_terms__unknown_equation_or_argument__is_refused(void **state)
 {
   pneu_term term = good_term();
-  (void)state;
   assert_int_equal(offer(&term), PNEU_OK);
   term.equation = PNEU_TERM_EQUATION_COUNT;
   assert_int_equal(offer(&term), PNEU_E_LAW);
@@ -96,7 +94,6 @@ static void test_pneu_model_terms__bad_number_of_knots__is_refused(void **state)
   static const int n[] = {-1, 0, 1, PNEU_TERM_KNOTS + 1};
   pneu_term term = sampled(PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, zigzag);
   int i;
-  (void)state;
   assert_int_equal(offer(&term), PNEU_OK);
   for (i = 0; i < COUNT(n); i++) {
     term.n = n[i];
@@ -110,7 +107,6 @@ static void test_pneu_model_terms__no_finite_numbers__are_refused(void **state)
 {
   static const double odd[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
   int i, k;
-  (void)state;
   for (i = 0; i < COUNT(odd); i++) {
     pneu_term term = good_term();
     term.from = (pneu_real)odd[i];
@@ -129,7 +125,6 @@ static void test_pneu_model_terms__no_finite_numbers__are_refused(void **state)
 static void test_pneu_model_terms__ends_swapped_or_equal__are_refused(void **state)
 {
   pneu_term term = good_term();
-  (void)state;
   term.to = term.from;
   assert_int_equal(offer(&term), PNEU_E_PARAM);
   term.to = term.from - 1;
@@ -140,7 +135,6 @@ static void test_pneu_model_terms__negative_count__is_refused(void **state)
 {
   const pneu_term term = good_term();
   pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
-  (void)state;
   assert_int_equal(pneu_model_terms(&m, &term, -1), PNEU_E_PARAM);
   assert_int_equal(m.n_terms, 0);
 }
@@ -162,7 +156,6 @@ static void test_pneu_add_terms__knots_middles_and_beyond__lie_on_the_lines(void
   pneu_term term = sampled(PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 9, 0.004, 0.016, zigzag);
   const double h = 0.012 / 8, tol = TOL(1e-9, 0.1);
   int i;
-  (void)state;
   for (i = 0; i < 9; i++)
     term.value[i] *= 1000;
   add(&m, &term, 1);
@@ -255,7 +248,6 @@ static void test_pneu_add_terms__each_equation_and_argument__changes_its_sum_onl
                                  {PNEU_TERM_FLOW, OUT, -1e-4, -1},       {PNEU_TERM_HEAT, HEAT, -16, 1},
                                  {PNEU_TERM_SHOWN_PRESSURE, P, 4096, 1}, {PNEU_TERM_SHOWN_POSITION, X, 1e-3, 1}};
   int i, k, argument;
-  (void)state;
   for (i = 0; i < COUNT(places); i++)
     for (argument = 0; argument < PNEU_TERM_ARGUMENT_COUNT; argument++) {
       const place *at = &places[i];
@@ -277,7 +269,6 @@ static void test_pneu_add_terms__several_on_one_equation__add_up(void **state)
                              line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_VELOCITY, 32),
                              line(PNEU_TERM_FORCE, PNEU_TERM_OVER_PRESSURE, -8)};
   double d[SUMS];
-  (void)state;
   difference(PNEU_GAS_ISOTHERMAL, 0, 0, term, 3, d);
   assert_close(d[FORCE], -2 * 64 + 2 * 8, 0, TOL(1e-9, 1e-3));
   assert_close(d[FRICTION], 2 * 32, 0, TOL(1e-9, 1e-3));
@@ -288,7 +279,6 @@ static void test_pneu_add_terms__friction_less_than_none__is_none(void **state)
 {
   pneu_term term = line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, -200);
   double d[SUMS];
-  (void)state;
   difference(PNEU_GAS_ISOTHERMAL, 0, 0, &term, 1, d);
   assert_close(d[FRICTION], -400, 0, TOL(1e-12, 1e-6));
   term = line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, -300);
@@ -305,7 +295,6 @@ static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void 
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  (void)state;
   fixture_need("presliding");
   fixture_set(&p, "presliding_length", 2e-5);
   m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -326,7 +315,6 @@ static void test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing
   const pneu_term heat = line(PNEU_TERM_HEAT, PNEU_TERM_OVER_POSITION, 10),
                   flow = line(PNEU_TERM_FLOW, PNEU_TERM_OVER_POSITION, 1e-4);
   double d[SUMS];
-  (void)state;
   difference(PNEU_GAS_ISOTHERMAL, 0, 0, &heat, 1, d);
   assert_true(d[HEAT] == 0);
   difference(PNEU_GAS_POLYTROPIC, 0, 0, &heat, 1, d);
@@ -380,7 +368,6 @@ static void test_pneu_run__no_terms__is_the_base_model_bit_for_bit(void **state)
   static fixture_sample base[SAMPLES], none[SAMPLES];
   const pneu_term term = good_term();
   pneu_model m = fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
-  (void)state;
   standard(&m, 1e-5, base);
   add(&m, &term, 1);
   standard(&m, 1e-5, none);
@@ -398,7 +385,6 @@ static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_b
   pneu_term term[ALL];
   uint64_t seed = 3;
   int i, gas;
-  (void)state;
   all_of_nothing(term);
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < 200; i++) {
@@ -424,7 +410,6 @@ static void test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_
   static fixture_sample base[SAMPLES], nothing[SAMPLES];
   pneu_term term[ALL];
   int gas, n, others;
-  (void)state;
   all_of_nothing(term);
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
     pneu_model m = fixture_r1_400(gas, PNEU_FLOW_PAPER);
@@ -509,7 +494,6 @@ static void assert_second_order(const pneu_params *p, int equation, int argument
 static void test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in_second_order(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  (void)state;
   fixture_need("spring_hardening");
   fixture_set(&p, "spring_cubic", cubic);
   assert_second_order(&p, PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 0, 0.02, hardening);
@@ -518,7 +502,6 @@ static void test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in
 static void test_pneu_run__leak_by_more_and_more_knots__converges_in_second_order(void **state)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
-  (void)state;
   fixture_need("chamber_leak");
   fixture_set(&p, "leak_area", leak_area);
   assert_second_order(&p, PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 5e4, 3.9e5, leak);
@@ -529,7 +512,6 @@ static void test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int n;
-  (void)state;
   fixture_need("friction_position");
   fixture_set(&p, "friction_slope", slope);
   for (n = 2; n <= PNEU_TERM_KNOTS; n += 31) {
@@ -564,7 +546,6 @@ static void test_pneu_run__rough_tables__take_a_bounded_number_of_steps(void **s
   };
   const double most[] = {4, 4, 1.5, 1.5}; /* measured 2.5, 2.8, 1.0, 1.0 */
   int i, gas;
-  (void)state;
   for (i = 0; i < COUNT(term); i++)
     for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
       pneu_model m = fixture_r1_400(gas, PNEU_FLOW_CHOKED);
@@ -585,7 +566,6 @@ static void test_pneu_step__terms__follow_the_run(void **state)
   static pneu_workspace work;
   pneu_state a, b;
   int i;
-  (void)state;
   add(&m, term, 2);
   a = b = fixture_rest(&m, 0, 0, &input);
   fixture_run(&m, &a, &input, 2, FIXTURE_TOL, NULL);
@@ -618,7 +598,6 @@ static void check_break_away(double x, double rate)
 
 static void test_pneu_run__friction_of_a_place__holds_there_against_both_directions(void **state)
 {
-  (void)state;
   check_break_away(0.005, 1e4);
   check_break_away(0.005, -1e4);
   check_break_away(0.0125, 1e4); /* a knot */
@@ -633,7 +612,6 @@ static void test_pneu_run__given_position__flow_of_a_place_fills_the_chamber(voi
   pneu_model m;
   pneu_input input;
   pneu_state s;
-  (void)state;
   p.stroke = (pneu_real)0.022;
   p.area = (pneu_real)1e-6; /* sweeps nothing to speak of */
   m = fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER, 0, 1);
@@ -653,7 +631,6 @@ static void test_pneu_run__flow_through_zero__settles_there(void **state)
   const pneu_term term = {PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 2, 0, 200000, {(pneu_real)1e-4, (pneu_real)-1e-4}};
   static const double start[] = {0, 1.7e5};
   int gas, i;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < COUNT(start); i++) {
       fixture_rig rig = fixture_at(fixture_model(&p, gas, PNEU_FLOW_CHOKED), 0, start[i], 0);
@@ -670,7 +647,6 @@ static void test_pneu_run__constant_heat__raises_the_pressure(void **state)
   const pneu_params p = fixture_vessel(1e-3);
   const pneu_term term = {PNEU_TERM_HEAT, PNEU_TERM_OVER_OPENING, 2, 0, 1, {10, 500}};
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 0, 0, 0);
-  (void)state;
   add(&rig.m, &term, 1);
   fixture_go(&rig, 3, FIXTURE_TOL, NULL);
   assert_close(rig.s.p, 0.4 * 10 * 3 / 1e-3, 0, TOL(1e-8, 1e-3));

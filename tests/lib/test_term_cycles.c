@@ -61,7 +61,6 @@ static void test_pneu_add_terms__cosine_or_sine__is_the_closed_form(void **state
   static const double amplitude[2][2] = {{1000, 0}, {0, 1000}};
   pneu_model m = plain_model();
   int i, k;
-  (void)state;
   for (k = 0; k < 2; k++) {
     const pneu_term term = cycle(SHOWN, 1, 2, amplitude[k]);
     add(&m, &term, 1);
@@ -78,7 +77,6 @@ static void test_pneu_add_terms__harmonics__are_the_closed_form(void **state)
   uint64_t seed = 11;
   double value[MOST];
   int k, i;
-  (void)state;
   for (i = 0; i < MOST; i++)
     value[i] = fixture_random(&seed, -1000, 1000);
   for (k = 0; k < COUNT(sizes); k++) {
@@ -105,7 +103,6 @@ static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void
   pneu_input input;
   pneu_state s;
   int i;
-  (void)state;
   fixture_need("transducer_lag");
   fixture_need("position_lag");
   fixture_set(&p, "transducer_time", 0.02);
@@ -129,7 +126,6 @@ static void test_pneu_model_terms__odd_number_over_a_cycle__is_refused(void **st
   const pneu_term before = term;
   pneu_model m = plain_model();
   int n;
-  (void)state;
   add(&m, &before, 1);
   for (n = 2; n <= PNEU_TERM_KNOTS; n++) {
     term.n = n;
@@ -164,7 +160,6 @@ static void test_pneu_model_terms__cycle__brings_a_clock_and_takes_it_away(void 
   const pneu_term over_position = {FORCE, PNEU_TERM_OVER_POSITION, 2, 0, 1, {1, 2}};
   const pneu_term term[] = {over_position, cycle(FORCE, 1, 2, value), cycle(SHOWN, 3, 2, value)};
   int gas, all;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (all = 0; all < 2; all++) {
       pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -200,7 +195,6 @@ static void test_pneu_model_terms__every_state_at_once__fills_the_room(void **st
   const pneu_term term = cycle(FORCE, 1, 2, value);
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
-  (void)state;
   switch_on(&p, 1);
   m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   if (m.n_extra < PNEU_EFFECT_STATE_COUNT)
@@ -216,7 +210,6 @@ static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortes
   static const double value[] = {1, 2, 3, 4, 5, 6};
   pneu_term term[] = {cycle(FORCE, 3, 6, value), cycle(SHOWN, 2, 2, value), cycle(SHOWN, 1.5, 2, value)};
   pneu_model m = plain_model();
-  (void)state;
   assert_close(m.term_step, 0, 0, 0);
   add(&m, term, 3);
   assert_close(m.term_step, 1.0 / 8, 0, TOL(1e-14, 1e-6));
@@ -236,7 +229,6 @@ static void test_pneu_run__clock__counts_time(void **state)
   const pneu_term term = cycle(FORCE, 0.5, 2, value);
   static pneu_workspace work;
   int i, k;
-  (void)state;
   for (k = 0; k < COUNT(begin); k++) {
     pneu_model m = plain_model();
     fixture_stretch stretch[3];
@@ -301,7 +293,6 @@ static void test_pneu_run__periodic_force_on_a_stuck_stem__breaks_it_away_in_tim
 {
   static const double amplitude[] = {505, 600, -600, 5000}, period[] = {0.02, 2, 300}, periods[] = {1, 1000};
   int i, k, j, mode;
-  (void)state;
   for (i = 0; i < COUNT(amplitude); i++)
     for (k = 0; k < COUNT(period); k++)
       for (j = 0; j < COUNT(periods); j++) {
@@ -318,7 +309,6 @@ static void test_pneu_run__periodic_force_from_another_phase__breaks_away_in_tim
 {
   const double period = 2, angle = asin(480.0 / 505), half = two_pi / 2;
   int i, mode;
-  (void)state;
   for (i = 0; i < 40; i++) {
     const double phase = half - angle + 2 * angle * (i + 0.5) / 40, begin = phase * period / two_pi;
     const double to_next = half + angle - phase;
@@ -331,7 +321,6 @@ static void test_pneu_run__periodic_force_from_another_phase__breaks_away_in_tim
 static void test_pneu_run__periodic_force_below_friction__holds(void **state)
 {
   int mode;
-  (void)state;
   assert_close(break_away(479, 0.5, 0, 500, &mode), 0, 0, 0);
   assert_int_equal(mode, PNEU_MODE_STUCK);
 }
@@ -366,7 +355,6 @@ static void test_pneu_run__periodic_supply__fills_a_vessel_as_another_integratio
   const double duration = 5;
   const pneu_params p = fixture_vessel(3e-3);
   int i;
-  (void)state;
   for (i = 0; i < COUNT(period); i++) {
     const pneu_term term = cycle(PNEU_TERM_SUPPLY, period[i], 4, value);
     pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -389,7 +377,6 @@ static void test_pneu_add_terms__supply_below_vacuum__stays_above_it(void **stat
   static const double value[] = {-1e7, 0};
   const pneu_term term = cycle(PNEU_TERM_SUPPLY, 1, 2, value);
   fixture_rig rig = fixture_at(plain_model(), 1, 2e5, 0.01);
-  (void)state;
   add(&rig.m, &term, 1);
   rig.s.extra[rig.m.clock] = 0;
   assert_close(fixture_see(&rig).supply, -0.999 * 101325, TOL(1e-6, 1), 0);

@@ -33,7 +33,6 @@ static void test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_lef
 {
   const double truth = 1.2 * 0.01;
   alone_fit fit;
-  (void)state;
   declare();
   succeed(alone_fit_log(&rig, log_of(1.2, 0), LAB_CHANNEL_X, &fit, &error));
   assert_int_equal(fit.n, 1);
@@ -48,7 +47,6 @@ static void test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_lef
 static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state)
 {
   alone_fit fit;
-  (void)state;
   declare();
   rig.fit_per_log[0] = 1;
   succeed(alone_fit_log(&rig, log_of(0.8, 0), LAB_CHANNEL_X, &fit, &error));
@@ -63,7 +61,6 @@ static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void 
 {
   static const double lag = 0.08;
   alone_fit fit;
-  (void)state;
   declare();
   succeed(alone_fit_sensor(&rig, log_of(1, lag), "position_lag.position_time", LAB_CHANNEL_X, &fit, &error));
   assert_int_equal(fit.n, 1);
@@ -76,7 +73,6 @@ static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void 
 static void test_alone_fit_sensor__what_is_no_lag__is_not_made_one(void **state)
 {
   alone_fit fit;
-  (void)state;
   declare();
   assert_int_equal(alone_fit_sensor(&rig, log_of(1.2, 0), "position_lag.position_time", LAB_CHANNEL_X, &fit, &error),
                    LAB_OK);
@@ -86,7 +82,6 @@ static void test_alone_fit_sensor__what_is_no_lag__is_not_made_one(void **state)
 static void test_alone_fit_sensor__unknown_parameter__is_refused(void **state)
 {
   alone_fit fit;
-  (void)state;
   declare();
   assert_int_equal(alone_fit_sensor(&rig, log_of(1, 0), "no_such", LAB_CHANNEL_X, &fit, &error), LAB_DATA);
   assert_contains(error.text, "no_such");

@@ -25,7 +25,6 @@ static void test_edges__eq1__as_the_report_says(void **state)
   const study *s = read_study();
   table t;
   size_t row;
-  (void)state;
   make(&edges, s, "eq1.csv", &t);
   assert_int_equal(table_rows(&t), s->n_actuators * s->n_gas * s->n_flow * 2);
   for (row = 0; row < table_rows(&t); row++) {
@@ -46,7 +45,6 @@ static void test_directions__vent_for_equal_times__shape_stays(void **state)
 {
   table t;
   size_t row, base = 0;
-  (void)state;
   make(&directions, read_study(), "directions.csv", &t);
   for (row = 0; row < table_rows(&t); row++) {
     if (table_number(&t, row, "down_over_up") == 1)
@@ -67,7 +65,6 @@ static void test_attribution__shares__add_up(void **state)
   table t;
   size_t row;
   int g;
-  (void)state;
   make(&attribution, s, "attribution_37-13.csv", &t);
   for (row = 0; row < table_rows(&t); row++)
     for (g = 0; g < s->n_gas; g++)

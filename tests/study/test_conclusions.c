@@ -30,7 +30,6 @@ static void test_finding_judge__crossing_a_threshold__flips(void **state)
 {
   const double inside = 0.0999, outside = 0.1001;
   finding f = one_value(inside);
-  (void)state;
   assert_int_equal(finding_judge(&f, -HUGE_VAL, 0.1), FINDING_HOLDS);
   f = one_value(0.1);
   assert_int_equal(finding_judge(&f, -HUGE_VAL, 0.1), FINDING_HOLDS);
@@ -44,7 +43,6 @@ static void test_finding_judge__crossing_a_threshold__flips(void **state)
 static void test_finding_judge__each_conclusion__flips_at_its_threshold(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < CONCLUSIONS; i++) {
     const conclusion *c = &conclusions[i];
     double low, high, limit, into;
@@ -73,7 +71,6 @@ static void check_limits(int number, double word, double want_low, double want_h
 /* A word moves its own limits, and only where the statement has one. */
 static void test_conclusion_limits__another_word__moves_only_what_hangs_on_it(void **state)
 {
-  (void)state;
   check_limits(1, 0.2, -1.2, -0.8);
   check_limits(2, 0.3, 1.3, HUGE_VAL);
   check_limits(7, conclusion_words[4], -HUGE_VAL, 1.41421356);
@@ -85,7 +82,6 @@ static void test_conclusion_limits__another_word__moves_only_what_hangs_on_it(vo
 static void test_finding_judge__a_case_that_fails__needs_every_conditioned_value(void **state)
 {
   finding f = one_value(1);
-  (void)state;
   finding_add(&f, 5, "another");
   assert_int_equal(finding_judge(&f, 0, 2), FINDING_CONTRADICTED);
   finding_add_conditioned(&f, 1.5);
@@ -100,7 +96,6 @@ static void test_finding_add__beyond_its_room__left_out(void **state)
 {
   finding f = one_value(1);
   int i;
-  (void)state;
   for (i = 0; i < 2 * FINDING_CASES; i++) {
     finding_add(&f, i, "case %d", i);
     finding_add_conditioned(&f, i);
@@ -113,7 +108,6 @@ static void test_finding_text__values_and_claim__in_words(void **state)
 {
   finding f = one_value(0.25);
   char text[200];
-  (void)state;
   finding_add(&f, 1e-9, "two");
   lab_append(f.note, FINDING_TEXT, "at %g kPa", 80.0);
   lab_append(f.condition, FINDING_TEXT, "p_s is above %g kPa", 140.0);
@@ -133,7 +127,6 @@ static void test_finding_join__two_actuators__one_sentence(void **state)
 {
   finding all, one = one_value(1), two = one_value(3);
   char text[200];
-  (void)state;
   memset(&all, 0, sizeof all);
   finding_add_conditioned(&one, 1);
   lab_append(one.condition, FINDING_TEXT, "the bench set starts");
@@ -161,7 +154,6 @@ static void test_finding_join__two_actuators__one_sentence(void **state)
 static void test_finding_worst__each_kind_of_limit__nearest_to_failing(void **state)
 {
   finding f = one_value(2);
-  (void)state;
   finding_add(&f, 1, "lower");
   finding_add(&f, 3.00001, "upper");
   assert_close(finding_worst(&f, -HUGE_VAL, 5), 3, 0, 0);
@@ -189,7 +181,6 @@ static void test_speeds__straight_lines__read_off(void **state)
 {
   speed_pair pair = straight_lines();
   int i;
-  (void)state;
   assert_close(speed_crossing(&pair), 1.5, 1e-12, 0);
   assert_close(speed_at_pressure(&pair.up, 1.23456), 3 - 1.23456, 1e-12, 0);
   assert_true(isnan(speed_at_pressure(&pair.up, 0.999)));
@@ -246,7 +237,6 @@ static void test_speeds_measure__every_law_and_actuator__quasi_static(void **sta
 {
   static study s;
   int actuator, law;
-  (void)state;
   read_study(&s);
   for (actuator = 0; actuator < PAPER_ACTUATOR_COUNT; actuator++)
     for (law = 0; law < PAPER_LAW_COUNT; law++)
@@ -259,7 +249,6 @@ static void test_speeds_measure__returned_work__is_that_of_the_spring(void **sta
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   pneu_params p;
   speed_pair pair;
-  (void)state;
   pneu_params_default(&p);
   p.dry_friction = 0;
   assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
@@ -271,7 +260,6 @@ static void test_speeds_measure__no_travel__data_error(void **state)
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   pneu_params p;
   speed_pair pair;
-  (void)state;
   pneu_params_default(&p);
   p.supply_pressure = 50e3; /* below the 112 kPa that the preload and friction hold */
   assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_DATA);
@@ -286,7 +274,6 @@ static void test_bench_scan_range__a_valley__ends_between_points(void **state)
   static bench_scan scan;
   double from = 0, to = 0;
   int i;
-  (void)state;
   for (i = 0; i < SCAN_POINTS; i++) {
     scan.from[i] = i;
     scan.value[SCAN_FALL_RANGE][i] = fabs(i - 10.0);
@@ -306,7 +293,6 @@ static void test_bench_equal__both_laws__where_the_closed_form_has_it(void **sta
 {
   static study s;
   int law;
-  (void)state;
   read_study(&s);
   assert_string_equal(s.actuator[R1_400_BENCH].name, "r1-400-bench");
   for (law = 0; law < PAPER_LAW_COUNT; law++) {
@@ -328,7 +314,6 @@ static void test_bench_alike__a_tenth_of_the_shape__narrow_bench_set(void **stat
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   paper_case c = closed_form(PAPER_R1_400, PAPER_LAW_UNCHOKED);
   double low, width;
-  (void)state;
   read_study(&s);
   width = bench_alike(&s.actuator[R1_400_BENCH].params, &laws, 160e3, 0.0102, &low);
   c.actuator = paper_actuator_with_bench(&c.actuator, low, low + width);
@@ -341,7 +326,6 @@ static void test_bench_alike__a_tenth_of_the_shape__narrow_bench_set(void **stat
 static void test_bench_params__narrower_than_a_preload_can_be__force_stands_in(void **state)
 {
   pneu_params p, b;
-  (void)state;
   pneu_params_default(&p);
   b = bench_params(&p, 80e3, 100.0);
   assert_close(b.spring_preload, 1, 0, 0);
@@ -358,7 +342,6 @@ static void test_load_cycle__friction_and_margin__are_all_that_is_lost(void **st
   pneu_params p;
   load_cycle cycle;
   int law;
-  (void)state;
   pneu_params_default(&p);
   for (law = 0; law < PAPER_LAW_COUNT; law++) {
     const pneu_laws laws = isothermal(law);
@@ -377,7 +360,6 @@ static void test_load_cycle__load_too_heavy__says_where_it_stays(void **state)
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   pneu_params p;
   load_cycle cycle;
-  (void)state;
   pneu_params_default(&p);
   assert_int_equal(load_cycle_run(&p, &laws, -0.01, &cycle, &error), LAB_NUMERIC);
   assert_contains(error.text, "stays at x = 0 m");
@@ -452,7 +434,6 @@ static void test_conclusions__whole_study__every_row_whatever_the_threads(void *
   const table *overall = &one[CONCLUSION_OVERALL], *actuators = &one[CONCLUSION_ACTUATORS];
   size_t row;
   int i;
-  (void)state;
   read_study(&s);
   make_tables(&s, 1, one);
   make_tables(&s, 3, two);
@@ -492,7 +473,6 @@ static void test_conclusions_thresholds__a_verdict_that_turns__is_marked(void **
   static finding found[2 * CONCLUSIONS];
   table t;
   int i;
-  (void)state;
   read_study(&s);
   s.n_gas = s.n_flow = s.n_printed = 1;
   s.n_actuators = 2;
@@ -513,7 +493,6 @@ static void test_conclusions_try__parameters_out_of_bounds__says_which_actuator_
 {
   static study s;
   finding *found;
-  (void)state;
   read_study(&s);
   s.actuator[1].params.area = -1;
   assert_int_equal(conclusions_try(&s, &found, &error), LAB_DATA);

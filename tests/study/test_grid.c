@@ -47,7 +47,6 @@ static void test_study_make__orders_and_scopes__files(void **state)
                                {{"cell.csv", "n,g,i", STUDY_BY_CELL, STUDY_WHOLE, 0},
                                 {"actuator", "n,g,i", STUDY_BY_ACTUATOR, STUDY_ACTUATOR_FILE, 0},
                                 {"row.csv", "n,g,i", STUDY_BY_ROW, STUDY_WHOLE, 0}}};
-  (void)state;
   assert_int_equal(study_make(made_up(), &tables, &error), LAB_OK);
   assert_file("cell.csv", "n,g,i\na,isothermal,0\na,isothermal,1\na,energy,0\na,energy,1\n"
                           "b,isothermal,0\nb,isothermal,1\nb,energy,0\nb,energy,1\nb,energy,2\n");
@@ -68,7 +67,6 @@ static void test_study_make__one_law_of_the_subject__one_cell(void **state)
 {
   const study_tables tables = {
       {STUDY_SUBJECT, STUDY_ONE_LAW}, one_row, {{"c", "n,x", STUDY_BY_CELL, STUDY_CELL_FILE, 3}}};
-  (void)state;
   assert_int_equal(study_make(made_up(), &tables, &error), LAB_OK);
   assert_file("c_b_isothermal_paper.csv", "n,x\nb,0.333\n");
 }
@@ -84,7 +82,6 @@ static void test_study_each__several_fail__first_in_order_is_told(void **state)
 {
   const study_grid grid = {STUDY_ALL, STUDY_EVERY_LAW};
   int i;
-  (void)state;
   for (i = 0; i < 50; i++) {
     assert_int_equal(study_each(made_up(), &grid, fail_later, NULL, &error), LAB_NUMERIC);
     assert_contains(error.text, "a, energy, paper");
@@ -105,7 +102,6 @@ static void test_study_each__twin_and_gas_laws__cells(void **state)
   const study_grid twins = {STUDY_SUBJECT_AND_TWIN, STUDY_GAS_LAWS};
   study *s = made_up();
   int n[4] = {0};
-  (void)state;
   s->n_printed = 1; /* b is the twin of a */
   s->subject = 0;
   s->n_flow = 2;

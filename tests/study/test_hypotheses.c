@@ -23,7 +23,6 @@ static int judge(double left, double left_signed, double alone, double alone_sig
 static void test_verdict_judge__crossing_a_threshold__flips(void **state)
 {
   const double untried = (double)NAN;
-  (void)state;
   assert_int_equal(judge(0.0999, 0.0999, 0.1001, 0.1001), VERDICT_CONFIRMED);
   assert_int_equal(judge(0.0999, 0.0999, 0.1001, -0.1001), VERDICT_OPPOSITE);
   assert_int_equal(judge(0.0999, 0.0999, 0.0999, 0.0999), VERDICT_NECESSARY);
@@ -64,7 +63,6 @@ static void test_verdict_measure__every_law_and_actuator__as_the_report_says(voi
 {
   static study s;
   int a, g, f;
-  (void)state;
   read_study(&s);
   for (a = 0; a < s.n_actuators; a++)
     for (g = 0; g < s.n_gas; g++)
@@ -85,7 +83,6 @@ static void test_hypotheses__air_process_with_the_bench_set_in_place__closed_for
 {
   static study s;
   int a;
-  (void)state;
   read_study(&s);
   for (a = 0; a < s.n_actuators; a++) {
     pneu_params p = s.actuator[a].params;
@@ -146,7 +143,6 @@ static void test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_i
 {
   static study s;
   int a;
-  (void)state;
   read_study(&s);
   for (a = 0; a < s.n_actuators; a++) {
     check_note("%s", s.actuator[a].name);

@@ -24,7 +24,6 @@ static paper_case ideal_case(paper_flow flow, double storage)
 
 static void test_paper_flow_unchoked__whole_numbers__exact(void **state)
 {
-  (void)state;
   assert_close(paper_flow_unchoked(500.0, 320.0), 300.0, 0, TIGHT);
   assert_close(paper_flow_unchoked(500.0, 500.0), 0.0, 0, 0);
   assert_true(isnan(paper_flow_unchoked(1.0, 2.0)));
@@ -34,7 +33,6 @@ static void test_paper_flow_unchoked__whole_numbers__exact(void **state)
 static void test_paper_flow_choked__below_critical__constant(void **state)
 {
   double c = sqrt(0.7) / (1.2 * 1.2 * 1.2);
-  (void)state;
   assert_close(paper_choking_ratio(), pow(1.2, -3.5), 0, TIGHT);
   assert_close(paper_flow_choked(500.0, 0.0), 500.0 * c, 0, TIGHT);
   assert_close(paper_flow_choked(500.0, 264.0), 500.0 * c, 0, TIGHT);
@@ -45,14 +43,12 @@ static void test_paper_flow_choked__below_critical__constant(void **state)
 static void test_paper_flow_choked__above_critical__isentropic(void **state)
 {
   double r = pow(0.9, 3.5);
-  (void)state;
   assert_close(paper_flow_choked(1.0, r), sqrt(3.5 * pow(0.9, 5) * 0.1), 0, TIGHT);
 }
 
 static void test_paper_flow_choked__small_drop__meets_unchoked(void **state)
 {
   double P = 1e5, drop = 1.0;
-  (void)state;
   assert_close(paper_flow_choked(P, P - drop), paper_flow_unchoked(P, P - drop), 0, 1e-5);
 }
 
@@ -60,14 +56,12 @@ static void test_paper_flow_choked__small_drop__meets_unchoked(void **state)
 
 static void test_paper_fill_speed__ratio_five__root_of_twenty(void **state)
 {
-  (void)state;
   assert_close(paper_fill_speed(paper_flow_unchoked, 5.0, 1.0), sqrt(20.0), 0, TIGHT);
   assert_close(paper_fill_speed(paper_flow_unchoked, 500e3, 500e3), 0.0, 0, 0);
 }
 
 static void test_paper_vent_speed__ends__zero_and_half(void **state)
 {
-  (void)state;
   assert_close(paper_vent_speed(paper_flow_unchoked, 101325.0, 101325.0), 0.0, 0, 0);
   assert_close(paper_vent_speed(paper_flow_unchoked, 2.0, 1.0), sqrt(0.5), 0, TIGHT);
   assert_close(paper_vent_speed(paper_flow_choked, 3.0, 1.0), paper_vent_speed(paper_flow_choked, 9.0, 1.0), 0, TIGHT);
@@ -76,7 +70,6 @@ static void test_paper_vent_speed__ends__zero_and_half(void **state)
 /* Eq. (23) in whole numbers: p_bl (p_bh + 100)/(p_bh (p_bl + 100)) is 1/3, 17/27 and 108/133 */
 static void test_paper_speed_change__table_1__fractions(void **state)
 {
-  (void)state;
   assert_close(paper_speed_change(paper_flow_unchoked, 20, 100, 100), 1.0 - sqrt(1.0 / 3.0), 0, TIGHT);
   assert_close(paper_speed_change(paper_flow_unchoked, 80, 240, 100), 1.0 - sqrt(17.0 / 27.0), 0, TIGHT);
   assert_close(paper_speed_change(paper_flow_unchoked, 180, 380, 100), 1.0 - sqrt(108.0 / 133.0), 0, TIGHT);
@@ -84,7 +77,6 @@ static void test_paper_speed_change__table_1__fractions(void **state)
 
 static void test_paper_speed_change__choked_throughout__none(void **state)
 {
-  (void)state;
   assert_close(paper_speed_change(paper_flow_choked, 180, 380, 100), 0.0, TIGHT, 0);
 }
 
@@ -93,7 +85,6 @@ static void test_paper_speed_change__choked_throughout__none(void **state)
 /* p_a/p_s = 5/7 makes the discriminant (25/7)^2 */
 static void test_paper_critical_pressure__special_ratios__exact(void **state)
 {
-  (void)state;
   assert_close(paper_critical_pressure(5.0 / 7.0), 4.0 / 7.0, 0, TIGHT);
   assert_close(paper_critical_pressure(0.0), 0.5 * (sqrt(5.0) - 1.0), 0, TIGHT);
   assert_close(paper_critical_pressure(-1.0), 1.0, 0, TIGHT);
@@ -104,7 +95,6 @@ static void test_paper_critical_pressure__special_ratios__exact(void **state)
 static void test_paper_critical_pressure__any_ratio__solves_eq31(void **state)
 {
   double a;
-  (void)state;
   for (a = -0.9; a < 5.0; a += 0.1) {
     double q = paper_critical_pressure(a);
     assert_close((1.0 + a) * (1.0 - q), q * (q + a), 1e-12, 0);
@@ -114,7 +104,6 @@ static void test_paper_critical_pressure__any_ratio__solves_eq31(void **state)
 static void test_paper_crossing__unchoked__is_eq35(void **state)
 {
   double a;
-  (void)state;
   for (a = 0.0; a < 2.0; a += 0.25)
     assert_close(paper_crossing(paper_flow_unchoked, a), paper_critical_pressure(a), 0, TIGHT);
 }
@@ -123,14 +112,12 @@ static void test_paper_crossing__unchoked__is_eq35(void **state)
 static void test_paper_crossing__choked__closed_form(void **state)
 {
   double y = 0.5 * (1.0 + sqrt(1.0 + 0.8 / pow(1.2, 6))), r = pow(y, -3.5);
-  (void)state;
   assert_close(paper_crossing(paper_flow_choked, 0.0), r, 0, TIGHT);
   assert_close(paper_crossing(paper_flow_choked, 0.25), r - 0.25 * (1.0 - r), 0, TIGHT);
 }
 
 static void test_paper_supply_threshold__eq30__roots(void **state)
 {
-  (void)state;
   assert_close(paper_supply_threshold(2.0), 1.0, 0, TIGHT);
   assert_close(paper_supply_threshold(0.5), 0.5 * (sqrt(3.0) - 1.0), 0, TIGHT);
 }
@@ -139,7 +126,6 @@ static void test_paper_supply_threshold__eq30__roots(void **state)
 
 static void test_paper_speed_scale__equal_areas__root_of_2RT(void **state)
 {
-  (void)state;
   assert_close(paper_speed_scale(1.0, 1.0, 298.15), sqrt(2.0 * R_air * 298.15), 0, TIGHT);
   assert_close(paper_speed_scale(3.0, 2.0, 4.0 * 298.15), 3.0 * sqrt(2.0 * R_air * 298.15), 0, TIGHT);
 }
@@ -149,7 +135,6 @@ static void test_paper_returned_share__bench_sets__mean_pressure(void **state)
 {
   double sum = 0.0;
   int i;
-  (void)state;
   for (i = 0; i < 1000; i++)
     sum += (80.0 + 160.0 * (i + 0.5) / 1000.0) / 400.0 / 1000.0;
   assert_close(paper_returned_share(80e3, 240e3, 400e3), sum, 0, 1e-10);
@@ -159,7 +144,6 @@ static void test_paper_returned_share__bench_sets__mean_pressure(void **state)
 static void test_paper_exergy_efficiency__pressure_ratio_e__closed_form(void **state)
 {
   double e = exp(1.0);
-  (void)state;
   assert_close(paper_exergy_efficiency((e - 1.0) * 1e5, 1e5), (e - 1.0) / e, 0, TIGHT);
 }
 
@@ -168,7 +152,6 @@ static void test_paper_exergy_efficiency__pressure_ratio_e__closed_form(void **s
 static void test_paper_actuator_with_bench__table_a1__implied_springs(void **state)
 {
   paper_actuator r1 = paper_actuators[PAPER_R1_400], m37 = paper_actuators[PAPER_37_13];
-  (void)state;
   r1 = paper_actuator_with_bench(&r1, 80e3, 240e3);
   m37 = paper_actuator_with_bench(&m37, 20e3, 100e3);
   assert_close(r1.rate, 320e3, 0, TIGHT);
@@ -180,7 +163,6 @@ static void test_paper_actuator_with_bench__table_a1__implied_springs(void **sta
 static void test_paper_actuators__table_a1__as_printed(void **state)
 {
   paper_actuator r1 = paper_actuators[PAPER_R1_400], m37 = paper_actuators[PAPER_37_13];
-  (void)state;
   assert_string_equal(r1.key, "r1-400");
   assert_string_equal(m37.key, "37-13");
   assert_close(r1.area * r1.travel, 0.8e-3, 0, TIGHT);
@@ -197,7 +179,6 @@ static void test_paper_actuators__table_a1__as_printed(void **state)
 static void test_paper_pressure__both_directions__friction_changes_sign(void **state)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
-  (void)state;
   c.actuator.friction = 480.0;
   assert_close(paper_pressure(&c, PAPER_UP, 0.0), 92e3, 0, TIGHT);
   assert_close(paper_pressure(&c, PAPER_DOWN, 0.0), 68e3, 0, TIGHT);
@@ -208,7 +189,6 @@ static void test_paper_pressure__both_directions__friction_changes_sign(void **s
 static void test_paper_speed__top_of_bench_set__hand_values(void **state)
 {
   paper_case without = ideal_case(paper_flow_unchoked, 0.0), with = ideal_case(paper_flow_unchoked, 1.0);
-  (void)state;
   assert_close(paper_speed(&without, PAPER_UP, 0.02), sqrt(500.0 * 160.0) / 340.0, 0, TIGHT);
   assert_close(paper_speed(&without, PAPER_DOWN, 0.02), sqrt(340.0 * 240.0) / 340.0, 0, TIGHT);
   assert_close(paper_speed(&with, PAPER_UP, 0.02), sqrt(500.0 * 160.0) / 500.0, 0, TIGHT);
@@ -220,7 +200,6 @@ static void test_paper_speed__top_of_bench_set__hand_values(void **state)
 static void test_paper_speed__dead_volume__slows(void **state)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
-  (void)state;
   c.actuator.dead_volume = 0.08e-3;
   assert_close(paper_speed(&c, PAPER_DOWN, 0.0), sqrt(180.0 * 80.0) / 196.0, 0, TIGHT);
 }
@@ -232,7 +211,6 @@ static void test_paper_speed__falling__gains_speed_by_criterion(void **state)
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
   size_t i;
   int j;
-  (void)state;
   for (i = 0; i < sizeof p_bl / sizeof p_bl[0]; i++) {
     c.actuator = paper_actuator_with_bench(&c.actuator, p_bl[i], p_bl[i] + 150e3);
     for (j = 1; j < 20; j++) {
@@ -248,7 +226,6 @@ static void test_paper_stroke_time__choked_vent__constant_velocity(void **state)
 {
   paper_case c = ideal_case(paper_flow_choked, 0.0);
   double scale = 0.893e-6 / 0.04 * sqrt(2.0 * R_air * 298.15);
-  (void)state;
   c.actuator = paper_actuator_with_bench(&c.actuator, 100e3, 300e3);
   assert_close(paper_stroke_time(&c, PAPER_DOWN), 0.9 * 0.02 * 1.728 / (sqrt(0.7) * scale), 0, 1e-10);
 }
@@ -299,7 +276,6 @@ static double time_by_mass(const paper_case *c, int direction)
 static void test_paper_stroke_time__table_a1__equals_integrated_mass(void **state)
 {
   int which, law, direction;
-  (void)state;
   for (which = 0; which < PAPER_ACTUATOR_COUNT; which++) {
     for (law = 0; law < PAPER_LAW_COUNT; law++) {
       for (direction = -1; direction <= 1; direction += 2) {
@@ -323,14 +299,12 @@ static double constant_flow(double P_up, double P_dn)
 static void test_paper_asymmetry__constant_flow__closed_form(void **state)
 {
   paper_case c = ideal_case(constant_flow, 0.0);
-  (void)state;
   assert_close(paper_asymmetry(&c), 0.9 * 160e3 / (6.0 * 260e3), 0, 1e-4);
 }
 
 static void test_paper_asymmetry__no_change_of_pressure__zero(void **state)
 {
   paper_case c = ideal_case(constant_flow, 0.0);
-  (void)state;
   c.actuator = paper_actuator_with_bench(&c.actuator, 160e3, 160e3 + 1e-6);
   assert_close(paper_asymmetry(&c), 0.0, 1e-12, 0);
 }
@@ -339,7 +313,6 @@ static void test_paper_symmetric_bench__r1_400__equal_times(void **state)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
   double p_bl = paper_symmetric_bench(&c);
-  (void)state;
   assert_true(p_bl > 80e3 && p_bl < 240e3);
   c.actuator = paper_actuator_with_bench(&c.actuator, p_bl, p_bl + 160e3);
   assert_close(paper_stroke_time(&c, PAPER_UP), paper_stroke_time(&c, PAPER_DOWN), 0, 1e-9);
@@ -348,7 +321,6 @@ static void test_paper_symmetric_bench__r1_400__equal_times(void **state)
 static void test_paper_symmetric_bench__supply_below_width__nan(void **state)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
-  (void)state;
   c.actuator.supply = 150e3;
   assert_true(isnan(paper_symmetric_bench(&c)));
 }
@@ -357,7 +329,6 @@ static void test_paper_symmetric_bench__supply_below_width__nan(void **state)
 
 static void test_paper_agreement__digits__three_words(void **state)
 {
-  (void)state;
   assert_string_equal(paper_agreement(0.596, 0.59629, 0.001, 0), "yes");
   assert_string_equal(paper_agreement(0.5, 0.55, 0.1, 0), "yes");
   assert_string_equal(paper_agreement(238, 238.5165, 1, 0.2), "rounding");
@@ -371,14 +342,12 @@ static table numbers;
 
 static int make_numbers(void **state)
 {
-  (void)state;
   paper_numbers_table(&numbers);
   return 0;
 }
 
 static int close_numbers(void **state)
 {
-  (void)state;
   table_close(&numbers);
   return 0;
 }
@@ -458,7 +427,6 @@ static void test_paper_numbers__required_items__hand_values(void **state)
       {"assumption5.r1-400.fill", 101.325 / 501.325 * pow(1.2, 3.5), "no"},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof want / sizeof want[0]; i++) {
     check_note("%s", want[i].item);
     assert_close(computed(row_named(want[i].item)), want[i].want, 1e-9, 1e-10);
@@ -469,7 +437,6 @@ static void test_paper_numbers__required_items__hand_values(void **state)
 static void test_paper_numbers__conclusion_10__unbounded(void **state)
 {
   const double ratio = computed(row_named("conclusion10.ratio"));
-  (void)state;
   assert_true(isinf(ratio) && ratio > 0);
   assert_string_equal(text_of("conclusion10.ratio", "agrees"), "no");
 }
@@ -499,7 +466,6 @@ static void check_complete(size_t i)
 static void test_paper_numbers__every_row__complete_and_unique(void **state)
 {
   size_t i;
-  (void)state;
   assert_true(table_rows(&numbers) > 100);
   for (i = 0; i < table_rows(&numbers); i++)
     check_complete(i);
@@ -522,7 +488,6 @@ static void test_paper_numbers__no_statement_of_the_paper__not_counted(void **st
                                        "conclusion15.asymmetry",
                                        "a1.r1-400.preload"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof asides / sizeof *asides; i++) {
     check_note("%s", asides[i]);
     assert_string_equal(text_of(asides[i], "counted"), "no");
@@ -534,7 +499,6 @@ static void test_paper_numbers__statements__all_conclusions_among_them(void **st
 {
   size_t i;
   int number;
-  (void)state;
   for (number = 1; number <= 18; number++) {
     char name[24];
     int found = 0;
@@ -548,7 +512,6 @@ static void test_paper_numbers__statements__all_conclusions_among_them(void **st
 
 static void test_paper_numbers__same_fault__same_cause_and_severity(void **state)
 {
-  (void)state;
   assert_string_equal(text_of("conclusion13.springs_3", "cause"),
                       text_of("conclusion4.37-13", "cause")); /* a limit at a pressure that the stem does not reach */
   assert_string_equal(text_of("conclusion13.springs_3", "severity"), "conclusion");
@@ -569,7 +532,6 @@ static void assert_header(const table *t, const char *want)
 
 static void test_paper_numbers__all__header(void **state)
 {
-  (void)state;
   assert_header(&numbers, "item,quantity,unit,printed,computed,agrees,note,kind,cause,statement,severity,counted");
 }
 
@@ -581,7 +543,6 @@ static void test_paper_figure__fig05_both_laws__known_curves(void **state)
   double c = sqrt(0.7) / 1.728;
   size_t i;
   table t;
-  (void)state;
   paper_figure(PAPER_FIG05, &t);
   assert_header(&t, "flow,P1_over_P2 [1],v_over_scale [1],inverse_law [1],reciprocal_P2 [1/MPa]");
   for (i = 0; i < table_rows(&t); i++) {
@@ -601,7 +562,6 @@ static void test_paper_figure__fig06_paper_flow__eq25_and_band(void **state)
 {
   size_t i, in_band = 0, spring = 0;
   table t;
-  (void)state;
   paper_figure(PAPER_FIG06, &t);
   assert_header(&t, "flow,balance,p_over_pa [1],v_over_scale [1],in_band [1]");
   for (i = 0; i < table_rows(&t); i++) {
@@ -626,7 +586,6 @@ static void test_paper_figure__fig07_paper_flow__solves_eq33(void **state)
 {
   size_t i;
   table t;
-  (void)state;
   paper_figure(PAPER_FIG07, &t);
   assert_header(&t, "flow,pa_over_ps [1],p_over_ps [1]");
   for (i = 0; i < table_rows(&t); i++) {
@@ -644,7 +603,6 @@ static void test_paper_figure__fig08_paper_flow__rises_to_golden_ratio(void **st
   double last = 0.5, low = INFINITY, high = 0.0;
   size_t i;
   table t;
-  (void)state;
   paper_figure(PAPER_FIG08, &t);
   assert_header(&t, "flow,ps_over_pa [1],p_over_ps [1],asymptote [1],typical [1]");
   for (i = 0; strcmp(table_at(&t, i, 0)->text, "paper") == 0; i++) {

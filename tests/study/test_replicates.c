@@ -38,7 +38,6 @@ static const char pump[] = "study/measured/pump-fed-chamber-control.cfg";
 
 static void test_replicates__levels_of_three_runs__their_standard_deviation(void **state)
 {
-  (void)state;
   write_pump("a.csv", 1, 0);
   write_pump("b.csv", 2, 0);
   write_pump("c.csv", 3, 0);
@@ -49,7 +48,6 @@ static void test_replicates__levels_of_three_runs__their_standard_deviation(void
 
 static void test_replicates__runs_that_begin_at_other_times__are_aligned_by_the_step(void **state)
 {
-  (void)state;
   write_pump("a.csv", 1, 0);
   write_pump("b.csv", 1, 0.37);
   assert_close(
@@ -59,7 +57,6 @@ static void test_replicates__runs_that_begin_at_other_times__are_aligned_by_the_
 
 static void test_replicates__no_two_runs__are_not_known(void **state)
 {
-  (void)state;
   write_pump("a.csv", 1, 0);
   assert_true(isnan(repeat_of(pump, "pressure", "\"a.csv\"", "")));
 }
@@ -82,7 +79,6 @@ static void write_strokes(const char *name, double scatter)
 static void test_replicates__strokes__paired_by_direction_less_the_measured_pressure(void **state)
 {
   double repeat;
-  (void)state;
   write_strokes("s.csv", 0.5);
   repeat = repeat_of("study/measured/printed-cylinder-napn.cfg", "force", "\"s.csv\"",
                      "replicates = ( { logs = ( \"s.csv\" ); strokes = \"x\"; } );");
@@ -98,7 +94,6 @@ static void test_replicates__channel_that_is_not_there__is_refused(void **state)
 {
   config_t config;
   double repeat;
-  (void)state;
   write_pump("a.csv", 1, 0);
   lab_config_read(&config,
                   scratch_text("set.cfg", "set = { folder = \".\"; judged = \"pressure\"; fit = ( ); holdout = ( ); "

@@ -60,7 +60,6 @@ static const char *const numbers =
 /* Eq. 1 disagrees in one of its rows, 7 is printed once and tried twice, e is an aside. */
 static void test_report__rows_of_one_statement__counted_once(void **state)
 {
-  (void)state;
   report_with("paper_numbers.csv", numbers);
   assert_contains(text, "Of 5 ");
   assert_contains(text, " 1 are ");
@@ -70,7 +69,6 @@ static void test_report__rows_of_one_statement__counted_once(void **state)
 
 static void test_report__three_causes__each_once_by_what_it_changes(void **state)
 {
-  (void)state;
   report_with("paper_numbers.csv", numbers);
   assert_contains(text, "|\n| a gap | modelling | Eq. 4 | |\n\n"
                         "A number: a slip (data; 5 printed, 6 computed).\n"
@@ -79,7 +77,6 @@ static void test_report__three_causes__each_once_by_what_it_changes(void **state
 
 static void test_report__laws_that_differ__counted_and_marked(void **state)
 {
-  (void)state;
   scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
                                             "1,one,printed,isothermal,paper,1,,1,holds,e\n"
                                             "1,one,printed,isothermal,choked,1,,1,contradicted,e\n"
@@ -99,7 +96,6 @@ static void test_report__laws_that_differ__counted_and_marked(void **state)
 /* 2 has a mark, 3 fails in one law. */
 static void test_report__conclusions_that_hold_throughout__in_words(void **state)
 {
-  (void)state;
   scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
                                             "1,one,printed,isothermal,paper,1,,1,contradicted,e\n"
                                             "2,one,printed,isothermal,paper,1,,1,holds,e\n"
@@ -122,7 +118,6 @@ static void test_report__conclusions_that_hold_throughout__in_words(void **state
 /* 20 % is left in one law, 5 % in the other: two verdicts; the other actuator is the same in both. */
 static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
 {
-  (void)state;
   report_with("hypotheses_thresholds.csv", "actuator,hypothesis,gas,flow,share_left,share_left_signed,"
                                            "share_alone,share_alone_signed,depends_on_threshold\n"
                                            "one,H2,a,b,0.2,0.2,,,yes\none,H2,a,c,0.05,-0.05,,,no\n"
@@ -134,7 +129,6 @@ static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
 
 static void test_report__no_table__data_error(void **state)
 {
-  (void)state;
   remove(scratch_path("conclusions_thresholds.csv"));
   assert_int_equal(report_make(made_up(), &error), LAB_DATA);
   assert_contains(error.text, "conclusions_thresholds.csv");

@@ -39,13 +39,11 @@ static int absent(const char *text)
 
 static void test_sets_run__no_data__are_absent(void **state)
 {
-  (void)state;
   assert_int_equal(absent("sets = ( " SET("one", "") ", " SET("two", "") " );"), 2);
 }
 
 static void test_sets_run__set_that_lacks_something__is_refused(void **state)
 {
-  (void)state;
   assert_int_equal(absent("sets = ( { name = \"one\"; } );"), -1);
   assert_contains(error.text, "expected the text rig");
   assert_int_equal(absent(ONE("sensor = \"lag\";")), -1);
@@ -152,7 +150,6 @@ static const char *report_of(const char *set, const char *verdict, const char *h
 static void test_sets_report__row__has_units_noise_and_verdict(void **state)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
-  (void)state;
   assert_contains(text,
                   "| [T one](one/report.json) | position | 0.1 mm | - | 4 mm (40) | 0.25 mm (2.5) | 5 mm (50) | 0.75 "
                   "mm (7.5) | undecided | presliding (or position_lag), pressure_gain |");
@@ -164,14 +161,12 @@ static void test_sets_report__row__has_units_noise_and_verdict(void **state)
 static void test_sets_report__held_out_error_that_grows__is_told(void **state)
 {
   const char *text = report_of(ONE(""), undecided, "6e-3");
-  (void)state;
   assert_contains(text, " 0 of 1; not in: T one");
 }
 
 static void test_sets_report__undecided__says_how_much_is_left(void **state)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
-  (void)state;
   assert_contains(text, "2.5 times the noise");
   assert_contains(text, "presliding, pressure_gain.");
 }
@@ -179,7 +174,6 @@ static void test_sets_report__undecided__says_how_much_is_left(void **state)
 static void test_sets_report__no_more_left_than_the_bench_repeats__is_explained(void **state)
 {
   const char *text = report_repeating(ONE(""), undecided, "2e-4", 2.1e-4);
-  (void)state;
   assert_contains(text, "| 0.1 mm | 0.21 mm (2.1) | 4 mm (40)");
   assert_contains(text, "| explained |");
   assert_contains(text, "lacks presliding, pressure_gain; ");
@@ -190,14 +184,12 @@ static void test_sets_report__no_more_left_than_the_bench_repeats__is_explained(
 static void test_sets_report__more_left_than_noise__is_not_explained(void **state)
 {
   const char *text = report_repeating(ONE(""), explained, "2e-4", 2e-4);
-  (void)state;
   assert_contains(text, "| undecided |");
 }
 
 static void test_sets_report__more_left_of_runs_held_out__is_told(void **state)
 {
   const char *text = report_repeating(ONE(""), explained, "75e-5", 2.1e-4);
-  (void)state;
   assert_contains(text, "| explained on the runs fitted only |");
   assert_contains(text, "On the runs held out more is left");
 }
@@ -205,14 +197,12 @@ static void test_sets_report__more_left_of_runs_held_out__is_told(void **state)
 static void test_sets_report__doubt__is_the_reason(void **state)
 {
   const char *text = report_of(ONE(""), doubted, "75e-5");
-  (void)state;
   assert_contains(text, "undecided: too short\n");
 }
 
 static void test_sets_report__section__shows_the_way_and_the_others(void **state)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
-  (void)state;
   assert_contains(text, "| declared model | 4 | 7 | 5 | 9 |\n| presliding | 1 | 7 | 0.5 | 9 |\n"
                         "| presliding + pressure_gain | 0.25 | 7 | 0.75 | 9 |\n\n");
   assert_contains(text, ": presliding 50 %.");
@@ -227,7 +217,6 @@ static void test_sets_report__section__shows_the_way_and_the_others(void **state
 static void test_sets_report__held_out_error_that_falls__has_no_warning(void **state)
 {
   const char *text = report_of(ONE(""), undecided, "4e-4");
-  (void)state;
   assert_null(strstr(text, "lowest on the way"));
   assert_null(strstr(text, "is not nearest"));
 }
@@ -235,7 +224,6 @@ static void test_sets_report__held_out_error_that_falls__has_no_warning(void **s
 static void test_sets_report__parameters__known_and_undetermined(void **state)
 {
   const char *text = report_of(ONE("given = \"spring_rate\"; as_pressure = \"kPa\";"), undecided, "75e-5");
-  (void)state;
   assert_contains(text, "spring_rate = 2.844e+05 (2e+05 to 3e+05) N/m\n");
   assert_contains(text, "presliding.x = 1 (a ratio)\n");
   assert_contains(text, "x is at its bound");
@@ -245,7 +233,6 @@ static void test_sets_report__parameters__known_and_undetermined(void **state)
 
 static void test_sets_report__given_that_was_not_fitted__is_refused(void **state)
 {
-  (void)state;
   write_report(undecided, "75e-5");
   assert_int_equal(report_on(ONE("given = \"area\";"), (sets_result){.repeat = (double)NAN}), LAB_DATA);
   assert_contains(error.text, "given: area is not among the parameters that were fitted");
@@ -254,7 +241,6 @@ static void test_sets_report__given_that_was_not_fitted__is_refused(void **state
 static void test_sets_report__what_is_left__is_told_by_log(void **state)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
-  (void)state;
   assert_contains(text, "- Fitted: a.csv, b.csv.\n- Held out: c.csv, a.csv (rows that were not fitted).\n");
   assert_contains(text, "| a.csv | position [mm] | 1.94 | 19.4 | 1.25 | 3 | 1 |");
   assert_contains(text, "| b.csv | position [mm] | 1.41 | 14.1 | -1 | -2 | 0 |");
@@ -265,7 +251,6 @@ static void test_sets_report__what_is_left__is_told_by_log(void **state)
 static void test_sets_report__check__is_a_row_without_noise(void **state)
 {
   const char *text = report_of(ONE("check = \"position\"; check_unit = \"cm\";"), undecided, "75e-5");
-  (void)state;
   assert_contains(text, "| - the same, not fitted | position | - | - | - | - | 0.4 cm | 0.025 cm | | |");
   assert_contains(text, "| a.csv | position [cm] | 0.194 | - |");
   assert_contains(text,
@@ -278,7 +263,6 @@ static void test_sets_report__sets_that_did_not_run__stay_in_the_table(void **st
   config_t config;
   const config_setting_t *list = read_sets(&config, "sets = ( " SET("two", "") ", " SET("three", "") " );");
   char *text;
-  (void)state;
   result[0] = (sets_result){.set = config_setting_get_elem(list, 0), .state = SETS_ABSENT, .repeat = (double)NAN};
   result[1] = (sets_result){.set = config_setting_get_elem(list, 1), .state = SETS_FAILED, .repeat = (double)NAN};
   succeed(sets_report(result, 2, scratch_path("."), &error));
@@ -308,7 +292,6 @@ static const char *report_alone(double noises)
 static void test_sets_report__log_explained_by_its_own_values__differs_from_the_others(void **state)
 {
   const char *text = report_alone(1.1);
-  (void)state;
   assert_contains(text, "| c.csv | 0.5 | 0.11 | 1.1 | k 2 +- 0.1 N/m; b 0, at a bound; 1 not determined |");
   assert_contains(text, "or the bench repeats, 0.11 mm over all of them against 0.5 with common ones");
   assert_contains(text, "what is missing shows only between the logs");
@@ -318,14 +301,12 @@ static void test_sets_report__log_explained_by_its_own_values__differs_from_the_
 static void test_sets_report__log_that_own_values_do_not_explain__lacks_something(void **state)
 {
   const char *text = report_alone(1.3);
-  (void)state;
   assert_contains(text, "With values of their own the logs held out leave 0.13 mm, with common ones 0.5: ");
   assert_null(strstr(text, "what is missing shows only between the logs"));
 }
 
 static void test_sets_report__channel_through_its_sensor__is_told(void **state)
 {
-  (void)state;
   write_report(undecided, "75e-5");
   assert_contains(text_on(ONE("check = \"position\"; check_unit = \"cm\";"),
                           (sets_result){.repeat = (double)NAN,
@@ -341,7 +322,6 @@ static void test_sets_left__slow_wave__correlated_at_lag_1(void **state)
   sets_left left;
   table t;
   int i;
-  (void)state;
   for (i = 0; i < 100; i++)
     snprintf(text + strlen(text), sizeof text - strlen(text), "%d,%d,%.3f,0\n", 1 + i / 50, i,
              i < 50 ? sin(0.1 * i) : (i % 2 ? 1.0 : -1.0));
@@ -360,7 +340,6 @@ static void test_sets_left__slow_wave__correlated_at_lag_1(void **state)
 
 static void test_sets_within__parts__in_any_order(void **state)
 {
-  (void)state;
   assert_true(sets_within("a + b", "b + a"));
   assert_false(sets_within("a + b", "a + bc"));
   assert_false(sets_within("a + bc", "a + b"));
@@ -376,7 +355,6 @@ static void test_sets_cfg__words__hold_no_figures(void **state)
   config_t config;
   size_t w;
   int i;
-  (void)state;
   succeed(lab_config_read(&config, "study/measured/sets.cfg", &error));
   list = config_lookup(&config, "sets");
   assert_true(config_setting_length(list) > 0);

@@ -38,13 +38,11 @@ static void check_law(int flow, double held)
 
 static void test_linear_model_init__any_ratio__is_in_proportion_to_the_difference(void **state)
 {
-  (void)state;
   check_law(LINEAR_FLOW, -1);
 }
 
 static void test_linear_model_init__below_the_critical_ratio__is_held(void **state)
 {
-  (void)state;
   check_law(LINEAR_CHOKED_FLOW, pow(2 / 2.3, 1.3 / 0.3));
 }
 
@@ -53,7 +51,6 @@ static void test_linear_model_init__law_of_the_library__is_that_of_pneu_model_in
   pneu_model model;
   pneu_laws laws = {PNEU_GAS_ENERGY, PNEU_FLOW_ISO6358, 0, 0};
   const pneu_params p = fixture_params(FIXTURE_R1_400);
-  (void)state;
   assert_int_equal(linear_model_init(&model, &p, &laws, NULL), PNEU_OK);
   assert_null(model.own_flow);
   laws.flow = LINEAR_CHOKED_FLOW + 1;

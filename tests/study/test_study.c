@@ -40,7 +40,6 @@ static const char *file_with(const char *key, const char *instead)
 
 static void test_study_read__whole_file__is_taken_up(void **state)
 {
-  (void)state;
   unsetenv("MEASURED");
   succeed(study_read(file_with("", ""), &s, &error));
   assert_int_equal(s.n_actuators, 1);
@@ -59,7 +58,6 @@ static void test_study_read__whole_file__is_taken_up(void **state)
 
 static void test_study_read__measured_in_the_environment__wins(void **state)
 {
-  (void)state;
   setenv("MEASURED", "elsewhere", 1);
   assert_int_equal(study_read(file_with("", ""), &s, &error), LAB_OK);
   unsetenv("MEASURED");
@@ -96,7 +94,6 @@ static void test_study_read__bad_keys__are_refused(void **state)
       {"H4", "H4 = { bench_sets = ( ( 2, 2 ) ); };", "H4.bench_sets[0][1]"},
   };
   int i;
-  (void)state;
   for (i = 0; i < (int)(sizeof cases / sizeof *cases); i++) {
     check_note("%s", cases[i].instead);
     assert_int_equal(study_read(file_with(cases[i].key, cases[i].instead), &s, &error), LAB_DATA);
@@ -109,7 +106,6 @@ static void test_study_read__bad_keys__are_refused(void **state)
 static void test_study_read__path_too_long__is_refused(void **state)
 {
   char path[2 * STUDY_PATH_TEXT], text[3 * STUDY_PATH_TEXT];
-  (void)state;
   memset(path, 'a', sizeof path);
   path[sizeof path - 1] = 0;
   assert_int_equal(study_read(path, &s, &error), LAB_DATA);
@@ -127,7 +123,6 @@ static void test_study_save__table__is_written_and_noted(void **state)
 {
   static study_saved saved;
   table t;
-  (void)state;
   snprintf(s.results, sizeof s.results, "%s", scratch_folder);
   table_open(&t, "a");
   table_row(&t, "g", 7.0);
@@ -151,7 +146,6 @@ static void test_study_laws__others_than_the_rig_s__keep_its_inputs(void **state
 {
   lab_rig rig;
   pneu_laws laws;
-  (void)state;
   lab_rig_default(&rig);
   rig.laws.position_input = 1;
   laws = study_laws(&rig, PNEU_GAS_ENERGY, PNEU_FLOW_ISO6358);

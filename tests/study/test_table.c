@@ -24,7 +24,6 @@ static void test_table_write__numbers_and_text__rows_in_order(void **state)
 {
   char text[256];
   table t;
-  (void)state;
   table_open(&t, "flow,p [kPa],x [mm]");
   table_row(&t, "sgg", "paper", 1.5, -2.0);
   table_row(&t, "sgg", "choked", 1.0 / 3.0, 1e-12);
@@ -37,7 +36,6 @@ static void test_table_write__commas_quotes_breaks__quoted(void **state)
 {
   char text[256];
   table t;
-  (void)state;
   table_open(&t, "a,b,c");
   table_row(&t, "sss", "one, two", "say \"x\"", "line\nbreak");
   written(&t, text, sizeof text);
@@ -49,7 +47,6 @@ static void test_table_write__nan_infinity_negative_zero__empty_inf_zero(void **
 {
   char text[256];
   table t;
-  (void)state;
   table_open(&t, "a,b,c,d");
   table_row(&t, "gggs", (double)NAN, (double)INFINITY, -0.0, (const char *)NULL);
   written(&t, text, sizeof text);
@@ -61,7 +58,6 @@ static void test_table_row__many_rows__all_kept(void **state)
 {
   table t;
   int i;
-  (void)state;
   table_open(&t, "i,name");
   for (i = 0; i < 1000; i++)
     table_row(&t, "gs", (double)i, i % 2 ? "odd" : "even");
@@ -77,7 +73,6 @@ static void test_table_row__text_given__copied(void **state)
 {
   char name[] = "before";
   table t;
-  (void)state;
   table_open(&t, "name");
   table_row(&t, "s", name);
   strcpy(name, "after");
@@ -90,7 +85,6 @@ static void test_table_write__file_refuses__world_error(void **state)
   lab_error error;
   table t;
   FILE *file = fopen("/dev/null", "r"); /* open for reading only */
-  (void)state;
   assert_non_null(file);
   table_open(&t, "a");
   assert_int_equal(table_write(&t, file, &error), LAB_WORLD);
@@ -103,7 +97,6 @@ static void test_table_write__memory_ran_out__world_error(void **state)
 {
   lab_error error;
   table t;
-  (void)state;
   table_open(&t, "a");
   t.failed = 1;
   table_row(&t, "g", 1.0);

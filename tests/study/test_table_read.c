@@ -17,7 +17,6 @@ static void assert_refused(const char *text, const char *words)
 static void test_table_load_file__quotes_and_numbers__are_read(void **state)
 {
   table t;
-  (void)state;
   assert_int_equal(
       table_load_file(scratch_text("t.csv", "name,value [m],note\n\"a, \"\"b\"\"\",1.5,x\nc,,y\n"), &t, &error),
       LAB_OK);
@@ -32,7 +31,6 @@ static void test_table_load_file__quotes_and_numbers__are_read(void **state)
 static void test_table_load_file__column_that_is_missing__is_empty(void **state)
 {
   table t;
-  (void)state;
   assert_int_equal(table_load_file(scratch_text("t.csv", "name,value\na,1\n"), &t, &error), LAB_OK);
   assert_int_equal(table_column(&t, "val"), -1);
   assert_string_equal(table_text(&t, 0, "val"), "");
@@ -42,7 +40,6 @@ static void test_table_load_file__column_that_is_missing__is_empty(void **state)
 
 static void test_table_load_file__row_of_other_length__is_refused(void **state)
 {
-  (void)state;
   assert_refused("a,b\n1,2\n1\n", "t.csv:3: expected 2 fields");
   assert_refused("a,b\n1,2,3\n", "t.csv:2: expected 2 fields");
 }
@@ -50,7 +47,6 @@ static void test_table_load_file__row_of_other_length__is_refused(void **state)
 static void test_table_load_file__no_file__is_refused(void **state)
 {
   table t;
-  (void)state;
   assert_int_equal(table_load_file(scratch_path("nothere.csv"), &t, &error), LAB_DATA);
   assert_contains(error.text, "there is no such file");
   table_close(&t);
@@ -60,7 +56,6 @@ static void test_table_load__results_folder__is_where_it_looks(void **state)
 {
   static study s;
   table t;
-  (void)state;
   scratch_text("t.csv", "a\n7\n");
   snprintf(s.results, sizeof s.results, "%s", scratch_folder);
   assert_int_equal(table_load(&s, "t.csv", &t, &error), LAB_OK);

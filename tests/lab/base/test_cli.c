@@ -45,7 +45,6 @@ static void assert_usage(const char *line, const char *words)
 
 static void test_lab_cli_read__all_options__set_their_values(void **state)
 {
-  (void)state;
   assert_int_equal(read_line("--out o.csv --step --grid 12 --tol 1e-3 --quiet m.cfg"), LAB_OK);
   assert_string_equal(text, "o.csv");
   assert_int_equal(flag, 1);
@@ -59,7 +58,6 @@ static void test_lab_cli_read__all_options__set_their_values(void **state)
 
 static void test_lab_cli_read__o__is_out(void **state)
 {
-  (void)state;
   assert_int_equal(read_line("-o o.csv m.cfg"), LAB_OK);
   assert_string_equal(text, "o.csv");
   assert_usage("m.cfg -o", "-o");
@@ -67,7 +65,6 @@ static void test_lab_cli_read__o__is_out(void **state)
 
 static void test_lab_cli_read__no_options__keeps_the_defaults(void **state)
 {
-  (void)state;
   assert_int_equal(read_line("m.cfg"), LAB_OK);
   assert_string_equal(text, "default");
   assert_int_equal(flag, 0);
@@ -78,7 +75,6 @@ static void test_lab_cli_read__no_options__keeps_the_defaults(void **state)
 
 static void test_lab_cli_read__options_between_operands__are_found(void **state)
 {
-  (void)state;
   assert_int_equal(read_line("m.cfg --out=x l.csv --step"), LAB_OK);
   assert_string_equal(text, "x");
   assert_int_equal(flag, 1);
@@ -88,7 +84,6 @@ static void test_lab_cli_read__options_between_operands__are_found(void **state)
 
 static void test_lab_cli_read__two_dashes__end_the_options(void **state)
 {
-  (void)state;
   assert_int_equal(read_line("-- --step"), LAB_OK);
   assert_int_equal(flag, 0);
   assert_string_equal(cli.operand[0], "--step");
@@ -97,7 +92,6 @@ static void test_lab_cli_read__two_dashes__end_the_options(void **state)
 static void test_lab_cli_read__threads__reach_openmp(void **state)
 {
   int before = omp_get_max_threads();
-  (void)state;
   assert_int_equal(read_line("--threads 3 m.cfg"), LAB_OK);
   assert_int_equal(cli.threads, 3);
   assert_int_equal(omp_get_max_threads(), 3);
@@ -106,7 +100,6 @@ static void test_lab_cli_read__threads__reach_openmp(void **state)
 
 static void test_lab_cli_read__unknown_option__names_the_nearest(void **state)
 {
-  (void)state;
   assert_usage("--stepp m.cfg", "--stepp: unknown or ambiguous option; the nearest known one is --step");
   assert_usage("m.cfg --quit", "--quiet");
   assert_usage("-x m.cfg", "-x");
@@ -114,14 +107,12 @@ static void test_lab_cli_read__unknown_option__names_the_nearest(void **state)
 
 static void test_lab_cli_read__argument_missing_or_too_many__is_said(void **state)
 {
-  (void)state;
   assert_usage("m.cfg --out", "--out: expected an argument");
   assert_usage("m.cfg --step=5", "--step=5");
 }
 
 static void test_lab_cli_read__bad_number__gives_the_bounds(void **state)
 {
-  (void)state;
   assert_usage("--grid 1 m.cfg", "--grid: expected a whole number, 2 to 50, found \"1\"");
   assert_usage("--grid 51 m.cfg", "found \"51\"");
   assert_usage("--grid 2.5 m.cfg", "found \"2.5\"");
@@ -134,7 +125,6 @@ static void test_lab_cli_read__bad_number__gives_the_bounds(void **state)
 
 static void test_lab_cli_read__wrong_number_of_operands__is_said(void **state)
 {
-  (void)state;
   assert_usage("", "expected MODEL.cfg [LOG.csv], found 0 operands");
   assert_usage("a b c", "found 3 operands");
 }
@@ -171,7 +161,6 @@ static void test_lab_cli_read__help__lists_every_option(void **state)
                          "where to write",
                          "Exit status"};
   size_t i;
-  (void)state;
   assert_int_equal(cli.done, 1);
   for (i = 0; i < sizeof words / sizeof words[0]; i++)
     assert_contains(shown, words[i]);
@@ -181,7 +170,6 @@ static void test_lab_cli_read__help__lists_every_option(void **state)
 static void test_lab_cli_read__version__names_program_and_library(void **state)
 {
   char *shown = output_of("--version");
-  (void)state;
   assert_int_equal(cli.done, 1);
   assert_contains(shown, "sample (libpneu) ");
   free(shown);
@@ -190,7 +178,6 @@ static void test_lab_cli_read__version__names_program_and_library(void **state)
 static void test_lab_progress_count__no_terminal_or_quiet__writes_nothing(void **state)
 {
   lab_progress progress;
-  (void)state;
   lab_progress_begin(&progress, "fit", 1);
   assert_null(progress.stream);
   lab_progress_count(&progress, 1, 2, 0);
@@ -216,7 +203,6 @@ static void test_lab_progress_count__half_done__tells_time_to_go_and_clears(void
   char path[512], *shown;
   FILE *file;
   lab_progress progress;
-  (void)state;
   strcpy(path, scratch_path("progress"));
   file = fopen(path, "w");
   assert_non_null(file);

@@ -50,7 +50,6 @@ static void test_lab_colour_whiten__any_colour_with_gaps__has_the_likelihood_of_
   static const lab_colour colour[] = {{0.9, 0.5}, {0.6, 1}, {-0.5, 0.3}, {0.99, 0.1}, {0.2, 0.9}};
   uint64_t seed = 7;
   int k, i;
-  (void)state;
   for (k = 0; k < COUNT(colour); k++) {
     double r[DENSE], white[DENSE], want, want_log, sum = 0, log_size;
     for (i = 0; i < DENSE; i++)
@@ -73,7 +72,6 @@ static void test_lab_colour_whiten__no_white_part__is_the_closed_form(void **sta
   double r[DENSE], white[DENSE];
   uint64_t seed = 3;
   int i;
-  (void)state;
   for (i = 0; i < DENSE; i++)
     r[i] = white[i] = fixture_normal(&seed);
   lab_colour_whiten(&c, white, DENSE);
@@ -88,7 +86,6 @@ static void test_lab_colour_second_difference__sample__is_its_mean_square(void *
   const lab_colour c = {0.7, 0.8};
   double sum = 0;
   int i;
-  (void)state;
   fill(c, 1, 0, 11);
   for (i = 2; i < N; i++)
     sum += pow(y[i] - 2 * y[i - 1] + y[i - 2], 2) / 6;
@@ -114,7 +111,6 @@ static void test_lab_colour_estimate__known_colour__is_found(void **state)
 {
   static const lab_colour colour[] = {{0.6, 1}, {0.9, 0.5}, {0.9, 1}, {0.95, 0.3}, {-0.5, 1}};
   int k, i;
-  (void)state;
   for (k = 0; k < COUNT(colour); k++) {
     const double m = fabs(colour[k].memory), once = (1 + m) / (1 - m);
     double scale = 0;
@@ -132,7 +128,6 @@ static void test_lab_colour_estimate__known_colour__is_found(void **state)
 static void test_lab_colour_estimate__white_noise__has_no_memory(void **state)
 {
   int seed;
-  (void)state;
   for (seed = 1; seed <= 30; seed++) {
     double scale = 3;
     fill((lab_colour){0, 0}, 2, 0.01, (uint64_t)seed * 1000003);
@@ -146,7 +141,6 @@ static void test_lab_colour_estimate__swing__is_no_colour(void **state)
 {
   double scale = 3;
   int i;
-  (void)state;
   fill((lab_colour){0, 0}, 1, 0, 5);
   for (i = 0; i < N; i++)
     y[i] += 3 * sin(0.2 * i);
@@ -157,7 +151,6 @@ static void test_lab_colour_estimate__stretch_in_which_something_moves__does_not
 {
   double scale = 0;
   int i;
-  (void)state;
   fill((lab_colour){0.9, 0.5}, 2, 0, 9);
   for (i = 600; i < 800; i++)
     y[i] += 40 * exp(-0.05 * (i - 600));
@@ -169,7 +162,6 @@ static void test_lab_colour_estimate__stretch_in_which_something_moves__does_not
 static void test_lab_colour_estimate__short_stretches__tell_a_long_memory(void **state)
 {
   int seed;
-  (void)state;
   for (seed = 1; seed <= 10; seed++) {
     double scale = 0;
     fill((lab_colour){0.9, 0.8}, 2, 0.01, (uint64_t)seed * 7919);
@@ -185,7 +177,6 @@ static void test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colou
 {
   double scale = 3, size;
   int rows, i, seed;
-  (void)state;
   for (size = 1; size <= 4; size *= 2)
     for (rows = 60; rows <= 240; rows *= 2)
       for (seed = 1; seed <= 10; seed++) {
@@ -202,7 +193,6 @@ static void test_lab_colour_estimate__late_arrivals__are_no_colour(void **state)
 {
   double scale = 3;
   int rows = 80, i, seed;
-  (void)state;
   for (seed = 1; seed <= 10; seed++) {
     fill((lab_colour){0, 0}, 1, 0, (uint64_t)seed * 15485863);
     for (i = 0; i < N; i++)
@@ -218,7 +208,6 @@ static void test_lab_colour_estimate__memory_without_end__is_no_colour(void **st
 {
   double scale = 3;
   int seed, i;
-  (void)state;
   for (seed = 1; seed <= 10; seed++) {
     uint64_t own = (uint64_t)seed * 32452843;
     double at = 0, to = 0;
@@ -238,7 +227,6 @@ static void test_lab_colour_estimate__few_values__says_nothing(void **state)
   lab_stretch rest = {y, 99};
   lab_colour c;
   double scale = 3;
-  (void)state;
   fill((lab_colour){0.9, 1}, 2, 0, 2);
   assert_int_equal(lab_colour_estimate(&rest, 1, &c, &scale, &error), LAB_OK);
   assert_close(c.memory, 0, 0, 0);

@@ -53,7 +53,6 @@ static void test_lab_csv_cut__cells__are_as_rfc_4180_says(void **state)
       {"a  \"b c\"", ' ', 3, {"a", "", "b c"}},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++) {
     char text[100];
     int k;
@@ -75,7 +74,6 @@ static void test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line(
   static const char *const bad[] = {"\"b\nc\"\n", "x,\"b\"\"\n", "\"", " \"b"};
   size_t i;
   int more;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof *bad; i++) {
     char text[100];
     snprintf(text, sizeof text, "a\n%s", bad[i]);
@@ -91,7 +89,6 @@ static void test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line(
 
 static void test_lab_csv_line__comments_and_ends_of_lines__count_as_lines(void **state)
 {
-  (void)state;
   open_text("\xEF\xBB\xBF# one\r\na,b\r\n#\n\n # c");
   csv.comment = '#';
   assert_int_equal(lab_csv_lines(&csv), 5);
@@ -111,7 +108,6 @@ static void test_lab_csv_line__comments_and_ends_of_lines__count_as_lines(void *
 static void test_lab_csv_restart__rows_that_were_cut__come_again(void **state)
 {
   int i;
-  (void)state;
   open_text("\"a,\"\"\",b\nc,d\n");
   for (i = 0; i < 2; i++) {
     next_row(2);
@@ -128,7 +124,6 @@ static void test_lab_csv_restart__rows_that_were_cut__come_again(void **state)
 static void test_lab_csv_is_over__blank_lines_to_the_end__are_nothing(void **state)
 {
   int more;
-  (void)state;
   open_text("\na\n \n\t\r\n");
   assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_OK);
   assert_false(lab_csv_is_over(&csv));
@@ -143,7 +138,6 @@ static void test_lab_csv_cut__many_cells__are_counted(void **state)
 {
   char text[3 * LAB_CSV_CELLS] = "y";
   int i;
-  (void)state;
   for (i = 0; i <= LAB_CSV_CELLS; i++)
     strcat(text, ",y");
   open_text(text);
@@ -156,7 +150,6 @@ static void test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart(void 
 {
   char *text = malloc(LAB_CSV_LINE + 4);
   int more;
-  (void)state;
   assert_non_null(text);
   memset(text, '7', LAB_CSV_LINE + 2);
   memcpy(text + LAB_CSV_LINE, "\r\n", 3);

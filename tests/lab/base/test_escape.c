@@ -114,7 +114,6 @@ static void test_lab_is_plain__utf8_without_control__is(void **state)
       "caf\xE9",      "\xC0\xAF",     "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82",
       "\xE2\x80\xAE", "\xE2\x81\xA9", "\xE2\x80\xA8", "\xEF\xBF\xBF",     "\xF8\x88\x80\x80\x80"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof plain / sizeof *plain; i++)
     assert_true(lab_is_plain(plain[i]));
   for (i = 0; i < sizeof not_plain / sizeof *not_plain; i++) {
@@ -126,7 +125,6 @@ static void test_lab_is_plain__utf8_without_control__is(void **state)
 static void test_lab_make_plain__any_name__is_plain_and_as_long(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < NAMES; i++) {
     char text[300];
     strcpy(text, names[i]);
@@ -140,7 +138,6 @@ static void test_lab_make_plain__any_name__is_plain_and_as_long(void **state)
 static void test_lab_fail__any_name__makes_a_plain_message(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < NAMES; i++) {
     lab_fail(&error, LAB_DATA, "%s: words", names[i]);
     assert_true(lab_is_plain(error.text));
@@ -154,7 +151,6 @@ static void test_lab_fail__any_name__makes_a_plain_message(void **state)
 static void test_lab_make_file_name__any_name__is_one_part_of_a_path(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < NAMES; i++) {
     char text[300];
     strcpy(text, names[i]);
@@ -180,7 +176,6 @@ static void look_at_html(const char *name, const char *text)
 
 static void test_lab_put_html__any_name__is_text(void **state)
 {
-  (void)state;
   for_each_name(lab_put_html, look_at_html);
   assert_written(lab_put_html, "<b> & \"it's\"", "&lt;b&gt; &amp; &quot;it&#39;s&quot;");
   assert_written(lab_put_html, "Dr\u00FCcker", "Dr\u00FCcker");
@@ -196,7 +191,6 @@ static void look_at_address(const char *name, const char *text)
 
 static void test_lab_put_address__any_name__is_an_address(void **state)
 {
-  (void)state;
   for_each_name(lab_put_address, look_at_address);
   assert_written(lab_put_address, "50 %/\xC3\xBC", "50%20%25/%C3%BC");
 }
@@ -217,7 +211,6 @@ static void look_at_cell(const char *name, const char *text)
 
 static void test_lab_put_users_cell__any_name__is_no_formula(void **state)
 {
-  (void)state;
   for_each_name(lab_put_users_cell, look_at_cell);
   assert_written(lab_put_users_cell, "press 2", "press 2");
   assert_written(lab_put_users_cell, "=1+1", "'=1+1");
@@ -228,7 +221,6 @@ static void test_lab_put_users_cell__any_name__is_no_formula(void **state)
 
 static void test_lab_put_cell__own_words__are_quoted_where_they_must(void **state)
 {
-  (void)state;
   assert_written(lab_put_cell, "-1.5 Pa", "-1.5 Pa");
   assert_written(lab_put_cell, "a,b", "\"a,b\"");
   assert_written(lab_put_cell, "a\"b", "\"a\"\"b\"");
@@ -240,7 +232,6 @@ static void test_lab_put_cell__own_words__are_quoted_where_they_must(void **stat
 static void test_lab_row_error__file_named_as_a_formula__is_no_formula(void **state)
 {
   lab_outcome outcome;
-  (void)state;
   lab_fail(&error, LAB_DATA, "=1+1.csv: there is no such file");
   lab_row_error(&error, &outcome);
   assert_contains(outcome.row, ",'=1+1.csv: there is no such file");
@@ -265,7 +256,6 @@ static void look_at_config(const char *name, const char *text)
 
 static void test_lab_put_config__any_name__comes_back(void **state)
 {
-  (void)state;
   for_each_name(lab_put_config, look_at_config);
 }
 
@@ -281,7 +271,6 @@ static void look_at_comment(const char *name, const char *text)
 
 static void test_lab_put_comment__any_name__stays_in_the_comment(void **state)
 {
-  (void)state;
   for_each_name(lab_put_comment, look_at_comment);
 }
 
@@ -302,7 +291,6 @@ static char *document(cJSON *root)
 static void test_lab_json_write__any_name__comes_back_plain(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < NAMES; i++) {
     cJSON *root = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(root, "list"), *again;
     char want[300], *text;
@@ -322,7 +310,6 @@ static void test_lab_json_write__numbers__have_nine_digits_or_are_null(void **st
 {
   const double number[] = {4.000000000000001e-05, 0.1 + 0.2, -123456789.123, 2.0 / 3.0, 1e-300, 5, NAN, -INFINITY};
   char *text = document(cJSON_CreateDoubleArray(number, sizeof number / sizeof *number));
-  (void)state;
   assert_string_equal(text, "[4e-05, 0.3, -123456789, 0.666666667, 1e-300, 5, null, null]\n");
   free(text);
 }
@@ -334,7 +321,6 @@ static void test_lab_gnuplot_draw__folder_of_any_name__is_found(void **state)
 {
   char here[1024];
   int i;
-  (void)state;
   assert_non_null(getcwd(here, sizeof here));
   scratch_text("draw.gp", "set terminal svg\nplot IN.'/t.csv' using 1:2\n");
   assert_int_equal(chdir(scratch_folder), 0);
@@ -365,7 +351,6 @@ static void test_lab_gnuplot_draw__folder_of_any_name__is_found(void **state)
 static void test_lab_rig_read__any_name__is_read_or_refused(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < NAMES; i++) {
     char *quoted = written(lab_put_config, names[i]), text[1400];
     lab_rig rig;
@@ -386,7 +371,6 @@ static void test_lab_rig_read__any_name__is_read_or_refused(void **state)
 static void test_lab_rig_read__file_of_any_name__has_a_plain_one(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < NAMES; i++) {
     char file[300];
     lab_rig rig;

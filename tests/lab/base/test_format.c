@@ -10,7 +10,6 @@ static char text[LAB_FORMAT_TEXT];
 
 static void test_lab_format_number__sizes__few_digits_and_powers_only_where_needed(void **state)
 {
-  (void)state;
   assert_string_equal(lab_format_number(0, 3, text), "0");
   assert_string_equal(lab_format_number(0.0136809, 4, text), "0.01368");
   assert_string_equal(lab_format_number(389.8377, 4, text), "389.8");
@@ -24,7 +23,6 @@ static void test_lab_format_number__sizes__few_digits_and_powers_only_where_need
 
 static void test_lab_format_quantity__units__as_engineers_write_them(void **state)
 {
-  (void)state;
   assert_string_equal(lab_format_quantity(5591.45, "Pa", 3, text), "5.59 kPa");
   assert_string_equal(lab_format_quantity(1.98879e-5, "m", 3, text), "0.0199 mm");
   assert_string_equal(lab_format_quantity(1.368e-8, "m2", 4, text), "0.01368 mm²");
@@ -34,7 +32,6 @@ static void test_lab_format_quantity__units__as_engineers_write_them(void **stat
 
 static void test_lab_format_brief__sizes__no_zeros_at_the_end(void **state)
 {
-  (void)state;
   assert_string_equal(lab_format_brief(398200, "Pa", text), "398.2 kPa");
   assert_string_equal(lab_format_brief(0.02, "m", text), "20 mm");
   assert_string_equal(lab_format_brief(12, "N", text), "12 N");
@@ -66,7 +63,6 @@ static void assert_scale(const char *unit)
 static void test_lab_format_as__every_unit_of_the_library__has_the_right_scale(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
     pneu_param_describe(i, &info);
@@ -79,7 +75,6 @@ static void test_lab_format_as__every_unit_of_the_library__has_the_right_scale(v
 
 static void test_lab_format_p__small__is_said_to_be_small(void **state)
 {
-  (void)state;
   assert_string_equal(lab_format_p(0, text), "below 1e-300");
   assert_string_equal(lab_format_p(0.1449, text), "0.14");
   assert_string_equal(lab_format_p(4.1e-188, text), "4.1e-188");

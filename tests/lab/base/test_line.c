@@ -23,7 +23,6 @@ static void test_lab_line__weights__closed_form(void **state)
 {
   const lab_line line = line_of(weighted, 4);
   /* sums of w, w x, w y about 20000 and 3: 10, 18, 3; xx = 44 - 32.4 = 11.6; xy = 12 - 5.4 = 6.6 */
-  (void)state;
   assert_true(lab_line_is_there(&line));
   assert_close(lab_line_slope(&line), 6.6 / 11.6, 0, 1e-12);
   assert_close(lab_line_value(&line, 20001.8), 3.3, 0, 1e-12);
@@ -39,7 +38,6 @@ static void test_lab_line__scatter__widens_the_interval_only_beyond_the_deviatio
   const double on[][3] = {{0, 1, 0.1}, {1, 2, 0.1}, {2, 3, 0.1}};
   const double off[][3] = {{0, 1, 0.1}, {1, 5, 0.1}, {2, 3, 0.1}};
   const lab_line small = line_of(on, 3), large = line_of(off, 3);
-  (void)state;
   assert_close(lab_line_half(&small, 0.05), normal * 0.1 / sqrt(2), 0, 1e-12);
   /* residuals -1, 2, -1: chi2 = 6/0.01 with one degree of freedom, of which t is 12.706 */
   assert_close(lab_line_half(&large, 0.05), 12.706204736432095 * sqrt(6) / sqrt(2), 0, 1e-9);
@@ -49,7 +47,6 @@ static void test_lab_line__two_points__show_no_scatter(void **state)
 {
   const double two[][3] = {{10, 1, 0.3}, {20, 2, 0.4}};
   const lab_line line = line_of(two, 2);
-  (void)state;
   assert_close(lab_line_slope(&line), 0.1, 0, 1e-14);
   assert_close(lab_line_half(&line, 0.05), normal * 0.5 / 10, 0, 1e-12);
   assert_close(lab_line_scatter(&line), 0, 0, 1e-12);
@@ -59,7 +56,6 @@ static void test_lab_line__one_place__has_no_slope(void **state)
 {
   const double one[][3] = {{20000.3, 1, 1}, {20000.3, 2, 0.7}, {20000.3, 4, 0.1}};
   const lab_line line = line_of(one, 3);
-  (void)state;
   assert_false(lab_line_is_there(&line));
 }
 
@@ -69,7 +65,6 @@ static void test_lab_line__reaches__ends_where_the_band_does(void **state)
   const lab_line line = line_of(weighted, 4);
   double at[3];
   int i;
-  (void)state;
   assert_true(lab_line_reaches(&line, 6, 0.2, at));
   assert_close(lab_line_value(&line, at[0]), 6, 0, 1e-9);
   assert_true(at[1] < at[0] && at[0] < at[2]);
@@ -87,7 +82,6 @@ static void test_lab_line__half__holds_as_often_as_it_says(void **state)
   static const double truth[] = {1, 3};
   uint64_t seed = 1;
   size_t k;
-  (void)state;
   for (k = 0; k < 2; k++) {
     int i, trial, held = 0;
     for (trial = 0; trial < TRIALS; trial++) {

@@ -11,7 +11,6 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 
 static void test_lab_name_distance__known_pairs__counts_edits(void **state)
 {
-  (void)state;
   assert_int_equal(lab_name_distance("kitten", "sitting"), 3);
   assert_int_equal(lab_name_distance("", "abc"), 3);
   assert_int_equal(lab_name_distance("abc", ""), 3);
@@ -20,20 +19,17 @@ static void test_lab_name_distance__known_pairs__counts_edits(void **state)
 
 static void test_lab_name_distance__swapped_letters__is_one(void **state)
 {
-  (void)state;
   assert_int_equal(lab_name_distance("aera", "area"), 1);
 }
 
 static void test_lab_name_distance__other_case__is_zero(void **state)
 {
-  (void)state;
   assert_int_equal(lab_name_distance("Area", "aREA"), 0);
 }
 
 static void test_lab_name_distance__very_long_names__stays_inside(void **state)
 {
   char a[400], b[400];
-  (void)state;
   memset(a, 'a', sizeof a - 1);
   memset(b, 'b', sizeof b - 1);
   a[sizeof a - 1] = b[sizeof b - 1] = '\0';
@@ -42,20 +38,17 @@ static void test_lab_name_distance__very_long_names__stays_inside(void **state)
 
 static void test_lab_name_nearest__typing_error__finds_the_name(void **state)
 {
-  (void)state;
   assert_string_equal(lab_name_nearest("spring_rat", rows, ROWS, sizeof rows[0]), "spring_rate");
   assert_string_equal(lab_name_nearest("deadvolume", rows, ROWS, sizeof rows[0]), "dead_volume");
 }
 
 static void test_lab_name_nearest__empty_table__is_empty(void **state)
 {
-  (void)state;
   assert_string_equal(lab_name_nearest("x", rows, 0, sizeof rows[0]), "");
 }
 
 static void test_lab_name_index__exact_name__is_its_row(void **state)
 {
-  (void)state;
   assert_int_equal(lab_name_index("spring_rate", rows, ROWS, sizeof rows[0]), 2);
   assert_int_equal(lab_name_index("Spring_rate", rows, ROWS, sizeof rows[0]), -1);
 }

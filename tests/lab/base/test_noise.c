@@ -29,7 +29,6 @@ static void test_lab_noise_estimate__white_noise__is_its_deviation(void **state)
 {
   static const double sigma[] = {1e-6, 0.5, 3e5};
   int k;
-  (void)state;
   for (k = 0; k < COUNT(sigma); k++) {
     fill_white(sigma[k], (uint64_t)k + 1);
     check_note("sigma %g", sigma[k]);
@@ -40,7 +39,6 @@ static void test_lab_noise_estimate__white_noise__is_its_deviation(void **state)
 static void test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviation(void **state)
 {
   int i;
-  (void)state;
   fill_white(0.5, 8);
   for (i = 0; i < N; i++)
     y[i] += 0.01 * i + (i > N / 2 ? 100 : 0);
@@ -50,7 +48,6 @@ static void test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviati
 static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it(void **state)
 {
   int i;
-  (void)state;
   fill_white(1, 4);
   for (i = 0; i < N; i++)
     y[i] += i < N / 2 ? 0 : i < N / 2 + N / 10 ? 50 * sin(i) : 1e4;
@@ -61,7 +58,6 @@ static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_dist
 static void test_lab_noise_estimate__alternating_values__are_the_closed_form(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < N; i++)
     y[i] = i % 2 ? 3 : -3;
   assert_close(noise_of(y, N), 4 * 3 / (sqrt(6) * 0.67448975019608171), 0, 1e-12);
@@ -70,7 +66,6 @@ static void test_lab_noise_estimate__alternating_values__are_the_closed_form(voi
 static void test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < N; i++)
     y[i] = 0.5 * i;
   assert_close(noise_of(y, N), 0.125, 0, 1e-12);
@@ -81,7 +76,6 @@ static void test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_
 {
   const double step = 2;
   int i;
-  (void)state;
   fill_white(0.05, 5);
   for (i = 0; i < N; i++)
     y[i] = step * floor((y[i] + 1e-3 * i) / step + 0.5);
@@ -93,7 +87,6 @@ static void test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_litt
 {
   const double step = 0.25;
   int i;
-  (void)state;
   fill_white(1, 6);
   for (i = 0; i < N; i++)
     y[i] = step * floor(y[i] / step + 0.5);
@@ -105,7 +98,6 @@ static void test_lab_noise_estimate__steps_as_large_as_noise__add_their_own(void
 {
   static const double step[] = {0.7, 1, 1.5, 2};
   int i, k;
-  (void)state;
   for (k = 0; k < COUNT(step); k++) {
     fill_white(1, 9);
     for (i = 0; i < N; i++)
@@ -118,7 +110,6 @@ static void test_lab_noise_estimate__steps_as_large_as_noise__add_their_own(void
 static void test_lab_noise_estimate__gaps__do_not_count(void **state)
 {
   int i;
-  (void)state;
   fill_white(0.5, 7);
   for (i = 0; i < N; i++)
     if (i % 7 == 3)
@@ -133,7 +124,6 @@ static void test_lab_noise_estimate__fewer_than_eight_differences__says_nothing(
 {
   static const double ten[] = {1, -1, 1, -1, 1, -1, 1, -1, 1, -1};
   double gap[10];
-  (void)state;
   assert_true(isfinite(noise_of(ten, 10)));
   assert_true(isnan(noise_of(ten, 9)));
   assert_true(isnan(noise_of(ten, 1)));
@@ -146,7 +136,6 @@ static void test_lab_noise_estimate__fewer_than_eight_differences__says_nothing(
 static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < N; i++)
     y[i] = 7;
   assert_close(noise_of(y, N), 0, 0, 0);
@@ -157,7 +146,6 @@ static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
 static void test_lab_smallest_step__values_on_a_grid__is_its_step(void **state)
 {
   static const double grid[] = {0, 7.5, 5, 5, 2.5, 10, -10};
-  (void)state;
   assert_close(lab_smallest_step(grid, 7), 2.5, 0, 0);
   assert_close(lab_smallest_step(grid, 2), 7.5, 0, 0);
 }
@@ -165,14 +153,12 @@ static void test_lab_smallest_step__values_on_a_grid__is_its_step(void **state)
 static void test_lab_smallest_step__gaps__are_no_steps(void **state)
 {
   static const double gap[] = {0, 3, NAN, 4, 8, NAN};
-  (void)state;
   assert_close(lab_smallest_step(gap, 6), 3, 0, 0);
 }
 
 static void test_lab_smallest_step__nothing_changes__is_none(void **state)
 {
   static const double same[] = {4, 4, 4}, none[] = {NAN, NAN, 1};
-  (void)state;
   assert_close(lab_smallest_step(same, 3), 0, 0, 0);
   assert_close(lab_smallest_step(none, 3), 0, 0, 0);
   assert_close(lab_smallest_step(same, 1), 0, 0, 0);
@@ -184,7 +170,6 @@ static void test_lab_resolution__converter__is_its_step(void **state)
 {
   uint64_t seed = 3;
   int i;
-  (void)state;
   for (i = 0; i < N; i++)
     y[i] = 1e-5 * nearbyint(1e5 * 0.0305176 * nearbyint(fixture_normal(&seed) + 2 * sin(0.01 * i)));
   y[N / 2] = (double)NAN;
@@ -194,7 +179,6 @@ static void test_lab_resolution__converter__is_its_step(void **state)
 static void test_lab_resolution__smooth_or_without_steps__is_none(void **state)
 {
   int i;
-  (void)state;
   fill_white(1, 4);
   assert_close(lab_resolution(y, N), 0, 0, 0);
   for (i = 0; i < N; i++)

@@ -20,7 +20,6 @@ static void assert_reads(const char *text, char decimal, char thousands, double 
 
 static void test_lab_number_read__plain_numbers__are_exact(void **state)
 {
-  (void)state;
   assert_reads("0", '.', 0, 0);
   assert_reads("-12.5", '.', 0, -12.5);
   assert_reads("+3", '.', 0, 3);
@@ -36,7 +35,6 @@ static void test_lab_number_read__random_numbers__equal_strtod(void **state)
 {
   uint64_t seed = 88172645463325252u;
   int i;
-  (void)state;
   for (i = 0; i < 100000; i++) {
     char text[64];
     double scale, want;
@@ -50,21 +48,18 @@ static void test_lab_number_read__random_numbers__equal_strtod(void **state)
 
 static void test_lab_number_read__decimal_comma__is_a_point(void **state)
 {
-  (void)state;
   assert_reads("1,25", ',', 0, 1.25);
   assert_reads("-1,25e2", ',', 0, -125);
 }
 
 static void test_lab_number_read__thousands_marks__are_left_out(void **state)
 {
-  (void)state;
   assert_reads("1.234,5", ',', '.', 1234.5);
   assert_reads("1'234'567.5", '.', '\'', 1234567.5);
 }
 
 static void test_lab_number_read__thousands_equal_decimal__keeps_the_last(void **state)
 {
-  (void)state;
   assert_reads("1.100.000", '.', '.', 1100);
   assert_reads("100.250", '.', '.', 100.25);
 }
@@ -73,7 +68,6 @@ static void test_lab_number_read__nothing_or_nan__is_a_gap(void **state)
 {
   const char *gaps[] = {"", "  ", "nan", "NaN", " NAN "};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof gaps / sizeof gaps[0]; i++) {
     double value = 0;
     assert_int_equal(read(gaps[i], '.', 0, &value), LAB_NUMBER_GAP);
@@ -86,7 +80,6 @@ static void test_lab_number_read__not_a_finite_decimal__is_bad(void **state)
   const char *bad[] = {"abc", "1.2.3", "1,5", "0x1A", "inf", "-inf",   "1e999",
                        "--1", "1 2",   "-",   ".",    "1e",  "nan(1)", "12kPa"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     double value;
     if (read(bad[i], '.', 0, &value) != LAB_NUMBER_BAD)
@@ -98,7 +91,6 @@ static void test_lab_number_read__very_long_field__is_bad(void **state)
 {
   char text[1000];
   double value;
-  (void)state;
   memset(text, '1', sizeof text - 1);
   text[sizeof text - 1] = '\0';
   assert_int_equal(read(text, '.', 0, &value), LAB_NUMBER_BAD);
@@ -113,7 +105,6 @@ static void test_lab_number_write__any_number__is_short_and_the_same(void **stat
   char text[LAB_NUMBER_TEXT];
   uint64_t seed = 5;
   int i;
-  (void)state;
   for (i = 0; i < (int)(sizeof row / sizeof *row); i++)
     assert_string_equal(lab_number_write(row[i].value, text), row[i].text);
   for (i = 0; i < 10000; i++) {

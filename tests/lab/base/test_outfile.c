@@ -32,7 +32,6 @@ static int write_text(const char *file, const char *text)
 
 static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
 {
-  (void)state;
   use(scratch_path("new.csv"));
   assert_int_equal(write_text(path, "whole\n"), LAB_OK);
   assert_content(path, "whole\n");
@@ -41,7 +40,6 @@ static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
 
 static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
 {
-  (void)state;
   use(scratch_text("old.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
   fputs("new\n", out.file);
@@ -53,7 +51,6 @@ static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
 
 static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void **state)
 {
-  (void)state;
   use(scratch_text("kept.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
   fputs("half", out.file);
@@ -65,7 +62,6 @@ static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void *
 
 static void test_lab_out_end__status_of_who_wrote__decides(void **state)
 {
-  (void)state;
   use(scratch_text("ended.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
   fputs("new\n", out.file);
@@ -79,7 +75,6 @@ static void test_lab_out_end__status_of_who_wrote__decides(void **state)
 
 static void test_lab_out_open__missing_folders__are_made(void **state)
 {
-  (void)state;
   use(scratch_path("a/b/c.csv"));
   assert_int_equal(write_text(path, "x"), LAB_OK);
   assert_content(path, "x");
@@ -88,7 +83,6 @@ static void test_lab_out_open__missing_folders__are_made(void **state)
 static void test_lab_out_open__name_without_folder__is_in_the_present_one(void **state)
 {
   char before[1024];
-  (void)state;
   assert_non_null(getcwd(before, sizeof before));
   assert_int_equal(chdir(scratch_folder), 0);
   assert_int_equal(write_text("bare.csv", "x"), LAB_OK);
@@ -98,7 +92,6 @@ static void test_lab_out_open__name_without_folder__is_in_the_present_one(void *
 
 static void test_lab_out_open__file_on_the_way__is_the_worlds_fault(void **state)
 {
-  (void)state;
   scratch_text("plain", "x");
   use(scratch_path("plain/out.csv"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
@@ -110,14 +103,12 @@ static void test_lab_out_open__file_on_the_way__is_the_worlds_fault(void **state
 
 static void test_lab_out_open__folder_that_cannot_be_made__names_it(void **state)
 {
-  (void)state;
   assert_int_equal(write_text("/proc/none/out.csv", "x"), LAB_WORLD);
   assert_contains(error.text, "/proc/none: cannot be made");
 }
 
 static void test_lab_out_open__forbidden_folder__is_the_worlds_fault(void **state)
 {
-  (void)state;
   if (geteuid() == 0)
     skip();
   assert_int_equal(mkdir(scratch_path("locked"), 0500), 0);
@@ -128,7 +119,6 @@ static void test_lab_out_open__forbidden_folder__is_the_worlds_fault(void **stat
 
 static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state)
 {
-  (void)state;
   use(scratch_path("taken"));
   assert_int_equal(mkdir(path, 0777), 0);
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
@@ -138,7 +128,6 @@ static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state
 
 static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
 {
-  (void)state;
   use(scratch_device("full", "/dev/full"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
   assert_contains(error.text, "full: cannot be written: No space left on device");
@@ -149,7 +138,6 @@ static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
 static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(void **state)
 {
   int i;
-  (void)state;
   assert_int_equal(lab_out_open(&out, scratch_device("full", "/dev/full"), &error), LAB_OK);
   for (i = 0; i < 100000; i++)
     fputs("0123456789\n", out.file);
@@ -159,7 +147,6 @@ static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(voi
 
 static void test_lab_out_close__device__is_written_in_place(void **state)
 {
-  (void)state;
   use(scratch_device("null", "/dev/null"));
   assert_int_equal(write_text(path, "x"), LAB_OK);
   assert_true(scratch_is_link(path));
@@ -168,7 +155,6 @@ static void test_lab_out_close__device__is_written_in_place(void **state)
 
 static void test_lab_out_open__no_path__is_standard_output(void **state)
 {
-  (void)state;
   assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
   assert_ptr_equal(out.file, stdout);
   assert_int_equal(lab_out_close(&out, &error), LAB_OK);
@@ -179,7 +165,6 @@ static void test_lab_out_open__no_path__is_standard_output(void **state)
 
 static void test_lab_make_folder__nested_or_there__is_made(void **state)
 {
-  (void)state;
   use(scratch_path("x/y/z/"));
   assert_int_equal(lab_make_folder(path, &error), LAB_OK);
   assert_true(scratch_exists(path));
@@ -189,7 +174,6 @@ static void test_lab_make_folder__nested_or_there__is_made(void **state)
 
 static void test_lab_make_folder__file_of_that_name__is_refused(void **state)
 {
-  (void)state;
   assert_int_equal(lab_make_folder(scratch_text("a_file", "x"), &error), LAB_WORLD);
 }
 

@@ -30,7 +30,6 @@ static void assert_filled(const char *template, const char *values, const char *
 static void test_lab_template_write__text__is_escaped_unless_asked(void **state)
 {
   const char values[] = "{\"a\": \"<b> & \\\"it's\\\"\"}";
-  (void)state;
   assert_filled("[{{a}}]", values, "[&lt;b&gt; &amp; &quot;it&#39;s&quot;]");
   assert_filled("[{{{a}}}]", values, "[<b> & \"it's\"]");
   assert_filled("[{{b}}]", values, "[]");
@@ -39,7 +38,6 @@ static void test_lab_template_write__text__is_escaped_unless_asked(void **state)
 
 static void test_lab_template_write__sections__repeat_and_vanish(void **state)
 {
-  (void)state;
   assert_filled("{{#l}}<{{a}}{{b}}>{{/l}}.", "{\"b\": \"x\", \"l\": [{\"a\": \"1\"}, {\"a\": \"2\", \"b\": \"y\"}]}",
                 "<1x><2y>.");
   assert_filled("{{#l}}{{.}},{{/l}}", "{\"l\": [\"p\", \"<\"]}", "p,&lt;,");
@@ -56,7 +54,6 @@ static void test_lab_template_write__open_tags__are_errors(void **state)
   cJSON *object = cJSON_Parse("{\"a\": \"x\"}");
   FILE *file = tmpfile();
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof *bad; i++) {
     check_note("%s", bad[i]);
     assert_int_equal(lab_template_write(file, bad[i], object, &error), LAB_DATA);
@@ -70,7 +67,6 @@ static void test_lab_page_join__items_shown_one_behind_the_other__have_it_betwee
   const char *const pieces[] = {"<{{#l}}", "{{{.}}}", "{{/l}}>", NULL};
   char *template = lab_template_text(pieces), *values;
   cJSON *object = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(object, "l");
-  (void)state;
   lab_json_join(list, "; ", "%d", 1);
   lab_json_join(list, "; ", "%s", "two");
   values = cJSON_PrintUnformatted(object);
@@ -83,7 +79,6 @@ static void test_lab_page_join__items_shown_one_behind_the_other__have_it_betwee
 /* Under a list that is not there nothing is made, so that nothing is lost. */
 static void test_lab_page_append__no_list__nothing(void **state)
 {
-  (void)state;
   assert_null(lab_json_append(NULL));
   lab_json_put(NULL, "a", "%d", 1);
   lab_json_say(NULL, "%d", 1);

@@ -47,7 +47,6 @@ static void assert_refused(const char *path, const char *words)
 
 static void test_lab_text_open__no_file_on_a_disk__is_refused(void **state)
 {
-  (void)state;
   alarm(60);
   assert_refused(pipe_file(), "this is a pipe or a device");
   assert_refused("/dev/zero", "this is a pipe or a device");
@@ -58,7 +57,6 @@ static void test_lab_text_open__no_file_on_a_disk__is_refused(void **state)
 
 static void test_lab_text_open__too_large__is_refused(void **state)
 {
-  (void)state;
   assert_refused(sparse_file("large", (off_t)2 << 30), "expected at most 512 MB, found 2048");
 }
 
@@ -68,7 +66,6 @@ static void test_lab_text_read__as_large_as_may_be_and_empty__ends_soon(void **s
   const char *path = sparse_file("sparse", LAB_TEXT_MAX);
   const clock_t start = clock();
   lab_text text;
-  (void)state;
   assert_int_equal(lab_text_read(path, &text, &error), LAB_DATA);
   assert_contains(error.text, "sparse:2: expected text, found a 0 byte");
   assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 0.2);
@@ -77,7 +74,6 @@ static void test_lab_text_read__as_large_as_may_be_and_empty__ends_soon(void **s
 static void test_lab_text_read__lines_that_end_in_cr_alone__are_lines(void **state)
 {
   lab_text text;
-  (void)state;
   assert_int_equal(lab_text_read(scratch_text("mac.csv", "t [s],x [mm]\r0,1\r"), &text, &error), LAB_OK);
   assert_string_equal(text.data, "t [s],x [mm]\n0,1\n");
   lab_text_free(&text);
@@ -92,7 +88,6 @@ static void test_lab_log_read__a_thousand_columns__are_refused(void **state)
   lab_log_format format;
   lab_log log;
   int i;
-  (void)state;
   for (i = 0; i < 1000; i++)
     strcat(text, i ? ",- [1]" : "t [s]");
   lab_log_format_default(&format);
@@ -103,7 +98,6 @@ static void test_lab_log_read__a_thousand_columns__are_refused(void **state)
 static void test_lab_append__more_than_fits__is_cut(void **state)
 {
   char text[8] = "ab";
-  (void)state;
   lab_append(text, sizeof text, "%s", ", cd");
   assert_string_equal(text, "ab, cd");
   lab_append(text, sizeof text, "%d", 1234);

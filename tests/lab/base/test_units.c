@@ -23,7 +23,6 @@ static void assert_bad(const char *text, const char *unit, const char *part)
 
 static void test_lab_quantity__units_of_rig_files__become_si(void **state)
 {
-  (void)state;
   assert_quantity("400 cm^2", "m2", 0.04);
   assert_quantity("500 N.s/m", "N.s/m", 500);
   assert_quantity("4 kN/m", "N/m", 4000);
@@ -40,7 +39,6 @@ static void test_lab_quantity__units_of_rig_files__become_si(void **state)
 /* As sheets write them: all pressures of a rig file are above ambient. */
 static void test_lab_quantity__words_of_sheets__are_read(void **state)
 {
-  (void)state;
   assert_quantity("20 psig", "Pa", 20 * 6894.757293168361);
   assert_quantity("2.5 barg", "Pa", 250000);
   assert_quantity("2.5 bar(g)", "Pa", 250000);
@@ -62,7 +60,6 @@ static void test_lab_quantity__change_of_unit__adds_no_digits(void **state)
                {"25 degC", "K", 298.15},       {"0.3 kPa", "Pa", 300},
                {"400.7 kN/m", "N/m", 400.7e3}, {"4.000000000000001e-05", "m3", 4.000000000000001e-05}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof cases / sizeof *cases; i++) {
     double value;
     check_note("%s", cases[i].text);
@@ -73,14 +70,12 @@ static void test_lab_quantity__change_of_unit__adds_no_digits(void **state)
 
 static void test_lab_quantity__plain_number__is_si(void **state)
 {
-  (void)state;
   assert_quantity("0.04", "m2", 0.04);
   assert_quantity(" 12 ", "Pa", 12);
 }
 
 static void test_lab_quantity__percent_and_one__work(void **state)
 {
-  (void)state;
   assert_quantity("5 %", "1", 0.05);
   assert_quantity("5%", "1", 0.05);
   assert_quantity("0.3 1", "1", 0.3);
@@ -88,7 +83,6 @@ static void test_lab_quantity__percent_and_one__work(void **state)
 
 static void test_lab_quantity__temperature__has_its_offset(void **state)
 {
-  (void)state;
   assert_quantity("25 degC", "K", 298.15);
   assert_quantity("298.15 K", "K", 298.15);
   assert_quantity("77 degF", "K", 298.15);
@@ -97,14 +91,12 @@ static void test_lab_quantity__temperature__has_its_offset(void **state)
 static void test_lab_quantity_difference__temperature__has_no_offset(void **state)
 {
   double got = NAN;
-  (void)state;
   assert_int_equal(lab_quantity_difference("0.5 degC", "K", &got, &error), LAB_OK);
   assert_close(got, 0.5, 1e-12, 0);
 }
 
 static void test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands(void **state)
 {
-  (void)state;
   assert_quantity("3.5 W/K^(4/3)", "W/K^(4/3)", 3.5);
   assert_quantity("3.5", "W/K^(4/3)", 3.5);
   assert_quantity("3.5 W/K^1.333", "W/K^1.333", 3.5);
@@ -113,14 +105,12 @@ static void test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands(vo
 
 static void test_lab_quantity__wrong_dimension__names_found_and_expected(void **state)
 {
-  (void)state;
   assert_bad("5 kg", "m2", "expected a unit like m2 (m2), found \"kg\" (kg)");
   assert_bad("4 kN/m", "Pa", "kg.s-2");
 }
 
 static void test_lab_quantity__unknown_unit__is_named(void **state)
 {
-  (void)state;
   assert_bad("5 furlongs_per_fortnight", "m2", "furlongs_per_fortnight");
   assert_bad("5 furlongs_per_fortnight", "m2", "expected a unit like m2, found the unknown unit");
   assert_bad("5 m^0.5", "m", "m^0.5");
@@ -129,7 +119,6 @@ static void test_lab_quantity__unknown_unit__is_named(void **state)
 
 static void test_lab_quantity__no_finite_number__is_an_error(void **state)
 {
-  (void)state;
   assert_bad("", "m", "expected a number");
   assert_bad("mm", "m", "expected a number");
   assert_bad("nan mm", "m", "expected a number");
@@ -141,14 +130,12 @@ static void test_lab_quantity__no_finite_number__is_an_error(void **state)
 
 static void test_lab_quantity__logarithmic_unit__is_refused(void **state)
 {
-  (void)state;
   assert_bad("3 lg(re 1 mW)", "W", "straight line");
 }
 
 static void test_lab_unit_factor__column_units__give_scale_and_offset(void **state)
 {
   double scale, offset;
-  (void)state;
   assert_int_equal(lab_unit_factor("degC", "K", &scale, &offset, &error), LAB_OK);
   assert_close(scale, 1, 1e-15, 0);
   assert_close(offset, 273.15, 1e-12, 0);

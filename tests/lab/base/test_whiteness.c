@@ -11,7 +11,6 @@ enum { ROWS = 400 };
 static void test_lab_chi2_tail__one_two_four_degrees__closed_forms(void **state)
 {
   double x;
-  (void)state;
   for (x = 0; x < 60; x += 0.7) {
     check_note("x = %g", x);
     assert_close(lab_chi2_tail(x, 1), erfc(sqrt(x / 2)), 0, 1e-13);
@@ -28,7 +27,6 @@ static void test_lab_chi2_tail__printed_points__their_probability(void **state)
     double five, one;
   } table[] = {{3, 7.815, 11.345}, {10, 18.307, 23.209}, {25, 37.652, 44.314}, {60, 79.082, 88.379}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof table / sizeof *table; i++) {
     check_note("%d degrees", table[i].degrees);
     assert_close(lab_chi2_tail(table[i].five, table[i].degrees), 0.05, 0, 5e-4);
@@ -54,7 +52,6 @@ static void test_lab_chi2_tail__many_degrees__the_integral_of_the_density(void *
 {
   static const int degrees[] = {3, 7, 18, 37, 60};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof degrees / sizeof *degrees; i++) {
     check_note("%d degrees", degrees[i]);
     assert_close(lab_chi2_tail(20, degrees[i]), integrated_tail(20, degrees[i]), 0, 1e-9);
@@ -98,19 +95,16 @@ static double refused(double rho, int gaps, int draws)
 /* 2000 draws: a standard deviation of 0.5 %; Q is chi-square to first order in lags/n, which is 7 %. */
 static void test_lab_whiteness_test__white__refused_at_its_rate(void **state)
 {
-  (void)state;
   assert_between(refused(0, 0, 2000), 0.035, 0.07);
 }
 
 static void test_lab_whiteness_test__white_with_gaps__refused_at_its_rate(void **state)
 {
-  (void)state;
   assert_between(refused(0, 1, 2000), 0.035, 0.07);
 }
 
 static void test_lab_whiteness_test__autoregressive__refused(void **state)
 {
-  (void)state;
   assert_between(refused(0.4, 0, 200), 0.99, 1);
   assert_between(refused(0.4, 1, 200), 0.9, 1);
 }
@@ -121,7 +115,6 @@ static void test_lab_whiteness_test__autoregressive__correlation_is_rho_to_the_l
   static double r[N];
   const lab_stretch stretch = {r, N};
   lab_whiteness w;
-  (void)state;
   seed = 3;
   draw(0.8, r, N);
   lab_whiteness_test(&stretch, 1, &w);
@@ -138,7 +131,6 @@ static void test_lab_whiteness_test__constant__is_not_white(void **state)
   const lab_stretch stretch = {r, ROWS};
   lab_whiteness w;
   int i;
-  (void)state;
   seed = 4;
   draw(0, r, ROWS);
   for (i = 0; i < ROWS; i++)
@@ -153,7 +145,6 @@ static void test_lab_whiteness_test__gap_and_edge__no_pair_across(void **state)
   const double first[] = {1, -1, 1, -1, 1, -1, 1, -1}, second[] = {2, (double)NAN, 1};
   const lab_stretch stretch[] = {{first, 8}, {second, 3}};
   lab_whiteness w;
-  (void)state;
   lab_whiteness_test(stretch, 2, &w);
   assert_int_equal(w.n, 10);
   assert_int_equal(w.lags, 2);
@@ -168,7 +159,6 @@ static void test_lab_whiteness_test__too_few_values__says_nothing(void **state)
   const double r[] = {1, 2, (double)NAN}, zero[8] = {0};
   const lab_stretch few = {r, 3}, nothing = {zero, 8};
   lab_whiteness w;
-  (void)state;
   lab_whiteness_test(&few, 1, &w);
   assert_true(isnan(w.p_value));
   lab_whiteness_test(&nothing, 1, &w);

@@ -11,14 +11,12 @@ static const double ambient = 100000; /* [Pa] */
 
 static int forget(void **state)
 {
-  (void)state;
   lab_log_free(&rows);
   return 0;
 }
 
 static int fresh_format(void **state)
 {
-  (void)state;
   lab_log_format_default(&format);
   memset(&error, 0, sizeof error);
   return 0;
@@ -87,7 +85,6 @@ static void check_lines(const int *want, size_t n)
 
 static void test_lab_log_read__documented_format__gives_si(void **state)
 {
-  (void)state;
   read_log("# a remark\nt [ms],u [%],p [bar],x [mm],T [degC],force [kN]\n"
            "0,0,0,0,25,0\n# another\n10,50,1.5,2.5,26,-0.25\n");
   assert_column(TIME, 1e-15, 0, 0.01);
@@ -103,7 +100,6 @@ static void test_lab_log_read__documented_format__gives_si(void **state)
 
 static void test_lab_log_read__absolute_pressures__become_gauge(void **state)
 {
-  (void)state;
   read_log("t [s],p_abs [kPa],ps_abs [bar],p2_abs [Pa]\n0,120,5,100000\n");
   assert_column(P, 1e-9, 20000);
   assert_column(PS, 1e-9, 400000);
@@ -112,7 +108,6 @@ static void test_lab_log_read__absolute_pressures__become_gauge(void **state)
 
 static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted(void **state)
 {
-  (void)state;
   read_log("\xEF\xBB\xBF\"t [s]\", \"u [1]\"\r\n0, 1\r\n1, 0\r\n\r\n \r\n");
   assert_column(U, 0, 1, 0);
 }
@@ -120,7 +115,6 @@ static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted
 /* A mark in quotes is text, and a number in quotes is a number. */
 static void test_lab_log_read__cells_in_quotes__are_cells(void **state)
 {
-  (void)state;
   read_log("\"t [s]\",u [1],\"-\"\n\"0\",\"1\",\"hall 2, \"\"east\"\"\"\n1,0,west\n");
   assert_column(U, 0, 1, 0);
 }
@@ -128,7 +122,6 @@ static void test_lab_log_read__cells_in_quotes__are_cells(void **state)
 static void test_lab_log_command_changes__between_two_rows__counts(void **state)
 {
   lab_log none;
-  (void)state;
   read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n");
   none = rows;
   none.value[LAB_CHANNEL_U] = NULL;
@@ -142,14 +135,12 @@ static void test_lab_log_command_changes__between_two_rows__counts(void **state)
 
 static void test_lab_log_read__last_line_without_end__counts(void **state)
 {
-  (void)state;
   read_log("\xEF\xBB\xBFt [s],u [1]\n0,0\n1,0.5");
   assert_column(U, 0, 0, 0.5);
 }
 
 static void test_lab_log_read__empty_field_or_nan__is_a_gap(void **state)
 {
-  (void)state;
   read_log("t [s],u [1],p [kPa],x [mm]\n0,0,,1\n1,0,nan,NaN\n2,0,3,\n");
   assert_column(P, 1e-9, NAN, NAN, 3000);
   assert_column(X, 1e-15, 1e-3, NAN, NAN);
@@ -157,14 +148,12 @@ static void test_lab_log_read__empty_field_or_nan__is_a_gap(void **state)
 
 static void test_lab_log_read__column_named_minus__is_ignored(void **state)
 {
-  (void)state;
   read_log("t [s],-,p [kPa]\n0,what,1\n1,ever,2\n");
   assert_column(P, 1e-9, 1000, 2000);
 }
 
 static void test_lab_log_read__uneven_times__are_kept(void **state)
 {
-  (void)state;
   read_log("t [s],u [1]\n-1,0\n0.001,0\n7.25,0\n");
   assert_column(TIME, 0, -1, 0.001, 7.25);
 }
@@ -173,7 +162,6 @@ static void test_lab_log_read__uneven_times__are_kept(void **state)
 
 static void test_lab_log_read__semicolons_and_decimal_comma__are_read(void **state)
 {
-  (void)state;
   format.delimiter = ';';
   format.decimal = ',';
   read_log("t [s];p [bar]\n0,5;1,25\n");
@@ -183,7 +171,6 @@ static void test_lab_log_read__semicolons_and_decimal_comma__are_read(void **sta
 
 static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state)
 {
-  (void)state;
   format.delimiter = ';';
   format.thousands = '.';
   set_columns("t [ms]", "-", "p [bar]");
@@ -194,7 +181,6 @@ static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state
 
 static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
 {
-  (void)state;
   format.delimiter = '\t';
   format.skip_lines = 2;
   set_columns("t [ms]", "x [mm]", "force [N]");
@@ -208,7 +194,6 @@ static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
 {
   static const char *const units[] = {"bara", "bar(a)", "bar abs"};
   size_t i;
-  (void)state;
   read_log("t [s],p [kPaa]\n0,120\n");
   assert_column(P, 1e-9, 20000);
   for (i = 0; i < sizeof units / sizeof *units; i++) {
@@ -221,7 +206,6 @@ static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
 
 static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state)
 {
-  (void)state;
   format.delimiter = ';';
   set_columns("t [s]", "p_abs [hPa]", "u [1/4096]");
   read_log("0;1029.27;0\n0.01;1029.4;2048\n");
@@ -231,7 +215,6 @@ static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state
 
 static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
 {
-  (void)state;
   format.scale[LAB_CHANNEL_X] = -1;
   format.offset[LAB_CHANNEL_X] = 0.070;
   format.scale[LAB_CHANNEL_P] = 2;
@@ -242,7 +225,6 @@ static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
 
 static void test_lab_log_read__constants__fill_a_channel(void **state)
 {
-  (void)state;
   format.constant[LAB_CHANNEL_U] = -1;
   read_log("t [s],p [kPa]\n0,1\n1,2\n");
   assert_column(U, 0, -1, -1);
@@ -250,7 +232,6 @@ static void test_lab_log_read__constants__fill_a_channel(void **state)
 
 static void test_lab_log_read__time_step__makes_time(void **state)
 {
-  (void)state;
   format.time_step = 0.5;
   read_log("p [kPa],x [mm]\n0,1\n1,2\n2,3\n");
   assert_column(TIME, 0, 0, 0.5, 1);
@@ -258,7 +239,6 @@ static void test_lab_log_read__time_step__makes_time(void **state)
 
 static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(void **state)
 {
-  (void)state;
   format.time_step = 0.5;
   format.damaged = LAB_DAMAGED_DROP;
   format.from = 0.5;
@@ -268,7 +248,6 @@ static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(v
 
 static void test_lab_log_read__falling_time__starts_a_run(void **state)
 {
-  (void)state;
   format.new_run = LAB_RUN_T_DROPS;
   read_log("t [ms],p [bar]\n13,0\n20,1\n1,0\n21,1\n30,2\n0,0\n");
   assert_runs(0, 2, 5, 6);
@@ -278,7 +257,6 @@ static void test_lab_log_read__many_runs__are_all_listed(void **state)
 {
   char text[20000] = "t [s],p [bar]\n";
   size_t i;
-  (void)state;
   for (i = 0; i < 700; i++)
     strcat(text, "0,1\n1,2\n");
   format.new_run = LAB_RUN_T_DROPS;
@@ -290,7 +268,6 @@ static void test_lab_log_read__many_runs__are_all_listed(void **state)
 
 static void test_lab_log_read__window__keeps_rows_inside_and_counts_the_others(void **state)
 {
-  (void)state;
   format.from = 1;
   format.to = 2;
   read_log("t [s],p [bar]\n0,0\n1,1\n2,2\n3,3\n");
@@ -300,7 +277,6 @@ static void test_lab_log_read__window__keeps_rows_inside_and_counts_the_others(v
 
 static void test_lab_log_read__damaged_rows_to_drop__are_counted(void **state)
 {
-  (void)state;
   format.damaged = LAB_DAMAGED_DROP;
   format.new_run = LAB_RUN_T_DROPS;
   read_log("t [ms],p [bar]\n0,1\n127136, 904, 306\n5,0.5\n7,x\n5,1\n9\n8,0.25\n0,1\n");
@@ -324,7 +300,6 @@ static void set_long_format(void)
 
 static void test_lab_log_read__long_format__joins_rows_of_one_time(void **state)
 {
-  (void)state;
   set_long_format();
   format.constant[LAB_CHANNEL_U] = -1;
   read_log("quantity,t_s,value\np_bar_abs,0,8\np_bar_abs,2,7\nT_K,1,290\nT_K,2,280\nwall,2,300\nT_K,0,298\n");
@@ -337,7 +312,6 @@ static void test_lab_log_read__long_format__joins_rows_of_one_time(void **state)
 
 static void test_lab_log_read__long_format_with_command__holds_it(void **state)
 {
-  (void)state;
   set_long_format();
   strcpy(format.quantity[1].word, "valve");
   strcpy(format.quantity[1].column, "u [1]");
@@ -347,7 +321,6 @@ static void test_lab_log_read__long_format_with_command__holds_it(void **state)
 
 static void test_lab_log_read__position_in_percent__is_of_the_stroke(void **state)
 {
-  (void)state;
   format.stroke = 0.02;
   read_log("t [s],x [%]\n0,50\n1,100\n");
   assert_column(X, 1e-17, 0.01, 0.02);
@@ -358,7 +331,6 @@ static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **sta
   static const char *const units[] = {"%", "mm", "1", "cm"};
   static const double half[] = {50, 10, 0.5, 1};
   int i;
-  (void)state;
   format.stroke = 0.02;
   for (i = 0; i < 4; i++) {
     char text[80];
@@ -377,14 +349,12 @@ static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **sta
 
 static void test_lab_log_read__set_position_as_a_current__is_4_to_20_mA(void **state)
 {
-  (void)state;
   read_log("t [s],sp [mA],x [mm]\n0,4,0\n1,8,0\n2,20,1\n");
   assert_column(SP, 1e-12, 0, 0.25, 1);
 }
 
 static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void **state)
 {
-  (void)state;
   read_log("t [s],sp [%],u [1],x [mm]\n0,10,0,0\n1,,1,0\n2,20,1,0\n");
   assert_int_equal(lab_log_command(&rows), LAB_CHANNEL_U);
   assert_column(SP, 1e-15, 0.1, NAN, 0.2);
@@ -395,7 +365,6 @@ static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void
 
 static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void **state)
 {
-  (void)state;
   format.command_is_pressure = 1;
   read_log("t [s],u [kPa]\n0,80\n");
   assert_column(U, 1e-9, 80000);
@@ -407,7 +376,6 @@ static void test_lab_log_read__weights__add_columns_up(void **state)
 {
   static const double weight[] = {1, 0.5, -0.5, 0.5, -0.5};
   static const char *const column[] = {"t [s]", "p [hPa]", "p [hPa]", "p [hPa]", "p [hPa]"};
-  (void)state;
   for (format.n_columns = 0; format.n_columns < 5; format.n_columns++)
     strcpy(format.column[format.n_columns], column[format.n_columns]);
   format.weighted = 5;
@@ -420,7 +388,6 @@ static void test_lab_log_read__weights__add_columns_up(void **state)
 
 static void test_lab_log_read__way_back__is_reversed(void **state)
 {
-  (void)state;
   set_columns("-", "p [kPa]", "x [mm]");
   format.time_step = 10;
   format.way_back = LAB_CHANNEL_P;
@@ -433,7 +400,6 @@ static void test_lab_log_read__way_back__is_reversed(void **state)
 
 static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state)
 {
-  (void)state;
   set_columns("p [kPa]", NULL, NULL);
   format.time_step = 10;
   format.way_back = LAB_CHANNEL_P;
@@ -444,7 +410,6 @@ static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state
 
 static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run(void **state)
 {
-  (void)state;
   set_columns("t [s]", "p [bar]", NULL);
   format.new_run = LAB_RUN_T_DROPS;
   format.every = 2;
@@ -458,7 +423,6 @@ static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_ru
 static void test_lab_log_read__held_out__takes_other_rows_and_another_window(void **state)
 {
   static const char text[] = "0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n";
-  (void)state;
   set_columns("t [s]", "p [bar]", NULL);
   format.every = 2;
   format.to = 3;
@@ -477,7 +441,6 @@ static void test_lab_log_read__held_out__takes_other_rows_and_another_window(voi
 
 static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
 {
-  (void)state;
   set_columns("t [s]", "p [bar]", NULL);
   strcpy(format.name[LAB_CHANNEL_X], "_l [dm]");
   strcpy(format.name[LAB_CHANNEL_PS], "_p [bar]");
@@ -490,7 +453,6 @@ static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
 
 static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
 {
-  (void)state;
   set_columns("t [ms]", "p [bar]", "p2 [bar]");
   format.new_run = LAB_RUN_T_DROPS;
   format.runs = LAB_RUNS_MEAN;
@@ -518,7 +480,6 @@ static void set_lead(void)
 
 static void test_lab_log_read__lead__comes_before_each_run(void **state)
 {
-  (void)state;
   set_columns("t [ms]", "p [bar]", NULL);
   format.new_run = LAB_RUN_T_DROPS;
   set_lead();
@@ -532,7 +493,6 @@ static void test_lab_log_read__lead__comes_before_each_run(void **state)
 
 static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **state)
 {
-  (void)state;
   set_columns("t [ms]", "p [bar]", NULL);
   format.new_run = LAB_RUN_T_DROPS;
   set_lead();
@@ -547,7 +507,6 @@ static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **
 /* A command that the lead does not give is that of the first row, which it is in effect before. */
 static void test_lab_log_read__lead_without_command__has_that_of_the_first_row(void **state)
 {
-  (void)state;
   set_columns("t [s]", "u [1]", "p [Pa]");
   set_lead();
   format.lead[0][LAB_CHANNEL_U] = NAN;
@@ -558,7 +517,6 @@ static void test_lab_log_read__lead_without_command__has_that_of_the_first_row(v
 /* A lead may name a channel that has only gaps in the run. */
 static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
 {
-  (void)state;
   set_columns("t [s]", "p [Pa]", "x [m]");
   set_lead();
   format.lead[0][LAB_CHANNEL_P] = NAN;
@@ -569,7 +527,6 @@ static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
 
 static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(void **state)
 {
-  (void)state;
   set_columns("t [s]", "pressure [Pa]", NULL);
   assert_refused("0,1\n", "log.columns", "unknown channel \"pressure\"");
   set_columns("quantity", "t [s]", "value");
@@ -581,7 +538,6 @@ static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(voi
 
 static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines(void **state)
 {
-  (void)state;
   set_columns("quantity", "t [s]", "value");
   format.n_quantities = 2;
   strcpy(format.quantity[0].word, "a");
@@ -594,7 +550,6 @@ static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_line
 
 static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
 {
-  (void)state;
   set_columns("t [ms]", "p [bar]", NULL);
   set_lead();
   assert_refused("0,1\n20,2\n", "log.csv:1", "begins after its lead");
@@ -604,21 +559,18 @@ static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state
 
 static void test_lab_log_read__missing_file__says_so(void **state)
 {
-  (void)state;
   assert_int_equal(lab_log_read(scratch_path("none.csv"), &format, ambient, &rows, &error), LAB_DATA);
   assert_contains(error.text, "none.csv: there is no such file");
 }
 
 static void test_lab_log_read__folder__says_so(void **state)
 {
-  (void)state;
   assert_int_equal(lab_log_read(scratch_folder, &format, ambient, &rows, &error), LAB_DATA);
   assert_contains(error.text, "this is a folder");
 }
 
 static void test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault(void **state)
 {
-  (void)state;
   if (access("/proc/self/mem", R_OK) != 0)
     skip();
   assert_int_equal(lab_log_read("/proc/self/mem", &format, ambient, &rows, &error), LAB_WORLD);
@@ -628,7 +580,6 @@ static void test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault(void
 static void test_lab_log_read__forbidden_file__is_the_worlds_fault(void **state)
 {
   const char *path = scratch_text("secret.csv", "t [s]\n0\n");
-  (void)state;
   if (geteuid() == 0)
     skip();
   assert_int_equal(chmod(path, 0), 0);
@@ -673,7 +624,6 @@ static void test_lab_log_read__bad_file__says_what_is_wrong(void **state)
       {"t [s],u [1]\n0,0\n1,100\n", "log.csv:3:", "expected -1..1, found 100"},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof *bad; i++)
     assert_refused(bad[i].text, bad[i].place, bad[i].words);
 }
@@ -681,7 +631,6 @@ static void test_lab_log_read__bad_file__says_what_is_wrong(void **state)
 static void test_lab_log_read__zero_bytes__are_not_text(void **state)
 {
   const char bytes[] = "t [s],u [1]\n0,0\n1\0,0\n";
-  (void)state;
   assert_int_equal(lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &rows, &error),
                    LAB_DATA);
   assert_contains(error.text, "log.csv:3:");
@@ -690,7 +639,6 @@ static void test_lab_log_read__zero_bytes__are_not_text(void **state)
 
 static void test_lab_log_read__garbage_without_zeros__is_shown_printable(void **state)
 {
-  (void)state;
   assert_refused("\x89PNG\r\x1a\x01\x02\n\x07\n", "log.csv:1: column 1", "?PNG");
   assert_null(strpbrk(error.text, "\x1a\x01\x02\x07\r\n"));
 }
@@ -698,7 +646,6 @@ static void test_lab_log_read__garbage_without_zeros__is_shown_printable(void **
 static void test_lab_log_read__endless_line__is_refused(void **state)
 {
   char *text = malloc(LAB_CSV_LINE + 100);
-  (void)state;
   memset(text, '1', LAB_CSV_LINE + 99);
   memcpy(text, "t [s]\n", 6);
   text[LAB_CSV_LINE + 99] = '\0';
@@ -710,14 +657,12 @@ static void test_lab_log_read__endless_line__is_refused(void **state)
 
 static void test_lab_log_read__time_and_time_step__is_refused(void **state)
 {
-  (void)state;
   format.time_step = 1;
   assert_refused("t [s],p [kPa]\n0,0\n", "log.csv:1:", "found both");
 }
 
 static void test_lab_log_read__column_and_constant__is_refused(void **state)
 {
-  (void)state;
   format.constant[LAB_CHANNEL_U] = 1;
   assert_refused("t [s],u [1]\n0,0\n", "log.csv:1:", "log.constants");
 }
@@ -726,7 +671,6 @@ static void test_lab_log_read__too_many_columns__is_refused(void **state)
 {
   char text[1000] = "t [s]";
   int i;
-  (void)state;
   for (i = 0; i < LAB_COLUMN_MAX; i++)
     strcat(text, ",-");
   strcat(text, "\n");
@@ -735,28 +679,24 @@ static void test_lab_log_read__too_many_columns__is_refused(void **state)
 
 static void test_lab_log_read__too_few_lines_to_skip__is_refused(void **state)
 {
-  (void)state;
   format.skip_lines = 5;
   assert_refused("t [s]\n0\n", "log.csv", "more than the 5 lines");
 }
 
 static void test_lab_log_read__nothing_in_the_window__is_refused(void **state)
 {
-  (void)state;
   format.from = 10;
   assert_refused("t [s],u [1]\n0,0\n1,0\n", "log.csv", "2 outside log.window");
 }
 
 static void test_lab_log_read__repeated_time_with_runs__is_still_refused(void **state)
 {
-  (void)state;
   format.new_run = LAB_RUN_T_DROPS;
   assert_refused("t [s],u [1]\n0,0\n0,0\n", "log.csv:3:", "channel t");
 }
 
 static void test_lab_log_read__long_format_faults__are_refused(void **state)
 {
-  (void)state;
   set_long_format();
   assert_refused("h\nT_C,0,8\n", "log.csv:2:", "unknown quantity \"T_C\"");
   assert_refused("h\nT_K,0,290\nT_K,0,291\n", "log.csv:3:", "expected one value of T at t = 0 s");

@@ -102,7 +102,6 @@ static void read_logger(const struct logger *l)
 static void test_lab_log_read__as_loggers_write__is_read_or_answered(void **state)
 {
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof loggers / sizeof loggers[0]; i++) {
     check_note("%s", loggers[i].file);
     read_logger(&loggers[i]);
@@ -141,7 +140,6 @@ static void test_lab_log_read__map__names_a_column_and_its_unit(void **state)
 {
   const char *path =
       scratch_text("m.csv", "Time (s);AI 1;AI 2 (V);Setpoint (%);Pressure (bar)\n0,0;1;2;3;4\n0,1;1;2;3;4\n");
-  (void)state;
   read_well("log = { map = { x = \"AI 1 [mm]\"; p = \"AI 2 (V) [0.6 bar]\"; }; };", path);
   assert_close(seen.value[LAB_CHANNEL_X][1], 1e-3, 1e-15, 0);
   assert_close(seen.value[LAB_CHANNEL_P][1], 1.2e5, 1e-9, 0);
@@ -154,13 +152,11 @@ static void test_lab_log_read__map__names_a_column_and_its_unit(void **state)
 static void test_lab_log_read__map_of_no_column__names_the_nearest(void **state)
 {
   const char *path = scratch_text("m.csv", "Time (s),Setpoint (%),Presure (bar)\n0,0,1\n1,0,1\n");
-  (void)state;
   assert_refused("log = { map = { p = \"Pressure (bar)\"; }; };", path, "the nearest is \"Presure (bar)\"");
 }
 
 static void test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns(void **state)
 {
-  (void)state;
   assert_rig_refused("log = { map = { q = \"a\"; }; };", "log.map.q", "unknown key");
   assert_rig_refused("log = { columns = ( \"t [s]\" ); map = { p = \"a\"; }; };", "log", "give one");
 }
@@ -175,7 +171,6 @@ static void assert_same_again(const char *group)
 /* What is guessed of hard files. */
 static void test_lab_log_read__hard_files__are_guessed_or_told(void **state)
 {
-  (void)state;
   read_well("", scratch_text("h.txt", "Time_s  Setpoint_%  Travel_mm\n0,0   0   1,5\n0,1  50  2,5\n"));
   assert_close(seen.value[LAB_CHANNEL_X][1], 2.5e-3, 1e-15, 0);
   assert_contains(seen.read_as, "blanks between cells, decimal commas");
@@ -200,7 +195,6 @@ static void test_lab_log_read__signals_and_counts__become_what_they_stand_for(vo
       scratch_text("s.csv", "Time (s),AI 1,Position,Setpoint (mV)\n0,4,0,2000\n1,12,6912,6000\n2,20,27648,10000\n");
   static const double p[] = {0, 3e5, 6e5}, x[] = {0.02, 0.015, 0}, sp[] = {0, 0.5, 1};
   int i;
-  (void)state;
   read_well(group, path);
   for (i = 0; i < 3; i++) {
     assert_close(seen.value[LAB_CHANNEL_P][i], p[i], 1e-6, 1e-12);
@@ -222,7 +216,6 @@ static void test_lab_rig_read__signals_that_are_none__are_refused(void **state)
              {"scale = { p = \"4..20 mA\"; }; range = { p = [\"0 bar\", \"0 bar\"]; };", "differ"},
              {"range = { p = [\"0 bar\"]; };", "2 to 2 entries"}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     char text[256];
     snprintf(text, sizeof text, "log = { %s };", bad[i].group);
@@ -233,7 +226,6 @@ static void test_lab_rig_read__signals_that_are_none__are_refused(void **state)
 /* A map and the order of dates are written into model.cfg and read back. */
 static void test_lab_rig_write__map_and_date__are_read_again(void **state)
 {
-  (void)state;
   assert_same_again("log = { map = { p = \"a \\\"b\\\" (bar)\"; x = \"c\"; }; date = \"dmy\"; delimiter = \"blanks\"; "
                     "scale = { x = -2; }; };");
   assert_same_again("log = { columns = ( \"quantity\", \"t [date]\", \"value\" ); quantities = ( (\"A.1 \\\"b\\\"\", "
@@ -243,7 +235,6 @@ static void test_lab_rig_write__map_and_date__are_read_again(void **state)
 /* A file in long form goes by columns and quantities; dates are the unit of its time. */
 static void test_lab_log_read__long_form_of_wincc__is_read_by_keys(void **state)
 {
-  (void)state;
   read_well("log = { skip_lines = 1; columns = ( \"quantity\", \"t [date]\", \"value\", \"-\", \"-\" );\n"
             "quantities = { SP = \"sp [%]\"; P_bar = \"p [bar]\"; Hub_mm = \"x [mm]\"; }; };",
             "tests/loggers/wincc.csv");
@@ -254,7 +245,6 @@ static void test_lab_log_read__order_of_dates__is_that_of_the_rig_file(void **st
 {
   const char *path =
       scratch_text("d.csv", "Time,Setpoint (%),Travel (mm)\n03/04/2024 23:59:59,0,1\n04/04/2024 00:00:01,0,1\n");
-  (void)state;
   read_well("log = { date = \"dmy\"; };", path);
   assert_close(seen.value[LAB_CHANNEL_TIME][1], 2, 1e-9, 0);
   read_well("", path);
@@ -266,7 +256,6 @@ static void test_lab_log_read__order_of_dates__is_that_of_the_rig_file(void **st
 
 static void test_lab_log_read__time_of_day__goes_on_after_midnight(void **state)
 {
-  (void)state;
   read_well("", scratch_text("d.csv",
                              "Time,Setpoint (%)\n23:59:59.5,0\n00:00:00.25,0\n12:00:00,0\n23:00:00,0\n00:00:01,0\n"));
   assert_close(seen.value[LAB_CHANNEL_TIME][1], 0.75, 1e-9, 0);
@@ -288,7 +277,6 @@ static void test_lab_text_read__binary_files__say_what_makes_text_of_them(void *
                 {"TDSm", "TdmsFile"},
                 {"MDF     4.10", "asammdf"}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof binary / sizeof binary[0]; i++)
     assert_refused("", scratch_text("b.csv", binary[i].begin), binary[i].words);
 }
@@ -299,7 +287,6 @@ static void test_lab_text_read__utf16_of_either_order_and_without_mark__is_read(
   char wide[2 * sizeof text + 2];
   int kind;
   size_t i;
-  (void)state;
   for (kind = 0; kind < 4; kind++) { /* bit 0: large byte first; bit 1: no mark */
     size_t n = 0;
     if (kind < 2) {

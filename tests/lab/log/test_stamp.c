@@ -29,7 +29,6 @@ static void test_lab_stamp_read__forms_of_dates__give_day_and_second(void **stat
       {"12:34", LAB_DATE_GUESS, 0, 1, 0, 45240},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof good / sizeof good[0]; i++) {
     lab_stamp stamp = {0};
     check_note("%s", good[i].text);
@@ -47,7 +46,6 @@ static void test_lab_stamp_read__anything_else__is_none(void **state)
                                     "32.01.2024", "25:00",       "12:60", "12:00:61",  "12:00 x",   "1.2.3.4",
                                     "1-2/2024",   "01-Mrz-2024", ":",     "12:00:00;", "T12:00:00", "12:34:56,7,8"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     lab_stamp stamp = {0};
     if (lab_stamp_read(bad[i], bad[i] + strlen(bad[i]), LAB_DATE_GUESS, &stamp))

@@ -58,7 +58,6 @@ static void test_asymmetry_signed__lag_against_line__closed_form(void **state)
   const double end = 1 / 0.99, q = (end - 0.95) / (end - 0.05);
   const double area = (1 + (1 - q) / log(q)) / (1 - q) - 0.5;
   lab_asymmetry r = compare(lagging, straight);
-  (void)state;
   assert_true(area > 0.1);
   assert_close(r.asymmetry_signed, area, 1e-4, 0);
   assert_close(r.asymmetry, area, 1e-4, 0);
@@ -70,7 +69,6 @@ static void test_asymmetry_signed__lag_against_line__closed_form(void **state)
 static void test_asymmetry_signed__strokes_that_cross__areas_cancel(void **state)
 {
   const lab_asymmetry r = compare(wavy, straight);
-  (void)state;
   assert_close(r.asymmetry, 0.05 * 2 / acos(-1) / 0.9, 1e-3, 0);
   assert_close(r.asymmetry_signed, 0, 1e-4, 0);
 }

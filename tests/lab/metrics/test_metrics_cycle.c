@@ -34,7 +34,6 @@ static void test_metrics__cycle__the_paper_s_energies(void **state)
   const double in = A * 4e5 * record_stroke;                           /* [B, Eq. 42] */
   const double spring = k * record_stroke * (x_0 + record_stroke / 2); /* [J] */
   const double out = spring - F * record_stroke, lost = 2 * F * record_stroke;
-  (void)state;
   record_cycle(4e5, x_0, F);
   record_measure();
   assert_metric(LAB_METRIC_ENERGY_IN, in, 0, 1e-9);
@@ -47,7 +46,6 @@ static void test_metrics__cycle__the_paper_s_energies(void **state)
 /* [B, Eqs. 41 to 43]: a spring without preload that the supply just compresses gives back half of what came in. */
 static void test_metrics__spring_that_fills_the_supply__half(void **state)
 {
-  (void)state;
   record_cycle(k * record_stroke / A, 0, 0);
   record_measure();
   assert_close(metric_of(LAB_METRIC_ENERGY_OUT)->value, metrics.metric[LAB_METRIC_ENERGY_IN].value / 2, 0, 1e-6);
@@ -57,7 +55,6 @@ static void test_metrics__spring_that_fills_the_supply__half(void **state)
 /* A bench set low in the supply range leaves more than the paper's limit. */
 static void test_metrics__low_bench_set__above_the_limit_and_said(void **state)
 {
-  (void)state;
   record_cycle(2.4e5, 0, 100);
   record_measure();
   assert_metric(LAB_METRIC_ENERGY_EFFICIENCY, 100 * (1 - (80 + 2) / 192.0), 1e-3, 0);
@@ -67,7 +64,6 @@ static void test_metrics__low_bench_set__above_the_limit_and_said(void **state)
 static void test_metrics__noisy_cycle__within_what_is_said(void **state)
 {
   const double spring = k * record_stroke * (x_0 + record_stroke / 2);
-  (void)state;
   record_cycle(4e5, x_0, F);
   record_noise(500, 2e-5);
   record_p[600] = record_x[3300] = (double)NAN;
@@ -79,7 +75,6 @@ static void test_metrics__noisy_cycle__within_what_is_said(void **state)
 static void test_metrics__air__integral_of_the_flow(void **state)
 {
   const double mass = 1e-4 * 20 * 20 / 2;
-  (void)state;
   record_cycle(4e5, x_0, F);
   record_measure();
   assert_metric(LAB_METRIC_AIR_MASS, mass, 0, 1e-3);
@@ -92,7 +87,6 @@ static void test_metrics__air__integral_of_the_flow(void **state)
 
 static void test_metrics__no_cycle__says_what_is_missing(void **state)
 {
-  (void)state;
   record_cycle(4e5, x_0, F);
   record.supply = 0;
   record_measure();
@@ -115,7 +109,6 @@ static void test_metrics__no_cycle__says_what_is_missing(void **state)
 /* Up in one run and down in the next is no cycle. */
 static void test_metrics__two_runs__are_kept_apart(void **state)
 {
-  (void)state;
   record_cycle(4e5, x_0, F);
   record_first[2] = record.n;
   record_first[1] = 2000;

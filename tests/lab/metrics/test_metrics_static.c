@@ -67,7 +67,6 @@ static void ramps(element *e, const double *level, int n, double rate)
 static void test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis(void **state)
 {
   element e = {20e3, 0, 0, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   stairs(&e, (const double[]){-10, 110, -10, 50}, 4, 2);
   stairs(&e, (const double[]){50, 30, 50}, 3, 0.5);
@@ -83,7 +82,6 @@ static void test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis(void 
 static void test_metrics__play_by_a_slow_ramp_with_noise__the_same(void **state)
 {
   element e = {20e3, 0, 0, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_PRESSURE);
   ramps(&e, (const double[]){-10, 110, -10, 50, 30, 50}, 6, 1);
   record_noise(300, 2e-5);
@@ -100,7 +98,6 @@ static void test_metrics__play_by_a_slow_ramp_with_noise__the_same(void **state)
 static void test_metrics__hysteresis_beside_play__both_apart(void **state)
 {
   element e = {10e3, 0, 0, 16e3, 0};
-  (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   stairs(&e, (const double[]){-10, 110, -10, 10}, 4, 1);
   stairs(&e, (const double[]){10, -5}, 2, 0.5);
@@ -112,7 +109,6 @@ static void test_metrics__hysteresis_beside_play__both_apart(void **state)
 
 static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
 {
-  (void)state;
   measure_stairs((element){0, 0, 0, 0, 0}, (const double[]){0, 60, 30}, 3, 2);
   assert_true(metric_of(LAB_METRIC_DEAD_BAND)->at_most);
   assert_between(metrics.metric[LAB_METRIC_DEAD_BAND].value, 1, 2.5);
@@ -122,7 +118,6 @@ static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
 
 static void test_metrics__stem_that_slips__its_step(void **state)
 {
-  (void)state;
   measure_stairs((element){0, 0, 3e3, 0, 0}, (const double[]){0, 60}, 2, 0.25);
   assert_covers(LAB_METRIC_RESOLUTION, 1.5, 0.15);
   assert_false(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
@@ -131,7 +126,6 @@ static void test_metrics__stem_that_slips__its_step(void **state)
 static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
 {
   element e = {0, 0, 6e3, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_PRESSURE);
   ramps(&e, (const double[]){0, 60}, 2, 1);
   record_noise(100, 5e-6);
@@ -146,7 +140,6 @@ static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
 static void test_metrics__bowed_characteristic__half_the_bow(void **state)
 {
   const double most = 0.96 - 0.03, least = most - 2 * 0.006;
-  (void)state;
   measure_stairs((element){4e3, 0.06, 0, 0, 0}, (const double[]){-10, 110, -10}, 3, 1);
   assert_between(metric_of(LAB_METRIC_LINEARITY)->value, 100 * 0.06 / 2 * least * least, 100 * 0.06 / 2 * most * most);
   assert_denied(LAB_METRIC_HYSTERESIS, "it takes the dead band");
@@ -157,7 +150,6 @@ static void test_metrics__bowed_characteristic__half_the_bow(void **state)
 static void test_metrics__fast_loop__says_so(void **state)
 {
   element e = {20e3, 0, 0, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_PRESSURE);
   ramps(&e, (const double[]){-10, 110, -10, 50, 20}, 5, 30);
   record_measure();
@@ -169,7 +161,6 @@ static void test_metrics__fast_loop__says_so(void **state)
 
 static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
 {
-  (void)state;
   measure_stairs((element){20e3, 0, 0, 0, 0}, (const double[]){-10, 110, -10}, 3, 5);
   assert_denied(LAB_METRIC_DEAD_BAND, "on a stop it does");
   assert_denied(LAB_METRIC_HYSTERESIS, "on a stop it does");
@@ -178,7 +169,6 @@ static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
 
 static void test_metrics__small_loop__says_how_small(void **state)
 {
-  (void)state;
   measure_stairs((element){20e3, 0, 0, 0, 0}, (const double[]){0, 50, 20}, 3, 1);
   assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.6);
   assert_denied(LAB_METRIC_HYSTERESIS_DEAD_BAND, "the largest slow one covers 20 %");
@@ -187,7 +177,6 @@ static void test_metrics__small_loop__says_how_small(void **state)
 static void test_metrics__turn_between_rows__not_known(void **state)
 {
   element e = {20e3, 0, 0, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   stairs(&e, (const double[]){0, 60}, 2, 5);
   hold(&e, 10, 12);
@@ -200,7 +189,6 @@ static void test_metrics__turn_between_rows__not_known(void **state)
 static void test_metrics__one_movement__no_resolution(void **state)
 {
   element e = {0, 0, 0, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   for (e.x = 0; record.n < 480;) {
     hold(&e, 30, 60);
@@ -212,7 +200,6 @@ static void test_metrics__one_movement__no_resolution(void **state)
 
 static void test_metrics__valve_that_snaps__no_line(void **state)
 {
-  (void)state;
   measure_stairs((element){20e3, 0, 190e3, 0, 0}, (const double[]){-10, 110, -10}, 3, 2);
   assert_denied(LAB_METRIC_LINEARITY, "too little of the loop");
 }
@@ -220,7 +207,6 @@ static void test_metrics__valve_that_snaps__no_line(void **state)
 static void test_metrics__no_signal_to_set_it_against__says_so(void **state)
 {
   element e = {20e3, 0, 0, 0, 0};
-  (void)state;
   record_new(LAB_COMMAND_OPENING);
   ramps(&e, (const double[]){-10, 110}, 2, 1);
   record.p = NULL;

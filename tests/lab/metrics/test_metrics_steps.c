@@ -25,7 +25,6 @@ static void record_lag(int steps, double hold, double step, double high)
 
 static void test_metrics__first_order_lag__its_times(void **state)
 {
-  (void)state;
   record_lag(2, 16, 0.001, 0.014);
   record_measure();
   assert_int_equal(metrics.n_steps, 2);
@@ -45,7 +44,6 @@ static void test_metrics__first_order_lag__its_times(void **state)
 static void test_metrics__noise_gaps_uneven_rows__within_what_is_said(void **state)
 {
   double t = 0;
-  (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   while (t < 20) {
     const double since = t - 4;
@@ -76,7 +74,6 @@ static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state
   double square[3] = {0}, said[3] = {0};
   int within[3] = {0}, dead = 0, draw;
   size_t i;
-  (void)state;
   for (draw = 0; draw < DRAWS; draw++) {
     record_lag(1, 16, 0.002, 0.014);
     record_seed = (uint64_t)draw + 1;
@@ -102,7 +99,6 @@ static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state
 static void test_metrics__logged_command__known_within_a_row(void **state)
 {
   double exact;
-  (void)state;
   record_lag(1, 16, 0.01, 0.014);
   record_measure();
   exact = metrics.metric[LAB_METRIC_T86_UP].uncertainty;
@@ -128,7 +124,6 @@ static void record_second_order(double zeta, double sigma)
 static void test_metrics__second_order__its_overshoot(void **state)
 {
   const double zeta = 0.4;
-  (void)state;
   record_second_order(zeta, 0);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 100 * exp(-pi * zeta / sqrt(1 - zeta * zeta)), 0.01, 0);
@@ -140,7 +135,6 @@ static void test_metrics__second_order__its_overshoot(void **state)
 
 static void test_metrics__overdamped_with_noise__no_overshoot(void **state)
 {
-  (void)state;
   record_second_order(0.99, 2e-5);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 0, 0, 0);
@@ -148,7 +142,6 @@ static void test_metrics__overdamped_with_noise__no_overshoot(void **state)
 
 static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 {
-  (void)state;
   record_lag(6, 16, 0.01, 0.014);
   record_measure();
   assert_int_equal(metrics.n_steps, 6);
@@ -160,7 +153,6 @@ static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 
 static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
 {
-  (void)state;
   record_lag(1, 16, 0.2, 0.014);
   record_noise(0, 2e-4);
   record_measure();
@@ -170,7 +162,6 @@ static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
 
 static void test_metrics__unsettled__says_so(void **state)
 {
-  (void)state;
   record_lag(3, 1.5, 0.01, 0.014);
   record_measure();
   assert_denied(LAB_METRIC_T86_UP, "not settled before the next step");
@@ -181,7 +172,6 @@ static void test_metrics__unsettled__says_so(void **state)
 
 static void test_metrics__small_step__says_so(void **state)
 {
-  (void)state;
   record_lag(1, 16, 0.01, 0.0044);
   record_noise(0, 2e-5);
   record_measure();
@@ -191,7 +181,6 @@ static void test_metrics__small_step__says_so(void **state)
 static void test_metrics__gap_before_the_step__says_so(void **state)
 {
   size_t i;
-  (void)state;
   record_lag(1, 16, 0.01, 0.014);
   for (i = 0; record_t[i] < 1.2; i++)
     record_x[i] = (double)NAN;
@@ -206,7 +195,6 @@ static void test_metrics__gap_before_the_step__says_so(void **state)
 static void test_metrics__nothing_to_go_by__says_why(void **state)
 {
   int i;
-  (void)state;
   record_new(LAB_COMMAND_SET_PRESSURE);
   record_measure();
   assert_denied(LAB_METRIC_T63_UP, "no rows");
@@ -240,7 +228,6 @@ static void record_pressure_steps(double rise, double sigma)
 
 static void test_metrics__steps_of_a_measured_pressure__found(void **state)
 {
-  (void)state;
   record_pressure_steps(0.05, 200);
   record_measure();
   assert_int_equal(metrics.n_steps, 1);
@@ -250,7 +237,6 @@ static void test_metrics__steps_of_a_measured_pressure__found(void **state)
 
 static void test_metrics__pressure_that_ramps__is_no_step(void **state)
 {
-  (void)state;
   record_pressure_steps(3, 200);
   record_measure();
   assert_denied(LAB_METRIC_T63_UP, "with a signal that takes its time");
@@ -278,7 +264,6 @@ static void test_metrics__full_strokes__times_and_asymmetry(void **state)
   const double rise = T * (log(1 - 0.05 / 1.05) - log(1 - 0.95 / 1.05)), fall = 0.9 * 4;
   double shape = 0;
   int i;
-  (void)state;
   record_strokes(record_stroke, 4);
   record_measure();
   assert_metric(LAB_METRIC_STROKE_TIME_UP, -T * log(1 - 0.99 / 1.05), 1e-4, 0);
@@ -294,7 +279,6 @@ static void test_metrics__full_strokes__times_and_asymmetry(void **state)
 static void test_metrics__noisy_strokes__within_what_is_said(void **state)
 {
   const double rise = T * (log(1 - 0.05 / 1.05) - log(1 - 0.95 / 1.05));
-  (void)state;
   record_strokes(record_stroke, 4);
   record_noise(0, 2e-5);
   record_measure();
@@ -305,7 +289,6 @@ static void test_metrics__noisy_strokes__within_what_is_said(void **state)
 
 static void test_metrics__part_of_a_stroke__says_how_much(void **state)
 {
-  (void)state;
   record_strokes(0.5 * record_stroke, 4);
   record_measure();
   assert_denied(LAB_METRIC_STROKE_TIME_UP, "the largest step covers 50 % of the travel");

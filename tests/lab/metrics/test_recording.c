@@ -59,7 +59,6 @@ static void test_lab_recording__measured_and_predicted__agree_within_what_is_sai
                              LAB_METRIC_ASYMMETRY,      LAB_METRIC_ENERGY_IN,        LAB_METRIC_ENERGY_OUT,
                              LAB_METRIC_ENERGY_LOST,    LAB_METRIC_ENERGY_EFFICIENCY};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof both / sizeof *both; i++) {
     const lab_metric *a = &measured.metric[both[i]], *b = &predicted.metric[both[i]];
     check_note("%s: %.100s", lab_metric_infos[both[i]].key, a->text);
@@ -75,7 +74,6 @@ static void test_lab_recording__air__what_the_chamber_takes(void **state)
 {
   const double R_T = (double)rig.params.gas_constant * 298.15;
   const double empty = 101325 * 4e-5 / R_T, whole = (101325 + 4e5) * (4e-5 + 0.04 * 0.02) / R_T;
-  (void)state;
   assert_close(predicted.metric[LAB_METRIC_AIR_MASS].value, whole - empty,
                predicted.metric[LAB_METRIC_AIR_MASS].uncertainty, 2e-3);
 }
@@ -85,7 +83,6 @@ static void test_lab_metrics_compare__model_that_fails__its_error_is_the_reason(
   static lab_metrics got, none;
   lab_unknowns broken = u;
   int i;
-  (void)state;
   for (i = 0; i < broken.n; i++)
     if (broken.unknown[i].kind == LAB_UNKNOWN_PARAM)
       broken.unknown[i].value = -1; /* an area */
@@ -99,7 +96,6 @@ static void test_lab_recording__driven_position__gives_nothing(void **state)
 {
   lab_rig driven = rig;
   lab_recording recording;
-  (void)state;
   driven.laws.position_input = 1;
   succeed(lab_recording_open(&driven, 1, 1, &recording, &error));
   assert_non_null(recording.record.unfit);
@@ -110,7 +106,6 @@ static void test_lab_recording__force_and_preload__set_the_bench_set(void **stat
 {
   lab_rig loaded = rig;
   lab_recording recording;
-  (void)state;
   loaded.params.external_force = 400;
   succeed(lab_recording_open(&loaded, 1, 1, &recording, &error));
   assert_close(recording.record.signal_low, 110e3, 0, 1e-12);
@@ -127,7 +122,6 @@ static void test_lab_metrics_json__read_back__every_figure_or_its_reason(void **
   char *text;
   cJSON *root, *figure;
   int i;
-  (void)state;
   assert_non_null(file);
   succeed(lab_metrics_json(file, &measured, &error));
   fclose(file);
@@ -156,7 +150,6 @@ static void test_lab_metrics_print__one_line_a_figure_and_a_step(void **state)
   FILE *file = fopen(path, "w");
   char *text;
   int i, lines = 0;
-  (void)state;
   assert_non_null(file);
   lab_metrics_print(file, &measured);
   fclose(file);
@@ -211,7 +204,6 @@ static int read_step(const char *name, double u_after, lab_metrics *out)
 static void test_metrics__damadics_steps__by_what_was_drawn(void **state)
 {
   lab_metrics up, down;
-  (void)state;
   if (!read_step("step_up_fig6.csv", 1, &up) || !read_step("step_down_fig7.csv", -1, &down))
     return;
   assert_int_equal(up.step[0].fate, LAB_STEP_NOT_SETTLED); /* the figure ends before the stem does */

@@ -55,7 +55,6 @@ static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **st
 {
   static const char *const sheet[] = {"area=400 cm^2", "stroke=20 mm", "supply=400 kPa", "dead_volume=40 cm^3"};
   const lab_rig rig = draft_of(log_path, sheet, 4);
-  (void)state;
   assert_close((double)rig.params.area, 0.04, 0, 1e-6);
   assert_close((double)rig.params.spring_rate, 4e5, 0, 0.1);
   assert_close((double)rig.params.spring_preload, 0.01, 0, 0.2);
@@ -80,7 +79,6 @@ static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **stat
   static const char *const sheet[] = {"bench_set=0.2..1.0 bar", "Kv=0.1",    "vent.xT=0.5",  "tube.length=2 m",
                                       "tube.bore=4 mm",         "name=FV 1", "flow=iso6358", "actuator.stroke=20 mm"};
   const lab_rig rig = draft_of(log_path, sheet, 8);
-  (void)state;
   assert_close((double)rig.params.spring_preload, 0.005, 0, 1e-6);
   assert_true(rig.params.vent_area < rig.params.fill_area);
   assert_string_equal(rig.name, "FV 1");
@@ -96,7 +94,6 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
   static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
                                       "supply=1.4 bar"};
   const lab_rig rig = draft_of(NULL, sheet, 5);
-  (void)state;
   assert_close((double)rig.params.spring_rate, 0.8e5 * 0.035 / 0.015, 0, 1e-9);
   assert_close((double)rig.params.spring_preload, 0.015 / 4, 0, 1e-9);
   assert_int_equal(rig.n_fit, 0);
@@ -115,7 +112,6 @@ static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says
   lab_rig rig = draft_of(NULL, sheet, 5);
   pneu_model model;
   int i;
-  (void)state;
   assert_int_equal(pneu_model_init(&model, &rig.params, &rig.laws, NULL), PNEU_OK);
   for (i = 1; i < 50; i++) {
     const double x = fmin(i / 50.0, 0.72), kg_h = 31.6 * 0.1 * (1 - x / 2.16) * sqrt(x * p1 / 1e5 * p1 / (R * T));
@@ -132,7 +128,6 @@ static void test_lab_draft_write__files_of_loggers__are_read_with_their_draft(vo
 {
   static const char *const files[] = {"excel-de.csv", "valvelink.csv", "numpy-savetxt.csv", "grafana.csv"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof files / sizeof files[0]; i++) {
     char path[256];
     lab_log log;
@@ -165,7 +160,6 @@ static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **st
                                       "positioner.dead_band=0.27 %"};
   const int gain = pneu_param_find("positioner.gain");
   const lab_rig rig = draft_of(NULL, sheet, 4);
-  (void)state;
   assert_true(gain >= 0);
   assert_close((double)*pneu_param_at((pneu_params *)&rig.params, gain), 39.6, 0, 1e-9);
   assert_contains(text, "positioner = { gain = \"39.6\"; dead_band = \"0.27 %\"; }; // sheet");
@@ -174,7 +168,6 @@ static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **st
 static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **state)
 {
   static const char *const twice[] = {"area=1 cm2", "area=2 cm2"};
-  (void)state;
   assert_no_word("aera=1 cm2", LAB_USAGE, "the nearest known one is \"area\"");
   assert_no_word("area", LAB_USAGE, "expected key=value");
   assert_no_word("name=\"x\"", LAB_USAGE, "without quotes");
@@ -195,7 +188,6 @@ static void test_lab_draft_write__actuator_by_name__has_its_makers_values(void *
                    {"actuator=polna-p-630-38", 0.063, 0.038, 2e4, 1e5},
                    {"actuator=siemens-powers-4", 0.0071, 0.102, 2.1e4, 5e4}};
   int i;
-  (void)state;
   for (i = 0; i < (int)(sizeof actuators / sizeof actuators[0]); i++) {
     const lab_rig rig = draft_of(log_path, &actuators[i].name, 1);
     const pneu_params *p = &rig.params;
@@ -214,7 +206,6 @@ static void test_lab_draft_write__actuator_by_name__the_sheet_comes_first(void *
   static const char *const sheet[] = {"actuator=hora-pa-n-280-30", "stroke=25 mm", "bench_set=0.8..2.4 bar"};
   static const char *const unknown[] = {"actuator=hora-pa-n-280"};
   const lab_rig rig = draft_of(log_path, sheet, 3);
-  (void)state;
   assert_close((double)rig.params.stroke, 0.025, 0, 1e-9);
   assert_close((double)rig.params.dead_volume, 0.48e-3, 0, 1e-9);
   assert_contains(text, "stroke = \"25 mm\"; // sheet");
@@ -235,7 +226,6 @@ static void test_lab_draft_write__positioner_by_name__has_its_makers_values(void
   const double unit = (double)draft_of(log_path, kv, 1).params.fill_area;
   lab_rig rig;
   int i;
-  (void)state;
   for (i = 0; i < 2; i++) {
     rig = draft_of(log_path, positioners[i].word, positioners[i].word[1] ? 2 : 1);
     assert_close((double)rig.params.fill_area, positioners[i].fill * unit, 0, 1e-6);
@@ -256,7 +246,6 @@ static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
   lab_sheet_answers answers;
   const char *words[LAB_QUESTIONS];
   int i;
-  (void)state;
   assert_non_null(in);
   assert_non_null(out);
   lab_sheet_ask(in, out, &answers);

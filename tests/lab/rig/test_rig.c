@@ -41,7 +41,6 @@ static double param(const lab_rig *rig, const char *effect, const char *name)
 static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
 {
   lab_rig rig = read_rig(declared);
-  (void)state;
   assert_close(rig.params.area, 0.0677, 0, 1e-14);
   assert_close(rig.params.dead_volume, 120e-6, 0, 1e-14);
   assert_close(rig.params.swept_ratio, 0.9, 0, 1e-14);
@@ -69,7 +68,6 @@ static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
 static void test_lab_rig_read__what_is_not_said__is_assumed(void **state)
 {
   lab_rig rig = read_rig("actuator = { bench_set = [\"0.2 bar\", \"1 bar\"]; damping = \"9 N.s/m\"; };\n");
-  (void)state;
   assert_int_equal(rig.assumed[PNEU_PARAM_damping], 0);
   assert_int_equal(rig.assumed[PNEU_PARAM_spring_rate], 0);
   assert_int_equal(rig.assumed[PNEU_PARAM_dry_friction], 1);
@@ -79,7 +77,6 @@ static void test_lab_rig_read__what_is_not_said__is_assumed(void **state)
 static void test_lab_rig_read__words__become_laws(void **state)
 {
   lab_rig rig = read_rig(declared);
-  (void)state;
   assert_string_equal(rig.name, "37-13");
   assert_int_equal(rig.action, LAB_ACTION_REVERSE);
   assert_int_equal(rig.laws.gas, PNEU_GAS_ENERGY);
@@ -93,7 +90,6 @@ static void test_lab_rig_read__fit_and_noise__are_listed(void **state)
 {
   lab_rig rig = read_rig(declared);
   char name[LAB_PARAM_NAME_TEXT];
-  (void)state;
   assert_int_equal(rig.n_fit, 3);
   assert_int_equal(rig.fit[0], LAB_PARAM_ORIFICE_AREA);
   assert_int_equal(rig.fit[1], PNEU_PARAM_dry_friction);
@@ -112,7 +108,6 @@ static void test_lab_rig_read__fit_per_log__is_marked(void **state)
   static const int want[] = {PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction, PNEU_PARAM_damping,
                              LAB_PARAM_ORIFICE_AREA};
   int i;
-  (void)state;
   assert_int_equal(rig.n_fit, 4);
   for (i = 0; i < 4; i++) {
     assert_int_equal(rig.fit[i], want[i]);
@@ -124,7 +119,6 @@ static void test_lab_rig_read__nothing_declared__takes_the_defaults(void **state
 {
   lab_rig rig = read_rig("// all by default\n");
   pneu_params dflt;
-  (void)state;
   pneu_params_default(&dflt);
   assert_memory_equal(&rig.params, &dflt, sizeof dflt);
   assert_string_equal(rig.name, "rig");
@@ -140,7 +134,6 @@ static void test_lab_rig_read__nothing_declared__takes_the_defaults(void **state
 static void test_lab_rig_read__inputs__set_the_roles(void **state)
 {
   lab_rig rig = read_rig("inputs = [ \"x\", \"p\" ];");
-  (void)state;
   assert_int_equal(rig.laws.pressure_input, 1);
   assert_int_equal(rig.laws.position_input, 1);
   assert_int_equal(rig.input[LAB_CHANNEL_FORCE], 0);
@@ -153,7 +146,6 @@ static void test_lab_rig_read__inputs__set_the_roles(void **state)
 static void test_lab_rig_read__zero_stroke__is_a_vessel(void **state)
 {
   lab_rig rig = read_rig("actuator = { stroke = \"0 mm\"; };");
-  (void)state;
   assert_true(rig.params.stroke == 0);
 }
 
@@ -161,7 +153,6 @@ static void test_lab_rig_read__fitted_effect__is_named_with_its_effect(void **st
 {
   lab_rig rig;
   char name[LAB_PARAM_NAME_TEXT];
-  (void)state;
   fixture_need("chamber_leak");
   rig = read_rig("fit = [ \"chamber_leak.leak_area\" ];");
   assert_int_equal(rig.fit[0], pneu_effect_params(pneu_effect_find("chamber_leak"), NULL));
@@ -171,7 +162,6 @@ static void test_lab_rig_read__fitted_effect__is_named_with_its_effect(void **st
 static void test_lab_rig_read__effects__are_set_by_name(void **state)
 {
   lab_rig rig;
-  (void)state;
   fixture_need("chamber_leak");
   fixture_need("stribeck_friction");
   fixture_need("supply_droop");
@@ -185,7 +175,6 @@ static void test_lab_rig_read__effects__are_set_by_name(void **state)
 static void test_lab_rig_read__stribeck_law__switches_its_effect_on(void **state)
 {
   lab_rig rig;
-  (void)state;
   fixture_need("stribeck_friction");
   rig = read_rig("laws = { friction = \"stribeck\"; };");
   assert_int_equal(rig.friction, LAB_FRICTION_STRIBECK);
@@ -195,7 +184,6 @@ static void test_lab_rig_read__stribeck_law__switches_its_effect_on(void **state
 static void test_lab_rig_read__lugre_law__switches_its_effect_on(void **state)
 {
   lab_rig rig;
-  (void)state;
   fixture_need("presliding");
   rig = read_rig("laws = { friction = \"lugre\"; };");
   assert_true(param(&rig, "presliding", "presliding_length") > 0);
@@ -204,7 +192,6 @@ static void test_lab_rig_read__lugre_law__switches_its_effect_on(void **state)
 static void test_lab_rig_read__effects_before_laws__have_the_last_word(void **state)
 {
   lab_rig rig;
-  (void)state;
   fixture_need("stribeck_friction");
   rig = read_rig("effects = { stribeck_friction = { stribeck_excess = 0.125; }; };\n"
                  "laws = { friction = \"stribeck\"; };");
@@ -217,7 +204,6 @@ static void test_lab_rig_read__log_group__becomes_the_format(void **state)
                          "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
                          "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
                          "  scale = { x = -1; }; offset = { T = \"1 degC\"; }; constants = { u = \"50 %\"; }; };");
-  (void)state;
   assert_int_equal(rig.log.delimiter, '\t');
   assert_int_equal(rig.log.decimal, ',');
   assert_int_equal(rig.log.thousands, '.');
@@ -243,7 +229,6 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
       "  name = { x = \"_l [dm]\"; }; holdout = { window = ( \"5 s\", \"6 s\" ); first = 3; };\n"
       "  new_run = \"t drops\"; runs = \"mean\";\n"
       "  lead = ( { t = \"-1 ms\"; u = 0; p = \"2 bar\"; ps = \"last p\"; x = \"first x\"; }, { t = 0; u = 1; } ); };");
-  (void)state;
   rig = write_and_read(&rig, NULL);
   assert_int_equal(rig.log.weighted, 3);
   assert_close(rig.log.weight[2], -0.25, 0, 0);
@@ -273,7 +258,6 @@ static void test_lab_rig_read__long_log__lists_quantities(void **state)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
                          "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
-  (void)state;
   assert_int_equal(rig.log.n_quantities, 2);
   assert_string_equal(rig.log.quantity[0].word, "p_bar");
   assert_string_equal(rig.log.quantity[0].column, "p [bar]");
@@ -283,7 +267,6 @@ static void test_lab_rig_read__proportional_band__makes_the_command_a_pressure(v
 {
   lab_rig rig = read_rig("log = { constants = { u = \"80 kPa\"; }; };\n"
                          "transducer = { proportional_band = \"5 kPa\"; };");
-  (void)state;
   assert_int_equal(rig.log.command_is_pressure, 1);
   assert_close(rig.log.constant[LAB_CHANNEL_U], 80000, 0, 1e-14);
 }
@@ -291,7 +274,6 @@ static void test_lab_rig_read__proportional_band__makes_the_command_a_pressure(v
 static void test_lab_rig_read__no_fill_area__needs_no_supply(void **state)
 {
   lab_rig rig = read_rig("supply = { pressure = 0; }; transducer = { fill_area = 0; };");
-  (void)state;
   assert_true(rig.params.supply_pressure == 0);
 }
 
@@ -300,7 +282,6 @@ static void test_lab_rig_read__no_fill_area__needs_no_supply(void **state)
 static void test_lab_rig_read__missing_file__says_so(void **state)
 {
   lab_rig rig;
-  (void)state;
   assert_int_equal(lab_rig_read(scratch_path("none.cfg"), &rig, &error), LAB_DATA);
   assert_contains(error.text, "none.cfg: there is no such file");
 }
@@ -310,7 +291,6 @@ static void test_lab_rig_read__binary_file__is_refused(void **state)
   const char bytes[] = "\x7f"
                        "ELF\0\0\0\1";
   lab_rig rig;
-  (void)state;
   assert_int_equal(lab_rig_read(scratch_bytes("rig.cfg", bytes, sizeof bytes), &rig, &error), LAB_DATA);
   assert_contains(error.text, "rig.cfg:1:");
 }
@@ -410,7 +390,6 @@ static void test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where(void *
       {"actuator = { name = \"\"; };\n", "actuator.name", "expected a name"},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bad / sizeof *bad; i++)
     assert_rig_refused(bad[i].text, bad[i].place, bad[i].words);
 }
@@ -418,7 +397,6 @@ static void test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where(void *
 static void test_lab_rig_read__long_name__is_refused(void **state)
 {
   char text[300] = "actuator = { name = \"";
-  (void)state;
   memset(text + strlen(text), 'n', 100);
   strcat(text, "\"; };\n");
   assert_rig_refused(text, "actuator.name", "at most 63 bytes, found 100");
@@ -426,7 +404,6 @@ static void test_lab_rig_read__long_name__is_refused(void **state)
 
 static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
 {
-  (void)state;
   fixture_need("heat_transfer");
   assert_rig_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
                      "effects.heat_transfer.free_convection", "does nothing with the other laws");
@@ -434,7 +411,6 @@ static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
 
 static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **state)
 {
-  (void)state;
   fixture_need("positioner");
   assert_rig_refused("fit = ( \"positioner.gain\" );\n", "positioner.gain is to be fitted",
                      "no positioner is declared");
@@ -444,7 +420,6 @@ static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **sta
 
 static void test_lab_rig_read__bad_effects__are_refused(void **state)
 {
-  (void)state;
   fixture_need("chamber_leak");
   assert_rig_refused("effects = { chamber_leek = { leak_area = 0; }; };\n", "effects.chamber_leek", "\"chamber_leak\"");
   assert_rig_refused("effects = { chamber_leak = { leek_area = 0; }; };\n", "effects.chamber_leak.leek_area",
@@ -486,7 +461,6 @@ static void assert_comes_back(const lab_rig *rig)
 static void test_lab_rig_write__declared_rig__comes_back_bit_for_bit(void **state)
 {
   lab_rig rig = read_rig(declared);
-  (void)state;
   assert_comes_back(&rig);
 }
 
@@ -494,7 +468,6 @@ static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
 {
   lab_rig rig;
   fixture_need("positioner");
-  (void)state;
   rig =
       read_rig("positioner = { gain = 30; integral_time = \"5 s\"; derivative_time = \"20 ms\"; dead_band = \"0.2 %\"; "
                "cutoff_low = \"1 %\"; cutoff_high = \"99 %\"; };\n"
@@ -526,7 +499,6 @@ static void test_lab_rig_free_integral__positioner_that_integrates__begins_anywh
   size_t i;
   lab_rig rig;
   fixture_need("positioner");
-  (void)state;
   rig = read_rig("positioner = { integral_time = \"5 s\"; };\n");
   lab_rig_free_integral(&rig);
   lab_rig_free_integral(&rig);
@@ -545,7 +517,6 @@ static void test_lab_rig_free_integral__positioner_that_integrates__begins_anywh
 static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state)
 {
   fixture_need("positioner");
-  (void)state;
   assert_rig_refused("positioner = { gian = 20; };\n", "positioner.gian", "\"gain\"");
   assert_rig_refused("positioner = { gain = -1; };\n", "positioner.gain", "0");
   assert_rig_refused("effects = { positioner = { gain = 20; }; };\n", "effects.positioner", "unknown");
@@ -559,7 +530,6 @@ static void test_lab_rig_write__remark__heads_the_file(void **state)
 {
   lab_rig rig = read_rig(declared);
   char *text;
-  (void)state;
   write_and_read(&rig, "two lines\nof remark");
   text = scratch_read(scratch_path("again.cfg"));
   assert_int_equal(strncmp(text, "// two lines\n// of remark\nactuator = {\n", 39), 0);
@@ -570,7 +540,6 @@ static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
 {
   char text[2000] = "log = { quantities = {";
   int i;
-  (void)state;
   for (i = 0; i <= LAB_QUANTITY_MAX; i++)
     lab_append(text, sizeof text, " q%d = \"-\";", i);
   strcat(text, " }; };\n");
@@ -581,7 +550,6 @@ static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(vo
 {
   lab_rig rig;
   int i;
-  (void)state;
   lab_rig_default(&rig);
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
     pneu_param_info info;
@@ -599,7 +567,6 @@ static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(vo
 static void test_lab_rig_write__name_with_quotes__comes_back(void **state)
 {
   lab_rig rig;
-  (void)state;
   lab_rig_default(&rig);
   strcpy(rig.name, "the \"old\" back\\slash");
   assert_comes_back(&rig);
@@ -608,7 +575,6 @@ static void test_lab_rig_write__name_with_quotes__comes_back(void **state)
 static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void **state)
 {
   lab_rig rig, again;
-  (void)state;
   fixture_need("stribeck_friction");
   rig = read_rig("laws = { friction = \"stribeck\"; };\n"
                  "effects = { stribeck_friction = { stribeck_excess = 0; }; };");
@@ -624,7 +590,6 @@ static void test_lab_rig_write__log_group__comes_back(void **state)
                          "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
                          "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
                          "  scale = { x = -0.1; }; offset = { T = \"0.1 degC\"; }; constants = { u = \"10 %\"; }; };");
-  (void)state;
   assert_comes_back(&rig);
 }
 
@@ -632,7 +597,6 @@ static void test_lab_rig_write__long_log__comes_back(void **state)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
                          "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
-  (void)state;
   assert_comes_back(&rig);
   rig = read_rig("log = { time_step = \"1 ms\"; };");
   assert_comes_back(&rig);
@@ -642,7 +606,6 @@ static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
 {
   lab_rig rig;
   int i;
-  (void)state;
   rig = read_rig(pneu_param_find("positioner.gain") >= 0 ? "positioner = { };\n" : "");
   for (i = 0; i < LAB_PARAM_COUNT; i++)
     if (i != PNEU_PARAM_fill_area && i != PNEU_PARAM_vent_area)
@@ -656,7 +619,6 @@ static void test_lab_rig_write__each_its_own__comes_back(void **state)
                          "unlisted = ( { equation = \"friction\"; argument = \"x\"; from = 0; to = \"20 mm\";\n"
                          "  values = [ 0.0, 0.1, 0.0 ]; } );\n"),
           again = write_and_read(&rig, NULL);
-  (void)state;
   assert_int_equal(again.fit_per_log[0], 0);
   assert_int_equal(again.fit_per_log[1], 1);
   assert_int_equal(again.n_terms, 1);
@@ -672,7 +634,6 @@ static void test_lab_rig_model__good_rig__is_accepted(void **state)
 {
   lab_rig rig = read_rig(declared);
   pneu_model model;
-  (void)state;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_true(model.p.area == rig.params.area);
 }
@@ -681,7 +642,6 @@ static void test_lab_rig_model__bad_parameter__is_named(void **state)
 {
   lab_rig rig = read_rig(declared);
   pneu_model model;
-  (void)state;
   rig.params.moving_mass = -1;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_DATA);
   assert_contains(error.text, "moving_mass");

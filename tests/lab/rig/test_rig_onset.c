@@ -15,7 +15,6 @@ static void test_lab_rig_at__onsets__act_from_their_times_on(void **state)
   const lab_rig rig = read_rig(two);
   const double fill = (double)rig.params.fill_area;
   lab_rig now;
-  (void)state;
   assert_int_equal(rig.n_onsets, 2);
   lab_rig_at(&rig, 40.1, &now);
   assert_close(leak_of(now), 0, 0, 0);
@@ -32,7 +31,6 @@ static void test_lab_rig_write__onsets__come_back_bit_for_bit(void **state)
 {
   const lab_rig rig = read_rig(two), again = write_and_read(&rig, NULL);
   int i;
-  (void)state;
   assert_int_equal(again.n_onsets, 2);
   for (i = 0; i < 2; i++) {
     assert_int_equal(again.onset[i].param, rig.onset[i].param);
@@ -43,7 +41,6 @@ static void test_lab_rig_write__onsets__come_back_bit_for_bit(void **state)
 
 static void test_lab_rig_read__onset_that_is_wrong__is_refused(void **state)
 {
-  (void)state;
   assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = 3; } );", "onset", "value is missing");
   assert_rig_refused("onset = ( { parameter = \"dry_fricton\"; from = 3; value = 4; } );", "onset", "dry_friction");
   assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = \"3 m\"; value = 4; } );", "onset", "onset");

@@ -32,7 +32,6 @@ static void assert_term(const pneu_term *t, int equation, int argument, double f
 static void test_lab_rig_read__unlisted__becomes_terms_in_si(void **state)
 {
   const lab_rig rig = read_rig(declared);
-  (void)state;
   assert_int_equal(rig.n_terms, 4);
   assert_term(&rig.term[0], PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 0, 0.02, 4);
   assert_close(rig.term[0].value[2], -40, 0, 0);
@@ -48,7 +47,6 @@ static void test_lab_rig_read__unlisted__becomes_terms_in_si(void **state)
 
 static void test_lab_rig_read__no_terms__are_none(void **state)
 {
-  (void)state;
   assert_int_equal(read_rig("// none\n").n_terms, 0);
   assert_int_equal(read_rig("unlisted = ( );\n").n_terms, 0);
 }
@@ -57,7 +55,6 @@ static void test_lab_rig_read__every_word__is_known(void **state)
 {
   int e, a;
   char text[300];
-  (void)state;
   for (e = 0; e < PNEU_TERM_EQUATION_COUNT; e++)
     for (a = 0; a < PNEU_TERM_ARGUMENT_COUNT; a++) {
       lab_rig rig;
@@ -77,7 +74,6 @@ static void test_lab_rig_read__cycle__becomes_a_term_over_time(void **state)
   const lab_rig rig = read_rig("unlisted = ( { equation = \"supply\"; argument = \"t\"; from = 0; to = \"250 ms\";\n"
                                "  unit = \"kPa\"; values = ( 0, -3.5, \"20 mbar\", 0.1 ); } );\n");
   pneu_model model;
-  (void)state;
   assert_int_equal(rig.n_terms, 1);
   assert_term(&rig.term[0], PNEU_TERM_SUPPLY, PNEU_TERM_OVER_CYCLE, 0, 0.25, 4);
   assert_close(rig.term[0].value[1], -3500, 0, 1e-14);
@@ -102,7 +98,6 @@ static void assert_refused(const char *part, const char *by, const char *place, 
 
 static void test_lab_rig_read__bad_words__name_the_nearest(void **state)
 {
-  (void)state;
   assert_refused("force", "farce", "rig.cfg:2: unlisted[0].equation:", "nearest known one is \"force\"");
   assert_refused("\"x\"", "\"y\"", "rig.cfg:2: unlisted[0].argument:", "unknown word \"y\"");
   assert_refused("to =", "too =", "rig.cfg:4: unlisted[0].too:", "nearest known one is \"to\"");
@@ -110,7 +105,6 @@ static void test_lab_rig_read__bad_words__name_the_nearest(void **state)
 
 static void test_lab_rig_read__missing_keys__are_named(void **state)
 {
-  (void)state;
   assert_refused("equation = \"force\";", "", "unlisted[0]:", "equation is missing");
   assert_refused("argument = \"x\";", "", "unlisted[0]:", "argument is missing");
   assert_refused("from = \"0 mm\";", "", "unlisted[0]:", "from is missing");
@@ -120,7 +114,6 @@ static void test_lab_rig_read__missing_keys__are_named(void **state)
 
 static void test_lab_rig_read__bad_ends__are_refused(void **state)
 {
-  (void)state;
   assert_refused("20 mm", "20 kPa", "rig.cfg:4: unlisted[0].to:", "kPa");
   assert_refused("20 mm", "0 mm", "rig.cfg:4: unlisted[0].to:", "more than from");
   assert_refused("20 mm", "-1 mm", "rig.cfg:4: unlisted[0].to:", "found -0.001 m");
@@ -131,7 +124,6 @@ static void test_lab_rig_read__bad_values__are_refused(void **state)
 {
   char many[20 + 3 * (PNEU_TERM_KNOTS + 1)] = "[ 1";
   int i;
-  (void)state;
   assert_refused("[ 1, 2 ]", "[ 1 ]", "rig.cfg:5: unlisted[0].values:", "2 to 33 entries");
   for (i = 0; i < PNEU_TERM_KNOTS; i++)
     strcat(many, ",2");
@@ -147,7 +139,6 @@ static void test_lab_rig_read__bad_values__are_refused(void **state)
 /* A cosine goes with its sine. */
 static void test_lab_rig_read__odd_number_over_a_cycle__is_refused(void **state)
 {
-  (void)state;
   assert_rig_refused("unlisted = ( { equation = \"force\"; argument = \"t\"; from = 0;\n"
                      "  to = 2; values = [ 1, 2, 3 ]; } );\n",
                      "rig.cfg:2: unlisted[0].values: expected an even number of values", "a list of 3 entries");
@@ -155,7 +146,6 @@ static void test_lab_rig_read__odd_number_over_a_cycle__is_refused(void **state)
 
 static void test_lab_rig_read__bad_unit__is_refused(void **state)
 {
-  (void)state;
   assert_refused("\"N\"", "\"kPa\"", "rig.cfg:5: unlisted[0].unit:", "kPa");
   assert_refused("\"N\"", "1", "unlisted[0].unit:", "a unit in quotes");
 }
@@ -164,7 +154,6 @@ static void test_lab_rig_read__no_list_of_groups_or_too_many__is_refused(void **
 {
   static const char one[] = "{ equation = \"force\"; argument = \"x\"; from = 0; to = 1; values = [ 1, 2 ]; }";
   char text[1000];
-  (void)state;
   assert_rig_refused("unlisted = { };\n", "rig.cfg:1: unlisted:", "expected a list");
   assert_rig_refused("unlisted = ( 3 );\n", "unlisted[0]", "expected a group");
   snprintf(text, sizeof text, "unlisted = ( %s, %s, %s, %s, %s );\n", one, one, one, one, one);
@@ -177,7 +166,6 @@ static void test_lab_rig_read__heat_that_cannot_act__is_refused(void **state)
                                      "laws = { gas = \"energy\"; }; inputs = [ \"p\" ];"};
   char text[300];
   int i;
-  (void)state;
   for (i = 0; i < 3; i++) {
     snprintf(text, sizeof text,
              "%s unlisted = ( { equation = \"heat\"; argument = \"p\"; from = 0; to = 1; values = [ 1, 2 ]; } );",
@@ -214,7 +202,6 @@ static lab_rig odd_rig(void)
 static void test_lab_rig_write__terms__come_back_bit_for_bit(void **state)
 {
   const lab_rig rig = odd_rig(), again = write_and_read(&rig, NULL);
-  (void)state;
   assert_int_equal(again.n_terms, LAB_TERM_MAX);
   assert_memory_equal(rig.term, again.term, sizeof rig.term);
 }
@@ -222,7 +209,6 @@ static void test_lab_rig_write__terms__come_back_bit_for_bit(void **state)
 static void test_lab_rig_write__declared_terms__come_back_bit_for_bit(void **state)
 {
   const lab_rig rig = read_rig(declared), again = write_and_read(&rig, NULL);
-  (void)state;
   assert_int_equal(again.n_terms, rig.n_terms);
   assert_memory_equal(rig.term, again.term, sizeof rig.term);
 }
@@ -268,7 +254,6 @@ static void test_lab_terms_print_c__compiled_and_run__has_the_same_numbers(void 
   const lab_rig rig = odd_rig();
   FILE *file = fopen(scratch_path("terms.h"), "w");
   char *got;
-  (void)state;
   assert_non_null(file);
   lab_terms_print_c(file, rig.term, rig.n_terms);
   assert_int_equal(fclose(file), 0);
@@ -282,7 +267,6 @@ static void test_lab_terms_print_c__no_terms__only_counts_them(void **state)
 {
   FILE *file = fopen(scratch_path("none.h"), "w");
   char *text;
-  (void)state;
   assert_non_null(file);
   lab_terms_print_c(file, NULL, 0);
   assert_int_equal(fclose(file), 0);
@@ -297,7 +281,6 @@ static void test_lab_rig_model__terms__are_those_of_the_rig(void **state)
 {
   const lab_rig rig = read_rig(declared), copy = rig;
   pneu_model model;
-  (void)state;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_int_equal(model.n_terms, 4);
   assert_ptr_equal(model.term, rig.term);
@@ -309,7 +292,6 @@ static void test_lab_rig_model__bad_term__is_refused(void **state)
 {
   lab_rig rig = read_rig(declared);
   pneu_model model;
-  (void)state;
   rig.term[1].value[1] = (pneu_real)NAN;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_DATA);
   assert_contains(error.text, "unlisted: parameter outside its bounds or not finite");
@@ -326,7 +308,6 @@ static void test_lab_run_predict__terms__are_in_the_prediction(void **state)
   lab_log log;
   double y[4];
   int i;
-  (void)state;
   scratch_text("log.csv", "t [s],u [1],p [Pa]\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n");
   assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log, &error), LAB_OK);
   assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);

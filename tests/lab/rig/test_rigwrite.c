@@ -372,7 +372,6 @@ static void assert_again(int number, const char *source)
 static void test_lab_rig_write__any_rig_that_is_read__is_read_again(void **state)
 {
   int i, accepted = 0;
-  (void)state;
   for (i = 0; i < RIGS; i++) {
     const char *source = put_file("rig.cfg", put_rig);
     if (lab_rig_read(source, &rig, &error)) {
@@ -390,7 +389,6 @@ static void test_lab_rig_write__any_rig_that_is_read__is_read_again(void **state
 static void test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stays(void **state)
 {
   const int idle = pneu_param_find("position_lag.position_time"), acts = pneu_param_find("pressure_bias.pressure_bias");
-  (void)state;
   lab_rig_default(&rig);
   *pneu_param_at(&rig.params, idle) = 1e-10;
   *pneu_param_at(&rig.params, acts) = 30;

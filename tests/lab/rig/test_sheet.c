@@ -32,7 +32,6 @@ static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
 {
   lab_rig rig = read_sheet(
       "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; area = \"400 cm^2\"; stroke = \"20 mm\"; };", "choked");
-  (void)state;
   assert_close((double)rig.params.spring_rate, 160000, 0, TOL(1e-12, 1e-6));
   assert_close((double)rig.params.spring_preload, 0.005, 0, TOL(1e-12, 1e-6));
 }
@@ -42,7 +41,6 @@ static void test_lab_sheet_read__diameter__is_an_area(void **state)
 {
   lab_rig rig = read_sheet(
       "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; diameter = \"226 mm\"; stroke = \"20 mm\"; };", "choked");
-  (void)state;
   assert_close((double)rig.params.area, 0.0401149959, 0, 1e-6);
   assert_close((double)rig.params.spring_rate, 0.0401149959 * 0.8e5 / 0.02, 0, 1e-6);
 }
@@ -71,7 +69,6 @@ static void test_lab_sheet_read__fail__says_which_way_travel_counts(void **state
 {
   double x[2], sp[2];
   int again;
-  (void)state;
   read_opening("fail = \"close\";", x, sp);
   for (again = 0; again < 2; again++) {
     assert_close(x[again], 0.0002, 0, 1e-9);
@@ -101,7 +98,6 @@ static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state
       {"{ Qn = \"110 l/min\"; b = 0.3; }", "iso6358", 2.367243070902674e-06},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof row[0]; i++) {
     char text[256];
     lab_rig rig;
@@ -120,7 +116,6 @@ static void test_lab_sheet_read__C__comes_back_from_the_library(void **state)
 {
   lab_rig rig = read_sheet("transducer = { fill = { C = 5e-9; b = 0.25; }; vent = { Kv = 0.1; }; };", "iso6358");
   pneu_model model;
-  (void)state;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_close((double)pneu_sonic_conductance(&model, rig.params.fill_area), 5e-9, 0,
                2e-4); /* R of dry air or of [B] */
@@ -133,7 +128,6 @@ static void test_lab_sheet_read__tube__is_a_volume_and_a_resistance(void **state
   const int resistance = pneu_param_find("connecting_tube.tube_resistance");
   const int volume = pneu_param_find("connecting_tube.tube_volume");
   lab_rig rig;
-  (void)state;
   if (resistance < 0)
     skip();
   rig = read_sheet("transducer = { fill_area = \"0.02 mm^2\"; };\ntube = { length = \"2 m\"; bore = \"4 mm\"; };",
@@ -147,7 +141,6 @@ static void test_lab_sheet_read__tube__is_a_volume_and_a_resistance(void **state
 
 static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
 {
-  (void)state;
   assert_refused("actuator = { bench_set = [\"1 bar\", \"0.2 bar\"]; };", "actuator.bench_set", "lower pressure first");
   assert_refused("actuator = { bench_set = [\"1 bar\"]; };", "actuator.bench_set", "2 to 2 entries");
   assert_refused("actuator = { bench_set = [\"1 bar\", \"2 mm\"]; };", "actuator.bench_set", "expected a unit like Pa");
@@ -189,7 +182,6 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
 static void test_lab_rig_write__of_words__gives_the_same_model(void **state)
 {
   lab_rig rig, again;
-  (void)state;
   rig = read_sheet(
       "actuator = { stroke = \"20 mm\"; area = \"400 cm^2\"; bench_set = [\"0.2 bar\", \"1 bar\"]; };\n"
       "transducer = { fill = { Kv = 0.1; }; vent = { Cv = 0.2; }; };\ntube = { length = \"1 m\"; bore = \"4 mm\"; };",

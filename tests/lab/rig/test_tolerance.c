@@ -29,7 +29,6 @@ static int bias(void)
 
 static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **state)
 {
-  (void)state;
   rig = read_rig(with(""));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 0.1 * 4e5, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_ambient_pressure), 2000, 0, 0);
@@ -50,7 +49,6 @@ static void assert_tolerance(const char *group, int param, double want)
 static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter(void **state)
 {
   const int vent = pneu_param_find("vent_restriction");
-  (void)state;
   if (vent < 0)
     skip();
   assert_tolerance("", vent, 0);
@@ -62,7 +60,6 @@ static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_
 
 static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 {
-  (void)state;
   rig = read_rig(with("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dead_volume), 20e-6, 0, 1e-12);
@@ -73,7 +70,6 @@ static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(void **state)
 {
   const int gain = pneu_param_find("gain");
-  (void)state;
   assert_string_equal(lab_tolerance_name(gain), "positioner.gain");
   assert_tolerance("positioner = { gain = 30; };", gain, 0.2 * 30);
   assert_tolerance("positioner = { gain = 30; }; tolerance = { positioner_gain = 3; };", gain, 3);
@@ -83,7 +79,6 @@ static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(voi
 
 static void test_lab_tolerance_read__others__are_exact(void **state)
 {
-  (void)state;
   rig = read_rig(with("tolerance = { others = 0; spring_rate = \"5 %\"; };"));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
@@ -91,7 +86,6 @@ static void test_lab_tolerance_read__others__are_exact(void **state)
 
 static void test_lab_tolerance_read__resolution__is_none_unless_given(void **state)
 {
-  (void)state;
   rig = read_rig(with("tolerance = { pressure_resolution = \"1 kPa\"; };"));
   assert_close(lab_tolerance(&rig, LAB_PRESSURE_RESOLUTION), 1000, 0, 1e-12);
   assert_close(lab_tolerance(&rig, LAB_POSITION_RESOLUTION), 0, 0, 0);
@@ -99,7 +93,6 @@ static void test_lab_tolerance_read__resolution__is_none_unless_given(void **sta
 
 static void test_lab_tolerance_read__mistakes__are_named(void **state)
 {
-  (void)state;
   assert_rig_refused(with("tolerance = { sprig_rate = \"5 %\"; };"), "tolerance.sprig_rate:", "spring_rate");
   assert_rig_refused(with("tolerance = { spring_rate = \"-5 %\"; };"),
                      "tolerance.spring_rate:", "expected a standard deviation, 0 or more, found \"-5 %\"");
@@ -108,7 +101,6 @@ static void test_lab_tolerance_read__mistakes__are_named(void **state)
 
 static void test_lab_tolerance_write__given_ones__are_read_again(void **state)
 {
-  (void)state;
   rig = read_rig(with("tolerance = { others = 0; clock = \"5 ms\"; spring_rate = \"5 %\"; };"));
   rig = write_and_read(&rig, NULL);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);

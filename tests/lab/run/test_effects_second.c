@@ -434,7 +434,6 @@ static void test_lab_response_run__base_model__is_that_of_the_second_implementat
 {
   static const apart most = {3e-6, 1e-7, 2e-6}; /* as for the effects */
   int law;
-  (void)state;
   for (law = 0; law < COUNT(laws); law++) {
     const run e = random_experiment(1, laws[law][0], laws[law][1]);
     assert_agrees(&e, &most, "base");
@@ -444,7 +443,6 @@ static void test_lab_response_run__base_model__is_that_of_the_second_implementat
 static void test_lab_response_run__each_effect__is_that_of_the_second_implementation(void **state)
 {
   int law, i;
-  (void)state;
   for (i = 0; i < COUNT(cases); i++)
     for (law = 0; law < COUNT(laws); law++) {
       run e = random_experiment((uint64_t)(7 + i), laws[law][0], laws[law][1]);
@@ -463,7 +461,6 @@ static void test_lab_response_run__lines__are_those_of_the_second_implementation
                                {PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED},
                                {PNEU_GAS_ENERGY, PNEU_FLOW_ISO6358}};
   int i, k;
-  (void)state;
   fixture_need("connecting_tube");
   fixture_need("supply_droop");
   for (i = 0; i < COUNT(lines); i++)
@@ -479,7 +476,6 @@ static void test_lab_response_run__lines__are_those_of_the_second_implementation
 static void test_lab_response_run__exponent__is_that_of_the_second_implementation(void **state)
 {
   int flow;
-  (void)state;
   fixture_need(exponent.name);
   for (flow = 0; flow < 2; flow++) {
     run e = random_experiment((uint64_t)(70 + flow), PNEU_GAS_ISOTHERMAL, flow ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
@@ -494,7 +490,6 @@ static void test_lab_response_run__exponent__is_that_of_the_second_implementatio
 static void test_lab_response_run__start_temperature__is_that_of_the_second_implementation(void **state)
 {
   int i;
-  (void)state;
   fixture_need(begins.name);
   for (i = 0; i < 2; i++) {
     run e = random_experiment((uint64_t)(74 + i), PNEU_GAS_ENERGY, i ? PNEU_FLOW_CHOKED : PNEU_FLOW_PAPER);
@@ -506,7 +501,6 @@ static void test_lab_response_run__start_temperature__is_that_of_the_second_impl
 static void test_lab_response_run__positioner__is_that_of_the_second_implementation(void **state)
 {
   int law, i;
-  (void)state;
   fixture_need("positioner");
   for (i = 0; i < COUNT(positioned); i++)
     for (law = 0; law < COUNT(laws); law++) {
@@ -545,7 +539,6 @@ static void test_lab_response_run__random_sets_of_effects__agree_with_the_second
                                {2e-7, 2e-8, 3e-15}, {3e-5, 6e-8, 2e-5}, {2e-6, 6e-8, 3e-15}, {8e-5, 5e-5, 3e-5}};
   uint64_t seed = 5;
   int draw;
-  (void)state;
   for (draw = 0; draw < COUNT(most); draw++) {
     const int *law = laws[draw % 2];
     run e = random_experiment((uint64_t)(100 + draw), law[0], law[1]);
@@ -564,7 +557,6 @@ static void test_lab_response_run__lines_in_random_sets__agree_with_the_second_i
                                            {2e-6, 5e-8, 9e-9},  {3e-5, 6e-7, 2e-5}};
   uint64_t seed = 6;
   int draw;
-  (void)state;
   fixture_need("connecting_tube");
   fixture_need("supply_droop");
   for (draw = 0; draw < COUNT(most); draw++) {
@@ -732,7 +724,6 @@ static void check_term(const term_case *c, const int *law, int knots)
 static void test_lab_response_run__table_of_what_has_no_effect__is_that_of_the_second_implementation(void **state)
 {
   int law, i;
-  (void)state;
   for (i = 0; i < COUNT(terms); i++)
     for (law = 0; law < COUNT(laws); law++)
       if (laws[law][0] == PNEU_GAS_ISOTHERMAL || !terms[i].isothermal_only) {
@@ -744,7 +735,6 @@ static void test_lab_response_run__table_of_what_has_no_effect__is_that_of_the_s
 static void test_effects_def__each_effect__is_compared(void **state)
 {
   int e, i, found;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     for (i = found = 0; i < COUNT(cases); i++)
       found += strcmp(cases[i].name, pneu_effect_at(e)->name) == 0;

@@ -90,7 +90,6 @@ static void test_lab_response_run__dead_time__delays_the_command_and_nothing_els
 {
   static const double t[] = {0, 0.221, 0.7, 1.1, 1.121, 1.13, 1.151, 2.021};
   static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {1, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 5}};
-  (void)state;
   fixture_need("dead_time");
   check_delay(0.021, 8, t, row);
 }
@@ -99,7 +98,6 @@ static void test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_
 {
   static const double t[] = {0, 0.7, 0.75, 1.13, 1.65, 1.68, 2.55};
   static const int row[][2] = {{0, 0}, {0, 2}, {1, 2}, {1, 4}, {3, 4}, {4, 4}, {5, 5}};
-  (void)state;
   fixture_need("dead_time");
   check_delay(0.55, 7, t, row);
 }
@@ -109,7 +107,6 @@ static void test_lab_response_run__dead_time_that_ends_with_another_change__make
 {
   static const double t[] = {0, 0.23, 0.7, 1.13, 1.16, 2.03};
   static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {3, 4}, {4, 4}, {5, 5}};
-  (void)state;
   fixture_need("dead_time");
   assert_true(1.1 + 0.03 != 1.13);
   check_delay(0.03, 6, t, row);
@@ -166,14 +163,12 @@ static void check_ramp(const pneu_model *m)
 static void test_lab_response_run__ramp__is_a_staircase_of_small_steps(void **state)
 {
   const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
-  (void)state;
   check_ramp(&m);
 }
 
 static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
 {
   const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.37);
-  (void)state;
   fixture_need("dead_time");
   check_ramp(&m);
 }
@@ -198,7 +193,6 @@ static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(voi
                                .options = {.max_steps = 20000}};
   lab_response r;
   int i;
-  (void)state;
   fixture_need("positioner");
   p.area = (pneu_real)677e-4;
   p.dead_volume = (pneu_real)1.2e-3;
@@ -249,7 +243,6 @@ static void test_lab_response_run__channel_skew__shifts_position_alone(void **st
 {
   static const double skew[] = {0.037, -0.016, 0.6, 50};
   int i;
-  (void)state;
   fixture_need("channel_skew");
   for (i = 0; i < COUNT(skew); i++)
     check_skew(skew[i], LAB_STEPPER);
@@ -264,7 +257,6 @@ static void test_lab_response_run__negative_skew__looks_beyond_the_end(void **st
   const double t0 = 0;
   pneu_input input;
   lab_response a, b;
-  (void)state;
   fixture_need("channel_skew");
   skewed = fixture_quick(PNEU_GAS_ISOTHERMAL, "channel_skew", -ahead);
   plain = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
@@ -288,7 +280,6 @@ static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
   pneu_stats stats;
   const lab_simulation task = {
       .start = &start, .schedule = &schedule, .t_end = t_end, .options = {.tol = 1e-6}, .stats = &stats};
-  (void)state;
   fixture_need("dead_time");
   fixture_need("channel_skew");
   m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.1);
@@ -321,7 +312,6 @@ static void test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode(voi
   const pneu_model plain = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   lab_response without = respond_to_rows(&plain, 0, LAB_STEPPER);
   int k, i;
-  (void)state;
   for (k = 0; k < COUNT(term); k++) {
     pneu_model m = plain;
     lab_response a, b;
@@ -379,7 +369,6 @@ static void check_own_time(double skew, int integrator)
 
 static void test_lab_response_run__cycles__go_by_the_time_of_the_schedule(void **state)
 {
-  (void)state;
   check_own_time(0, LAB_STEPPER);
   check_own_time(0, LAB_CVODE);
   check_own_time(0.25, LAB_STEPPER);
@@ -397,7 +386,6 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
   const pneu_state start = fixture_rest(&yields, 0, 0, &input[0]);
   const lab_simulation task = {.start = &start, .schedule = &schedule, .rows = rows, .t = t, .n = 2};
   lab_response response;
-  (void)state;
   fixture_need("stop_compliance");
   response = run(&yields, &task);
   assert_true(response.x[0] > (double)rigid.p.stroke);
@@ -417,7 +405,6 @@ static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **
   pneu_state start;
   const lab_simulation task = {.start = &start, .schedule = &schedule, .rows = rows, .t = t, .n = 2};
   lab_response response;
-  (void)state;
   fixture_need("start_temperature");
   fixture_set(&p, "start_excess", 30);
   before = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);

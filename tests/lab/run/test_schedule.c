@@ -21,7 +21,6 @@ static pneu_state start;  /* that was found last */
 /* The default rig, R1-400: spring 400 kN/m compressed 10 mm, area 400 cm^2, dry friction 480 N. */
 static int fresh_rig(void **state)
 {
-  (void)state;
   lab_rig_default(&rig);
   load = 0;
   is_set = 0;
@@ -30,7 +29,6 @@ static int fresh_rig(void **state)
 
 static int forget(void **state)
 {
-  (void)state;
   lab_inputs_free(&inputs);
   lab_log_free(&seen);
   return 0;
@@ -65,7 +63,6 @@ static void drive(size_t run)
 static void test_lab_inputs_from_log__bend__is_an_entry_of_its_own(void **state)
 {
   const lab_bend bends[] = {{0.5, 8e3}, {NAN, NAN}, {NAN, NAN}};
-  (void)state;
   read_log("t [s],p [kPa]\n0,0\n1,10\n2,12\n");
   seen.bend[LAB_CHANNEL_P] = malloc(sizeof bends);
   assert_non_null(seen.bend[LAB_CHANNEL_P]);
@@ -94,7 +91,6 @@ static void assert_commands(const lab_schedule *s, const double row[][3], int n)
 static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
 {
   static const double row[][3] = {{0, 0, 0}, {2, 1, 0}, {4, -0.5, 0}};
-  (void)state;
   read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
   drive(0);
   assert_commands(&inputs.schedule, row, 3);
@@ -107,7 +103,6 @@ static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
   static const double row[][3] = {{0, 0, 0}, {1, 0, 0.1}, {3.5, 0.25, 0}, {6, 1, 0}};
   const lab_schedule *s = &inputs.schedule;
   int i;
-  (void)state;
   read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.1,0\n3,0.2,0\n4,0.25,0\n5,0.25,0\n6,1,0\n");
   drive(0);
   assert_commands(s, row, 4);
@@ -133,7 +128,6 @@ static void check_corners(const char *rows, double begin, double end, double to)
 
 static void test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there(void **state)
 {
-  (void)state;
   check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.04,0\n3,0.14,0\n4,0.24,0\n5,0.34,0\n6,0.4,0\n7,0.4,0\n", 1.6,
                 5.6, 0.4);
 }
@@ -141,14 +135,12 @@ static void test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_cor
 /* A row and a bit long: its beginning and its end are too small a part of it to be of a like pace. */
 static void test_lab_inputs_from_log__short_ramp__is_no_jump(void **state)
 {
-  (void)state;
   check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.08,0\n3,0.88,0\n4,1,0\n5,1,0\n", 1.9, 3.15, 1);
 }
 
 /* Rows that were lost do not make a jump of it. */
 static void test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace(void **state)
 {
-  (void)state;
   check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n8,0.55,0\n9,0.65,0\n10,0.75,0\n11,0.8,0\n12,0.8,0\n", 2.5, 10.5,
                 0.8);
 }
@@ -159,7 +151,6 @@ static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_betwee
   static const double row[][3] = {{0, 0, 0}, {3, -1, 0}, {3, -1, 0.3}, {4, -0.7, 0.2}, {6, -0.3, 0}};
   lab_run run;
   int i;
-  (void)state;
   read_log("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0,0\n3,-1,0\n4,-0.7,0\n5,-0.5,0\n6,-0.3,0\n7,-0.3,0\n");
   rig.noise[LAB_CHANNEL_P] = 100;
   assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
@@ -178,7 +169,6 @@ static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
   static const char supplied[] = "t [s],u [1],ps [kPa],p "
                                  "[kPa]\n0,0,400,0\n1,0.01,401,0\n2,0.03,402,0\n3,0.04,403,0\n4,0.06,404,0\n5,0.07,405,"
                                  "0\n6,0.08,406,0\n7,0.1,407,0\n8,0.11,408,0\n9,0.11,408,0\n10,0.11,408,0\n";
-  (void)state;
   read_log(plain);
   drive(0);
   assert_int_equal(inputs.schedule.n, 2);
@@ -194,7 +184,6 @@ static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
 
 static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **state)
 {
-  (void)state;
   read_log("t [s],u [1]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
   drive(0);
   assert_int_equal(inputs.schedule.n, 4);
@@ -209,7 +198,6 @@ static void declare_positioner(void)
 
 static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_command(void **state)
 {
-  (void)state;
   read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
   assert_int_equal(lab_positioner_check(&rig, &seen, &error), LAB_DATA);
   assert_contains(error.text, "positioner = { gain = 20; }");
@@ -230,7 +218,6 @@ static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_com
 
 static void test_lab_inputs_from_log__second_run__has_its_own_rows(void **state)
 {
-  (void)state;
   rig.log.new_run = LAB_RUN_T_DROPS;
   read_log("t [s],u [1]\n0,0\n1,1\n0.5,1\n2,-1\n");
   drive(1);
@@ -241,7 +228,6 @@ static void test_lab_inputs_from_log__second_run__has_its_own_rows(void **state)
 
 static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps(void **state)
 {
-  (void)state;
   read_log("t [s],p [kPa],x [mm]\n0,10,0\n1,,1\n3,40,1\n4,40,2\n");
   set_inputs(1, 1, 0, 0);
   drive(0);
@@ -256,7 +242,6 @@ static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps
 
 static void test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps(void **state)
 {
-  (void)state;
   read_log("t [s],u [1],ps [kPa],force [N]\n0,0,300,5\n1,0,,5\n2,0,290,7\n");
   set_inputs(0, 0, 1, 1);
   drive(0);
@@ -268,7 +253,6 @@ static void test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps(
 
 static void test_lab_inputs_from_log__measured_outputs__do_not_drive(void **state)
 {
-  (void)state;
   read_log("t [s],u [1],p [kPa],ps [kPa],force [N]\n0,0,1,300,5\n1,0,2,290,7\n");
   drive(0);
   assert_int_equal(inputs.schedule.n, 1);
@@ -278,7 +262,6 @@ static void test_lab_inputs_from_log__measured_outputs__do_not_drive(void **stat
 
 static void test_lab_inputs_from_log__missing_input__is_named(void **state)
 {
-  (void)state;
   read_log("t [s],p [kPa]\n0,1\n");
   assert_int_equal(lab_inputs_from_log(&model, &rig, &seen, 0, &inputs, &error), LAB_DATA);
   assert_contains(error.text, "log.csv: expected a column u");
@@ -314,7 +297,6 @@ static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
 {
   char text[4096] = "t [s],u [1],p [kPa],x [mm]\n";
   int i;
-  (void)state;
   for (i = 0; i < 50; i++)
     lab_append(text, sizeof text, "%d,0,%g,%g\n", i, 200 + (i * 7 % 5 - 2) * 0.1, 10 + (i * 3 % 5 - 2) * 0.01);
   strcat(text, "50,1,900,900\n");
@@ -329,7 +311,6 @@ static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_fir
 {
   char text[65536] = "t [s],u [1],p [kPa],x [mm]\n";
   int i;
-  (void)state;
   for (i = 0; i < 1000; i++)
     lab_append(text, sizeof text, "%d,1,%g,%g\n", i, 0.3 * i, 0.02 * i);
   assert_start(text, 1, 0, 0);
@@ -340,7 +321,6 @@ static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first
 {
   char text[8192] = "t [s],u [1],p [kPa]\n0,0,20\n";
   int i;
-  (void)state;
   for (i = 1; i < 300; i++)
     lab_append(text, sizeof text, "%d,0,%d.%d\n", i, 160, i * 7 % 10);
   assert_close(start_of(text, 0).p, 20e3, 1e-6, 0);
@@ -351,7 +331,6 @@ static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(voi
 {
   char text[65536] = "t [s],u [1],p [kPa]\n";
   int i;
-  (void)state;
   for (i = 0; i < 200; i++)
     lab_append(text, sizeof text, "%d,-1,%g\n", i, 100 + 0.01 * (i - 99.5) * (i - 99.5));
   assert_close(start_of(text, -1).p, (100 + 0.01 * 99.5 * 99.5) * 1e3, 1, 0);
@@ -361,7 +340,6 @@ static void test_lab_run_initial_state__pressure_that_drives_and_changes__leaves
 {
   char text[4096] = "t [s],p [kPa],x [mm]\n";
   int i;
-  (void)state;
   set_inputs(1, 0, 0, 0);
   for (i = 0; i < 20; i++)
     lab_append(text, sizeof text, "%d,%d,%d\n", i, 100 + i, i % 2 ? 12 : 4);
@@ -370,7 +348,6 @@ static void test_lab_run_initial_state__pressure_that_drives_and_changes__leaves
 
 static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills(void **state)
 {
-  (void)state;
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_start("t [s],u [1],p [kPa]\n0,1,\n1,-1,350\n", 1, 4e5, 0);
@@ -381,7 +358,6 @@ static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills
 static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests(void **state)
 {
   const char *text = "t [s],sp [%]\n0,0\n1,50\n";
-  (void)state;
   fixture_need("positioner");
   fixture_set(&rig.params, "positioner.cutoff_low", 0.01);
   declare_positioner();
@@ -398,7 +374,6 @@ static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_
 {
   const char *text = "t [s],sp [%],x [mm]\n0,100,20\n1,50,20\n",
              *beyond = "t [s],sp [%],x [mm]\n0,100,20.02\n1,50,20.02\n";
-  (void)state;
   fixture_need("positioner");
   fixture_set(&rig.params, "positioner.dead_band", 0.005);
   declare_positioner();
@@ -416,7 +391,6 @@ static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_
 static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log(void **state)
 {
   static const pneu_term swing = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_CYCLE, 2, 0, 10, {0, 2000}};
-  (void)state;
   assert_int_equal(pneu_model_terms(&model, &swing, 1), PNEU_OK);
   start_of("t [s],u [1],p [kPa],x [mm]\n42.5,0,202,10\n43,1,202,10\n", 0);
   assert_close(start.p, 200e3, 1e-6, 0);
@@ -428,7 +402,6 @@ static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_ti
 static void test_lab_run_initial_state__down_and_near_ambient__is_vented(void **state)
 {
   static const char *const down = "t [s],u [1],p [kPa],x [mm]\n0,0,1.6,0.02\n1,0,1.6,0.02\n";
-  (void)state;
   assert_true(start_of(down, 0).p == 0);
   assert_true(start_of(down, -1).p == 0);
   assert_close(start_of(down, 1).p, 1600, 1e-6, 0);
@@ -438,7 +411,6 @@ static void test_lab_run_initial_state__down_and_near_ambient__is_vented(void **
 
 static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(void **state)
 {
-  (void)state;
   start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
   assert_true(start.x == 0);
   assert_int_equal(start.mode, PNEU_MODE_LOWER);
@@ -449,7 +421,6 @@ static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(voi
 
 static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen(void **state)
 {
-  (void)state;
   assert_start("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0, 205e3, 0.01);
   assert_int_equal(start.mode, PNEU_MODE_STUCK);
 }
@@ -457,7 +428,6 @@ static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen
 /* A sensor's error is not in the state: bias and gain as the model has them are taken out. */
 static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there(void **state)
 {
-  (void)state;
   fixture_set(&rig.params, "pressure_bias.pressure_bias", 1400);
   fixture_set(&rig.params, "position_gain.position_gain", 0.05);
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
@@ -468,7 +438,6 @@ static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_th
 
 static void test_lab_run_initial_state__no_position__follows_from_pressure(void **state)
 {
-  (void)state;
   assert_start("t [s],u [1],p [kPa]\n0,0,200\n", 0, 200e3, 0.01);
   assert_start("t [s],u [1],p [kPa]\n0,0,20\n", 0, 20e3, 0);
   assert_start("t [s],u [1],p [kPa]\n0,0,390\n", 0, 390e3, 0.02);
@@ -476,7 +445,6 @@ static void test_lab_run_initial_state__no_position__follows_from_pressure(void 
 
 static void test_lab_run_initial_state__no_pressure__follows_from_position(void **state)
 {
-  (void)state;
   assert_start("t [s],u [1],x [mm]\n0,0,10\n", 0, 200e3, 0.01);
   assert_start("t [s],u [1],x [mm]\n0,0,0.02\n", 0, 0, 0);
   assert_start("t [s],u [1],x [mm]\n0,1,19.99\n", 1, 4e5, 0.02);
@@ -485,7 +453,6 @@ static void test_lab_run_initial_state__no_pressure__follows_from_position(void 
 /* 400 N more against the air take 10 kPa more, or let the stem down by 1 mm. */
 static void test_lab_run_initial_state__force_on_the_stem__counts_against_the_air(void **state)
 {
-  (void)state;
   load = 400;
   assert_start("t [s],u [1],x [mm]\n0,0,10\n", 0, 210e3, 0.01);
   assert_start("t [s],u [1],p [kPa]\n0,0,200\n", 0, 200e3, 9e-3);
@@ -493,13 +460,11 @@ static void test_lab_run_initial_state__force_on_the_stem__counts_against_the_ai
 
 static void test_lab_run_initial_state__nothing_measured__is_empty_and_down(void **state)
 {
-  (void)state;
   assert_start("t [s],u [1]\n0,0\n", 0, 0, 0);
 }
 
 static void test_lab_run_initial_state__vessel__has_no_position(void **state)
 {
-  (void)state;
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_start("t [s],u [1],p [kPa]\n0,-1,700\n", -1, 700e3, 0);
@@ -507,7 +472,6 @@ static void test_lab_run_initial_state__vessel__has_no_position(void **state)
 
 static void test_lab_run_initial_state__driven_channels__start_at_their_first_value(void **state)
 {
-  (void)state;
   set_inputs(1, 1, 0, 0);
   assert_start("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0, 12e3, 0.5e-3);
 }
@@ -515,7 +479,6 @@ static void test_lab_run_initial_state__driven_channels__start_at_their_first_va
 static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
 {
   pneu_input input;
-  (void)state;
   read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
   pneu_input_default(&model, &input);
   assert_int_equal(lab_run_initial_state(&model, &input, &seen, 0, &start, &error), LAB_DATA);
@@ -529,7 +492,6 @@ static void test_lab_standard_experiment__default_model__fills_and_vents(void **
 {
   const lab_response_options options = {.tol = 1e-6};
   lab_response response;
-  (void)state;
   succeed(lab_standard_experiment(&model, &options, &response, &error));
   assert_int_equal(response.n, 3051);
   assert_close(response.t[1], 0.01, 1e-15, 0);
@@ -554,7 +516,6 @@ static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **stat
   const char *path = scratch_path("table.csv");
   FILE *file = fopen(path, "w");
   char *got;
-  (void)state;
   assert_non_null(file);
   lab_series_header(file, columns, 3);
   lab_series_rows(file, columns, 3, 2);
@@ -573,7 +534,6 @@ static void test_lab_run_open__values_in_steps_without_noise__have_weights(void 
 {
   static char text[20000];
   int k, i;
-  (void)state;
   for (k = 1; k <= 20; k++) {
     lab_run run;
     strcpy(text, "t [s],u [1],p [kPa]\n");
@@ -594,7 +554,6 @@ static void test_lab_run_open__declared_resolution__is_that_of_the_run(void **st
 {
   const double q = 500, noise = 100; /* [Pa] */
   lab_run run;
-  (void)state;
   read_log("t [s],u [1],p [kPa]\n0,1,0\n1,1,1.1\n2,1,2.3\n3,1,2.9\n");
   rig.noise[LAB_CHANNEL_P] = noise;
   rig.tolerance[LAB_PRESSURE_RESOLUTION] = q;

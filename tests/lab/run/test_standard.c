@@ -104,7 +104,6 @@ static void test_lab_response_run__standard_experiment__stepper_agrees_with_cvod
     double tol, x, p;
   } most[] = {{1e-6, 2e-6, 2e-4}, {1e-8, 3e-8, 5e-6}};
   int i, k;
-  (void)state;
   for (k = 0; k < COUNT(most); k++)
     for (i = 0; i < CASES; i++) {
       const experiment e = nth(i);
@@ -121,7 +120,6 @@ static void test_lab_response_run__standard_experiment__is_the_run_of_the_librar
   const experiment e = nth(6);
   lab_response response;
   int i;
-  (void)state;
   run_ours(&e, 1e-7);
   run_lab(&e, LAB_STEPPER, 1e-7, &response, NULL);
   for (i = 0; i < ROWS - 1; i++) {
@@ -158,7 +156,6 @@ static void run_theirs(const experiment *e)
 static void test_fixture_trace__standard_experiment__agrees_with_the_second_implementation(void **state)
 {
   int i, k;
-  (void)state;
   for (i = 0; i < CASES; i++) {
     const experiment e = nth(i);
     const pneu_params p = fixture_params(e.actuator);

@@ -135,7 +135,6 @@ static void test_lab_variations__parameters__are_those_of_exact_runs(void **stat
   static const param_step of[] = {{"spring_rate", 1e5, 1}, {"dry_friction", 480, 1e-2}, {"area", 0.04, 4e-7},
                                   {"stroke", 0.02, 2e-7},  {"damping", 1000, 1e-1},     {"supply_pressure", 4e5, 1}};
   int gas, i;
-  (void)state;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++)
     for (i = 0; i < COUNT(of); i++)
       check_step(with, gas, &of[i], 0.01);
@@ -147,7 +146,6 @@ static void test_lab_variations__commands_and_start__are_those_of_exact_runs(voi
   const double step = 1e-6;
   const drive here = with(PNEU_GAS_ENERGY, NULL, 0);
   drive up = here, down = here;
-  (void)state;
   up.later = step;
   down.later = -step;
   check_change("a later command", &here, &up, &down, 0.01);
@@ -166,7 +164,6 @@ static void test_lab_variations__run_at_rest__follows_what_differs(void **state)
 {
   pneu_params p = fixture_vessel(1e-3);
   drive here = {.rows = 1}, up, down;
-  (void)state;
   fixture_set(&p, "film_conductance", 2);
   fixture_set(&p, "pressure_time", 0.1);
   here.model = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
@@ -193,7 +190,6 @@ static void test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs(void
   static const param_step of[] = {
       {"spring_rate", 4e5, 1}, {"positioner.dead_band", 5e-3, 1e-8}, {"fill_area", 0.893e-6, 1e-12}};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(of); i++)
     check_step(positioned, PNEU_GAS_ISOTHERMAL, &of[i], 0.02);
 }
@@ -207,7 +203,6 @@ static void test_lab_variations__effects__are_those_of_exact_runs(void **state)
                                   {"leak_area", 1e-7, 1e-12},
                                   {"film_conductance", 1, 1e-5}};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(of); i++)
     check_step(with, PNEU_GAS_ENERGY, &of[i], 0.01);
 }
@@ -226,7 +221,6 @@ static void test_lab_variations__another_kind_of_run__is_not_followed(void **sta
               yields = with(PNEU_GAS_ENERGY, "stop_compliance", 1e-11),
               skewed = with(PNEU_GAS_ENERGY, "channel_skew", 0.05);
   drive shorter = here;
-  (void)state;
   shorter.rows = ROWS - 1;
   check_not_followed(&here, &lagging);
   check_not_followed(&here, &skewed);
@@ -240,7 +234,6 @@ static void test_lab_variations__stick_slip__is_not_followed(void **state)
 {
   drive here = with(PNEU_GAS_ISOTHERMAL, NULL, 0), there;
   pneu_params p = here.model.p;
-  (void)state;
   fixture_set(&p, "stribeck_friction.stribeck_excess", 1);
   fixture_set(&p, "fill_area", 2e-8);
   here.model = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
