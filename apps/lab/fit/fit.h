@@ -12,7 +12,7 @@
 
 #include "../base/message.h"
 
-enum { LAB_FIT_MAX = 128 };
+enum { LAB_FIT_MAX = 256 };
 
 typedef struct lab_fit_problem {
   int n;    /* unknowns, 0 .. LAB_FIT_MAX */
