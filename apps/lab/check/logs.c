@@ -1,8 +1,19 @@
 #include "logs.h"
 
+#include <stdlib.h>
+
 #include "mend.h"
 #include "../base/text.h"
 #include "../run/schedule.h"
+
+static void leave_out_u(const lab_rig *rig, lab_log *log, lab_logs *b)
+{
+  if (!log->value[LAB_CHANNEL_U] || !log->value[LAB_CHANNEL_SP] || !lab_rig_has_positioner(rig))
+    return;
+  free(log->value[LAB_CHANNEL_U]);
+  log->value[LAB_CHANNEL_U] = NULL;
+  b->n_without_u++;
+}
 
 static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error *error)
 {
@@ -12,6 +23,8 @@ static int read_log(const lab_rig *rig, const char *path, lab_logs *b, lab_error
   if (lab_log_read(path, &rig->log, (double)rig->params.ambient_pressure, log, error))
     return error->status;
   b->n_logs++;
+  if (b->by_set_position)
+    leave_out_u(rig, log, b);
   if (lab_positioner_check(rig, log, error))
     return error->status;
   if (*log->read_as)

@@ -533,7 +533,8 @@ static int leave_as_declared(lab_answer *a, lab_error *error)
 
 static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 {
-  const allowance time = {lab_cpu_time(), q->budget};
+  static const double by_set_position = 0.6; /* of the budget: the rest is for u */
+  const allowance time = {lab_cpu_time(), (a->now.logs.n_without_u > 0 ? by_set_position : 1) * q->budget};
   const double start = lab_clock();
   double fit_s;
   a->report = (lab_report){.rig = &a->rig,
@@ -562,16 +563,67 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
-int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error)
+static int find(const lab_request *request, int by_set_position, lab_answer **answer, lab_error *error)
 {
   lab_answer *a = *answer = calloc(1, sizeof *a);
   if (!a)
     return lab_fail_memory(error, "the answer");
+  a->now.logs.by_set_position = a->held.by_set_position = by_set_position;
   if (read_files(request, a, error) == LAB_OK && close_loop(request, a, error) == LAB_OK)
     return LAB_OK;
   lab_answer_free(a);
   *answer = NULL;
   return error->status;
+}
+
+/* Whether an answer explains its logs by values that are near their sheet. */
+static int convinces(const lab_completion *c)
+{
+  return lab_search_explains(&c->result) && !lab_unknowns_is_far(&c->completed, lab_constant(LAB_STRAINED));
+}
+
+static int is_better(const lab_search_result *other, const lab_search_result *first)
+{
+  const int explains = lab_search_explains(other);
+  if (explains != lab_search_explains(first) || other->n_path == 0 || first->n_path == 0)
+    return explains;
+  return other->path[other->n_path - 1].bic < first->path[first->n_path - 1].bic;
+}
+
+/* The same with u, for what is left of the budget, where that is better.
+ * In:      start  [s] of CPU, of all
+ * In/out:  answer without u */
+static int find_with_u(const lab_request *request, double start, lab_answer **answer, lab_error *error)
+{
+  lab_request rest = *request;
+  lab_answer *other;
+  int status;
+  if (request->budget > 0)
+    rest.budget = fmax(request->budget - (lab_cpu_time() - start), 1);
+  status = find(&rest, 0, &other, error);
+  if (status == LAB_OK && is_better(&other->now.result, &(*answer)->now.result)) {
+    lab_answer *worse = *answer;
+    *answer = other;
+    other = worse;
+  }
+  if (status == LAB_OK)
+    lab_answer_free(other);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
+/* Between its rows the opening that a positioner gives is not known, and often it has come and gone there; what the
+ * positioner follows is. So the set position drives first, and u does where that does not explain the logs. What has
+ * changed since a baseline is asked of u alone. */
+int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error)
+{
+  const double start = lab_cpu_time();
+  int status = find(request, request->n_baseline == 0, answer, error);
+  if (status == LAB_OK && (*answer)->now.logs.n_without_u > 0 && !convinces(&(*answer)->now))
+    status = find_with_u(request, start, answer, error);
+  if (status == LAB_OK && (*answer)->now.logs.n_without_u > 0)
+    lab_limitation(&(*answer)->now.logs.limitations,
+                   "The set position drives the model by its positioner; u does not, for between rows it is not known.");
+  return status;
 }
 
 void lab_answer_free(lab_answer *answer)

@@ -559,7 +559,7 @@ static void test_lab_unknowns_add__no_room__is_refused(void **state)
   for (j = USUAL; j < LAB_FIT_MAX; j++)
     assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_DATA);
-  assert_contains(error.text, "more than 128 things");
+  assert_contains(error.text, "more than 256 things");
   assert_int_equal(u.n, LAB_FIT_MAX);
 }
 
