@@ -136,7 +136,7 @@ typedef struct ranked {
 
 static int rank_of(const lab_unknown *x, const lab_deviation *d)
 {
-  return x->kind == LAB_UNKNOWN_ONSET ? BEGINS : lab_param_is_value(d->param) ? VALUE : INSTRUMENT;
+  return x->kind == LAB_UNKNOWN_ONSET ? BEGINS : lab_param_is_of_sensor(d->param) ? INSTRUMENT : VALUE;
 }
 
 static int first_told(const void *a, const void *b)

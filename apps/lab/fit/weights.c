@@ -220,15 +220,35 @@ static double level_of(const lab_run *x, int c, const double *r, double *first, 
   return fabs(by_first / by_second - 1) < white && by_second * x->sigma[c] > x->resolution[c] ? by_second : 0;
 }
 
-/* In/out: r  errors over noise  Returns: whether the noise counts as larger now */
+/* What all errors of a channel of a run are, over what its noise counts as: the noise is no more than that, though rows
+ * far between, in which much moves, made it seem so. No less than the resolution leaves. */
+static double most_noise(const lab_run *x, int c, const double *r)
+{
+  double sum = 0;
+  size_t i, n = 0;
+  for (i = 0; i < x->n; i++)
+    if (!isnan(lab_run_measured(x, c, i))) {
+      sum += r[i] * r[i];
+      n++;
+    }
+  return n < FEWEST / 2 ? 1 : fmax(sqrt(sum / (double)n), x->resolution[c] / x->sigma[c]);
+}
+
+/* In/out: r  errors over noise  Returns: whether the noise counts as another now */
 static int set_levels(lab_run *x, double *r, double *first, double *room)
 {
   int c, any = 0;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
+    const int is_told = !isnan(x->rig->noise[x->channel[c]]);
+    const double most = is_told || x->rig->laws.pressure_input ? 1 : most_noise(x, c, r);
+    if (most < 1 / larger) {
+      set_level(x, c, most, r);
+      any = 1;
+    }
     if (x->colour[c].memory != 0)
       continue;
     x->level[c] = level_of(x, c, r, first, room);
-    if (isnan(x->rig->noise[x->channel[c]]) || !(x->level[c] > larger))
+    if (!is_told || !(x->level[c] > larger))
       continue;
     set_level(x, c, x->level[c], r);
     any = 1;

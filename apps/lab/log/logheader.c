@@ -119,6 +119,19 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
   return go_to(csv, guess->data - 1, error);
 }
 
+/* The first row, which shows what is a date, and back to the header. */
+static int look_below(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, lab_error *error)
+{
+  const int line = csv->line;
+  int more;
+  if (lab_csv_line(csv, &more, error))
+    return error->status;
+  if (more && read_below(csv, format, n, heading, 0, error))
+    return lab_csv_fail_in(csv, error);
+  lab_csv_restart(csv);
+  return go_to(csv, line, error);
+}
+
 /* A header in the first line that is no comment. */
 static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *heading, int *n, lab_error *error)
 {
@@ -135,7 +148,8 @@ static int read_first(lab_csv *csv, const lab_log_format *format, lab_heading *h
   if (lab_number_read(csv->cell->begin, csv->cell->end, format->decimal, format->thousands, &number) ==
       LAB_NUMBER_FINITE) /* a row: the file has no header */
     return ask_for_columns(csv, csv->n, error);
-  return read_headings(csv, format, heading, n, error) ? lab_csv_fail_in(csv, error) : LAB_OK;
+  return read_headings(csv, format, heading, n, error) ? lab_csv_fail_in(csv, error)
+                                                       : look_below(csv, format, *n, heading, error);
 }
 
 static int fail_in_header(const lab_csv *csv, const lab_guess *guess, lab_error *error)

@@ -247,7 +247,7 @@ static int find_by_words(naming *m, int channel, int *absolute)
 {
   int i, found = -1, other;
   for (i = 0; i < m->n; i++) {
-    if (!is_free(m, i) || (m->is_strict && !has_form(m->heading[i].text)) ||
+    if (!is_free(m, i) || (m->is_strict && !has_form(m->heading[i].text) && !is_stamp(m, i)) ||
         lab_name_channel(m->heading[i].text, m->heading[i].below, is_stamp(m, i), m->format, absolute) != channel)
       continue;
     if (found < 0 || join_day(m, found, i)) {

@@ -379,9 +379,13 @@ static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *tim
 }
 
 /* Whether a model leaves so little more than noise that the noise may be told wrong, or has found a part of what was
- * taken for it. */
+ * taken for it; or plainly less than noise, which then was taken for too much and may have hidden something. */
 static int may_mistake_noise(const lab_completion *c)
 {
+  static const double plainly_less = 0.5;
+  const lab_errors *after = &c->result.after;
+  if (after->chi2 < plainly_less * (double)after->n)
+    return !c->result.cut_short;
   return c->result.verdict == LAB_VERDICT_UNDECIDED && !c->result.cut_short &&
          (c->result.n_found + c->completed.rig.n_onsets > 0 ||
           !lab_values_stand_in(c->result.verdict, c->result.fit.reduced_chi2));
@@ -621,8 +625,9 @@ int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *
   if (status == LAB_OK && (*answer)->now.logs.n_without_u > 0 && !convinces(&(*answer)->now))
     status = find_with_u(request, start, answer, error);
   if (status == LAB_OK && (*answer)->now.logs.n_without_u > 0)
-    lab_limitation(&(*answer)->now.logs.limitations,
-                   "The set position drives the model by its positioner; u does not, for between rows it is not known.");
+    lab_limitation(
+        &(*answer)->now.logs.limitations,
+        "The set position drives the model by its positioner; u does not, for between rows it is not known.");
   return status;
 }
 

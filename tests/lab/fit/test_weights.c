@@ -103,6 +103,28 @@ static void test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise(vo
   assert_between(memory_told(0, 1e-4), 0.6, 0.9);
 }
 
+/* Rows far between, of which noise was taken for ten times what it is; a declared one stays. */
+static void test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left(void **state)
+{
+  FILE *file = fopen(scratch_path("log.csv"), "w");
+  double told;
+  int i, any;
+  assert_non_null(file);
+  fprintf(file, "t [s],sp [mm],x [mm]\n");
+  seed = 7;
+  for (i = 0; i < ROWS; i++)
+    fprintf(file, "%d,10,%.4f\n", i, 10 + 0.05 * fixture_normal(&seed));
+  fclose(file);
+  for (told = 0; told < 2; told++) {
+    open_stuck(told > 0 ? 5e-4 : (double)NAN);
+    run.sigma[0] = 5e-4;
+    assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+    assert_close(run.sigma[0], told > 0 ? 5e-4 : 5e-5, told > 0 ? 0 : 5e-6, 0);
+    lab_run_close(&run);
+    lab_log_free(&one_log);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -110,6 +132,7 @@ int main(void)
       cmocka_unit_test(test_lab_weigh_runs__set_position_moves__is_no_noise),
       cmocka_unit_test(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once),
       cmocka_unit_test(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise),
+      cmocka_unit_test(test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

@@ -179,6 +179,12 @@ static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state
   assert_column(P, 1e-9, 731500, 731600);
 }
 
+static void test_lab_log_read__dates_beside_a_documented_header__are_time(void **state)
+{
+  read_log("Timestamp,u [1]\n2026-11-03 09:12:44,0\n2026-11-03 09:12:46.5,0\n");
+  assert_column(TIME, 1e-9, 0, 2.5);
+}
+
 static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
 {
   format.delimiter = '\t';
@@ -720,6 +726,7 @@ int main(void)
       CASE(test_lab_log_read__uneven_times__are_kept),
       CASE(test_lab_log_read__semicolons_and_decimal_comma__are_read),
       CASE(test_lab_log_read__thousands_dots_in_time__are_left_out),
+      CASE(test_lab_log_read__dates_beside_a_documented_header__are_time),
       CASE(test_lab_log_read__tabs_and_skipped_lines__are_read),
       CASE(test_lab_log_read__units_above_vacuum__become_gauge),
       CASE(test_lab_log_read__raw_counts__take_a_unit_of_their_own),
