@@ -98,7 +98,6 @@ static void assert_limited(const char *rig, const bad_log *b, const char *verdic
 
 static void test_closeloop__of_this_build__is_sanitized_as_its_test(void **state)
 {
-  (void)state;
   assert_sanitized_as_its_test(PROGRAMS "/closeloop");
 }
 
@@ -107,7 +106,6 @@ static void test_closeloop__of_this_build__is_sanitized_as_its_test(void **state
 static void test_closeloop__sound_log__has_no_limitation(void **state)
 {
   char *report = report_of(bad_rig("rig.cfg", ""), bad_write("good.csv", header, &sound));
-  (void)state;
   assert_contains(report, "\"verdict\":\t\"none\"");
   assert_contains(report, "\"limitations\":\t[]");
   free(report);
@@ -120,7 +118,6 @@ static void test_closeloop__garbage__is_refused(void **state)
   unsigned char bytes[8192];
   uint64_t seed = 3;
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof bytes; i++)
     bytes[i] = (unsigned char)fixture_random(&seed, 0, 256);
   assert_refused(scratch_bytes("bad.csv", bytes, sizeof bytes), "bad.csv", "found a 0 byte");
@@ -133,20 +130,17 @@ static void test_closeloop__utf16__is_read(void **state)
 {
   static const char text[] = "\xFF\xFEt\0 \0[\0s\0]\0,\0u\0 \0[\0"
                              "1\0]\0\n\0";
-  (void)state;
   assert_refused(scratch_bytes("bad.csv", text, sizeof text - 1), "bad.csv", "expected rows of data, found none");
 }
 
 static void test_closeloop__zero_bytes_in_a_row__name_the_line(void **state)
 {
   static const char text[] = "t [s],u [1],p [kPa],x [mm]\n0,0,0,0\n0.01,0,\0\0,0\n";
-  (void)state;
   assert_refused(scratch_bytes("bad.csv", text, sizeof text - 1), "bad.csv:3", "0 byte");
 }
 
 static void test_closeloop__empty_missing_or_folder__is_refused(void **state)
 {
-  (void)state;
   assert_refused(scratch_text("bad.csv", ""), "bad.csv", "empty");
   assert_refused(scratch_text("bad.csv", "t [s],u [1],p [kPa]\n"), "bad.csv", "found none");
   assert_refused(scratch_path("nothere.csv"), "nothere.csv", "no such file");
@@ -157,7 +151,6 @@ static void test_closeloop__endless_line__is_refused(void **state)
 {
   enum { SIZE = 1 << 22 };
   char *text = malloc(SIZE);
-  (void)state;
   assert_non_null(text);
   memset(text, '7', SIZE);
   assert_refused(scratch_bytes("bad.csv", text, SIZE), "bad.csv:1", "this is not a log");
@@ -169,7 +162,6 @@ static void test_closeloop__dos_lines_and_mark__are_read(void **state)
   char *text, *crlf = calloc(1, 1 << 20), *said;
   char *to = crlf;
   const char *from;
-  (void)state;
   text = scratch_read(bad_write("good.csv", header, &sound));
   to += sprintf(to, "\xEF\xBB\xBF");
   for (from = text; *from; from++) {
@@ -190,7 +182,6 @@ static void test_closeloop__dos_lines_and_mark__are_read(void **state)
 static void test_closeloop__cut_off_row__names_the_line(void **state)
 {
   char *text;
-  (void)state;
   text = scratch_read(bad_write("bad.csv", header, &sound));
   *strrchr(text, ',') = '\0';
   assert_refused(scratch_text("bad.csv", text), "bad.csv:1002", "expected 4 fields, found 3");
@@ -202,7 +193,6 @@ static void test_closeloop__cut_off_row__names_the_line(void **state)
 
 static void test_closeloop__cut_off_header__is_refused(void **state)
 {
-  (void)state;
   assert_refused(bad_write("bad.csv", "t [s],u [1],p [kP", &sound), "bad.csv:1", "p [kP");
   assert_refused(bad_write("bad.csv", "t [s],u [1],p [kPa]", &sound), "bad.csv:2", "expected 3 fields, found 4");
   assert_refused(bad_write("bad.csv", "t [s],u,p [kPa],x [mm]", &sound), "bad.csv:1", "column \"u\" has no unit");
@@ -211,7 +201,6 @@ static void test_closeloop__cut_off_header__is_refused(void **state)
 static void test_closeloop__last_value_cut_short__is_left_out(void **state)
 {
   bad_log b = sound;
-  (void)state;
   b.n = 300;    /* in the middle of a hold at high pressure */
   b.p[299] = 3; /* of 3.. hundred kPa */
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "the last value");
@@ -229,7 +218,6 @@ static void swap(double *a, double *b)
 static void test_closeloop__times_out_of_order__name_the_line(void **state)
 {
   bad_log b = sound;
-  (void)state;
   swap(&b.t[500], &b.t[700]);
   assert_spoiled_is_refused(&b, "bad.csv:503", "channel t: expected more than");
   b = sound;
@@ -247,7 +235,6 @@ static void test_closeloop__times_out_of_order__name_the_line(void **state)
 static void test_closeloop__damaged_rows__are_left_out_and_counted(void **state)
 {
   bad_log b = sound;
-  (void)state;
   b.t[500] = b.t[499];
   b.t[600] = (double)NAN;
   assert_limited(bad_rig("rig.cfg", "log = { damaged = \"drop\"; };\n"), &b, "none", "2 damaged rows of ");
@@ -258,7 +245,6 @@ static void test_closeloop__shuffled_rows__are_refused(void **state)
   bad_log b = sound;
   uint64_t seed = 5;
   size_t i;
-  (void)state;
   for (i = b.n - 1; i > 0; i--) {
     const size_t k = (size_t)fixture_random(&seed, 0, (double)(i + 1));
     swap(&b.t[i], &b.t[k]);
@@ -274,7 +260,6 @@ static void test_closeloop__shuffled_values__do_not_match_the_command(void **sta
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++) {
     b.p[i] = sound.p[(i * 389) % b.n];
     b.x[i] = sound.x[(i * 389) % b.n];
@@ -291,7 +276,6 @@ static void test_closeloop__jump_in_time__is_a_limitation(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 20; i < b.n; i++) /* before the first command */
     b.t[i] += 60;
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "no rows from t = 0.19 s to t = 60.2 s");
@@ -317,7 +301,6 @@ static void test_closeloop__units_that_disagree__are_refused(void **state)
       {"t [s],u [1],p [kg],x [mm]", "expected a unit like Pa"},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof slips / sizeof slips[0]; i++)
     assert_refused(bad_write("bad.csv", slips[i].header, &sound), "bad.csv", slips[i].words);
 }
@@ -343,7 +326,6 @@ static void test_closeloop__channel_scaled_turned_or_dead__is_refused(void **sta
       {X, 2.5, 0, "t [s],u [1],p [kPa],x [mm]", "bad.csv:", "whether the log is of this rig"},
   };
   size_t i, k;
-  (void)state;
   for (k = 0; k < sizeof slips / sizeof slips[0]; k++) {
     bad_log b = sound;
     double *value = (double *)((char *)&b + slips[k].channel);
@@ -357,7 +339,6 @@ static void test_closeloop__absolute_called_gauge__is_undecided(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] = sound.p[i] + 101.325;
   assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "the column is p_abs");
@@ -370,7 +351,6 @@ static void test_closeloop__saturated_pressure__is_left_out_and_said(void **stat
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] = fmin(sound.p[i], 180);
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "stands at exactly 180 kPa, its largest value");
@@ -380,7 +360,6 @@ static void test_closeloop__saturated_position__is_left_out_and_said(void **stat
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.x[i] = fmin(sound.x[i], 9);
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "stands at exactly 9 mm, its largest value");
@@ -398,7 +377,6 @@ static void test_closeloop__pressure_as_input__shows_friction_and_spring(void **
                     "inputs = [\"p\"];\n"
                     "noise = { pressure = \"0.32 kPa\"; position = \"0.02 mm\"; };\n");
   char *report;
-  (void)state;
   assert_limited(rig, &sound, "none", "channel p drives the model, without its noise of 0.3");
   report = scratch_read(scratch_path("out/report.json"));
   assert_contains(report, "Friction is 3 times its sheet, the spring 20 % soft; nothing else is missing");
@@ -409,7 +387,6 @@ static void test_closeloop__spikes__are_left_out_and_said(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 57; i < b.n; i += 131)
     b.p[i] += 150;
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p are far from both neighbours");
@@ -419,7 +396,6 @@ static void test_closeloop__values_that_stand_alone__are_left_out_and_said(void 
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 57; i < b.n; i += 131)
     b.p[i] += 4;
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p are isolated");
@@ -430,7 +406,6 @@ static void test_closeloop__one_bad_value__brings_no_name(void **state)
 {
   static const size_t row[] = {43, 44, 45};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++) {
     bad_log b = sound;
     b.p[row[i]] += 7;
@@ -454,7 +429,6 @@ static void test_closeloop__bad_values_after_each_command__stay(void **state)
   static const size_t row[] = {44, 254, 404, 554, 724};
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++)
     b.p[row[i]] += 7;
   assert_undecided_with_all(&b);
@@ -465,7 +439,6 @@ static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(voi
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] += (i / 50) % 4 == 0 ? (i * 7919 % 13 < 6 ? 1.5 : -1.5) : 0;
   for (i = 57; i < b.n; i += 131)
@@ -477,7 +450,6 @@ static void test_closeloop__coarse_steps__are_a_limitation(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] = 4 * floor(sound.p[i] / 4 + 0.5);
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "p is recorded in steps of 4 kPa");
@@ -488,7 +460,6 @@ static void test_closeloop__coarse_steps__are_a_limitation(void **state)
 static void test_closeloop__too_few_rows__is_refused(void **state)
 {
   bad_log b = sound;
-  (void)state;
   b.n = 2;
   assert_spoiled_is_refused(&b, "", "too short");
 }
@@ -497,7 +468,6 @@ static void test_closeloop__short_log__is_undecided(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < 13; i++) { /* the first stroke, every 0.1 s */
     b.t[i] = sound.t[35 + 10 * i];
     b.u[i] = sound.u[35 + 10 * i];
@@ -511,7 +481,6 @@ static void test_closeloop__short_log__is_undecided(void **state)
 static void test_closeloop__still_log__is_refused(void **state)
 {
   bad_log b = sound;
-  (void)state;
   b.n = 40; /* before the first command */
   assert_spoiled_is_refused(&b, "", "nothing moves");
 }
@@ -519,7 +488,6 @@ static void test_closeloop__still_log__is_refused(void **state)
 static void test_closeloop__part_of_a_stroke__is_a_limitation(void **state)
 {
   bad_log b = sound;
-  (void)state;
   while (b.n > 0 && b.x[b.n - 1] > 0.2 * 20)
     b.n--;
   for (b.n = 0; b.x[b.n] < 0.2 * 20; b.n++)
@@ -535,7 +503,6 @@ static void test_closeloop__measured_supply_that_is_no_input__is_said(void **sta
   FILE *file = fopen(path, "w");
   char *report;
   size_t i;
-  (void)state;
   assert_non_null(file);
   fprintf(file, "%s,ps [kPa]\n", header);
   for (i = 0; i < sound.n; i++)
@@ -557,7 +524,6 @@ static void test_closeloop__many_rows__are_thinned_and_said(void **state)
   char *report;
   FILE *file;
   int i;
-  (void)state;
   bad_run(0, 10.0 / (MANY - 1), &log);
   file = fopen(path, "w");
   assert_non_null(file);
@@ -577,7 +543,6 @@ static void test_closeloop__command_of_another_test__is_refused(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.u[i] = sound.u[b.n - 1 - i];
   assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
@@ -596,7 +561,6 @@ static bad_log shifted(int rows)
 static void test_closeloop__command_recorded_too_late__is_refused(void **state)
 {
   bad_log b;
-  (void)state;
   b = shifted(60);
   assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
   b = shifted(200);
@@ -606,7 +570,6 @@ static void test_closeloop__command_recorded_too_late__is_refused(void **state)
 static void test_closeloop__one_stroke_before_its_command__is_refused(void **state)
 {
   bad_log b = shifted(30);
-  (void)state;
   b.n = 350;
   assert_spoiled_is_refused(&b, "bad.csv", "before u says so");
 }
@@ -618,7 +581,6 @@ static void test_closeloop__commands_at_other_instants__are_refused(void **state
   bad_log b = sound;
   size_t i;
   int k;
-  (void)state;
   for (i = 0; i < b.n; i++)
     for (k = 0; k < 5; k++)
       if (b.t[i] >= at[k])
@@ -630,7 +592,6 @@ static void test_closeloop__quick_commands_of_another_test__are_refused(void **s
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.u[i] = i / 5 % 2 ? 1 : -0.8;
   assert_spoiled_is_refused(&b, "bad.csv", "is not what the declared model makes of u");
@@ -640,7 +601,6 @@ static void test_closeloop__command_seconds_too_early__is_no_dead_time(void **st
 {
   bad_log b = sound;
   size_t i, k;
-  (void)state;
   for (i = 0; i < b.n; i++) { /* the measured channels 1.6 s late, after a longer rest */
     k = i < 160 ? i % 35 : i - 160;
     b.p[i] = sound.p[k];
@@ -653,7 +613,6 @@ static void test_closeloop__command_from_0_to_1__is_undecided(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.u[i] = fmax(sound.u[i], 0);
   assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "u is never negative");
@@ -664,7 +623,6 @@ static void test_closeloop__command_from_0_to_1__is_undecided(void **state)
 static void test_closeloop__supply_in_another_unit__is_refused(void **state)
 {
   char *text = scratch_read(bad_rig("rig.cfg", "")), *pressure = strstr(text, "\"400 kPa\"");
-  (void)state;
   memcpy(pressure, "4.0      ", 9);
   assert_refused_by(scratch_text("bar.cfg", text), bad_write("bad.csv", "t [s],u [1],-,x [mm]", &sound),
                     "bad.csv:", "did you mean \"4 bar\"?");
@@ -677,7 +635,6 @@ static void test_closeloop__bad_holdout__is_refused_before_any_fit(void **state)
   bad_log b = sound;
   size_t i;
   int status;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.u[i] = -sound.u[i];
   snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --holdout '%s' --out '%s/out' >'%s/said.txt' 2>&1",

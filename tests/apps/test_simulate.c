@@ -74,13 +74,11 @@ static double cell(int row, int column)
 
 static void test_simulate__of_this_build__is_sanitized_as_its_test(void **state)
 {
-  (void)state;
   assert_sanitized_as_its_test(PROGRAMS "/simulate");
 }
 
 static void test_simulate__supply_in_another_unit__says_that_the_stem_stands_still(void **state)
 {
-  (void)state;
   scratch_text("bar.cfg", "supply = { pressure = 2.5; };\n");
   assert_int_equal(run("@/bar.cfg --step"), 0);
   assert_close(cell(1540, 3), 0, 0, 0);
@@ -90,7 +88,6 @@ static void test_simulate__supply_in_another_unit__says_that_the_stem_stands_sti
 
 static void test_simulate__step__prints_the_standard_experiment(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/m.cfg --step"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
   assert_int_equal(lines_of(out), 3052);
@@ -102,7 +99,6 @@ static void test_simulate__step__prints_the_standard_experiment(void **state)
 
 static void test_simulate__log__predicts_at_its_times(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/m.cfg @/log.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
   assert_int_equal(lines_of(out), 6);
@@ -116,7 +112,6 @@ static void test_simulate__log__predicts_at_its_times(void **state)
 
 static void test_simulate__log_without_outputs__gives_pressure_and_position(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/m.cfg @/only_u.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
   assert_string_equal(err, "");
@@ -124,7 +119,6 @@ static void test_simulate__log_without_outputs__gives_pressure_and_position(void
 
 static void test_simulate__command_that_never_vents__is_noted(void **state)
 {
-  (void)state;
   scratch_text("back.csv", "t [s],u [1]\n0,0\n1,1\n5,0\n9,0\n");
   assert_int_equal(run("@/m.cfg @/back.csv"), 0);
   assert_contains(err, "u never goes below 0, so that nothing vents: 1 fills, 0 shuts, -1 vents");
@@ -132,7 +126,6 @@ static void test_simulate__command_that_never_vents__is_noted(void **state)
 
 static void test_simulate__log_of_position__gives_position_alone(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/m.cfg @/only_x.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],x [mm]\n", 19), 0);
   assert_true(cell(3, 2) > 1);
@@ -141,7 +134,6 @@ static void test_simulate__log_of_position__gives_position_alone(void **state)
 /* The set position drives through the positioner, unless the log has the command too; both are shown. */
 static void test_simulate__set_position__drives_through_the_positioner(void **state)
 {
-  (void)state;
   scratch_text("closed.cfg", "positioner = { gain = 20; dead_band = \"0.2 %\"; };\n");
   scratch_text("sp.csv", "t [s],sp [%],x [mm]\n0,0,0\n1,50,0\n49,50,10\n50,25,10\n99,25,5\n");
   scratch_text("both.csv", "t [s],sp [%],u [1],x [mm]\n0,0,0,0\n1,50,1,0\n30,50,1,20\n");
@@ -159,7 +151,6 @@ static void test_simulate__set_position__drives_through_the_positioner(void **st
 
 static void test_simulate__metrics_of_set_positions__are_of_the_set_position(void **state)
 {
-  (void)state;
   scratch_text("closed.cfg", "positioner = { gain = 20; };\n");
   scratch_text("sp.csv", "t [s],sp [%]\n0,10\n10,20\n20,30\n30,40\n40,50\n50,60\n60,50\n70,40\n80,30\n90,20\n100,20\n");
   assert_int_equal(run("@/closed.cfg @/sp.csv --metrics"), 0);
@@ -174,7 +165,6 @@ static void test_simulate__metrics__those_of_the_response(void **state)
 {
   double rise = 0;
   int row;
-  (void)state;
   assert_int_equal(run("@/m.cfg --step"), 0);
   for (row = 52; rise == 0; row++)
     if (cell(row, 3) >= 0.865 * 20)
@@ -193,7 +183,6 @@ static void test_simulate__metrics__those_of_the_response(void **state)
 
 static void test_simulate__metrics_of_a_log__sampled_finely(void **state)
 {
-  (void)state;
   scratch_text("strokes.csv", "t [s],u [1]\n0,-1\n1,1\n16,-1\n31,-1\n");
   assert_int_equal(run("@/m.cfg @/strokes.csv --metrics"), 0);
   assert_contains(out, "first full stroke up and down");
@@ -222,7 +211,6 @@ static void test_simulate__schedules__show_the_friction_that_is_declared(void **
                 {"study/schedules/r1-400-pressure.cfg study/schedules/pressure-loop.csv", 0.3}};
   char line[256];
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof drives / sizeof *drives; i++) {
     snprintf(line, sizeof line, "%s --metrics", drives[i].arguments);
     assert_int_equal(run(line), 0);
@@ -240,14 +228,12 @@ static void test_simulate__schedules__show_the_friction_that_is_declared(void **
 
 static void test_simulate__json_alone__is_refused(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/m.cfg --step --json"), 2);
   assert_contains(err, "--json: goes with --metrics");
 }
 
 static void test_simulate__runs__start_afresh(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/runs.cfg @/runs.csv"), 0);
   assert_int_equal(lines_of(out), 5);
   assert_close(cell(3, 0), 0, 0, 0);
@@ -257,7 +243,6 @@ static void test_simulate__runs__start_afresh(void **state)
 
 static void test_simulate__vessel__fills(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/vessel.cfg --step"), 0);
   assert_close(cell(1540, 2), 400, 1, 0);
   assert_close(cell(1540, 3), 0, 0, 0);
@@ -266,7 +251,6 @@ static void test_simulate__vessel__fills(void **state)
 /* Shut for 0.5 s: a constant flow into a litre makes the pressure rise by q R T/V. */
 static void test_simulate__flow_of_no_name__fills_while_shut(void **state)
 {
-  (void)state;
   scratch_text("unlisted.cfg", "actuator = { stroke = 0; dead_volume = \"1 l\"; };\n"
                                "unlisted = ( { equation = \"flow\"; argument = \"p\"; from = 0; to = 1;\n"
                                "  values = [ 0.01, 0.01 ]; unit = \"g/s\"; } );\n");
@@ -277,7 +261,6 @@ static void test_simulate__flow_of_no_name__fills_while_shut(void **state)
 
 static void test_simulate__pressure_command__is_written_as_one(void **state)
 {
-  (void)state;
   scratch_text("band.cfg", "transducer = { proportional_band = \"5 kPa\"; };\n");
   assert_int_equal(run("@/band.cfg --step"), 0);
   assert_int_equal(strncmp(out, "t [s],u [kPa],p [kPa],x [mm]\n", 29), 0);
@@ -287,7 +270,6 @@ static void test_simulate__pressure_command__is_written_as_one(void **state)
 
 static void test_simulate__out__writes_the_file_and_nothing_else(void **state)
 {
-  (void)state;
   assert_int_equal(run("--out @/deep/er/o.csv @/m.cfg @/log.csv"), 0);
   assert_string_equal(out, "");
   assert_true(scratch_exists(scratch_path("deep/er/o.csv")));
@@ -296,7 +278,6 @@ static void test_simulate__out__writes_the_file_and_nothing_else(void **state)
 
 static void test_simulate__bad_log__leaves_no_file(void **state)
 {
-  (void)state;
   assert_int_equal(run("--out @/torn_out.csv @/m.cfg @/torn.csv"), 1);
   assert_contains(err, "torn.csv:3: expected 3 fields, found 2");
   assert_false(scratch_exists(scratch_path("torn_out.csv")));
@@ -305,7 +286,6 @@ static void test_simulate__bad_log__leaves_no_file(void **state)
 
 static void test_simulate__bad_model__is_1_with_line_and_key(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/bad.cfg --step"), 1);
   assert_contains(err, "simulate: ");
   assert_contains(err, "bad.cfg:2: actuator.aera: unknown key; the nearest known one is \"area\"");
@@ -314,7 +294,6 @@ static void test_simulate__bad_model__is_1_with_line_and_key(void **state)
 
 static void test_simulate__missing_files__are_1(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/none.cfg --step"), 1);
   assert_contains(err, "none.cfg: there is no such file");
   assert_int_equal(run("@/m.cfg @/none.csv"), 1);
@@ -323,7 +302,6 @@ static void test_simulate__missing_files__are_1(void **state)
 
 static void test_simulate__bad_usage__is_2(void **state)
 {
-  (void)state;
   assert_int_equal(run(""), 2);
   assert_int_equal(run("@/m.cfg"), 2);
   assert_int_equal(run("@/m.cfg @/log.csv --step"), 2);
@@ -334,7 +312,6 @@ static void test_simulate__bad_usage__is_2(void **state)
 
 static void test_simulate__full_disk__is_4(void **state)
 {
-  (void)state;
   scratch_device("full", "/dev/full");
   assert_int_equal(run("@/m.cfg --step --out @/full"), 4);
   assert_contains(err, "No space left on device");
@@ -342,14 +319,12 @@ static void test_simulate__full_disk__is_4(void **state)
 
 static void test_simulate__unwritable_folder__is_4(void **state)
 {
-  (void)state;
   assert_int_equal(run("@/m.cfg --step --out @/m.cfg/o.csv"), 4);
   assert_contains(err, "cannot be");
 }
 
 static void test_simulate__help_and_version__are_0_on_stdout(void **state)
 {
-  (void)state;
   assert_int_equal(run("--help"), 0);
   assert_contains(out, "Usage: simulate");
   assert_int_equal(run("--version"), 0);

@@ -35,7 +35,6 @@ static void test_blind_draw__same_seed_and_number__same_trial(void **state)
 {
   const blind_trial a = draw(7), b = draw(7), c = draw(27);
   blind_trial other_seed;
-  (void)state;
   blind_draw(2, 7, &other_seed);
   assert_memory_equal(&a, &b, sizeof a);
   assert_int_equal(a.kind, c.kind);
@@ -47,7 +46,6 @@ static void test_blind_draw__many__kinds_and_effects_have_their_share(void **sta
 {
   const int listed = blind_listed_count(), trials = 20 * listed;
   int kinds[BLIND_KINDS] = {0}, *drawn = calloc((size_t)blind_effect_count, sizeof *drawn), k;
-  (void)state;
   for (k = 0; k < trials; k++) {
     const blind_trial t = draw(k);
     kinds[t.kind]++;
@@ -75,7 +73,6 @@ static void assert_size_in_range(const blind_missing *m, const second_rig *base)
 static void test_blind_draw__many__are_within_their_ranges(void **state)
 {
   int k, i;
-  (void)state;
   for (k = 0; k < 400; k++) {
     const blind_trial t = draw(k);
     for (i = 0; i < t.n_missing; i++) {
@@ -96,7 +93,6 @@ static void test_blind_draw__commands__are_not_on_rows_and_differ_between_the_lo
 {
   int k, on_row = 0;
   size_t i;
-  (void)state;
   for (k = 0; k < 50; k++) {
     const blind_trial t = draw(k);
     assert_memory_not_equal(t.fit.u, t.holdout.u, sizeof t.fit.u);
@@ -114,7 +110,6 @@ static void test_blind_truth__nothing_missing__is_the_base_rig(void **state)
   const blind_trial t = draw_with("chamber_leak", BLIND_P | BLIND_X);
   const second_rig without = blind_truth(&t, 0), with = blind_truth(&t, BLIND_ALL);
   second_rig base = t.base;
-  (void)state;
   base.step = t.step;
   assert_memory_equal(&without, &base, sizeof base);
   assert_close(with.leak_area, t.missing[0].size, 0, 0);
@@ -123,7 +118,6 @@ static void test_blind_truth__nothing_missing__is_the_base_rig(void **state)
 static void test_blind_draw__any_rig__makes_its_whole_stroke(void **state)
 {
   int k;
-  (void)state;
   for (k = 0; k < 24; k++) {
     const blind_trial t = draw(k);
     second_rig g = blind_truth(&t, 0);
@@ -159,7 +153,6 @@ static int is_undrawn(const char *name)
 static void test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
     const blind_effect *e = blind_effect_named(pneu_effect_at(i)->name);
     if ((e == NULL) != is_undrawn(pneu_effect_at(i)->name))
@@ -185,7 +178,6 @@ static void test_blind_write_logs__twice__same_bytes(void **state)
 {
   blind_trial t = draw(3);
   char a[600], b[600];
-  (void)state;
   t.step = 1e-4;
   assert_int_equal(blind_write_logs(&t, scratch_path("a"), &error), LAB_OK);
   assert_int_equal(blind_write_logs(&t, scratch_path("b"), &error), LAB_OK);
@@ -227,7 +219,6 @@ static void assert_readable(int number)
 static void test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop(void **state)
 {
   int k;
-  (void)state;
   for (k = 0; k < 60; k++)
     assert_readable(k);
 }
@@ -237,14 +228,12 @@ static void test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop(voi
 static void test_blind_projected__plane_in_space__leaves_the_third_axis(void **state)
 {
   double column[2][3] = {{1, 1, 0}, {1, -3, 0}}, s[3] = {5, 7, 3};
-  (void)state;
   assert_close(blind_projected(&column[0][0], 2, s, 3), 9, 1e-12, 0);
 }
 
 static void test_blind_projected__same_column_twice__counts_once(void **state)
 {
   double column[2][3] = {{1, 2, 2}, {2, 4, 4}}, s[3] = {1, 2, 3};
-  (void)state;
   assert_close(blind_projected(&column[0][0], 2, s, 3), 14 - 11.0 * 11.0 / 9, 1e-12, 0);
 }
 
@@ -254,7 +243,6 @@ static void test_blind_limit__position_bias__is_somewhat_above_that_of_the_mean(
   const blind_trial t = draw_with("position_bias", BLIND_P | BLIND_X);
   const double n = (double)second_samples(t.fit.end, t.spacing), mean = 5 * t.base.position_noise / sqrt(n);
   double size, statistic;
-  (void)state;
   assert_int_equal(blind_limit(&t, 0, &size, &statistic, &error), LAB_OK);
   assert_between(size / mean, 1, 3);
   assert_close(statistic, 25 * t.missing[0].size * t.missing[0].size / (size * size), 0, 1e-6);
@@ -264,7 +252,6 @@ static void test_blind_limit__other_size__is_the_same(void **state)
 {
   blind_trial t = draw_with("chamber_leak", BLIND_P | BLIND_X);
   double size[2], statistic;
-  (void)state;
   assert_int_equal(blind_limit(&t, 0, &size[0], &statistic, &error), LAB_OK);
   t.missing[0].size = 50 * size[0];
   assert_int_equal(blind_limit(&t, 0, &size[1], &statistic, &error), LAB_OK);
@@ -276,7 +263,6 @@ static void test_blind_limit__dead_time__grows_with_the_spacing_of_rows(void **s
 {
   blind_trial t = draw_with("dead_time", BLIND_P | BLIND_X);
   double fine, coarse, statistic;
-  (void)state;
   t.spacing = 4e-3;
   assert_int_equal(blind_limit(&t, 0, &fine, &statistic, &error), LAB_OK);
   t.spacing = 4e-2;

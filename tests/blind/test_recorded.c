@@ -17,7 +17,6 @@ static blind_recorded draw(int number)
 static void test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial(void **state)
 {
   int k;
-  (void)state;
   for (k = 0; k < 100; k++) {
     const blind_recorded r = draw(k), again = draw(k);
     blind_trial clean;
@@ -64,7 +63,6 @@ static void assert_turbulent(const blind_recorded *r, int which)
 static void test_blind_draw_recorded__many__half_of_the_lines_are_turbulent(void **state)
 {
   int lines = 0, turbulent = 0, begin = 0, k, i;
-  (void)state;
   for (k = 0; k < 4000; k++) {
     const blind_recorded r = draw(k);
     const second_rig g = blind_recorded_later(&r, BLIND_ALL);
@@ -89,7 +87,6 @@ static void test_blind_draw_recorded__many__imperfections_have_their_share(void 
 {
   enum { MANY = 4000 };
   int count[BLIND_IMPERFECTIONS] = {0}, plain = 0, k, i;
-  (void)state;
   for (k = 0; k < MANY; k++) {
     const blind_recorded r = draw(k);
     plain += r.has == 0;
@@ -116,7 +113,6 @@ static void test_blind_draw_recorded__many__values_are_off_by_their_tolerance(vo
   enum { MANY = 3000 };
   double squares[BLIND_VALUES] = {0};
   int n[BLIND_VALUES] = {0}, k, i;
-  (void)state;
   for (k = 0; k < MANY; k++) {
     const blind_recorded r = draw(k);
     for (i = 0; i < BLIND_VALUES; i++) {
@@ -141,7 +137,6 @@ static void test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a
   enum { MANY = 1000 };
   double squares = 0;
   int k;
-  (void)state;
   for (k = 0; k < MANY; k++) {
     const blind_recorded r = draw(k);
     assert_close(r.t.base.vent_area / r.t.base.fill_area, r.vent, 0, 1e-12);
@@ -153,7 +148,6 @@ static void test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a
 static void test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off(void **state)
 {
   int k, seen = 0, more = 0;
-  (void)state;
   for (k = 0; k < 2000; k++) {
     const blind_recorded r = draw(k);
     const int i = r.beyond;
@@ -178,7 +172,6 @@ static void test_blind_draw_recorded__without__has_none_of_it(void **state)
   const unsigned of_loops = 1u << BLIND_INTEGRAL | 1u << BLIND_LONG_RAMPS;
   unsigned without;
   int k;
-  (void)state;
   assert_int_equal(blind_imperfections_read("positioner,hum", &without), 1);
   assert_int_equal(without, 1u << BLIND_POSITIONER | 1u << BLIND_HUM);
   assert_int_equal(blind_imperfections_read("positioner,humm", &without), 0);
@@ -197,7 +190,6 @@ static void test_blind_draw_recorded__without__has_none_of_it(void **state)
 static void test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first(void **state)
 {
   int loops = 0, worked = 0, up = 0, k;
-  (void)state;
   for (k = 0; k < 4000; k++) {
     const blind_recorded r = draw(k);
     const second_positioner *p = &r.positioner;
@@ -233,7 +225,6 @@ static double longest_ramp(const blind_recorded *r)
 static void test_blind_draw_recorded__many__some_loops_follow_long_ramps(void **state)
 {
   int loops = 0, ramps = 0, back = 0, whole = 0, k;
-  (void)state;
   for (k = 0; k < 2000; k++) {
     const blind_recorded r = draw(k);
     const double from = r.move[0].to, to = r.move[1].to;
@@ -290,7 +281,6 @@ static void assert_step_is_short_enough(const char *name)
 
 static void test_blind_run_recorded__least_turbulent_lines__are_followed_at_their_step(void **state)
 {
-  (void)state;
   assert_step_is_short_enough("supply_droop");
   assert_step_is_short_enough("connecting_tube");
 }
@@ -352,7 +342,6 @@ static void test_blind_spoil__nothing__shows_what_is_there(void **state)
   const blind_recorded r = bare();
   blind_log log = record(&r, slope);
   size_t i;
-  (void)state;
   assert_int_equal(log.n, 2001);
   for (i = 0; i < log.n; i++) {
     assert_close(log.t[i], (double)i * 0.01, 1e-12, 0);
@@ -366,7 +355,6 @@ static void test_blind_spoil__filter__has_its_time_constant(void **state)
 {
   blind_recorded r = bare();
   blind_log log;
-  (void)state;
   r.filter[0] = 0.02;
   r.filter[1] = 0.03;
   log = record(&r, step);
@@ -386,7 +374,6 @@ static void test_blind_spoil__bits__are_steps_of_the_range(void **state)
   const double quantum = 1.25 / 1024;
   blind_log log;
   size_t i;
-  (void)state;
   r.bits = 10;
   log = record(&r, slope);
   for (i = 0; i < log.n; i++) {
@@ -402,7 +389,6 @@ static void test_blind_spoil__rounding_and_jitter__move_time_and_sample(void **s
   double square = 0;
   blind_log log;
   size_t i;
-  (void)state;
   r.spacing = 0.013;
   r.rounding = 0.005;
   r.jitter = 0.001;
@@ -448,7 +434,6 @@ static void test_blind_spoil__colour__has_its_level_and_memory(void **state)
 {
   blind_recorded r = bare();
   blind_log log;
-  (void)state;
   r.end = 200;
   r.t.declared.pressure_noise = r.t.declared.position_noise = 0.01;
   r.colour[1] = 3;
@@ -465,7 +450,6 @@ static void test_blind_spoil__hum_and_drift__are_of_the_span(void **state)
   blind_recorded r = bare();
   size_t i;
   blind_log log;
-  (void)state;
   r.hum[0] = 0.002;
   r.mains = 10; /* five rows are half a period */
   r.drift[1] = -0.004;
@@ -484,7 +468,6 @@ static void test_blind_spoil__dropouts__empty_fields_missing_rows_and_a_gap(void
   double longest = 0;
   size_t i, empty = 0;
   blind_log log;
-  (void)state;
   r.end = 100;
   r.lost = 0.02;
   r.gap_at = 40;
@@ -507,7 +490,6 @@ static void test_blind_write_recorded__many__are_logs_with_their_channels(void *
   static const char *const heads[BLIND_LOOPS] = {"t [s],u [1],", "t [s],u [1],sp [%],p [kPa],x [mm]",
                                                  "t [s],sp [%],p [kPa],x [mm]", "t [s],sp [%],x [mm]"};
   int seen[BLIND_LOOPS] = {0}, k;
-  (void)state;
   for (k = 0; k < 60; k++) {
     blind_recorded r = draw(k);
     char *rig, *log, path[600];
@@ -557,7 +539,6 @@ static void test_blind_recorded_visible__area__is_known_by_the_tolerance_of_mass
   blind_recorded r = draw(plain_number());
   blind_visible v;
   double bound;
-  (void)state;
   r.off[area] = 1.05;
   memset(r.told, 0, sizeof r.told);
   assert_int_equal(blind_recorded_visible(&r, &v, &error), LAB_OK);
@@ -572,7 +553,6 @@ static void test_blind_recorded_visible__noise_and_converter__hide(void **state)
   const int friction = blind_value_named("dry_friction");
   blind_recorded r = draw(plain_number());
   blind_visible fine, noisy, coarse;
-  (void)state;
   r.bits = 14;
   assert_int_equal(blind_recorded_visible(&r, &fine, &error), LAB_OK);
   r.bits = 3;

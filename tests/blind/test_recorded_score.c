@@ -95,7 +95,6 @@ static const struct class_case {
 static void test_blind_score_recorded__each_kind_of_answer__has_its_class(void **state)
 {
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof class_cases / sizeof class_cases[0]; i++) {
     const struct class_case *c = &class_cases[i];
     const blind_recorded r = trial_with(c->missing);
@@ -114,7 +113,6 @@ static void test_blind_score_recorded__listed_as_small__is_not_overlooked(void *
 {
   const blind_recorded leak = trial_with("chamber_leak");
   blind_recorded bump;
-  (void)state;
   set_answer("none", "", "");
   strcpy(answer.small[answer.n_small++], "chamber_leak");
   blind_score_recorded(&leak, &visible, &answer, 100, &record);
@@ -130,7 +128,6 @@ static void test_blind_score_recorded__listed_as_small__is_not_overlooked(void *
 static void test_blind_score_recorded__instrument_among_the_deviations__is_not_overlooked(void **state)
 {
   blind_recorded r = trial_with("position_bias");
-  (void)state;
   r.t.missing[0].size = -2.6e-5;
   visible.effect[0] = over(9);
   set_answer("none", "", "");
@@ -146,7 +143,6 @@ static void test_blind_score_recorded__instrument_among_the_deviations__is_not_o
 static void test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm(void **state)
 {
   blind_recorded r = trial_with("");
-  (void)state;
   set_answer("effect", "pressure_lag", "");
   blind_score_recorded(&r, &visible, &answer, 100, &record);
   assert_string_equal(record.class, "false alarm");
@@ -170,7 +166,6 @@ static void test_blind_score_recorded__deviation__is_found_by_name_and_direction
 {
   const int rate = blind_value_named("spring_rate"), orifice = blind_value_named("orifice_area");
   blind_recorded r = trial_with("");
-  (void)state;
   r.off[rate] = 1.3;
   r.off[orifice] = 0.7;
   r.beyond = rate;
@@ -196,7 +191,6 @@ static void test_blind_score_recorded__deviation__is_found_by_name_and_direction
 static void test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_its_width(void **state)
 {
   blind_recorded r = trial_with("");
-  (void)state;
   r.off[blind_value_named("ambient_pressure")] = -10132.5;
   r.off[blind_value_named("damping")] = 1.2; /* of which two thirds are damping */
   set_answer("none", "", "");
@@ -213,7 +207,6 @@ static void test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_it
 static void test_blind_score_recorded__vent__is_judged_as_a_restriction(void **state)
 {
   blind_recorded r = trial_with("");
-  (void)state;
   r.vent = 0.9;
   r.t.base.vent_area *= r.vent;
   visible.vent = 1.01 * BLIND_DUE;
@@ -240,7 +233,6 @@ static void test_blind_score_recorded__vent__is_judged_as_a_restriction(void **s
 static void test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_value(void **state)
 {
   blind_recorded r = trial_with("vent_restriction");
-  (void)state;
   r.t.missing[0].size = 0.2;
   r.t.base.vent_area *= 0.9;
   visible.vent = 1.01 * BLIND_DUE;
@@ -259,7 +251,6 @@ static void test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_val
 static void test_blind_score_recorded__onset__counts_where_what_begins_was_named(void **state)
 {
   blind_recorded r = trial_with("chamber_leak");
-  (void)state;
   r.onset = 12;
   set_answer("effect", "dead_time", "");
   answer.found[0].since = (blind_since){12, 11, 13};
@@ -282,7 +273,6 @@ static void test_blind_score_recorded__onset_of_a_value__is_that_of_its_deviatio
 {
   const int supply = blind_value_named("supply_pressure");
   blind_recorded r = trial_with("");
-  (void)state;
   r.onset = 12;
   r.onset_value = r.beyond = supply;
   r.off[supply] = 0.8;
@@ -307,7 +297,6 @@ static void test_blind_answer_read__deviations_and_onset__are_taken(void **state
       " \"declared\": 200, \"found\": 150, \"ci95\": [140, 160], \"ratio\": 0.75, \"beyond\": true},"
       " {\"parameter\": \"vent_restriction\", \"declared\": 0, \"found\": -0.06, \"ci95\": [-0.07, -0.05],"
       " \"ratio\": null, \"beyond\": false}]}";
-  (void)state;
   assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
   assert_string_equal(answer.condition, "deviates");
   assert_close(answer.found[0].since.t, 3.5, 0, 0);
@@ -329,7 +318,6 @@ static void test_blind_record_read__recorded__is_what_was_written(void **state)
   const blind_recorded r = trial_with("chamber_leak+dead_time");
   blind_record back;
   char *line, *again;
-  (void)state;
   set_answer("effect", "chamber_leak", "");
   say("spring_rate", 1.25, 0.1);
   answer.cpu = 1.5;
@@ -354,7 +342,6 @@ static void test_blind_recorded_summary_write__counts__and_lists_what_is_not_rig
   char *text = NULL;
   size_t size;
   FILE *memory = open_memstream(&text, &size);
-  (void)state;
   r.t.number = 4;
   r.has = 1u << BLIND_DRIFT;
   set_answer("effect", "dead_time", "");
@@ -389,7 +376,6 @@ static void test_blind_prepare__same_trial__keeps_its_files(void **state)
   blind_visible first, second;
   size_t rows, again;
   char path[600];
-  (void)state;
   blind_draw_recorded(1, 0, 1u << BLIND_POSITIONER, &r);
   r.n_moves = 3;
   r.end = 2;

@@ -25,7 +25,6 @@ static const char report[] =
 
 static void test_blind_answer_read__whole_report__every_field_is_taken(void **state)
 {
-  (void)state;
   assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
   assert_string_equal(answer.verdict, "effect");
   assert_int_equal(answer.n_found, 1);
@@ -47,7 +46,6 @@ static void test_blind_answer_read__whole_report__every_field_is_taken(void **st
 
 static void test_blind_answer_read__no_verdict__is_refused(void **state)
 {
-  (void)state;
   assert_int_equal(blind_answer_read(scratch_text("a.json", "{\"found\": []}"), &answer, &error), LAB_DATA);
   assert_contains(error.text, "no verdict");
   assert_int_equal(blind_answer_read(scratch_text("b.json", "{\"verdict\": "), &answer, &error), LAB_DATA);
@@ -102,7 +100,6 @@ static void test_blind_score__each_kind_of_answer__has_its_score(void **state)
 {
   const double limit[] = {1, 2};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof score_cases / sizeof score_cases[0]; i++) {
     const struct score_case *c = &score_cases[i];
     const blind_trial t = trial_with(c->kind, c->missing);
@@ -121,7 +118,6 @@ static void test_blind_score__listed_free_term__is_stated_in_its_equation(void *
 {
   const double limit[] = {1};
   const blind_trial t = trial_with(BLIND_UNLISTED, "unlisted:friction_bump");
-  (void)state;
   set_answer("none", "", "");
   strcpy(answer.small[answer.n_small++], "unlisted:mass");
   blind_score(&t, limit, &answer, &record);
@@ -141,7 +137,6 @@ static void test_blind_score__size_over_limit__is_the_least_of_a_pair(void **sta
 {
   const double limit[] = {1, 2};
   const blind_trial t = trial_with(BLIND_PAIR, "chamber_leak+dead_time");
-  (void)state;
   set_answer("none", "", "");
   blind_score(&t, limit, &answer, &record);
   assert_close(record.ratio, 1.5, 0, 1e-15);
@@ -152,7 +147,6 @@ static void test_blind_score__own_candidate__has_its_rank_among_effects(void **s
 {
   const double limit[] = {1};
   const blind_trial t = trial_with(BLIND_SINGLE, "chamber_leak");
-  (void)state;
   assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
   blind_score(&t, limit, &answer, &record);
   assert_int_equal(record.own_rank, 2);
@@ -175,7 +169,6 @@ static const char *fake(const char *name, const char *script)
 static void test_blind_ask__report_failure_and_endless_run__are_answers(void **state)
 {
   char folder[600], script[1500];
-  (void)state;
   snprintf(folder, sizeof folder, "%s", scratch_path("asked"));
   mkdir(folder, 0755);
   snprintf(script, sizeof script,
@@ -220,7 +213,6 @@ static void test_blind_record_read__what_was_written__is_the_same(void **state)
   const blind_record r = sample_record(12, "effect", "supply_droop:chamber_leak");
   char *line = line_of(&r, 0), *again;
   blind_record back;
-  (void)state;
   assert_int_equal(blind_record_read(line, 0, &back), 1);
   again = line_of(&back, 0);
   assert_string_equal(line, again);
@@ -238,7 +230,6 @@ static void test_blind_record_read__line_cut_anywhere__is_refused(void **state)
   char *line = line_of(&r, 0);
   blind_record back;
   size_t n;
-  (void)state;
   for (n = strlen(line); n-- > 0;) {
     line[n] = '\0';
     assert_int_equal(blind_record_read(line, 0, &back), 0);
@@ -252,7 +243,6 @@ static void test_blind_journal__stopped_in_a_line__goes_on_after_the_last_whole_
   const blind_record first = sample_record(3, "none", ""), second = sample_record(1, "effect", "chamber_leak");
   blind_journal j;
   FILE *file;
-  (void)state;
   assert_int_equal(blind_journal_open(&j, path, "# key", 10, 0, &error), LAB_OK);
   assert_int_equal(blind_journal_add(&j, &first, &error), LAB_OK);
   assert_int_equal(blind_journal_add(&j, &second, &error), LAB_OK);
@@ -282,7 +272,6 @@ static void test_blind_wilson__ends_and_middle__are_the_closed_forms(void **stat
   const double z2 = 1.959963984540054 * 1.959963984540054;
   const blind_count none = {0, 20}, every = {20, 20}, half = {5, 10}, nothing = {0, 0};
   double low, high;
-  (void)state;
   blind_wilson(none, &low, &high);
   assert_close(low, 0, 0, 0);
   assert_close(high, z2 / (20 + z2), 0, 1e-12);
@@ -300,7 +289,6 @@ static void test_blind_wilson__ends_and_middle__are_the_closed_forms(void **stat
 static void test_blind_quantile__few_values__between_by_lines(void **state)
 {
   double v[] = {5, 1, 3}, one[] = {7};
-  (void)state;
   assert_close(blind_quantile(v, 3, 0.5), 3, 0, 0);
   assert_close(blind_quantile(v, 3, 0.9), 4.6, 0, 1e-15);
   assert_close(blind_quantile(one, 1, 0.9), 7, 0, 0);
@@ -311,7 +299,6 @@ static void test_blind_nine_in_ten__one_of_ten_missed__is_still_nine(void **stat
 {
   blind_sized v[13];
   int i;
-  (void)state;
   for (i = 0; i < 13; i++)
     v[i] = (blind_sized){13 - i, 13 - i >= 4 && 13 - i != 13};
   assert_close(blind_nine_in_ten(v, 13), 4, 0, 0);
@@ -339,7 +326,6 @@ static void test_blind_bar_word__counts__by_share_and_interval(void **state)
       {0, 0.01, {1, 6}, BLIND_BAR_REFUTED},   {0, 0.01, {0, 0}, BLIND_BAR_REACHED},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     const blind_bar bar = {"", NULL, NULL, cases[i].at_least, cases[i].share};
     assert_int_equal(blind_bar_word(&bar, cases[i].count), cases[i].word);
@@ -355,7 +341,6 @@ static void test_blind_bar_counts__right_names__counts_trials_above_twice_the_li
 {
   blind_record r[3] = {sample_record(0, "effect", "chamber_leak"), sample_record(1, "none", ""),
                        sample_record(2, "none", "")};
-  (void)state;
   r[2].ratio = 1.9;
   assert_int_equal(bar_of_stated(r, 3).n, 2);
   assert_int_equal(bar_of_stated(r, 3).k, 1);
@@ -370,7 +355,6 @@ static void test_blind_summary_write__misses__are_listed_one_by_one(void **state
   char *text = NULL;
   size_t size;
   FILE *memory = open_memstream(&text, &size);
-  (void)state;
   assert_int_equal(blind_summary_write(memory, r, 3, 1, ""), 0);
   fclose(memory);
   assert_contains(text, "3 trials, seed 1");

@@ -46,13 +46,11 @@ static int replay_folder(const char *folder)
 
 static void test_finds__replayed__keep_the_readers_promises(void **state)
 {
-  (void)state;
   assert_true(replay_folder("tests/fuzz/finds") > 0);
 }
 
 static void test_seeds__replayed__keep_the_readers_promises(void **state)
 {
-  (void)state;
   assert_true(replay_folder("tests/fuzz/seeds") >= FUZZ_TARGETS);
 }
 

@@ -32,7 +32,6 @@ static void follow(const second_rig *g, const second_positioner *k, double set, 
 static void test_second_follow__proportional__comes_to_its_dead_band(void **state)
 {
   const second_rig g = follower();
-  (void)state;
   follow(&g, &proportional, 0.6, 15, 0.01);
   assert_between(0.6 - case_last(got.x) / g.stroke, -0.005, 0.005);
   assert_close(case_last(got.u), 0, 0, 0);
@@ -44,7 +43,6 @@ static void test_second_follow__proportional__sends_gain_times_error(void **stat
 {
   const second_rig g = follower();
   size_t i, partial = 0;
-  (void)state;
   follow(&g, &proportional, 0.6, 15, 0.01);
   for (i = 1; i < got.n; i++) {
     const double e = 0.6 - got.x[i] / g.stroke, moved = 20 * fabs(got.v[i]) * 1e-3 / g.stroke;
@@ -61,7 +59,6 @@ static void test_second_follow__integral__stands_still_while_clipped(void **stat
   second_positioner k = proportional;
   double high = 0;
   size_t i;
-  (void)state;
   k.integral_time = 1;
   k.dead_band = 0;
   follow(&g, &k, 0.6, 15, 0.01);
@@ -76,7 +73,6 @@ static void test_second_follow__integral_start__is_sent_from_the_start(void **st
 {
   const second_rig g = follower();
   second_positioner k = {.gain = 5, .integral_time = 2, .integral_start = 0.02, .cutoff_high = 2, .cycle = 1e-3};
-  (void)state;
   follow(&g, &k, 0.05, 2e-3, 1e-3);
   assert_close(got.u[1], 5 * (0.05 + 0.02 + 0.05 * 1e-3 / 2), 1e-15, 0);
   k.integral_time = 0;
@@ -87,7 +83,6 @@ static void test_second_follow__integral_start__is_sent_from_the_start(void **st
 static void test_second_follow__beyond_the_cut_offs__is_shut_or_open(void **state)
 {
   const second_rig g = follower();
-  (void)state;
   follow(&g, &proportional, 0.009, 1, 0.01);
   assert_close(case_last(got.u), -1, 0, 0);
   assert_close(case_last(got.x), 0, 0, 0);
@@ -101,7 +96,6 @@ static void test_second_follow__dead_time__is_between_log_and_gas(void **state)
 {
   second_rig g = follower();
   size_t i = 0;
-  (void)state;
   g.dead_time = 0.0304;
   follow(&g, &proportional, 0.6, 0.1, 1e-3);
   assert_close(got.u[1], 1, 0, 0);
@@ -118,7 +112,6 @@ static void test_second_follow__leak_that_begins__empties_from_then_on(void **st
   const second_log log = {.t = got.t, .p = got.p};
   size_t i;
   double tau;
-  (void)state;
   g.start_pressure = 800e3;
   later = g;
   later.leak_area = 2e-6;

@@ -9,7 +9,6 @@
 /* P' = -(Ca psi sqrt(R T)/V) P while the orifice is choked. */
 static void test_second_run__choked_isothermal_blowdown__is_exponential(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.start_pressure = 9e5;
   double rate = g.vent_area * case_choked(&g) * sqrt(case_rt(&g)) / g.dead_volume;
@@ -25,7 +24,6 @@ static void test_second_run__choked_isothermal_blowdown__is_exponential(void **s
 /* P/P0 = s^(-2 g/(g-1)), T/T0 = s^-2, s = 1 + (g-1)/2 Ca psi sqrt(R T0)/V t. */
 static void test_second_run__choked_adiabatic_blowdown__follows_the_closed_form(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.start_pressure = 9e5;
   double rate = g.vent_area * case_choked(&g) * sqrt(case_rt(&g)) / g.dead_volume;
@@ -41,7 +39,6 @@ static void test_second_run__choked_adiabatic_blowdown__follows_the_closed_form(
 /* Eq. (8), venting: P = Pa cosh^2 y makes y' = -(Ca/V) sqrt(R T/2). */
 static void test_second_run__isothermal_blowdown_by_eq_8__is_a_squared_cosh(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   g.start_pressure = 5e5;
   double y0 = acosh(sqrt(5e5 / g.ambient)), rate = g.vent_area / g.dead_volume * sqrt(0.5 * case_rt(&g));
@@ -56,7 +53,6 @@ static void test_second_run__isothermal_blowdown_by_eq_8__is_a_squared_cosh(void
 /* Eq. (8), filling: sqrt(Ps - P) falls linearly, by Ca sqrt(2 R T Ps)/(2 V) a second. */
 static void test_second_run__isothermal_fill_by_eq_8__is_a_parabola(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   double Ps = g.supply + g.ambient, rate = g.fill_area * sqrt(0.5 * case_rt(&g) * Ps) / g.dead_volume;
   case_run(&g, 1.0, 4.0, 0.1);
@@ -70,7 +66,6 @@ static void test_second_run__isothermal_fill_by_eq_8__is_a_parabola(void **state
 /* Adiabatic fill: 1/T = P0/(P T0) + (1 - P0/P)/(g Ts); from vacuum T = g Ts. */
 static void test_second_run__adiabatic_fill__heats_by_the_closed_form(void **state)
 {
-  (void)state;
   static const double start[] = {1.0, 0.5e5, 101325.0, 2e5};
   for (size_t k = 0; k < 4; k++) {
     second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
@@ -88,7 +83,6 @@ static void test_second_run__adiabatic_fill__heats_by_the_closed_form(void **sta
 /* Sonic conductance is derived so that the choked flows agree; below b they are the same number. */
 static void test_second_run__iso_6358_choked__equals_the_nozzle(void **state)
 {
-  (void)state;
   second_rig nozzle = case_vessel(SECOND_ENERGY, SECOND_CHOKED), iso = case_vessel(SECOND_ENERGY, SECOND_ISO6358);
   nozzle.start_pressure = iso.start_pressure = 3e5;
   case_run(&nozzle, -1.0, 1.0, 1.0);
@@ -100,7 +94,6 @@ static void test_second_run__iso_6358_choked__equals_the_nozzle(void **state)
 /* Subsonic by ISO 6358 into a held pressure: m' = Ca psi P1/sqrt(R T) (1 - ((r - b)/(1 - b))^2)^m. */
 static void test_second_run__iso_6358_subsonic__follows_the_ellipse(void **state)
 {
-  (void)state;
   second_rig g = case_held(200e3);
   g.flow = SECOND_ISO6358;
   g.stroke = 0.0;
@@ -115,7 +108,6 @@ static void test_second_run__iso_6358_subsonic__follows_the_ellipse(void **state
 /* Below linear_ratio the flow is proportional to the difference, which then decays exponentially. */
 static void test_second_run__near_equal_pressures__difference_decays_exponentially(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   g.linear_ratio = 0.1;
   g.start_pressure = g.ambient + 100.0;
@@ -128,7 +120,6 @@ static void test_second_run__near_equal_pressures__difference_decays_exponential
 /* Mass in is flow times the time that the orifice was open, wherever the samples are. */
 static void test_second_run__command_between_samples__acts_at_its_own_time(void **state)
 {
-  (void)state;
   static const double when[] = {0.12345, 0.98765}, what[] = {0.5, 0.0};
   second_rig g = case_held(0.0);
   g.flow = SECOND_CHOKED;
@@ -142,7 +133,6 @@ static void test_second_run__command_between_samples__acts_at_its_own_time(void 
 /* v = v0 - F t/M until it is zero at M v0/F, then for ever at M v0^2/(2 F). */
 static void test_second_run__coulomb_slide__stops_at_the_known_time_and_place(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
   for (int up = 0; up < 2; up++) {
@@ -164,7 +154,6 @@ static void test_second_run__coulomb_slide__stops_at_the_known_time_and_place(vo
 /* With viscous friction too the stop is at (M/c) ln(1 + c v0/F). */
 static void test_second_run__viscous_and_coulomb_slide__stops_at_the_known_time(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
   g.viscous = 200.0;
@@ -181,7 +170,6 @@ static void test_second_run__viscous_and_coulomb_slide__stops_at_the_known_time(
 
 static void test_second_run__push_below_dry_friction__does_not_move_at_all(void **state)
 {
-  (void)state;
   for (int up = 0; up < 2; up++) {
     second_rig g = case_held(up ? 11.99e3 : -11.99e3); /* 479.6 N of 480 N */
     g.dry_friction = 480.0;
@@ -195,7 +183,6 @@ static void test_second_run__push_below_dry_friction__does_not_move_at_all(void 
 /* M x'' = p A - F from rest, either way. */
 static void test_second_run__push_above_dry_friction__accelerates_by_the_rest(void **state)
 {
-  (void)state;
   for (int sign = -1; sign < 2; sign += 2) {
     second_rig g = case_held(sign * 13e3);
     g.dry_friction = 480.0;
@@ -208,7 +195,6 @@ static void test_second_run__push_above_dry_friction__accelerates_by_the_rest(vo
 
 static void test_second_run__moving_stem_meets_the_stop__stays_there_and_loses_its_energy(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.stroke = 0.02;
   g.dry_friction = 10.0;
@@ -222,7 +208,6 @@ static void test_second_run__moving_stem_meets_the_stop__stays_there_and_loses_i
 /* Leaves the lower stop at p A = k x0 + F, within the sample after that. */
 static void test_second_run__standard_fill__breaks_away_at_the_preload_and_friction(void **state)
 {
-  (void)state;
   second_rig g = second_rig_default_r1_400();
   g.dead_volume = 1e-3;
   case_run(&g, 1.0, 1.0, 0.001);
@@ -253,7 +238,6 @@ static const double at[] = {0.1, 2.0, 4.0, 4.5, 5.0, 6.0}, to[] = {1.0, 0.0, -0.
 
 static void test_second_run__any_gas_and_flow__closes_mass_energy_and_work(void **state)
 {
-  (void)state;
   for (int gas = 0; gas < 2; gas++)
     for (int flow = 0; flow < 3; flow++) {
       second_rig g = second_rig_default_r1_400();
@@ -269,7 +253,6 @@ static void test_second_run__any_gas_and_flow__closes_mass_energy_and_work(void 
 /* Dry friction takes 2 F a stroke, whatever the gas does. */
 static void test_second_run__full_cycle__dry_friction_takes_force_times_way(void **state)
 {
-  (void)state;
   static const double t2[] = {0.0, 5.0}, u2[] = {1.0, -1.0};
   second_rig g = second_rig_default_r1_400();
   second_audit a = case_schedule(&g, t2, u2, 2, 15.0, 1.0);
@@ -290,7 +273,6 @@ static double error_at(second_rig g, double h, const double *fine)
 
 static void test_second_run__step_halved__error_falls_sixteenfold(void **state)
 {
-  (void)state;
   static double fine[CASE_SAMPLES];
   for (int gas = 0; gas < 2; gas++) {
     second_rig g = second_rig_default_37_13();
@@ -309,7 +291,6 @@ static void test_second_run__step_halved__error_falls_sixteenfold(void **state)
 
 static void test_second_run__refinement_on_a_coarse_step__reaches_the_fine_answer(void **state)
 {
-  (void)state;
   static double fine[CASE_SAMPLES];
   second_rig g = second_rig_default_r1_400();
   memset(fine, 0, sizeof fine);
@@ -324,7 +305,6 @@ static void test_second_run__refinement_on_a_coarse_step__reaches_the_fine_answe
 
 static void test_second_run__same_arguments__same_bits(void **state)
 {
-  (void)state;
   static double first[CASE_SAMPLES];
   second_rig g = second_rig_default_37_13();
   g.pressure_noise = 100.0;
@@ -337,7 +317,6 @@ static void test_second_run__same_arguments__same_bits(void **state)
 
 static void test_second_run__step_far_beyond_stability__is_reported(void **state)
 {
-  (void)state;
   second_rig g = second_rig_default_r1_400();
   const double t0 = 0.0, u = 1.0;
   g.step = 0.5;

@@ -11,7 +11,6 @@
 /* A leak with both orifices shut is a blowdown through its own area. */
 static void test_leak_area__vessel_shut_and_choked__decays_exponentially(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.start_pressure = 6e5;
   g.leak_area = 0.05e-6;
@@ -23,7 +22,6 @@ static void test_leak_area__vessel_shut_and_choked__decays_exponentially(void **
 /* P' = -(c R T/V)(P^2 - Pa^2): (P - Pa)/(P + Pa) decays at 2 Pa c R T/V. */
 static void test_laminar_leak__vessel_shut__follows_the_closed_form(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.start_pressure = 4e5;
   g.laminar_leak = 2e-15;
@@ -38,7 +36,6 @@ static void test_laminar_leak__vessel_shut__follows_the_closed_form(void **state
 
 static void test_relief__below_and_above_its_pressure__shut_and_open(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.relief_area = 0.1e-6;
   g.relief_from = 150e3;
@@ -54,7 +51,6 @@ static void test_relief__below_and_above_its_pressure__shut_and_open(void **stat
 /* Into a held pressure Eq. (8) with droop reads q^2 R T/(2 (u Ca)^2) = (Ps - r q)(Ps - r q - P). */
 static void test_supply_droop__held_pressure__flow_solves_its_equation(void **state)
 {
-  (void)state;
   second_rig g = case_held(100e3);
   g.stroke = 0.0;
   g.supply_droop = 1e8;
@@ -73,7 +69,6 @@ static double full_flow(const second_rig *g)
 /* Under Eq. (8), whose root of the difference is exact, the share c of the line loses r c q^2/q_f. */
 static void test_supply_turbulence__held_pressure__flow_solves_its_equation(void **state)
 {
-  (void)state;
   for (int i = 0; i < 6; i++) {
     second_rig g = case_held(i < 3 ? 100e3 : 350e3);
     double c = (double[]){0.3, 0.7, 1.0}[i % 3], r = 2e8, P = g.start_pressure;
@@ -92,7 +87,6 @@ static void test_supply_turbulence__held_pressure__flow_solves_its_equation(void
  * Pl' = R T/V ((Ps - Pl)/r - u K Pl): drawn from, shut, drawn from again. */
 static void test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponentially(void **state)
 {
-  (void)state;
   static const double when[] = {0.1, 0.3, 0.35}, u[] = {1.0, 0.0, 0.5};
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.dead_volume = 1.0;
@@ -119,7 +113,6 @@ static void test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponent
  * (1 - 3/4 w/gamma) of a loss w = 1/1000. */
 static void test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.dead_volume = 1.0;
   g.supply_droop = 5.6e8;
@@ -136,7 +129,6 @@ static void test_supply_volume__turbulent_and_choked__passes_what_its_orifice_do
 /* q^2 R T/(2 Ca^2) = P (P - Pa - r q). */
 static void test_back_pressure__held_pressure__flow_solves_its_equation(void **state)
 {
-  (void)state;
   second_rig g = case_held(100e3);
   g.stroke = 0.0;
   g.back_pressure = 2e8;
@@ -147,7 +139,6 @@ static void test_back_pressure__held_pressure__flow_solves_its_equation(void **s
 
 static void test_vent_area__smaller_than_fill_area__scales_the_outflow_only(void **state)
 {
-  (void)state;
   second_rig g = case_held(100e3);
   g.stroke = 0.0;
   double in = case_run(&g, 1.0, 1.0, 1.0).mass_in, out = case_run(&g, -1.0, 1.0, 1.0).mass_out;
@@ -160,7 +151,6 @@ static void test_vent_area__smaller_than_fill_area__scales_the_outflow_only(void
  * P = P0 + q/(C1 + C2) (t - T (1 - exp(-t/T))), Ci = Vi/(R Ta), T = r C1 C2/(C1 + C2). */
 static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.tube_volume = 2e-4;
   g.tube_resistance = 5e7;
@@ -177,7 +167,6 @@ static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **s
  * that of a supply's, but for pressure and temperature ahead of it, Pu and Tu in place of Ps and Ts. */
 static void test_tube_turbulence__held_pressure__steady_flow_solves_its_equation(void **state)
 {
-  (void)state;
   for (int i = 0; i < 6; i++) {
     second_rig g = case_held(200e3);
     double c = (double[]){0.3, 0.7, 1.0}[i % 3], u = i < 3 ? 1.0 : -1.0, r = 2e8, P = g.start_pressure;
@@ -200,7 +189,6 @@ static void test_tube_turbulence__held_pressure__steady_flow_solves_its_equation
 /* A tiny vessel behind a large orifice follows the supply. */
 static void test_pulsation__tiny_vessel__follows_the_supply(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   g.dead_volume = 1e-5;
   g.pulsation = 5e3;
@@ -215,7 +203,6 @@ static void test_pulsation__tiny_vessel__follows_the_supply(void **state)
 /* (T - Ta) decays at hA/(m cv); hot air sealed in. */
 static void test_heat__sealed_hot_air__cools_exponentially(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat = 0.8;
   g.start_temperature = 400.0;
@@ -228,7 +215,6 @@ static void test_heat__sealed_hot_air__cools_exponentially(void **state)
 /* d' = -a d^(4/3): d^(-1/3) grows by a/3 a second. */
 static void test_heat_natural__sealed_hot_air__follows_the_closed_form(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat_natural = 0.2;
   g.start_temperature = 400.0;
@@ -241,7 +227,6 @@ static void test_heat_natural__sealed_hot_air__follows_the_closed_form(void **st
 /* Air and wall, insulated from the rest, meet at the common mean. */
 static void test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat = 1.0;
   g.wall_capacity = 5.0;
@@ -253,7 +238,6 @@ static void test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean(vo
 
 static void test_heat__very_large__is_the_isothermal_chamber(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   case_run(&g, 1.0, 1.0, 0.5);
   double want = case_last(got.p);
@@ -268,7 +252,6 @@ static void test_heat__very_large__is_the_isothermal_chamber(void **state)
 /* Into a held pressure the mass is the integral of the opening, t - T (1 - exp(-t/T)). */
 static void test_transducer_lag__step__opening_rises_as_first_order(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.stroke = 0.0;
   g.transducer_lag = 0.1;
@@ -280,7 +263,6 @@ static void test_transducer_lag__step__opening_rises_as_first_order(void **state
 
 static void test_dead_time__step__flow_starts_late_and_the_log_shows_the_command(void **state)
 {
-  (void)state;
   static const double at[] = {0.1}, to[] = {1.0};
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.dead_time = 0.033;
@@ -294,7 +276,6 @@ static void test_dead_time__step__flow_starts_late_and_the_log_shows_the_command
 /* Below break-away, F (1 + s), the stem stays; above, it goes. */
 static void test_stribeck__push_around_the_break_away__stays_or_goes(void **state)
 {
-  (void)state;
   for (int go = 0; go < 2; go++) {
     second_rig g = case_held((go ? 721.0 : 719.0) / 0.04);
     g.dry_friction = 480.0;
@@ -308,7 +289,6 @@ static void test_stribeck__push_around_the_break_away__stays_or_goes(void **stat
 /* Far above vs it is Coulomb again: M v'= p A - F. */
 static void test_stribeck__fast_slide__is_coulomb_friction(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
   g.stribeck = 0.5;
@@ -321,7 +301,6 @@ static void test_stribeck__fast_slide__is_coulomb_friction(void **state)
 /* Presliding by dz/dt = v - s0 |v| z/F: a load f < F is carried at x = -(F/s0) ln(1 - f/F). */
 static void test_bristle__load_below_friction__creeps_to_the_presliding_distance(void **state)
 {
-  (void)state;
   second_rig g = case_held(240.0 / 0.04);
   g.dry_friction = 480.0;
   g.bristle_rate = 1e6;
@@ -335,7 +314,6 @@ static void test_bristle__load_below_friction__creeps_to_the_presliding_distance
 /* Sliding at a steady velocity it is F: v = (f - F)/c. */
 static void test_bristle__steady_slide__is_coulomb_friction(void **state)
 {
-  (void)state;
   second_rig g = case_held(600.0 / 0.04);
   g.dry_friction = 480.0;
   g.viscous = 1000.0;
@@ -357,7 +335,6 @@ static double slide_end(const second_rig *g)
 
 static void test_friction_position__slide__work_is_the_integral(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
   g.friction_position = 2.0;
@@ -368,7 +345,6 @@ static void test_friction_position__slide__work_is_the_integral(void **state)
 
 static void test_friction_pressure__slide__adds_in_proportion(void **state)
 {
-  (void)state;
   second_rig g = case_held(5e3); /* pushes by 200 N, adds 400 N */
   g.dry_friction = 480.0;
   g.friction_pressure = 0.08;
@@ -378,7 +354,6 @@ static void test_friction_pressure__slide__adds_in_proportion(void **state)
 
 static void test_bump__slide_across_it__takes_its_area(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
   g.bump = 300.0;
@@ -392,7 +367,6 @@ static void test_bump__slide_across_it__takes_its_area(void **state)
 /* p A = k x + k3 x^3 */
 static void test_spring_cubic__held_pressure__balances(void **state)
 {
-  (void)state;
   second_rig g = case_balance(500e3);
   g.spring_cubic = 4e6;
   case_run(&g, 0.0, 2.0, 1.0);
@@ -403,7 +377,6 @@ static void test_spring_cubic__held_pressure__balances(void **state)
 /* On the way up the loop's force is H (1 - exp(-x/l)). */
 static void test_hysteresis__held_pressure__balances_on_the_loading_branch(void **state)
 {
-  (void)state;
   second_rig g = case_balance(100e3);
   g.hysteresis = 400.0;
   g.hysteresis_length = 0.02;
@@ -415,7 +388,6 @@ static void test_hysteresis__held_pressure__balances_on_the_loading_branch(void 
 /* p A (1 - a x/stroke) = k x, and the volume swept is A (x - a x^2/(2 stroke)). */
 static void test_area_slope__held_pressure__force_and_volume_agree(void **state)
 {
-  (void)state;
   second_rig g = case_balance(500e3);
   g.area_slope = 0.2;
   second_audit a = case_run(&g, 0.0, 2.0, 1.0);
@@ -426,7 +398,6 @@ static void test_area_slope__held_pressure__force_and_volume_agree(void **state)
 
 static void test_travel_limit__large_push__stops_there(void **state)
 {
-  (void)state;
   second_rig g = case_balance(500e3);
   g.travel_limit = 0.123;
   case_run(&g, 0.0, 2.0, 1.0);
@@ -436,7 +407,6 @@ static void test_travel_limit__large_push__stops_there(void **state)
 /* k x + ks (x - limit) = p A */
 static void test_upper_rate__large_push__yields_elastically(void **state)
 {
-  (void)state;
   second_rig g = case_balance(500e3);
   g.travel_limit = 0.1;
   g.upper_rate = 1e6;
@@ -447,7 +417,6 @@ static void test_upper_rate__large_push__yields_elastically(void **state)
 
 static void test_lower_rate__preload__rests_below_zero(void **state)
 {
-  (void)state;
   second_rig g = case_balance(0.0);
   g.spring_preload = 0.01;
   g.lower_rate = 1e7;
@@ -458,7 +427,6 @@ static void test_lower_rate__preload__rests_below_zero(void **state)
 /* Amplitude of a forced, damped mass on a spring. */
 static void test_force__periodic__swings_by_the_transfer_function(void **state)
 {
-  (void)state;
   second_rig g = case_balance(500e3); /* about x = 0.2 m */
   g.force = 500.0;
   g.force_rate = 5.0;
@@ -475,7 +443,6 @@ static void test_force__periodic__swings_by_the_transfer_function(void **state)
 
 static void test_bias_and_gain__measured__are_affine(void **state)
 {
-  (void)state;
   static double p[CASE_SAMPLES], x[CASE_SAMPLES];
   second_rig g = second_rig_default_r1_400();
   case_run(&g, 1.0, 2.0, 0.01);
@@ -495,7 +462,6 @@ static void test_bias_and_gain__measured__are_affine(void **state)
 /* A first-order sensor on a ramp trails by rate times lag. Constant choked flow makes the pressure a ramp. */
 static void test_pressure_lag__ramp__trails_by_rate_times_lag(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.pressure_lag = 0.02;
   double q = g.fill_area * case_choked(&g) * (g.supply + g.ambient) / sqrt(case_rt(&g));
@@ -509,7 +475,6 @@ static void test_pressure_lag__ramp__trails_by_rate_times_lag(void **state)
 
 static void test_position_lag__uniform_motion__trails_by_velocity_times_lag(void **state)
 {
-  (void)state;
   second_rig g = case_held(0.0);
   g.position_lag = 0.02;
   g.start_velocity = 0.5;
@@ -523,7 +488,6 @@ static void test_position_lag__uniform_motion__trails_by_velocity_times_lag(void
 /* Two first-order lags in series: air cooling at rate a, read with rate b. */
 static void test_temperature_lag__sealed_hot_air__is_two_lags_in_series(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat = 0.8;
   g.temperature_lag = 0.2;
@@ -539,7 +503,6 @@ static void test_temperature_lag__sealed_hot_air__is_two_lags_in_series(void **s
 /* Late by 3 samples, the position channel is the true one of 3 rows before; early, of 3 rows after. */
 static void test_position_skew__uniform_motion__shifts_that_channel_only(void **state)
 {
-  (void)state;
   for (int late = 0; late < 2; late++) {
     second_rig g = case_held(0.0);
     g.start_velocity = 0.5;
@@ -564,7 +527,6 @@ static void mean_and_deviation(const double *y, double *mean, double *deviation)
 /* 4,001 draws: the mean is known to 1.6 %, the deviation to 1.1 % of it; four of those allowed. */
 static void test_noise__many_samples__has_the_given_deviation_and_no_bias(void **state)
 {
-  (void)state;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.pressure_noise = 320.0;
   g.position_noise = 2e-5;
@@ -584,7 +546,6 @@ static void test_noise__many_samples__has_the_given_deviation_and_no_bias(void *
 
 static void test_noise__channels_and_seeds__are_independent(void **state)
 {
-  (void)state;
   static double first[CASE_SAMPLES];
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.pressure_noise = g.position_noise = 1.0;
@@ -606,7 +567,6 @@ static void test_noise__channels_and_seeds__are_independent(void **state)
 
 static void test_range__quantised__every_value_is_a_code(void **state)
 {
-  (void)state;
   second_rig g = second_rig_default_r1_400();
   g.pressure_range = 1e6;
   g.position_range = 0.05;
@@ -625,7 +585,6 @@ static const double at[] = {0.1, 1.5, 2.5, 3.0, 4.0}, to[] = {1.0, -0.5, 0.0, 0.
 /* Everything at once: the audits still close, and the run is worth its name. */
 static void test_second_run__all_effects_at_once__audits_close(void **state)
 {
-  (void)state;
   second_rig g = second_rig_default_r1_400();
   g.gas = SECOND_ENERGY;
   g.flow = SECOND_CHOKED;

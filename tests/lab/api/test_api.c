@@ -71,7 +71,6 @@ static void test_lab_api_closeloop__same_files__same_texts(void **state)
 {
   lab_api_request request = usual();
   char arguments[512], *json, *model, *residual;
-  (void)state;
   request.budget = 600;
   snprintf(arguments, sizeof arguments,
            "closeloop --budget 600 %srig.cfg %sfit.csv --holdout %sholdout.csv --no-figures --quiet --out %s >%s",
@@ -105,7 +104,6 @@ static void test_lab_api_stop__at_first_word__ends_without_answer(void **state)
 {
   lab_api_request request = usual();
   int told = 0;
-  (void)state;
   request.on_progress = stop;
   request.context = &told;
   assert_int_equal(refuse_answer(&request), LAB_WORLD);
@@ -121,7 +119,6 @@ static void test_lab_api_closeloop__requests_at_fault__are_refused(void **state)
   const lab_text_given twice[] = {fit, {"fit.csv", "t [s]\n", 6}};
   const lab_text_given includes = {"rig.cfg", "@include \"other.cfg\"\n", 21};
   lab_api_request request = usual();
-  (void)state;
   request.alpha = 0.6;
   assert_int_equal(refuse_answer(&request), LAB_USAGE);
   request = usual();
@@ -143,7 +140,6 @@ static void test_lab_api_closeloop__text_at_fault__says_its_name(void **state)
 {
   const lab_text_given empty = {"empty.csv", "", 0};
   lab_api_request request = usual();
-  (void)state;
   request.log = &empty;
   assert_int_equal(refuse_answer(&request), LAB_DATA);
   assert_contains(error.text, "empty.csv");
@@ -152,7 +148,6 @@ static void test_lab_api_closeloop__text_at_fault__says_its_name(void **state)
 static void test_lab_api_simulate__log_and_step__as_the_program(void **state)
 {
   char arguments[512], *want, *csv;
-  (void)state;
   snprintf(arguments, sizeof arguments, "simulate %srig.cfg %sfit.csv --out %s", folder, folder, scratch_path("s.csv"));
   want = program(arguments, "s.csv");
   assert_int_equal(lab_api_simulate(&rig, &fit, &csv, &error), LAB_OK);
@@ -172,7 +167,6 @@ static void test_lab_api_draft__log_and_sheet__as_the_program(void **state)
   const char *const sheet[] = {"area=400 cm2", "bench_set=0.2..1.0 bar"};
   const char *const wrong[] = {"aera=400 cm2"};
   char arguments[512], *want, *drafted;
-  (void)state;
   snprintf(arguments, sizeof arguments, "closeloop --init %sfit.csv --sheet '%s' '%s' --out %s", folder, sheet[0],
            sheet[1], scratch_path("d.cfg"));
   want = program(arguments, "d.cfg");

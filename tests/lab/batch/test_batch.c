@@ -45,7 +45,6 @@ static void assert_entry(int i, int line, const char *name, const char *rig, con
 
 static void test_lab_fleet_list__as_documented__is_read(void **state)
 {
-  (void)state;
   assert_int_equal(
       read_list("# presses of hall 2\nname,rig,log,holdout\npress-1,rigs/p.cfg,may/a.csv;may/b.csv,june.csv\n"
                 "\n# one more\npress-2,rigs/p.cfg,may/p2.csv,\n"),
@@ -65,7 +64,6 @@ static void test_lab_fleet_list__from_spreadsheets__is_the_same(void **state)
   };
   static const char *const empty[] = {"", ",,,,,\n", ";;;\n", "\"# a, comment\",,,\n"};
   size_t i, k;
-  (void)state;
   for (i = 0; i < sizeof same / sizeof *same; i++) {
     check_note("list %d", (int)i);
     assert_int_equal(read_list(same[i]), 2);
@@ -81,7 +79,6 @@ static void test_lab_fleet_list__from_spreadsheets__is_the_same(void **state)
 
 static void test_lab_fleet_list__quotes_and_commas_in_a_cell__are_kept(void **state)
 {
-  (void)state;
   assert_int_equal(read_list("log,rig,name\n\"a,b.csv\",r 5\".cfg,\"say \"\"hi\"\"\"\n"), 1);
   assert_entry(0, 2, "say \"hi\"", "r 5\".cfg", "a,b.csv", "");
 }
@@ -93,7 +90,6 @@ static void test_lab_fleet_list__no_name__is_called_as_its_log(void **state)
   } row[] = {{"p2.csv", "p2"}, {"may/p2.csv", "may-p2"},    {"../../may/p2.log.csv", "may-p2.log"},
              {"./p2", "p2"},   {"/data/p2.csv", "data-p2"}, {"a.csv;b.csv", "a"}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++) {
     char text[100];
     snprintf(text, sizeof text, "rig,log\nr.cfg,%s\n", row[i].log);
@@ -104,7 +100,6 @@ static void test_lab_fleet_list__no_name__is_called_as_its_log(void **state)
 
 static void test_lab_fleet_list__date__is_a_day_or_a_moment(void **state)
 {
-  (void)state;
   assert_int_equal(
       read_list("rig,log,date\nr.cfg,a.csv,1970-01-11\nr.cfg,b.csv,1970-01-11T13:30+01:30\nr.cfg,c.csv,\n"), 3);
   assert_close(entry[0].day, 10, 0, 0);
@@ -118,7 +113,6 @@ static void test_lab_fleet_list__date_of_another_form__is_wrong_with_its_line(vo
 {
   static const char *const dates[] = {"3/14/2026", "26-01-02", "2026-13-02", "12:30"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof dates / sizeof *dates; i++) {
     char text[100];
     snprintf(text, sizeof text, "rig,log,date\nr.cfg,a.csv,%s\nr.cfg,b.csv,2026-05-04\n", dates[i]);
@@ -150,7 +144,6 @@ static void test_lab_fleet_list__bad__is_refused_with_its_line(void **state)
       {"name,rig,log\nindex.html,r.cfg,a.csv\n", "list.csv:2", "is not index.html"},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++) {
     check_note("row %d", (int)i);
     assert_int_equal(read_list(row[i].text), -1);
@@ -163,7 +156,6 @@ static void test_lab_fleet_list__bad__is_refused_with_its_line(void **state)
 static void test_lab_fleet_list__long_cell__is_refused(void **state)
 {
   char text[LAB_FLEET_ENTRY_TEXT + 100];
-  (void)state;
   snprintf(text, sizeof text, "rig,log\nr.cfg,%0*d\n", LAB_FLEET_ENTRY_TEXT, 0);
   assert_int_equal(read_list(text), -1);
   assert_contains(error.text, "list.csv:2");
@@ -177,7 +169,6 @@ static void test_lab_fleet_list__zero_byte__is_refused(void **state)
 {
   static const char bytes[] = "rig,log\nr.cfg,\0.csv\n";
   lab_fleet_list list;
-  (void)state;
   assert_int_equal(lab_fleet_list_open(&list, scratch_bytes("list.csv", bytes, sizeof bytes - 1), &error), LAB_DATA);
   assert_contains(error.text, "list.csv:2");
   lab_fleet_list_close(&list);
@@ -201,7 +192,6 @@ static int check_list(const char *text, int *n)
 static void test_lab_fleet_list_check__doubles_and_no_lines__are_refused(void **state)
 {
   int n;
-  (void)state;
   assert_int_equal(check_list("rig,log\nr,a.csv\nr,b.csv\n", &n), LAB_OK);
   assert_int_equal(n, 2);
   assert_int_equal(check_list("rig,log\nr,a.csv\nr,b.csv\nother,a.csv\n", &n), LAB_DATA);
@@ -214,7 +204,6 @@ static void test_lab_split__blanks_and_empty_parts__are_dropped(void **state)
 {
   char text[] = " a.csv ;; b c.csv;", many[] = "a;b;c";
   const char *part[2];
-  (void)state;
   assert_int_equal(lab_split(text, ';', part, 2), 2);
   assert_string_equal(part[0], "a.csv");
   assert_string_equal(part[1], "b c.csv");
@@ -242,7 +231,6 @@ static void test_lab_done__written__reads_back(void **state)
   const lab_done want = sample();
   const char *folder = scratch_path("press-1");
   lab_done got;
-  (void)state;
   assert_false(lab_done_read(folder, &got));
   assert_int_equal(lab_done_write(folder, &want, &error), LAB_OK);
   assert_true(lab_done_read(folder, &got));
@@ -264,7 +252,6 @@ static void test_lab_done__torn__is_not_there(void **state)
   lab_done got;
   char *whole;
   size_t i, size;
-  (void)state;
   assert_int_equal(lab_done_write(scratch_path("torn"), &want, &error), LAB_OK);
   whole = scratch_read(scratch_path("torn/.done"));
   size = strlen(whole);
@@ -283,7 +270,6 @@ static void test_lab_row__error__has_the_headers_cells(void **state)
   lab_outcome outcome;
   const char *c;
   int cells = 0;
-  (void)state;
   assert_non_null(file);
   lab_row_header(file);
   fclose(file);
@@ -318,7 +304,6 @@ static void test_lab_index__all_verdicts__worst_first(void **state)
   const char *last;
   char *page;
   size_t i;
-  (void)state;
   add_line(&index, "fine", "none,,,,1,1,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
   add_line(&index, "fine 2", "none,,,,3,3,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK);
   add_line(&index, "quiet", "none,,,,0.004,0.001,,,,,,,,,,,,,,,0,fits", LAB_WRITE_JSON, LAB_OK); /* below the noise */
@@ -412,7 +397,6 @@ static void test_lab_jobs__any_number_at_once__does_each_job_once(void **state)
 {
   static const int at_once[] = {1, 3, 30};
   size_t k;
-  (void)state;
   for (k = 0; k < 3; k++) {
     tally t = {0};
     int i;
@@ -430,7 +414,6 @@ static void test_lab_jobs__any_number_at_once__does_each_job_once(void **state)
 static void test_lab_jobs__result_that_cannot_be_kept__ends_the_run(void **state)
 {
   tally t = {0};
-  (void)state;
   t.stop_after = 5;
   assert_int_equal(run_jobs(&t, 2), LAB_WORLD);
   assert_string_equal(error.text, "enough");
@@ -503,7 +486,6 @@ static const char *long_list(const char *name, int n)
 
 static void test_lab_batch__lines_that_fail__are_lines(void **state)
 {
-  (void)state;
   assert_int_equal(run_list(long_list("three.csv", 3), "failing"), LAB_DATA);
   assert_in_file("failing/batch.csv", "\nn0,error,");
   assert_in_file("failing/batch.csv",
@@ -525,7 +507,6 @@ static void run_one(const char *rig, const char *folder)
 static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **state)
 {
   static const char rig[] = "supply = { pressure = \"2 bar\"; };\n  @include \"other.cfg\"\n";
-  (void)state;
   run_one(rig, "refused");
   assert_in_file("refused/batch.csv", "rig.cfg: @include would read any file");
   assert_in_file("refused/batch.csv", "--allow-include");
@@ -539,7 +520,6 @@ static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_l
 {
   char text[600] = "name,rig,log\nmany,rig.cfg,log.csv";
   int i;
-  (void)state;
   for (i = 0; i < LAB_LOGS_MAX; i++)
     strcat(text, ";log.csv");
   scratch_text("rig.cfg", "supply = { pressure = \"2 bar\"; };\n");
@@ -552,7 +532,6 @@ static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_
 {
   FILE *file = fopen(scratch_path("large.csv"), "w");
   int i;
-  (void)state;
 #ifdef LAB_SANITIZED
   fclose(file);
   skip(); /* reserves more than there is */
@@ -593,7 +572,6 @@ static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_l
   } with[] = {{1 << 20, LAB_OK, "roomy", "roomy/batch.csv", "leak,effect,"},
               {2000, LAB_WORLD, "tight", "tight/batch.csv", "File too large"}};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof with / sizeof with[0]; i++) {
     options.room = with[i].room;
     assert_int_equal(run_list(leak_list(), with[i].folder), with[i].status);
@@ -606,7 +584,6 @@ static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_l
 static void test_lab_batch__long_list__takes_no_more_memory(void **state)
 {
   long few;
-  (void)state;
 #ifdef __SANITIZE_ADDRESS__
   skip(); /* keeps what has been freed */
 #endif

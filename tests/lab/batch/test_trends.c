@@ -15,7 +15,6 @@ enum { DAYS = 20000 }; /* since 1970 */
 /* Forget all trends; for the next test. */
 static int forget(void **state)
 {
-  (void)state;
   lab_trends_free(&trends);
   lab_history_free(&history);
   return 0;
@@ -58,7 +57,6 @@ static void find(void)
 
 static void test_lab_history__report__gives_what_is_known(void **state)
 {
-  (void)state;
   add("r", 1,
       "\"verdict\":\"effect\",\"parameters\":{"
       "\"spring_rate\":{\"value\":5,\"unit\":\"N/m\",\"ci95\":[3,7],\"declared\":4,\"tolerance\":0.1},"
@@ -81,7 +79,6 @@ static void test_lab_history__half_a_report__is_an_error(void **state)
 {
   lab_fleet_entry line = {0};
   char folder[400];
-  (void)state;
   snprintf(folder, sizeof folder, "%s", scratch_path("line"));
   assert_int_equal(lab_make_folder(folder, &error), LAB_OK);
   scratch_text("line/report.json", "{\"verdict\":");
@@ -97,7 +94,6 @@ static void test_lab_history__half_a_report__is_an_error(void **state)
 static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
 {
   char sentence[LAB_TREND_SENTENCE];
-  (void)state;
   add_value("b", 40, "spring_rate", 1040);
   add_value("a", 7, "spring_rate", 1000); /* one day: no trend */
   add_value("b", 0, "spring_rate", 1000);
@@ -120,7 +116,6 @@ static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
 static void test_lab_trends__fall__leaves_at_the_lower_side(void **state)
 {
   char sentence[LAB_TREND_SENTENCE];
-  (void)state;
   add_value("r", 0, "v", 1000);
   add_value("r", 40, "v", 960);
   find();
@@ -140,7 +135,6 @@ static void test_lab_trends__sentence__fits_what_is_known(void **state)
              {1000, 1000, ""}};
   char sentence[LAB_TREND_SENTENCE];
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof row / sizeof *row; i++) {
     add_value("r", 0, "v", row[i].from);
     add_value("r", 40, "v", row[i].to);
@@ -161,7 +155,6 @@ static void test_lab_trends__many_parameters__need_more(void **state)
 {
   char name[8];
   int k;
-  (void)state;
   for (k = 0; k < 10; k++) {
     snprintf(name, sizeof name, "p%d", k);
     add_value("many", 0, name, 1000);
@@ -184,7 +177,6 @@ static void test_lab_trends__written__table_and_page(void **state)
 {
   cJSON *page = cJSON_CreateObject();
   char *text;
-  (void)state;
   add_value("=r,1", 0, "spring_rate", 1000);
   add_value("=r,1", 40, "spring_rate", 1040);
   find();

@@ -85,7 +85,6 @@ static void assert_change(const char *what, double now)
 static void test_lab_changes_find__another_day__is_unchanged(void **state)
 {
   second_rig now = virtual_rig(8);
-  (void)state;
   now.supply *= 1.02;
   now.ambient -= 1200;
   now.ambient_temperature += 6;
@@ -121,7 +120,6 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
                              {29, 1.008735, 320.98, -4.1962, 630.97, -9.4745e-05, 1.037990}};
   static blind_trial trial;
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof days / sizeof *days; i++) {
     const day *d = &days[i];
     second_rig then, now;
@@ -152,7 +150,6 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
 {
   const int zero = pneu_param_find("position_bias.position_bias");
   second_rig then = virtual_rig(7), now = virtual_rig(8);
-  (void)state;
   if (zero < 0)
     skip();
   then.position_bias = 3e-4;
@@ -169,7 +166,6 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
 static void test_lab_changes_find__leak__is_the_change(void **state)
 {
   second_rig now = virtual_rig(8);
-  (void)state;
   now.leak_area = 1.5e-8;
   compare(&now);
   assert_change("chamber_leak", 1.5e-8);
@@ -180,7 +176,6 @@ static void test_lab_changes_find__leak__is_the_change(void **state)
 static void test_lab_changes_find__leak_that_hardly_shows__is_no_change(void **state)
 {
   second_rig now = virtual_rig(8);
-  (void)state;
   now.leak_area = 1.6e-9;
   compare(&now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
@@ -189,7 +184,6 @@ static void test_lab_changes_find__leak_that_hardly_shows__is_no_change(void **s
 static void test_lab_changes_find__more_friction__is_the_change(void **state)
 {
   second_rig now = virtual_rig(8);
-  (void)state;
   now.supply *= 0.99;
   now.dry_friction *= 1.5;
   compare(&now);
@@ -203,7 +197,6 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
 static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
 {
   second_rig then = virtual_rig(7), now = virtual_rig(8);
-  (void)state;
   now.fill_area *= 0.6;
   now.vent_area *= 0.6;
   declare();
@@ -219,7 +212,6 @@ static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_
 static void test_lab_changes_find__softer_spring__is_the_change(void **state)
 {
   second_rig now = virtual_rig(8);
-  (void)state;
   now.spring_rate *= 0.9;
   compare(&now);
   assert_change("spring_rate", 3.6e5);
@@ -269,7 +261,6 @@ static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(v
 {
   const second_rig now = virtual_rig(8);
   second_rig failed = now;
-  (void)state;
   failed.pressure_bias = 8000;
   compare_on_the_way(&now, &failed, 6.13);
   assert_change("pressure_bias", 8000);
@@ -281,7 +272,6 @@ static void test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset(vo
 {
   const second_rig now = virtual_rig(8);
   second_rig leaks = now;
-  (void)state;
   leaks.leak_area = 2e-8;
   compare_on_the_way(&now, &leaks, 4.71);
   assert_change("chamber_leak", 2e-8);
@@ -326,7 +316,6 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
 static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **state)
 {
   second_rig now = plant_rig(8), fails = now;
-  (void)state;
   fails.supply = 30e3;
   compare_plant(&fails, &now, 47.3);
   assert_int_equal(changes.condition, LAB_SINCE_CHANGED);
@@ -339,7 +328,6 @@ static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **s
 static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(void **state)
 {
   second_rig now = plant_rig(8), fails = now;
-  (void)state;
   fails.supply = 60e3;
   compare_plant(&now, &fails, 80.6);
   assert_change("supply_pressure", 60e3);
@@ -350,7 +338,6 @@ static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(v
 static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
 {
   second_rig now = plant_rig(8);
-  (void)state;
   now.supply *= 1.02;
   now.position_bias = 5e-5;
   compare_plant(&now, NULL, 0);
@@ -361,7 +348,6 @@ static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
 static void test_lab_changes_find__no_parameter_has_it__cannot_tell(void **state)
 {
   second_rig now = virtual_rig(8);
-  (void)state;
   now.force = 900;
   now.force_rate = 3.7;
   compare(&now);

@@ -25,7 +25,6 @@ static int open_all(void **state)
 
 static int done(void **state)
 {
-  (void)state;
   lab_log_free(&log_read);
   memset(&log_read, 0, sizeof log_read);
   return 0;
@@ -93,7 +92,6 @@ static void assert_quiet(void)
 
 static void test_lab_plausible__sound_log__is_quiet(void **state)
 {
-  (void)state;
   read_log(&sound);
   assert_quiet();
   assert_int_equal(content.runs, 1);
@@ -104,28 +102,24 @@ static void test_lab_plausible__sound_log__is_quiet(void **state)
 static void test_lab_plausible__leak__is_quiet(void **state)
 {
   const bad_log b = bad_log_of(5e-8); /* a eighteenth of the orifice */
-  (void)state;
   read_log(&b);
   assert_quiet();
 }
 
 static void test_lab_plausible__position_only__is_quiet(void **state)
 {
-  (void)state;
   read_columns("t [s],u [1],-,x [mm]", &sound, "");
   assert_quiet();
 }
 
 static void test_lab_plausible__pressure_only__is_quiet(void **state)
 {
-  (void)state;
   read_columns("t [s],u [1],p [kPa],-", &sound, "");
   assert_quiet();
 }
 
 static void test_lab_plausible__pressure_as_input__is_quiet(void **state)
 {
-  (void)state;
   read_columns("t [s],-,p [kPa],x [mm]", &sound, "inputs = [\"p\"];\n");
   assert_quiet();
 }
@@ -135,7 +129,6 @@ static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
 {
   char text[2048] = "t [s],p [kPa]\n";
   int i;
-  (void)state;
   for (i = 0; i <= 20; i++)
     lab_append(text, sizeof text, "%d,%.4g\n", i, 300 * exp(-0.1 * i) + 0.3 * (i % 3 - 1));
   read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
@@ -150,7 +143,6 @@ static void test_lab_plausible__more_than_the_supply_by_less_than_noise__passes(
 {
   char text[4096] = "t [s],p [kPa]\n";
   int i;
-  (void)state;
   for (i = 0; i <= 60; i++)
     lab_append(text, sizeof text, "%.1f,%.4g\n", 0.1 * i, 7.2 * (1 - exp(-1.5 * i / 10)) + 0.2 * (i % 3 - 1));
   read_files(scratch_text("rig.cfg", "actuator = { stroke = \"0 mm\"; dead_volume = \"1 dm^3\"; };\n"
@@ -166,7 +158,6 @@ static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **stat
 {
   static const double factors[] = {0.2, 5};
   int i;
-  (void)state;
   for (i = 0; i < 2; i++) {
     fresh(state);
     read_log(&sound);
@@ -180,7 +171,6 @@ static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **stat
 static void test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves_it(void **state)
 {
   int with_positioner;
-  (void)state;
   for (with_positioner = 0; with_positioner < 2; with_positioner++) {
     fresh(state);
     read_log(&sound);
@@ -205,7 +195,6 @@ static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
   const char *folder = getenv("MEASURED");
   char cfg[512], csv[512];
   size_t i, k;
-  (void)state;
   snprintf(cfg, sizeof cfg, "%s/rig/null-a/rig.cfg", folder ? folder : "../shared/data");
   if (!scratch_exists(cfg)) {
     printf("absent: %s\n", cfg);
@@ -226,7 +215,6 @@ static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
 static void test_lab_plausible_content__one_still_run_of_two__passes(void **state)
 {
   bad_log b = sound;
-  (void)state;
   read_log(&sound);
   assert_passes();
   b.n = 40;
@@ -239,7 +227,6 @@ static void test_lab_plausible_content__one_still_run_of_two__passes(void **stat
 static void test_lab_plausible_content__nothing_but_still_runs__is_refused(void **state)
 {
   bad_log b = sound;
-  (void)state;
   b.n = 40;
   read_log(&b);
   assert_judged_wrong("nothing moves");
@@ -251,7 +238,6 @@ static void test_lab_plausible__temperature_in_other_degrees__is_refused(void **
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.x[i] = 25 + 0.1 * (double)(i % 7);
   read_columns("t [s],u [1],p [kPa],T [K]", &b, "");
@@ -262,7 +248,6 @@ static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(v
 {
   char text[8192] = "t [s],u [1],p [kPa]\n";
   int i;
-  (void)state;
   for (i = 0; i < 200; i++)
     lab_append(text, sizeof text, "%g,%d,%.5g\n", 0.1 * i, i < 2 ? 0 : -1,
                i < 2 ? 390.0 : 101.3 + 288.7 * exp(-0.5 * 0.1 * (i - 1)) + 0.2 * (i % 3 - 1));
@@ -279,7 +264,6 @@ static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **st
 {
   char text[8192] = "t [s],u [1],p [kPa],x [mm]\n";
   int i;
-  (void)state;
   for (i = 0; i < 200; i++) {
     const double p = i < 20 ? 101.3 : 215 - 113.7 * exp(-0.05 * (i - 19));
     lab_append(text, sizeof text, "%g,%d,%.5g,%.5g\n", 0.1 * i, i >= 20, p + 0.2 * (i % 3 - 1),
@@ -295,7 +279,6 @@ static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **st
 
 static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **state)
 {
-  (void)state;
   read_log(&sound);
   rig.noise[LAB_CHANNEL_P] = 32;
   assert_passes();
@@ -313,7 +296,6 @@ static void test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_u
   const char *path =
       strdup(scratch_text("f.csv", "t [s],u [1],p [kPa],x [mm],force [N],p2 [kPa]\n0,0,0,0,1,2\n1,1,1,1,2,3\n"));
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof rigs / sizeof *rigs; i++) {
     limitations.n = 0;
     read_files(bad_rig("rig.cfg", rigs[i].inputs), path);
@@ -398,7 +380,6 @@ static void test_lab_is_at_rest__supply_in_another_unit__is_named(void **state)
       {2.5, "did you mean \"2.5 bar\"?"}, {250, "did you mean \"250 kPa\"?"}, {36, "did you mean \"36 psi\"?"}};
   char text[LAB_LIMITATION_TEXT];
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof meant / sizeof meant[0]; i++) {
     declare_supply(meant[i].number);
     assert_int_equal(lab_is_at_rest(&rig, 1, text), 1);
@@ -417,7 +398,6 @@ static void test_lab_is_at_rest__supply_that_does_not_count__is_quiet(void **sta
   static const int inputs[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_PS, LAB_CHANNEL_FORCE};
   char text[LAB_LIMITATION_TEXT];
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof inputs / sizeof inputs[0]; i++) {
     declare_supply(2.5);
     rig.input[inputs[i]] = 1;
@@ -441,7 +421,6 @@ static void test_lab_is_at_rest__supply_that_does_not_count__is_quiet(void **sta
 static void test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less(void **state)
 {
   char text[LAB_LIMITATION_TEXT];
-  (void)state;
   declare_supply(12e3);
   rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
   assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
@@ -451,7 +430,6 @@ static void test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less(void **
 
 static void test_lab_plausible__stem_that_rises_without_supply__is_refused(void **state)
 {
-  (void)state;
   read_columns("t [s],u [1],-,x [mm]", &sound, "");
   rig.params.supply_pressure = (pneu_real)2.5;
   assert_judged_wrong("x rises, but the model's stem cannot leave its stop: supply.pressure is 2.5 Pa");
@@ -462,7 +440,6 @@ static void test_lab_plausible__stem_that_hardly_moves__is_stuck(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.x[i] = i % 7 ? 8e-3 : 8.1e-3;
   read_log(&b);
@@ -475,7 +452,6 @@ static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(vo
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++) {
     b.u[i] = i < 50 ? 0 : i < 500 ? 1 : -1;
     b.p[i] = 80 * (i < 50    ? 0
@@ -498,7 +474,6 @@ static void test_lab_log_clean__pressure_input_that_saturates__is_refused(void *
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] = fmin(sound.p[i], 180);
   read_columns("t [s],-,p [kPa],x [mm]", &b, "inputs = [\"p\"];\n");
@@ -510,7 +485,6 @@ static void test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abr
 {
   bad_log b = sound;
   size_t i, gaps = 0;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.p[i] = b.t[i] < 0.4 ? 0 : fmin(100 * (b.t[i] - 0.4), 210); /* shut from 2.5 s on: it stays at 210 */
   read_log(&b);
@@ -531,7 +505,6 @@ static void test_lab_log_clean__stop_without_noise__stays(void **state)
 {
   bad_log b = sound;
   size_t i;
-  (void)state;
   for (i = 0; i < b.n; i++)
     b.x[i] = fmin(fmax(20 * (b.t[i] - 1), 0), 20);
   read_log(&b);
@@ -542,7 +515,6 @@ static void test_lab_log_clean__stop_without_noise__stays(void **state)
 static void test_lab_log_clean__spike__becomes_a_gap(void **state)
 {
   bad_log b = sound;
-  (void)state;
   b.p[300] = 9999;
   b.p[320] += 60;
   read_log(&b);
@@ -596,7 +568,6 @@ static void test_lab_log_thin__few_changes__keeps_them_and_the_row_before(void *
   lab_log log = make_log(10001, seldom);
   const double *t = log.value[LAB_CHANNEL_TIME], *u = log.value[LAB_CHANNEL_U];
   size_t i, found = 0;
-  (void)state;
   lab_log_thin(&log, 500, &limitations);
   assert_true(log.n <= 500 && log.n > 450);
   assert_int_equal(log.run[1], log.n);
@@ -621,7 +592,6 @@ static void test_lab_log_thin__busy_command__is_averaged(void **state)
 {
   lab_log log = make_log(10000, always);
   size_t i;
-  (void)state;
   lab_log_thin(&log, 500, &limitations);
   assert_true(log.n <= 501);
   for (i = 0; i + 1 < log.n; i++)
@@ -633,7 +603,6 @@ static void test_lab_log_thin__busy_command__is_averaged(void **state)
 static void test_lab_log_thin__short_log__stays(void **state)
 {
   lab_log log = make_log(500, seldom);
-  (void)state;
   lab_log_thin(&log, 500, &limitations);
   assert_int_equal(log.n, 500);
   assert_int_equal(limitations.n, 0);
@@ -644,7 +613,6 @@ static void test_lab_log_thin__two_runs__keep_their_ends(void **state)
 {
   lab_log log = make_log(10000, seldom);
   size_t *run = calloc(3, sizeof *run);
-  (void)state;
   run[1] = 6001;
   run[2] = 10000;
   free(log.run);
@@ -662,7 +630,6 @@ static void test_lab_log_thin__two_runs__keep_their_ends(void **state)
 static void test_lab_limitation__too_many__says_so(void **state)
 {
   int i;
-  (void)state;
   lab_limitation(&limitations, "first");
   lab_limitation_no_verdict(&limitations, "second %d", 2);
   for (i = 0; i < 2 * LAB_LIMITATION_MAX; i++)
@@ -675,7 +642,6 @@ static void test_lab_limitation__too_many__says_so(void **state)
 
 static void test_lab_limitation__said_already__is_said_once(void **state)
 {
-  (void)state;
   lab_limitation(&limitations, "short");
   lab_limitation(&limitations, "noisy");
   lab_limitation_no_verdict(&limitations, "short");
@@ -686,7 +652,6 @@ static void test_lab_limitation__said_already__is_said_once(void **state)
 static void test_lab_limitations_join__held_out_doubt__is_only_a_remark(void **state)
 {
   static lab_limitations held;
-  (void)state;
   memset(&held, 0, sizeof held);
   lab_limitation_no_verdict(&held, "held");
   lab_limitations_join(&limitations, &held);
@@ -726,7 +691,6 @@ static double taken_off(const humming *h)
 
 static void test_lab_log_remove_hum__only_the_mains__is_taken_off(void **state)
 {
-  (void)state;
   assert_close(taken_off(&(humming){50, 200, 3e3, 0, 0}), 3e3, 0, 0.02);
   assert_close(taken_off(&(humming){60, 200, 3e3, 0, 0}), 3e3, 0, 0.02);
   assert_close(taken_off(&(humming){50, 64, 3e3, 0, 0}), 3e3, 0, 0.02); /* seen as 14 Hz */
@@ -736,7 +700,6 @@ static void test_lab_log_remove_hum__only_the_mains__is_taken_off(void **state)
 
 static void test_lab_log_remove_hum__uneven_rows__are_as_good(void **state)
 {
-  (void)state;
   assert_close(taken_off(&(humming){50, 200, 3e3, 0.3, 0.03}), 3e3, 0, 0.02);
   assert_close(taken_off(&(humming){50, 200, 250, 0.3, 0.03}), 250, 0, 0.2); /* less than the noise of a row */
   assert_close(taken_off(&(humming){50, 200, 0, 0.3, 0.03}), 0, 0, 0);

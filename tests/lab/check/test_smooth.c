@@ -79,7 +79,6 @@ static double left(double (*curve)(double t))
 
 static void test_lab_log_smooth_inputs__curve__loses_most_of_its_noise(void **state)
 {
-  (void)state;
   make(decay, sigma);
   assert_close(left(decay), 1, 0.1, 0);
   smooth();
@@ -91,7 +90,6 @@ static void test_lab_log_smooth_inputs__curve__loses_most_of_its_noise(void **st
 static void test_lab_log_smooth_inputs__bends_between_rows__are_told(void **state)
 {
   size_t i, n = 0;
-  (void)state;
   make(ramp, sigma);
   smooth();
   assert_between(left(ramp), 0, 0.45);
@@ -109,7 +107,6 @@ static void test_lab_log_smooth_inputs__bends_between_rows__are_told(void **stat
 static void test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays(void **state)
 {
   size_t i;
-  (void)state;
   make(decay, sigma);
   rig.input[LAB_CHANNEL_P] = 0;
   smooth();
@@ -124,7 +121,6 @@ static void test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays(
 static void test_lab_log_smooth_inputs__gaps__stay_gaps(void **state)
 {
   size_t i, gaps = 0;
-  (void)state;
   make(decay, sigma);
   for (i = 100; i < 120; i++)
     log_made.value[LAB_CHANNEL_P][i] = NAN;
@@ -137,7 +133,6 @@ static void test_lab_log_smooth_inputs__gaps__stay_gaps(void **state)
 
 static int done(void **state)
 {
-  (void)state;
   lab_log_free(&log_made);
   memset(&limitations, 0, sizeof limitations);
   return 0;

@@ -178,7 +178,6 @@ static void test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orif
   const lab_advice_request q = make_inquiry(&rig);
   pneu_params leaks, droops;
   int i, shut = 0;
-  (void)state;
   make_alike(&rig, &q, &leaks, &droops);
   advise(&q, &leaks, &droops);
   assert_int_equal(advice.kind, LAB_ADVICE_TEST);
@@ -199,7 +198,6 @@ static void test_lab_discriminate__separation__is_what_an_independent_fit_to_bot
   const lab_advice_request q = make_inquiry(&rig);
   pneu_params leaks, droops, back;
   double one, other;
-  (void)state;
   make_alike(&rig, &q, &leaks, &droops);
   advise(&q, &leaks, &droops);
   assert_int_equal(advice.kind, LAB_ADVICE_TEST);
@@ -224,7 +222,6 @@ static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_e
   pneu_param_info info;
   pneu_params backs, narrow, other;
   double one;
-  (void)state;
   pneu_param_describe(pressure, &info);
   backs = with(&rig, pressure, 0.95 * (double)info.neutral + 0.05 * (double)info.value);
   pneu_param_describe(vent, &info);
@@ -252,7 +249,6 @@ static void test_lab_discriminate__estimates_too_large__best_of_the_settled_wins
   lab_forecast_model droops = {with(&rig, param_of("supply_droop"), 6e5), 0, {0}, {0}};
   lab_normal nothing;
   int i, k;
-  (void)state;
   build_plans(&rig);
   stage_open(&rig, &still, &rest);
   q.recorded = &rest.schedule;
@@ -284,7 +280,6 @@ static void test_lab_discriminate__models_exchanged__same_advice(void **state)
   const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-9);
   const pneu_params blocked = with(&rig, param_of("vent_restriction"), 2e-3);
   const lab_advice one = advise(&q, &leaks, &blocked), other = advise(&q, &blocked, &leaks);
-  (void)state;
   assert_string_equal(one.text, other.text);
   assert_string_equal(one.why, other.why);
   assert_true(one.separation > 0);
@@ -296,7 +291,6 @@ static void test_lab_discriminate__one_model_twice__nothing_separates_it(void **
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
   const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-8);
-  (void)state;
   advise(&q, &leaks, &leaks);
   assert_int_equal(advice.kind, LAB_ADVICE_NONE);
   assert_true(advice.separation == 0 && advice.usual == 0);
@@ -308,7 +302,6 @@ static void test_lab_discriminate__one_thing_under_two_names__nothing_separates_
   const lab_advice_request q = make_inquiry(&rig);
   const pneu_params blocked = with(&rig, param_of("vent_restriction"), 0.1);
   const pneu_params small = with(&rig, PNEU_PARAM_vent_area, 0.9 * (double)rig.params.vent_area);
-  (void)state;
   advise(&q, &blocked, &small);
   assert_int_equal(advice.kind, LAB_ADVICE_NONE);
   assert_true(advice.separation < 0.1);
@@ -323,7 +316,6 @@ static void test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedul
   const pneu_params late = with(&rig, param_of("channel_skew"), 1e-3);
   const double pressure_noise[] = {320, (double)NAN};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(pressure_noise); i++) {
     q.noise[LAB_CHANNEL_P] = pressure_noise[i];
     advise(&q, &lags, &late);
@@ -338,7 +330,6 @@ static void test_lab_discriminate__position_alone_too_little__names_the_sensor_t
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
   pneu_params leaks, droops;
-  (void)state;
   make_alike(&rig, &q, &leaks, &droops);
   q.noise[LAB_CHANNEL_P] = (double)NAN;
   advise(&q, &leaks, &droops);
@@ -356,7 +347,6 @@ static void test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_f
   const pneu_params leaks = with(&rig, param_of("chamber_leak"), 1e-9);
   const pneu_params blocked = with(&rig, param_of("vent_restriction"), 2e-3);
   const double usual = advise(&q, &leaks, &blocked).usual;
-  (void)state;
   build_plans(&rig);
   stage_open(&rig, &plans.usual, &s);
   q.recorded = &s.schedule;
@@ -386,7 +376,6 @@ static void expect_reason(const lab_rig *rig, const char *reason)
 static void test_lab_discriminate__no_command_moves_a_stem__says_why(void **state)
 {
   lab_rig rig = make_rig();
-  (void)state;
   rig.params.stroke = 0;
   expect_reason(&rig, "vessel");
   rig = make_rig();
@@ -407,7 +396,6 @@ static void test_lab_discriminate__inquiry_that_is_none__says_what_was_expected(
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
-  (void)state;
   q.spacing = 0;
   assert_int_equal(lab_discriminate(&q, &rig.params, &rig.params, &advice, &error), LAB_DATA);
   assert_contains(error.text, "spacing");
@@ -427,7 +415,6 @@ static void test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
   int fit[COUNT(fitted) + 1];
-  (void)state;
   memcpy(fit, fitted, sizeof fitted);
   fit[q.n_fit++] = param_of("stribeck_friction");
   q.fit = fit;
@@ -448,7 +435,6 @@ static void test_lab_advise_precision__what_was_found__goes_first(void **state)
   int fit[COUNT(fitted) + 1];
   lab_advice advice[2];
   int i;
-  (void)state;
   memcpy(fit, fitted, sizeof fitted);
   q.fit = fit;
   q.n_known = q.n_fit;
@@ -473,7 +459,6 @@ static void test_lab_advise_precision__one_parameter__is_the_information_of_both
   lab_advice_request q = make_inquiry(&rig);
   double information[2];
   int i, k;
-  (void)state;
   q.n_fit = 1;
   q.fit = only;
   assert_int_equal(lab_advise_precision(&q, &rig.params, &advice, &error), LAB_OK);
@@ -513,7 +498,6 @@ static void test_lab_test_plans_build__hold_at_80_percent__stem_stands_there(voi
   const lab_rig rig = make_rig();
   const lab_test_plan *hold;
   int i;
-  (void)state;
   build_plans(&rig);
   hold = find_trial("hold at 80 % travel with both orifices shut for 10 s");
   assert_int_equal(hold->n, 4);
@@ -530,7 +514,6 @@ static void test_lab_test_plans_build__hold_at_80_percent__stem_stands_there(voi
 static void test_lab_test_plans_build__both_actuators__every_template_in_order_of_time(void **state)
 {
   int actuator, i, k;
-  (void)state;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++) {
     lab_rig rig = make_rig();
     rig.params = fixture_params(actuator);
@@ -550,7 +533,6 @@ static void test_lab_test_plans_build__both_actuators__every_template_in_order_o
 static void test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out(void **state)
 {
   lab_rig rig = make_rig();
-  (void)state;
   rig.params = with(&rig, param_of("chamber_leak"), 0.15 * (double)rig.params.fill_area);
   build_plans(&rig);
   assert_int_equal(plans.n, 12);
@@ -562,7 +544,6 @@ static void test_trial_choose__ties__go_to_the_shortest(void **state)
   const double duration[] = {40, 10, 20, 5, 1};
   const double value[] = {50, 47, 46, 44, (double)NAN};
   int i;
-  (void)state;
   plans.n = 5;
   for (i = 0; i < plans.n; i++)
     plans.plan[i].duration = duration[i];
@@ -623,7 +604,6 @@ static double rest_by_gram_schmidt(void)
 static void test_lab_normal_rest__is_what_gram_schmidt_leaves(void **state)
 {
   double rest;
-  (void)state;
   make_columns();
   make_normal();
   rest = lab_normal_rest(&normal);
@@ -637,7 +617,6 @@ static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
   const int two[] = {0, 1};
   lab_normal part;
   int i;
-  (void)state;
   make_columns();
   for (i = 0; i < M; i++)
     column[2][i] = column[0][i] + 1e-8 * column[K][i];
@@ -652,7 +631,6 @@ static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
   const int keep[] = {2, 0};
   lab_normal part, again;
   int i, j;
-  (void)state;
   make_columns();
   make_normal();
   lab_normal_select(&normal, 2, keep, &part);
@@ -671,7 +649,6 @@ static void test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_col
   const double change[K] = {2, -0.3, 0.05};
   double by_rows = 0, by_columns = 0;
   int i, j, twice;
-  (void)state;
   for (twice = 0; twice < 2; twice++) {
     make_columns();
     for (i = 0; twice && i < M; i++)
@@ -700,7 +677,6 @@ static void test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse(v
 {
   const double prior[] = {1, 1};
   double deviation[2];
-  (void)state;
   lab_normal_clear(&normal, 2);
   normal.g[0][0] = 4;
   normal.g[0][1] = 2;

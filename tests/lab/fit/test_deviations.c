@@ -25,7 +25,6 @@ static void test_lab_deviations_find__begins_within_the_log__is_told_first(void 
   static lab_rig rig;
   const int lag = pneu_param_find("pressure_lag.pressure_time");
   double supply;
-  (void)state;
   if (lag < 0)
     skip();
   lab_rig_default(&rig);
@@ -56,7 +55,6 @@ static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void *
   static const double lag_of[] = {0.0149, 0.0151};
   const int lag = pneu_param_find("pressure_lag.pressure_time");
   int k;
-  (void)state;
   if (lag < 0)
     skip();
   for (k = 0; k < 4; k++) {
@@ -101,7 +99,6 @@ static void test_lab_deviations_find__several_are_off__small_ones_are_told_with_
                                PNEU_PARAM_dead_volume},
                    told[] = {3, 1, 0};
   size_t k, i;
-  (void)state;
   for (k = 0; k < sizeof off / sizeof off[0]; k++) {
     static const lab_unknowns none;
     static lab_unknowns u;
@@ -129,7 +126,6 @@ static void test_lab_deviations_find__model_lacks_something__values_far_off_or_a
   static lab_deviations all;
   static lab_rig rig;
   int k;
-  (void)state;
   lab_rig_default(&rig);
   u.declared = rig.params;
   put_off(&rig, &u, &fit, PNEU_PARAM_dead_volume, 5);
@@ -153,7 +149,6 @@ static void test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_rati
   static lab_rig rig;
   const int vent = pneu_param_find("vent_restriction");
   lab_deviation d;
-  (void)state;
   if (vent < 0)
     skip();
   lab_rig_default(&rig);

@@ -64,7 +64,6 @@ static void test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_g
   double r[ROWS], before[ROWS], w[ROWS], along, length2;
   uint64_t seed = 4;
   int i;
-  (void)state;
   open_run();
   for (i = 0; i < ROWS; i++) {
     r[i] = before[i] = i == GAP ? 0 : fixture_random(&seed, -2, 3);
@@ -84,7 +83,6 @@ static void test_lab_drift_strain__drift_of_seven_tolerances__is_found(void **st
   lab_unknowns *u = calloc(1, sizeof *u);
   double r[ROWS], w[ROWS], length2;
   int i;
-  (void)state;
   open_run();
   assert_non_null(u);
   u->run = &run;
@@ -114,7 +112,6 @@ static void test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_ou
   lab_errors with, without;
   lab_log seen;
   size_t i;
-  (void)state;
   assert_non_null(u);
   virtual_write(&g, &course, (LONG - 1) * spacing, spacing, path);
   virtual_declare(&rig);
@@ -138,7 +135,6 @@ static void test_lab_drift_open__no_tolerance__takes_nothing(void **state)
 {
   double r[ROWS], before[ROWS];
   int i;
-  (void)state;
   open_run();
   rig.tolerance[LAB_PRESSURE_DRIFT] = 0;
   assert_int_equal(lab_drift_open(&run, &error), LAB_OK);

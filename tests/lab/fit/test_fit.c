@@ -142,7 +142,6 @@ static void test_lab_fit__line__is_the_regression_line(void **state)
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {40, 7};
   const double b = regression(&c), best[] = {mean(c.y) - b * mean(c.t), b};
-  (void)state;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_regression(&c, theta);
   assert_close(chi2, chi2_at(&c, best), 0.02, 1e-6);
@@ -154,7 +153,6 @@ static void test_lab_fit__bound_in_the_way__is_the_best_line_on_it(void **state)
   trial c = make_line();
   lab_fit_problem p = problem_of(&c);
   double theta[] = {40, -2};
-  (void)state;
   p.upper = bounded;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_true(theta[1] == bounded[1]);
@@ -167,7 +165,6 @@ static void test_lab_fit__bounds_on_all__ends_in_the_corner(void **state)
   trial c = make_line();
   lab_fit_problem p = problem_of(&c);
   double theta[] = {4, 0};
-  (void)state;
   p.lower = least;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_true(theta[0] == least[0]);
@@ -181,7 +178,6 @@ static void test_lab_fit__start_on_bounds__leaves_them(void **state)
   trial c = make_line();
   lab_fit_problem p = problem_of(&c);
   double theta[] = {9, -4};
-  (void)state;
   p.upper = above;
   p.lower = below;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
@@ -201,7 +197,6 @@ static void test_lab_fit__rosenbrock__follows_the_valley(void **state)
   trial c = make_rows(2, valley);
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {-1.2, 1};
-  (void)state;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_close(theta[0], 1, 3e-4, 0);
   assert_close(theta[1], 1, 6e-4, 0);
@@ -214,7 +209,6 @@ static void test_lab_fit__one_step__is_on_the_way(void **state)
   lab_fit_problem p = problem_of(&c);
   double theta[] = {-1.2, 1};
   const double before = 1e6 * (4.4 * 4.4 + 2.2 * 2.2);
-  (void)state;
   p.steps = 1;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_true(chi2 < 0.5 * before && chi2 > 1e-3 * before);
@@ -231,7 +225,6 @@ static void test_lab_fit__near_enough__ends_at_once(void **state)
   lab_fit_problem p = problem_of(&c);
   const double b = regression(&c), off = mean(c.y) - b * mean(c.t) + 1e-3;
   double theta[] = {off, b};
-  (void)state;
   p.enough = 1;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_true(theta[0] == off && theta[1] == b);
@@ -258,7 +251,6 @@ static void test_lab_fit__model_fails_beyond__stays_where_it_does_not(void **sta
   trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {5};
-  (void)state;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_close(theta[0], 1, 1e-3, 0);
 }
@@ -268,7 +260,6 @@ static void test_lab_fit__model_fails_at_start__says_so(void **state)
   trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {-1};
-  (void)state;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_NUMERIC);
   assert_true(theta[0] == -1);
 }
@@ -287,7 +278,6 @@ static void test_lab_fit__residual_not_finite__is_named(void **state)
   trial c = make_line();
   lab_fit_problem p = problem_of(&c);
   double theta[] = {-1, 0};
-  (void)state;
   p.residuals = hollow;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_NUMERIC);
   assert_string_equal(error.text, "residual 5 of 40 is not finite");
@@ -298,7 +288,6 @@ static void test_lab_fit__any_other_failure__ends_it(void **state)
   trial c = {1, {0}, {0}, logarithm, 100, LAB_WORLD, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {5};
-  (void)state;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_WORLD);
   assert_string_equal(error.text, "no model here");
   theta[0] = 1.5;
@@ -312,7 +301,6 @@ static void test_lab_fit__slope_fails__leaves_that_unknown_where_it_is(void **st
   trial c = make_line();
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {40, -0.2};
-  (void)state;
   c.no_slope = 1;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_true(theta[1] == -0.2);
@@ -334,7 +322,6 @@ static void test_lab_fit__kept_slopes__end_where_new_ones_would(void **state)
   double theta[] = {1, 3, 0.5}, near;
   const double truth[] = {2, 0.7, -0.2};
   int i, side;
-  (void)state;
   for (i = 0; i < ROWS; i++) {
     c.t[i] = 0.1 * i;
     c.y[i] = decay(truth, c.t[i]) + (i % 3 - 1) * 0.01;
@@ -362,7 +349,6 @@ static void test_lab_fit__known_slopes__are_not_asked_for_before_the_end(void **
   double slopes[2 * ROWS], theta[] = {0, 0};
   const char known[] = {1, 1}, half[] = {0, 1};
   lab_fit_problem p = problem_of(&c);
-  (void)state;
   p.slopes = slopes;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   p.is_known = known;
@@ -391,7 +377,6 @@ static void test_lab_fit__known_slopes_that_are_wrong__are_renewed(void **state)
   const char known[] = {1, 1};
   lab_fit_problem p = problem_of(&c);
   int i;
-  (void)state;
   for (i = 0; i < 2 * ROWS; i++)
     slopes[i] = i % 7 - 3;
   p.slopes = slopes;
@@ -406,7 +391,6 @@ static void test_lab_fit__rough_model__has_new_slopes_at_every_step(void **state
   lab_fit_problem p = problem_of(&c);
   double theta[] = {1, 3, 0.5}, other[] = {1, 3, 0.5};
   int i;
-  (void)state;
   for (i = 0; i < ROWS; i++) {
     c.t[i] = 0.1 * i;
     c.y[i] = 2 * exp(-0.07 * i);
@@ -442,7 +426,6 @@ static void test_lab_fit__two_wells__search_finds_the_deeper(void **state)
 {
   trial c = make_rows(1, two_wells);
   int search;
-  (void)state;
   for (search = 0; search <= 20; search += 20) {
     const lab_fit_problem p = wells_of(&c, search);
     double theta[] = {-1.1};
@@ -464,7 +447,6 @@ static void test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds(
   trial c = make_rows(1, one_well);
   const lab_fit_problem p = wells_of(&c, 200);
   double theta[] = {-3};
-  (void)state;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
   assert_close(theta[0], -0.99, 0.02, 0);
 }
@@ -490,7 +472,6 @@ static void test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more
                              .search = 4 * LAB_FIT_MAX};
   double before, after;
   int j;
-  (void)state;
   for (j = 0; j < LAB_FIT_MAX; j++) {
     lower[j] = -1;
     upper[j] = 2;
@@ -510,7 +491,6 @@ static void test_lab_fit__search_finds_nothing_better__goes_on_from_the_start(vo
   trial c = make_rows(1, two_wells);
   lab_fit_problem p = wells_of(&c, 3);
   double theta[] = {0.99};
-  (void)state;
   assert_int_equal(lab_fit_search(&p, theta, &error), LAB_OK);
   assert_true(theta[0] == 0.99);
 }
@@ -520,7 +500,6 @@ static void test_lab_fit__any_other_failure_in_the_search__ends_it_at_once(void 
   trial c = make_rows(1, one_well);
   const lab_fit_problem p = wells_of(&c, 200);
   double theta[] = {-1.1};
-  (void)state;
   c.failing = LAB_WORLD;
   assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_WORLD);
   assert_string_equal(error.text, "no model here");
@@ -534,7 +513,6 @@ static void test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse(v
 {
   static const double inverse[3][3] = {{9, -36, 30}, {-36, 192, -180}, {30, -180, 180}};
   int i, j, k;
-  (void)state;
   for (k = 0; k < 3; k++) {
     double a[3][5] = {{0}}, b[3] = {0};
     for (i = 0; i < 3; i++)
@@ -552,7 +530,6 @@ static void test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse(v
 static void test_lab_solve_positive__not_positive__is_refused(void **state)
 {
   double saddle[] = {1, 2, 2, 1}, flat[] = {1, 1, 1, 1}, none[] = {1, 0, 0, NAN}, b[] = {1, 1};
-  (void)state;
   assert_int_equal(lab_solve_positive(2, 2, saddle, b), -1);
   assert_int_equal(lab_solve_positive(2, 2, flat, b), -1);
   assert_int_equal(lab_solve_positive(2, 2, none, b), -1);

@@ -35,7 +35,6 @@ static void measure(void)
 static int open_log(void **state)
 {
   int i;
-  (void)state;
   lab_rig_default(&rig);
   rig.laws.flow = PNEU_FLOW_CHOKED;
   rig.noise[LAB_CHANNEL_P] = sigma_p;
@@ -58,7 +57,6 @@ static int open_log(void **state)
 
 static int close_log(void **state)
 {
-  (void)state;
   lab_outliers_free(&out);
   memset(&out, 0, sizeof out);
   lab_run_close(&run);
@@ -76,14 +74,12 @@ static void take(size_t expected)
 
 static void test_lab_outliers_take__log_of_the_model__has_none(void **state)
 {
-  (void)state;
   take(0);
   assert_int_equal(out.limitations.n, 0);
 }
 
 static void test_lab_outliers_take__beyond_seven_deviations__is_taken(void **state)
 {
-  (void)state;
   p[100] += 8 * sigma_p; /* in a stroke */
   x[300] -= 8 * sigma_x;
   p[50] += 6 * sigma_p;
@@ -96,7 +92,6 @@ static void test_lab_outliers_take__beyond_seven_deviations__is_taken(void **sta
 static void test_lab_outliers_take__in_other_noise__has_its_size_for_measure(void **state)
 {
   int i;
-  (void)state;
   for (i = 0; i < ROWS; i++)
     p[i] += 3 * sigma_p * fixture_normal(&seed); /* three times what is declared */
   p[100] += 15 * sigma_p;
@@ -107,7 +102,6 @@ static void test_lab_outliers_take__in_other_noise__has_its_size_for_measure(voi
 
 static void test_lab_outliers_take__two_side_by_side__are_both_taken(void **state)
 {
-  (void)state;
   p[100] += 30 * sigma_p;
   p[101] += 50 * sigma_p;
   x[299] += 12 * sigma_x;
@@ -118,7 +112,6 @@ static void test_lab_outliers_take__two_side_by_side__are_both_taken(void **stat
 
 static void test_lab_outliers_take__soon_after_a_command__are_counted(void **state)
 {
-  (void)state;
   x[OPENED + 4] += 30 * sigma_x;
   x[OPENED + 5] += 20 * sigma_x;
   p[CLOSED + 20] += 30 * sigma_p;
@@ -130,7 +123,6 @@ static void test_lab_outliers_take__soon_after_a_command__are_counted(void **sta
 
 static void test_lab_outliers_take__three_rows__may_be_an_effect(void **state)
 {
-  (void)state;
   p[100] += 30 * sigma_p;
   p[101] += 30 * sigma_p;
   p[102] += 30 * sigma_p;
@@ -140,7 +132,6 @@ static void test_lab_outliers_take__three_rows__may_be_an_effect(void **state)
 static void test_lab_outliers_take__a_step__stays(void **state)
 {
   int i;
-  (void)state;
   for (i = 150; i < ROWS; i++)
     p[i] += 50 * sigma_p;
   take(0);
@@ -148,7 +139,6 @@ static void test_lab_outliers_take__a_step__stays(void **state)
 
 static void test_lab_outliers_take__misfit_at_the_corners__stays(void **state)
 {
-  (void)state;
   rig.params.spring_preload *= (pneu_real)1.1;
   rig.params.dry_friction *= (pneu_real)0.5;
   measure();
@@ -158,7 +148,6 @@ static void test_lab_outliers_take__misfit_at_the_corners__stays(void **state)
 /* A peak of one row that only the model has is its mistake. */
 static void test_lab_outliers_take__a_peak_of_the_model__is_no_outlier(void **state)
 {
-  (void)state;
   run_log.value[LAB_CHANNEL_U][100] = -1; /* vents for one row */
   run_log.value[LAB_CHANNEL_U][101] = 1;
   lab_run_close(&run);
@@ -171,7 +160,6 @@ static void test_lab_outliers_take__a_converter_that_flickers__stays(void **stat
 {
   const double step = 20 * sigma_x;
   int i;
-  (void)state;
   for (i = 0; i < ROWS; i++)
     x[i] = step * floor(x[i] / step + 0.5);
   x[10] += step;
@@ -181,7 +169,6 @@ static void test_lab_outliers_take__a_converter_that_flickers__stays(void **stat
 static void test_lab_outliers_take__more_than_a_fiftieth__stays(void **state)
 {
   int i;
-  (void)state;
   for (i = 5; i < 8 * 40; i += 40)
     p[i] += 100 * sigma_p;
   take(8);
@@ -192,7 +179,6 @@ static void test_lab_outliers_take__more_than_a_fiftieth__stays(void **state)
 
 static void test_lab_outliers_take__a_gap__is_none(void **state)
 {
-  (void)state;
   p[100] = p[101] = (double)NAN;
   p[103] += 50 * sigma_p;
   take(1);
@@ -203,7 +189,6 @@ static void test_lab_outliers_take__a_gap__is_none(void **state)
 
 static void test_lab_outliers_take__says__how_many_and_where(void **state)
 {
-  (void)state;
   p[100] += 30 * sigma_p;
   p[300] += 30 * sigma_p;
   x[350] += 30 * sigma_x;
@@ -218,7 +203,6 @@ static void test_lab_outliers_take__says__how_many_and_where(void **state)
 static void test_lab_outliers_put_back__after_two_takes__is_as_before(void **state)
 {
   double before[ROWS];
-  (void)state;
   p[100] += 30 * sigma_p;
   p[300] += 30 * sigma_p;
   memcpy(before, p, sizeof p);

@@ -88,7 +88,6 @@ static void fit(const trial *c, double *theta)
 static void test_student_quantile__tables__agree(void **state)
 {
   /* closed forms: 1 degree of freedom is Cauchy's tan(pi (p - 1/2)); with 2, (2p - 1)/sqrt(2 p (1 - p)) */
-  (void)state;
   assert_close(lab_student_quantile(0.975, 1), tan(3.14159265358979323846 * 0.475), 0, 1e-11);
   assert_close(lab_student_quantile(0.975, 2), 0.95 / sqrt(2 * 0.975 * 0.025), 0, 1e-11);
   assert_close(lab_student_quantile(0.975, 10), 2.228138851964939, 0, 1e-11); /* Abramowitz and Stegun 26.10: 2.228 */
@@ -182,7 +181,6 @@ static void test_lab_fit_spread__line__weighted_and_normal(void **state)
   line data = make_line();
   const trial c = trial_of(&data);
   double at[2], theta[2], inverse[3], chi2;
-  (void)state;
   fit(&c, at);
   normal_equations(&data, theta, inverse, &chi2);
   assert_true(chi2 < LINE - 2);
@@ -195,7 +193,6 @@ static void test_lab_fit_spread__more_left_than_noise__wider_by_its_size(void **
   const trial c = trial_of(&data);
   double at[2], theta[2], inverse[3], chi2;
   int i;
-  (void)state;
   for (i = 0; i < LINE; i++)
     data.sigma[i] /= 10;
   fit(&c, at);
@@ -231,7 +228,6 @@ static void test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_s
   static int sizes[] = {8, 50};
   double theta[MOST];
   size_t k;
-  (void)state;
   for (k = 0; k < sizeof sizes / sizeof *sizes; k++) {
     trial c = {.m = (size_t)(64 * sizes[k]), .model = mean_residuals, .data = &sizes[k], .step = 1e-3};
     add(&c, "mean", 0.5, -10, 10);
@@ -246,7 +242,6 @@ static void test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says(vo
   static trial c = {.m = MOST, .model = quarter, .step = 1e-3};
   double at[MOST];
   int j;
-  (void)state;
   for (j = 0; j < MOST; j++)
     add(&c, "x", 0.75, -5, 5);
   fit(&c, at);
@@ -273,7 +268,6 @@ static void test_lab_fit_spread__bound_active__is_said_and_the_other_alone_is_fr
 {
   trial c = {.m = 2, .model = valley, .step = 1e-5};
   double at[2];
-  (void)state;
   add(&c, "x", 0.1, 0, 0.5);
   add(&c, "y", 1, 0, 2);
   fit(&c, at);
@@ -311,7 +305,6 @@ static void check_one_side(double lower, double upper, int state)
 
 static void test_lab_fit_spread__bound_active__interval_on_one_side(void **state)
 {
-  (void)state;
   check_one_side(-0.49, 3, LAB_STATE_AT_LOWER);
   check_one_side(-0.40, 3, LAB_STATE_AT_LOWER);
   check_one_side(-3, -0.52, LAB_STATE_AT_UPPER);
@@ -335,7 +328,6 @@ static void test_lab_fit_spread__product_of_two__pair_named(void **state)
   line data = make_line();
   trial c = {.m = LINE, .model = product, .data = &data, .sigma = data.sigma, .step = 1e-4};
   double at[4], theta[2], inverse[3], chi2;
-  (void)state;
   add(&c, "a", 1, 0.1, 9);
   add(&c, "b", -1, -9, -0.1);
   add(&c, "c", 1, -9, 9);
@@ -436,7 +428,6 @@ static void test_lab_fit_spread__library_with_noise__recovers_within_its_interva
   int inside = 0, seed, j;
   bench data;
   trial c = {.m = 2 * SAMPLES, .model = bench_residuals, .data = &data, .step = 1e-3};
-  (void)state;
   add(&c, "orifice_area", 1.2e-6, 1e-7, 1e-5);
   add(&c, "dry_friction", 300, 0, 2000);
   add(&c, "spring_rate", 5e5, 1e5, 1e6);
@@ -469,7 +460,6 @@ static void test_lab_fit_spread__model_fails__says_so(void **state)
   trial c = {.n = 1, .m = 2, .model = none, .upper = {1}};
   const lab_fit_problem problem = {
       .n = 1, .m = 2, .lower = c.lower, .upper = c.upper, .context = &c, .residuals = residuals, .slope = slope};
-  (void)state;
   assert_int_equal(lab_fit_spread(&problem, c.param, c.start, &got, &error), LAB_NUMERIC);
   assert_string_equal(error.text, "no model here");
 }

@@ -159,7 +159,6 @@ static void test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches(vo
   static const int whose[USUAL] = {LAB_ALL_RUNS, 0, 1, LAB_ALL_RUNS, 0, 0, 1, 1};
   static const double value[USUAL] = {480, 1, 1, 4e5, 0.025, 0.025, 0.025, 0.025};
   int j;
-  (void)state;
   open_usual();
   assert_int_equal(u.n, USUAL);
   for (j = 0; j < USUAL; j++) {
@@ -178,7 +177,6 @@ static void test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches(vo
 static void test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run(void **state)
 {
   int k;
-  (void)state;
   declare();
   fit_list("spring_preload", 1);
   open_empty();
@@ -201,7 +199,6 @@ static void test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_e
 static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(void **state)
 {
   lab_rig next;
-  (void)state;
   open_usual();
   rig.fit_per_log[0] = 1; /* and one that nothing is expected of: a factor on both orifices */
   open_empty();
@@ -226,7 +223,6 @@ static void test_lab_unknowns_stay_near__far_more_than_declared__is_ten_toleranc
 {
   const double upper = (double)lab_param_info(PNEU_PARAM_damping).upper;
   double declared;
-  (void)state;
   declare();
   declared = (double)rig.params.damping;
   assert_true(declared > 0);
@@ -254,7 +250,6 @@ static void test_lab_unknowns_stay_near__far_more_than_declared__is_ten_toleranc
 /* A value that runs away towards nothing is as far off. */
 static void test_lab_unknowns_is_far__a_tenth_of_an_area__is_far(void **state)
 {
-  (void)state;
   declare();
   fit_list("area", 0);
   open_empty();
@@ -270,7 +265,6 @@ static void test_lab_unknowns_is_far__a_tenth_of_an_area__is_far(void **state)
 static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **state)
 {
   int j;
-  (void)state;
   open_usual();
   for (j = SWITCH_1; j < USUAL; j++) {
     const lab_unknown *s = &u.unknown[j];
@@ -289,7 +283,6 @@ static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **s
 static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost(void **state)
 {
   int j;
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
   j = lab_unknowns_find(&u, PNEU_PARAM_moving_mass);
@@ -304,7 +297,6 @@ static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_
 /* Damping and viscous friction are one coefficient: the one known less well is held, and none beside the other. */
 static void test_lab_unknowns_hold__damping_and_viscous_friction__are_one(void **state)
 {
-  (void)state;
   declare();
   rig.params.damping = 900;
   rig.params.viscous_friction = 1000;
@@ -324,7 +316,6 @@ static void test_lab_unknowns_settle__lag_that_does_not_act__is_none(void **stat
 {
   const int lag = pneu_param_find("position_lag.position_time"), late = pneu_param_find("pressure_lag.pressure_time");
   int held;
-  (void)state;
   open_empty();
   assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add(&u, late, 1e-10, &error), LAB_OK); /* let go: it is no longer held */
@@ -350,7 +341,6 @@ static void test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_decl
                               PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction, PNEU_PARAM_damping,
                               PNEU_PARAM_fill_area,   PNEU_PARAM_vent_area};
   int i, j;
-  (void)state;
   declare();
   rig.params.viscous_friction = 0;
   fit_list("dry_friction", 0);
@@ -378,7 +368,6 @@ static void test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_co
 {
   double misfit;
   int j, k;
-  (void)state;
   open_measured();
   assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_weigh_held(&u, &error), LAB_OK);
@@ -407,7 +396,6 @@ static void test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_wha
   const double tolerance = 2 * sigma_x;
   double slope, misfit;
   int k;
-  (void)state;
   declare();
   fit_list("position_bias.position_bias", 1);
   rig.tolerance[rig.fit[0]] = tolerance;
@@ -432,7 +420,6 @@ static void test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_wha
 
 static void test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone(void **state)
 {
-  (void)state;
   declare();
   open_empty();
   assert_int_equal(u.n, RUNS * SWITCHES);
@@ -454,7 +441,6 @@ static void open_alternating(int rows)
 static void test_lab_unknowns_open__command_that_changes_often__has_one_timing(void **state)
 {
   const lab_unknown *all = &u.unknown[SWITCHES];
-  (void)state;
   declare();
   open_empty();
   open_alternating(10);
@@ -476,7 +462,6 @@ static void test_lab_unknowns_residuals__command_that_changes_often__is_matched_
 {
   double early[20], y[2 * ROWS];
   size_t k;
-  (void)state;
   declare();
   open_empty();
   open_alternating(8);
@@ -499,7 +484,6 @@ static void test_lab_unknowns_none__commands_at_their_rows__leave_nothing(void *
 {
   static const double prompt[SWITCHES] = {0, 0};
   int k;
-  (void)state;
   open_usual();
   lab_unknowns_none(&rig, run, RUNS, &u);
   for (k = 0; k < RUNS; k++)
@@ -514,7 +498,6 @@ static void test_lab_unknowns_none__commands_at_their_rows__leave_nothing(void *
 static void test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale(void **state)
 {
   const lab_unknown *added = &u.unknown[USUAL];
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
   assert_int_equal(u.n, USUAL + 1);
@@ -531,7 +514,6 @@ static void test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size(void 
 {
   const int param = index_of("pressure_bias.pressure_bias");
   pneu_param_info info;
-  (void)state;
   pneu_param_describe(param, &info);
   open_usual();
   assert_int_equal(lab_unknowns_add(&u, param, 0, &error), LAB_OK);
@@ -542,7 +524,6 @@ static void test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size(void 
 
 static void test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them(void **state)
 {
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 1e9, &error), LAB_OK);
   assert_close(u.unknown[USUAL].value, 1e4, 0, 0);
@@ -554,7 +535,6 @@ static void test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them(void **st
 static void test_lab_unknowns_add__no_room__is_refused(void **state)
 {
   int j;
-  (void)state;
   open_usual();
   for (j = USUAL; j < LAB_FIT_MAX; j++)
     assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
@@ -568,7 +548,6 @@ static void test_lab_unknowns_drop__one_between_others__leaves_these_in_order(vo
   const int bias = index_of("pressure_bias.pressure_bias"), excess = index_of("stribeck_friction.stribeck_excess"),
             velocity = index_of("stribeck_friction.stribeck_velocity");
   pneu_param_info info;
-  (void)state;
   pneu_param_describe(velocity, &info);
   open_usual();
   assert_int_equal(lab_unknowns_add(&u, bias, 500, &error), LAB_OK);
@@ -587,7 +566,6 @@ static void test_lab_unknowns_drop__one_between_others__leaves_these_in_order(vo
 
 static void test_lab_unknowns_find__what_is_not_there__is_not_found(void **state)
 {
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_find(&u, index_of("dry_friction")), FRICTION);
   assert_int_equal(lab_unknowns_find(&u, LAB_PARAM_ORIFICE_AREA), AREA_1); /* the first of its own */
@@ -605,7 +583,6 @@ static void test_lab_unknowns_add_term__free_ends__has_all_its_knots(void **stat
 {
   char name[32];
   int i;
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
   assert_int_equal(u.n, USUAL + 5);
@@ -630,7 +607,6 @@ static void test_lab_unknowns_add_term__held_ends__keep_their_values(void **stat
 {
   lab_rig model;
   int i;
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 1, &error), LAB_OK);
@@ -650,7 +626,6 @@ static void test_lab_unknowns_add_term__held_ends__keep_their_values(void **stat
 
 static void test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone(void **state)
 {
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_OK);
@@ -676,7 +651,6 @@ static void assert_no_room(const pneu_term *term)
 static void test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is(void **state)
 {
   int k;
-  (void)state;
   open_usual();
   for (k = 0; k < LAB_TERM_MAX; k++)
     assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_OK);
@@ -696,7 +670,6 @@ static void test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period
 {
   const lab_unknown *period = &u.unknown[USUAL + 4];
   int i;
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
   assert_int_equal(u.n, USUAL + 5);
@@ -721,7 +694,6 @@ static void test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period
 static void test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone(void **state)
 {
   lab_rig model;
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
@@ -737,7 +709,6 @@ static void test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone(voi
 
 static void test_lab_unknowns_drop_term__cycle__takes_its_period_along(void **state)
 {
-  (void)state;
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
   assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
@@ -753,7 +724,6 @@ static void test_lab_unknowns_drop_term__cycle__takes_its_period_along(void **st
 /* Four amplitudes would have room, their period has not. */
 static void test_lab_unknowns_add_term__no_room_for_the_period__is_refused(void **state)
 {
-  (void)state;
   assert_no_room(&wave);
   lab_unknowns_drop(&u, index_of("moving_mass"));
   while (u.n < LAB_FIT_MAX - 5)
@@ -768,7 +738,6 @@ static void test_lab_unknowns_apply__all_experiments__has_shared_values_only(voi
 {
   const double given[USUAL] = {600, 1.5, 0.5, 3e5, 0, 0, 0, 0};
   lab_rig model;
-  (void)state;
   open_usual();
   model = u.rig;
   lab_unknowns_apply(&u, given, LAB_ALL_RUNS, &model);
@@ -783,7 +752,6 @@ static void test_lab_unknowns_apply__one_experiment__has_its_own_values_too(void
   const double given[USUAL] = {600, 1.5, 0.5, 3e5, 0, 0, 0, 0};
   lab_rig model;
   int e, again;
-  (void)state;
   open_usual();
   u.declared.vent_area = rig.params.vent_area *= 3;
   model = u.rig;
@@ -801,7 +769,6 @@ static void test_lab_unknowns_apply__one_experiment__has_its_own_values_too(void
 static void test_lab_unknowns_residuals__log_of_the_model_itself__are_zero(void **state)
 {
   size_t window;
-  (void)state;
   open_measured();
   assert_true(p[ROWS / 2] > 1e5 && x[ROWS / 2] > 0.01); /* it fills, and the stem moves */
   assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
@@ -816,7 +783,6 @@ static void test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_st
 {
   size_t window;
   int i;
-  (void)state;
   open_measured();
   for (i = 0; i < ROWS; i++)
     p[i] += i / 3 % 2 ? 1e5 : -1e5;
@@ -830,7 +796,6 @@ static void test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_st
 static void test_lab_unknowns_residuals__known_errors__are_over_the_noise(void **state)
 {
   const int at[] = {5, 50, 7};
-  (void)state;
   open_measured();
   p[at[0] + FIRST_SWITCH] += 600;
   x[at[1]] -= 1e-5;
@@ -844,7 +809,6 @@ static void test_lab_unknowns_residuals__known_errors__are_over_the_noise(void *
 
 static void test_lab_unknowns_residuals__gap__counts_nothing(void **state)
 {
-  (void)state;
   open_measured();
   p[30] = x[ROWS + 40] = NAN;
   assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
@@ -857,7 +821,6 @@ static void test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_tha
   const double n = RUNS * ROWS - 1;
   lab_errors errors;
   int i;
-  (void)state;
   open_measured();
   for (i = 20; i < 29; i++) {
     p[i] += 2 * sigma_p;
@@ -879,7 +842,6 @@ static void test_lab_unknowns_residuals__own_values__belong_to_their_log(void **
 {
   static const double factor[RUNS] = {1.2, 0.9}, early[SWITCHES] = {0.025, 0.025};
   int k;
-  (void)state;
   open_usual();
   for (k = 0; k < RUNS; k++) {
     lab_rig truth = rig;
@@ -900,7 +862,6 @@ static void test_lab_unknowns_residuals__own_values__belong_to_their_log(void **
 
 static void test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for(void **state)
 {
-  (void)state;
   open_measured();
   lab_unknowns_values(&u, theta);
   theta[SWITCH_1 + 2] = 0.04; /* of the second run */
@@ -917,7 +878,6 @@ static void test_lab_unknowns_residuals__commands_that_were_early__are_matched_b
 {
   static const double early[RUNS][SWITCHES] = {{0, 0.05}, {0.031, 0.007}};
   int k;
-  (void)state;
   open_usual();
   lab_unknowns_values(&u, theta);
   for (k = 0; k < RUNS; k++) {
@@ -937,7 +897,6 @@ static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **
   double *white = r + 3 * ROWS, *error_of = other + 3 * ROWS;
   uint64_t seed = 1;
   int i;
-  (void)state;
   open_measured();
   for (i = FIRST_SWITCH; i < ROWS; i++) {
     x[i] += fixture_random(&seed, -sigma_x, sigma_x);
@@ -960,7 +919,6 @@ static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **
 static void test_lab_unknowns_residuals_with__another_model__takes_its_shared_values(void **state)
 {
   lab_rig model;
-  (void)state;
   open_measured();
   u.unknown[AREA_2].value = 1.1;
   lab_unknowns_values(&u, theta);
@@ -980,7 +938,6 @@ static void test_lab_unknowns_view__windows__has_the_coarse_residuals(void **sta
   const size_t n = 2 * lab_windowed_count(ROWS, WINDOW);
   static double predicted_p[RUNS * ROWS], predicted_x[RUNS * ROWS];
   int k, i;
-  (void)state;
   open_measured();
   memcpy(predicted_p, p, sizeof p);
   memcpy(predicted_x, x, sizeof x);
@@ -1011,7 +968,6 @@ static void test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_no
 {
   const int gain = index_of("pressure_gain.pressure_gain");
   int i;
-  (void)state;
   open_closely();
   assert_int_equal(lab_unknowns_add(&u, gain, 0, &error), LAB_OK);
   u.m = u.n_data + (size_t)u.n;
@@ -1032,7 +988,6 @@ static void test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_no
 static void test_lab_unknowns_slope__switch__has_its_prior(void **state)
 {
   int j;
-  (void)state;
   open_measured();
   lab_unknowns_values(&u, theta);
   assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
@@ -1071,7 +1026,6 @@ static void difference(int j, double up, double down, double *quotient)
 static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference(void **state)
 {
   int j;
-  (void)state;
   open_closely();
   assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
   for (j = 0; j < USUAL; j++) {
@@ -1091,7 +1045,6 @@ static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_diffe
   static double J[LAB_FIT_MAX * (DATA + LAB_FIT_MAX)];
   char done[LAB_FIT_MAX] = {0};
   int j;
-  (void)state;
   open_closely();
   done[SPRING] = 1;
   assert_int_equal(lab_unknowns_slopes_together(&u, theta, J, done, &error), LAB_OK);
@@ -1113,7 +1066,6 @@ static void test_lab_unknowns_changes_with__other_models__are_their_differences(
   static lab_rig model[MODELS];
   static double change[MODELS * (DATA + LAB_FIT_MAX)];
   char done[MODELS];
-  (void)state;
   open_closely();
   model[LEAKING] = model[LAGGING] = u.rig;
   *pneu_param_at(&model[LEAKING].params, pneu_param_find("leak_area")) = (pneu_real)1e-12;
@@ -1133,7 +1085,6 @@ static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_th
   lab_unknowns more;
   int j, k;
   size_t i;
-  (void)state;
   open_measured();
   assert_int_equal(lab_unknowns_keep_slopes(&u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_find_slopes(&u, &error), LAB_OK);
@@ -1159,7 +1110,6 @@ static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_th
 static void test_lab_unknowns_slope__at_its_upper_bound__stays_inside(void **state)
 {
   double seen[DATA + LAB_FIT_MAX];
-  (void)state;
   open_closely();
   assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
   assert_int_equal(lab_unknowns_slope(&u, theta, r, SPRING, seen, &error), LAB_OK);
@@ -1194,7 +1144,6 @@ static void test_lab_unknowns_fit__log_without_noise__finds_all_within_their_int
   static lab_fit_result fit;
   double chi2, before;
   int j;
-  (void)state;
   open_to_fit();
   assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
   before = size_of(r, u.m);
@@ -1221,7 +1170,6 @@ static void test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says
   double chi2;
   uint64_t seed = 3;
   int i, j;
-  (void)state;
   open_to_fit();
   for (i = 0; i < RUNS * ROWS; i++) {
     if (i % ROWS < FIRST_SWITCH)
@@ -1269,7 +1217,6 @@ static void test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_
 {
   static lab_fit_result fit;
   int spring;
-  (void)state;
   declare();
   rig.params.fill_area *= 4; /* it gets there */
   fit_list("dry_friction", 0);
@@ -1291,7 +1238,6 @@ static void test_lab_unknowns_fit__knots__find_the_term_that_made_the_log(void *
   lab_rig truth;
   double chi2;
   int i;
-  (void)state;
   declare();
   open_empty();
   truth = rig;
@@ -1320,7 +1266,6 @@ static void test_lab_unknowns_fit__cycle__finds_period_and_amplitudes(void **sta
   const int first = RUNS * SWITCHES;
   lab_rig truth;
   double chi2;
-  (void)state;
   declare();
   open_empty();
   truth = rig;

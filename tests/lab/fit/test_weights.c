@@ -58,13 +58,11 @@ static double memory_told(int follows, double noise)
 
 static void test_lab_weigh_runs__set_position_stays__noise_has_memory(void **state)
 {
-  (void)state;
   assert_between(memory_told(0, 2e-4), 0.6, 0.9);
 }
 
 static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
 {
-  (void)state;
   assert_close(memory_told(1, 2e-4), 0, 0, 0);
 }
 
@@ -73,7 +71,6 @@ static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(voi
 {
   int any, again;
   double plain, sigma;
-  (void)state;
   write_log(1);
   open_stuck(2e-4);
   assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
@@ -98,7 +95,6 @@ static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(voi
 /* The travel wanders by 0.5 mm. */
 static void test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise(void **state)
 {
-  (void)state;
   assert_close(memory_told(0, 2e-5), 0, 0, 0);
   assert_between(memory_told(0, 1e-4), 0.6, 0.9);
 }

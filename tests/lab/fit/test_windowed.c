@@ -41,7 +41,6 @@ static double rms(int first)
 
 static void test_lab_windowed_count__lengths__windows_overlap_by_half(void **state)
 {
-  (void)state;
   assert_int_equal(lab_windowed_count(100, 20), 9);
   assert_int_equal(lab_windowed_count(109, 20), 9);
   assert_int_equal(lab_windowed_count(110, 20), 10);
@@ -55,7 +54,6 @@ static void test_lab_windowed_residuals__sawtooth_out_of_phase__are_small(void *
 {
   double row_by_row = 0;
   int i;
-  (void)state;
   fill(NULL, 1);
   for (i = 0; i < ROWS; i++) {
     predicted[i] = sawtooth(i, PERIOD / 2);
@@ -72,7 +70,6 @@ static void test_lab_windowed_residuals__sawtooth_out_of_phase__are_small(void *
 static void test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter(void **state)
 {
   int i;
-  (void)state;
   fill(NULL, 2);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
@@ -86,7 +83,6 @@ static void test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter(v
 static void test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_mean(void **state)
 {
   int i;
-  (void)state;
   fill(NULL, 3);
   for (i = 0; i < ROWS; i++)
     predicted[i] = sawtooth(i, 3) - 10;
@@ -100,7 +96,6 @@ static void test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_me
 static void test_lab_windowed_residuals__noise_alone__have_unit_scatter(void **state)
 {
   int i;
-  (void)state;
   fill(ramp, 4);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
@@ -112,7 +107,6 @@ static void test_lab_windowed_residuals__noise_alone__have_unit_scatter(void **s
 static void test_lab_windowed_residuals__gaps__do_not_count(void **state)
 {
   int i;
-  (void)state;
   fill(ramp, 5);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
@@ -137,7 +131,6 @@ static void test_lab_windowed_residuals__gaps__do_not_count(void **state)
 static void test_lab_windowed_roughness__smooth_with_noise__is_0(void **state)
 {
   int i;
-  (void)state;
   fill(ramp, 6);
   for (i = 0; i < ROWS; i++)
     predicted[i] = 0;
@@ -155,7 +148,6 @@ static double strokes(int i, double slowness)
 static void test_lab_windowed_roughness__slower_strokes__is_0(void **state)
 {
   int i;
-  (void)state;
   fill(ramp, 8);
   for (i = 0; i < ROWS; i++) {
     predicted[i] = strokes(i, 12);
@@ -167,7 +159,6 @@ static void test_lab_windowed_roughness__slower_strokes__is_0(void **state)
 static void test_lab_windowed_roughness__stick_slip__is_1_unless_predicted(void **state)
 {
   int i;
-  (void)state;
   fill(NULL, 7);
   for (i = 0; i < ROWS; i++)
     predicted[i] = ramp(i);
@@ -186,7 +177,6 @@ static double shaking(int i)
 static void test_lab_windowed_roughness__no_motion__is_0(void **state)
 {
   int i;
-  (void)state;
   fill(shaking, 8);
   for (i = 0; i < ROWS; i++)
     predicted[i] = 0;

@@ -37,7 +37,6 @@ static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **
 {
   lab_errors shared, own;
   size_t i;
-  (void)state;
   open_log(0.402);
   assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
   rig.fit_per_log[0] = 1;
@@ -54,7 +53,6 @@ static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **
 static void test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved(void **state)
 {
   lab_errors shared, own;
-  (void)state;
   open_log(5.002);
   assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
   rig.fit_per_log[0] = 1;

@@ -149,7 +149,6 @@ static const recorder *const recorders[] = {&as_declared, &rounded,  &late,    &
 static void test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded(void **state)
 {
   int k;
-  (void)state;
   run_truth(0);
   for (k = 0; k < COUNT(recorders); k++) {
     lab_answer *a = answer_to(recorders[k]);
@@ -162,7 +161,6 @@ static void test_lab_answer_find__nothing_missing__nothing_is_named_however_it_w
 static void test_lab_answer_find__leak__is_named_however_it_was_recorded(void **state)
 {
   int k;
-  (void)state;
   fixture_need("chamber_leak");
   run_truth(0.02);
   for (k = 0; k < COUNT(recorders); k++) {
@@ -182,7 +180,6 @@ static void test_lab_answer_find__each_recorder__is_recognised(void **state)
 {
   const double step = 1.25 * 0.02 / 1024;
   lab_answer *a;
-  (void)state;
   run_truth(0);
   a = answer_to(&as_declared);
   assert_int_equal(a->now.logs.limitations.n, 0);

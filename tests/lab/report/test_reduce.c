@@ -12,7 +12,6 @@ static void test_lab_envelope__a_spike__is_kept(void **state)
   lab_point point[3 * COLUMNS + 1];
   size_t i, n;
   double highest = -1;
-  (void)state;
   for (i = 0; i < N; i++) {
     at[i] = (double)i;
     value[i] = 0.001 * (double)i;
@@ -38,7 +37,6 @@ static void test_lab_envelope__runs_and_gaps__break_the_line(void **state)
   const lab_line line = {ROWS, at, value, 2, first};
   lab_point point[3 * ROWS + 2];
   size_t i, n, breaks = 0;
-  (void)state;
   for (i = 0; i < ROWS; i++) {
     at[i] = (double)i;
     value[i] = i == 5 || (i >= 10 && i < 30) ? (double)NAN : 1;
@@ -62,7 +60,6 @@ static void test_lab_envelope__few_values__are_joined(void **state)
   const lab_line line = {ROWS, at, value, 1, first};
   lab_point point[3 * ROWS + 1];
   size_t i, n;
-  (void)state;
   for (i = 0; i < ROWS; i++) {
     at[i] = (double)i;
     value[i] = i % 5 ? (double)NAN : 1;
@@ -77,7 +74,6 @@ static void test_lab_bin_means__values__mean_of_each_part(void **state)
 {
   const double at[] = {0, 0.5, 1, 1.5, 2, (double)NAN}, value[] = {1, 3, 5, (double)NAN, 7, 9};
   lab_bin bin[2];
-  (void)state;
   lab_bin_means(at, value, 6, 0, 2, 2, bin);
   assert_int_equal(bin[0].n, 2);
   assert_close(bin[0].at, 0.5, 1e-15, 0);

@@ -188,7 +188,6 @@ static const char *fault_of(const char *text)
 
 static void test_fault_of__bad_pages__are_seen(void **state)
 {
-  (void)state;
   assert_string_equal(fault_of("<!DOCTYPE html><p>a<br/><b>c</b></p>"), "");
   assert_string_not_equal(fault_of("<p>a<b>c</p></b>"), "");
   assert_string_not_equal(fault_of("<p>a"), "");
@@ -198,7 +197,6 @@ static void test_fault_of__bad_pages__are_seen(void **state)
 
 static void test_lab_report_html__leak__page_is_well_formed(void **state)
 {
-  (void)state;
   assert_string_equal(fault_of(the_page()), "");
   assert_null(strstr(the_page(), "{{"));
 }
@@ -216,7 +214,6 @@ static void test_lab_report_html__leak__needs_nothing_from_outside(void **state)
 {
   static const char *const links[] = {"http:", "src=", "url(", "@import", "<link", "fetch(", "import(", "XMLHttp"};
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof links / sizeof *links; i++) {
     check_note("%s", links[i]);
     assert_null(strstr(the_page(), links[i]));
@@ -232,7 +229,6 @@ static void test_lab_page_text__library__is_the_file(void **state)
   cJSON *values = cJSON_CreateObject();
   char *template = lab_page_text("report", values),
        *file = scratch_read("apps/lab/report/page/uplot/uPlot.iife.min.js");
-  (void)state;
   assert_non_null(template);
   assert_string_equal(cJSON_GetStringValue(cJSON_GetObjectItem(values, "plot")), file);
   cJSON_Delete(values);
@@ -243,7 +239,6 @@ static void test_lab_page_text__library__is_the_file(void **state)
 static void test_lab_report_html__five_figures__ids_are_single_and_all_have_words(void **state)
 {
   const char *at = the_page();
-  (void)state;
   assert_int_equal(count(at, "role=\"img\" aria-label=\""), 5);
   assert_int_equal(count(at, "aria-label=\"\""), 0);
   assert_int_equal(count(at, "<figure "), 5);
@@ -296,7 +291,6 @@ static void test_lab_report_html__curves__are_the_rows(void **state)
   cJSON *all = curves_of(the_page()), *panel;
   lab_residual_table v;
   int c, k, i, n, gaps = 0;
-  (void)state;
   assert_int_equal(lab_residual_table_collect(&report, &v, &error), LAB_OK);
   for (c = 0; c < 2; c++) {
     const double *const rows[] = {v.channel[c].measured, v.channel[c].predicted[LAB_STAGE_BEFORE],
@@ -340,7 +334,6 @@ static void test_lab_signature_make__effects_of_forces__balance_by_hand(void **s
   lab_rig r;
   lab_signature s;
   int i;
-  (void)state;
   lab_rig_default(&r);
   set_effect(&r, PNEU_PARAM_external_force, 100);
   assert_int_equal(lab_signature_make(&r, &s, &error), LAB_OK);
@@ -374,7 +367,6 @@ static void test_lab_report_html__signature__measured_found_and_declared(void **
   cJSON *all = curves_of(the_page()), *panel;
   lab_report told = report;
   int c, i, n;
-  (void)state;
   panel = cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetObjectItem(all, "panels"), "signature"), 0);
   assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(panel, "curves")), 10);
   n = column_of(all, cJSON_GetObjectItem(panel, "x")->valueint, x);
@@ -406,7 +398,6 @@ static void test_lab_report_html__signature__measured_found_and_declared(void **
 
 static void test_lab_report_html__leak__says_what_was_found(void **state)
 {
-  (void)state;
   assert_contains(the_page(), "<h1>The chamber leaks: 0.015");
   assert_contains(the_page(), " bar supply <code>chamber_leak</code>.</h1>\n<p>With it the error falls from ");
   assert_contains(the_page(), "chamber_leak");
@@ -428,7 +419,6 @@ static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **sta
   static const char claim[] = "No other effect of the catalogue explains the log as well.";
   lab_report told = report;
   int i;
-  (void)state;
   rival = result;
   rival.found[0].n_alike = 0;
   rival.n_steps = 2;
@@ -445,7 +435,6 @@ static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **sta
 static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
 {
   lab_report without = report;
-  (void)state;
   assert_contains(the_page(), "<h2>Figures of merit</h2>");
   assert_contains(the_page(), "<code>air_mass</code>: the record has no mass flow");
   assert_contains(the_page(), "Steps are steps of the opening of the transducer");
@@ -455,7 +444,6 @@ static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
 
 static void test_lab_report_html__names_of_files_and_rigs__are_escaped(void **state)
 {
-  (void)state;
   assert_contains(the_page(), "R1 &lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; co");
   assert_contains(the_page(), "a&amp;b.csv");
 }
@@ -465,7 +453,6 @@ static void test_lab_report_html__twice__same_bytes(void **state)
   static const char *const names[] = {"report.html", "response.svg", "residual.svg", "arguments.svg",
                                       "autocorrelation.svg"};
   size_t i;
-  (void)state;
   (void)the_page();
   write_report(&report, scratch_path("again"));
   for (i = 0; i < sizeof names / sizeof *names; i++) {
@@ -489,7 +476,6 @@ static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void *
   static lab_unknowns both;
   static lab_search_result nothing;
   lab_report told = report;
-  (void)state;
   run[1] = run[0];
   assert_int_equal(lab_unknowns_open(&rig, run, 2, &both, &error), LAB_OK);
   assert_int_equal(lab_search_measure(&both, LAB_STAGE_BEFORE, &nothing, &error), LAB_OK);
@@ -517,7 +503,6 @@ static void test_lab_report_html__pressure_not_measured__is_said(void **state)
   lab_log log;
   FILE *from = fopen(scratch_path("a&b.csv"), "r"), *to = fopen(path, "w");
   char line[128];
-  (void)state;
   while (fgets(line, sizeof line, from)) {
     const char *second = strchr(line, ','), *third = strchr(second + 1, ',');
     fprintf(to, "%.*s%s", (int)(third - line), line, strchr(third + 1, ','));
@@ -573,7 +558,6 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
   lab_log log;
   lab_unknowns after;
   int any;
-  (void)state;
   lab_search_options_default(&options);
   virtual_open(&rig, write_log_with_memory("memory.csv"), &log, &own);
   assert_int_equal(lab_unknowns_open(&rig, &own, 1, &fitted, &error), LAB_OK);
@@ -602,7 +586,6 @@ static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
   cJSON *root = cJSON_Parse(json_of(&report, "json")), *candidate;
   int refitted = 0, not_refitted = 0;
   double found;
-  (void)state;
   found =
       cJSON_GetNumberValue(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "found"), 0), "explained"));
   assert_true(found > 0.9);
@@ -626,7 +609,6 @@ static void test_lab_residual_table_collect__leak__white_only_when_completed(voi
 {
   lab_residual_table v;
   int c;
-  (void)state;
   assert_int_equal(lab_residual_table_collect(&report, &v, &error), LAB_OK);
   assert_int_equal(v.n, ROWS);
   assert_int_equal(v.n_channels, 2);
@@ -650,7 +632,6 @@ static void test_lab_report_undetermined__clause_that_was_cut__is_left_out(void 
   lab_report s = {0};
   char text[LAB_FIT_UNDETERMINED_TEXT], *remark = outcome.fit.undetermined;
   size_t n = 0;
-  (void)state;
   s.result = &outcome;
   while (n + 1 < sizeof outcome.fit.undetermined) {
     snprintf(remark + n, sizeof outcome.fit.undetermined - n, "%sthe interval of unlisted_1.1 is wider", n ? "; " : "");
@@ -666,7 +647,6 @@ static void test_lab_report_undetermined__clauses_on_instants__are_left_out(void
   static lab_search_result outcome;
   lab_report s = {0};
   char text[LAB_FIT_UNDETERMINED_TEXT];
-  (void)state;
   s.result = &outcome;
   strcpy(outcome.fit.undetermined,
          "switch_3 is at its upper bound; dead_volume is at its lower bound; switch_4 and damping are hard "

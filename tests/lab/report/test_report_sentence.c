@@ -26,7 +26,6 @@ static const char *say(int effect, int which, double value)
 static void test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence(void **state)
 {
   int e, k, count;
-  (void)state;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
     pneu_effect_params(e, &count);
     for (k = 0; k < count; k++) {
@@ -70,7 +69,6 @@ static void test_lab_effect_sentence__sizes__by_hand(void **state)
       {PNEU_EFFECT_wall_temperature, 0.01, "The wall warms and cools with the gas: its heat capacity is 100 J/K."},
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof cases / sizeof *cases; i++)
     assert_string_equal(say(cases[i].effect, 0, cases[i].value), cases[i].said);
 }
@@ -83,7 +81,6 @@ static void test_lab_effect_sentence__share_of_nothing__is_left_out(void **state
   lab_rig rig;
   const int param = pneu_effect_params(PNEU_EFFECT_spring_hysteresis, NULL);
   int i;
-  (void)state;
   lab_rig_default(&rig);
   *pneu_param_at(&rig.params, param) = 200;
   for (i = 0; i < 2; i++) {
@@ -141,7 +138,6 @@ static lab_deviation deviation(const char *name, double ratio, int beyond)
 static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(void **state)
 {
   lab_report report = answer(LAB_VERDICT_EFFECT, 2);
-  (void)state;
   assert_string_equal(sentence_of(&report),
                       "Every command acts 20.0 ms late (dead_time). The pressure sensor shows 2.0 % of the reading too "
                       "much (pressure_gain). With them the error falls from 3.00 to 1.00 times the noise.");
@@ -173,7 +169,6 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
 static void test_lab_report_sentence__search_that_was_ended__claims_nothing(void **state)
 {
   lab_report report = answer(LAB_VERDICT_UNDECIDED, 1);
-  (void)state;
   result.cut_short = 1;
   assert_string_equal(
       sentence_of(&report),
@@ -190,7 +185,6 @@ static void test_lab_report_limits__effects_scored_by_a_beginning__says_so(void 
 {
   lab_report report = answer(LAB_VERDICT_EFFECT, 1);
   cJSON *list = cJSON_CreateArray();
-  (void)state;
   lab_report_limits(&report, list);
   assert_int_equal(cJSON_GetArraySize(list), 0);
   result.preview = 27.46;
@@ -206,7 +200,6 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
 {
   lab_report report = answer(LAB_VERDICT_NONE, 0);
   lab_deviations *d = &report.deviations;
-  (void)state;
   d->condition = LAB_CONDITION_AS_DECLARED;
   d->of[d->n++] = deviation("dead_volume", 1.2, 0);
   lab_report_headline(&report, text);
@@ -277,7 +270,6 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
 {
   lab_report report = answer(LAB_VERDICT_UNDECIDED, 0);
   lab_deviations *d = &report.deviations;
-  (void)state;
   result.cut_short = 0;
   result.after.chi2 = 9 * (double)result.after.n;
   lab_report_headline(&report, text);
@@ -298,7 +290,6 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
 static void test_lab_report_headline__value_that_changes__is_told_within_its_tolerance(void **state)
 {
   lab_report report = answer(LAB_VERDICT_NONE, 0);
-  (void)state;
   report.deviations.condition = LAB_CONDITION_AS_DECLARED;
   report.deviations.n = 1;
   report.deviations.of[0] = deviation("dry_friction", 1.22, 0);
@@ -324,7 +315,6 @@ static void test_inspect_def__each_line__is_of_an_effect(void **state)
 #undef X
   };
   size_t i;
-  (void)state;
   for (i = 0; i < sizeof names / sizeof *names; i++) {
     check_note("%s", names[i]);
     assert_true(pneu_effect_find(names[i]) >= 0);
@@ -339,7 +329,6 @@ static void test_lab_report_chance__cycle__counts_what_was_looked_at(void **stat
   const lab_found free_term = {.effect = -1, .term = 0, .statistic = 40, .degrees = 3};
   const lab_found effect = {.effect = 0, .p_value = 0.25};
   double once;
-  (void)state;
   completed.rig.n_terms = 1;
   completed.rig.term[0].argument = PNEU_TERM_OVER_POSITION;
   once = lab_report_chance(&report, &free_term);
@@ -355,7 +344,6 @@ static void test_lab_report_since__interval__gives_its_digits(void **state)
 {
   const lab_onset sharp = {1, 12.3006, 12.29, 12.31}, blunt = {1, 9.42, 9.31, 11.25}, late = {1, 3620.4, 3601, 3655};
   char since[LAB_SINCE_TEXT];
-  (void)state;
   assert_string_equal(lab_report_since(&sharp, since), " since 12.30 s (12.29 to 12.31 s)");
   assert_string_equal(lab_report_since(&blunt, since), " since 9.42 s (9.31 to 11.2 s)");
   assert_string_equal(lab_report_since(&late, since), " since 3620 s (3600 to 3660 s)");

@@ -46,7 +46,6 @@ static void test_lab_absent_find__leak_that_is_not_there__rests(void **state)
   const double largest = 1e-3; /* of the vent orifice */
   double bic;
   int any, j;
-  (void)state;
   open_log(0);
   bic = c.quality.bic;
   assert_false(lab_unknown_rests(leak_of()));
@@ -65,7 +64,6 @@ static void test_lab_absent_find__leak_that_is_not_there__rests(void **state)
 static void test_lab_absent_find__leak_that_is_there__stays(void **state)
 {
   int any;
-  (void)state;
   open_log(0.01);
   assert_int_equal(lab_absent_find(&c, &any, &error), LAB_OK);
   assert_false(any || lab_unknown_rests(leak_of()));

@@ -49,7 +49,6 @@ static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
   second_rig first = virtual_rig(3), second = virtual_rig(4);
   double value[LOGS];
   int j, n = 0;
-  (void)state;
   second.spring_preload = 1.2 * first.spring_preload;
   find(&first, &second, LOGS);
   assert_int_equal(apart.n, 1);
@@ -67,7 +66,6 @@ static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
 static void test_lab_apart_find__friction_that_has_grown__is_of_the_rig(void **state)
 {
   second_rig first = virtual_rig(3), second = virtual_rig(4);
-  (void)state;
   second.dry_friction = 2 * first.dry_friction;
   find(&first, &second, LOGS);
   assert_int_equal(apart.n, 0);
@@ -76,7 +74,6 @@ static void test_lab_apart_find__friction_that_has_grown__is_of_the_rig(void **s
 static void test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own(void **state)
 {
   second_rig first = virtual_rig(3), second = virtual_rig(4);
-  (void)state;
   find(&first, &second, LOGS);
   assert_int_equal(apart.n, 0);
   find(&first, &second, 1);
@@ -92,7 +89,6 @@ static void test_lab_apart_search__preload_set_anew__is_the_answer(void **state)
   second_rig first = virtual_rig(3), second = virtual_rig(4);
   lab_search_options options;
   double before;
-  (void)state;
   second.spring_preload = 1.2 * first.spring_preload;
   open_logs(&first, &second, LOGS);
   lab_search_options_default(&options);

@@ -20,7 +20,6 @@ static void test_lab_candidate_let_go__one_value_far_off__is_found_without_its_p
   double held, before;
   lab_error error = {0, ""};
   int j;
-  (void)state;
   held_open(&h, &truth);
   j = lab_unknowns_find(&h.c.u, PNEU_PARAM_supply_pressure);
   held = h.c.u.unknown[j].value;
@@ -39,7 +38,6 @@ static void test_lab_candidate_let_go__as_declared__keeps_all(void **state)
 {
   const second_rig truth = virtual_rig(11);
   lab_error error = {0, ""};
-  (void)state;
   held_open(&h, &truth);
   assert_int_equal(lab_candidate_let_go(&h.c, &error), LAB_OK);
   assert_int_equal(count_let_go(), 0);
@@ -51,7 +49,6 @@ static void test_lab_candidate_drop__gain_of_a_sensor__is_held_again(void **stat
 {
   second_rig truth = virtual_rig(13);
   const lab_unknown *x;
-  (void)state;
   truth.position_gain = -0.02;
   held_open(&h, &truth);
   held_add(&h, "position_gain.position_gain", truth.position_gain);

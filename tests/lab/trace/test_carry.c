@@ -62,20 +62,17 @@ static int is_pruned(const int leaks[LOGS], int n)
 
 static void test_lab_carry_prune__leak_of_all_logs__stays(void **state)
 {
-  (void)state;
   assert_false(is_pruned((const int[LOGS]){1, 1, 1}, LOGS));
 }
 
 static void test_lab_carry_prune__leak_of_one_log__is_taken_out(void **state)
 {
-  (void)state;
   assert_true(is_pruned((const int[LOGS]){0, 1, 0}, LOGS));
 }
 
 /* Of two logs one is all that is left to fit. */
 static void test_lab_carry_prune__two_logs__are_not_asked(void **state)
 {
-  (void)state;
   assert_false(is_pruned((const int[LOGS]){0, 1}, 2));
 }
 
@@ -93,7 +90,6 @@ static double carried(void)
 static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(void **state)
 {
   double sum, of_two;
-  (void)state;
   open_logs((const int[LOGS]){1, 1, 1}, LOGS);
   sum = carried();
   assert_int_equal(lab_unknowns_chi2(&c.u, &of_two, &error), LAB_OK);
@@ -109,7 +105,6 @@ static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(v
 static void test_lab_carry_is_better__differences_of_runs__are_held_against_their_scatter(void **state)
 {
   static const double present[] = {10, 20, 30};
-  (void)state;
   assert_true(lab_carry_is_better((const double[]){9, 19, 29}, present, 3));
   assert_false(lab_carry_is_better((const double[]){7.1, 20, 30.1}, present, 3));
   assert_true(lab_carry_is_better((const double[]){7.1, 19.9, 30}, present, 3));
@@ -123,7 +118,6 @@ static void test_lab_carry_is_better__differences_of_runs__are_held_against_thei
 static void test_lab_rivals_try__three_logs__keeps_what_carries_over(void **state)
 {
   int changed;
-  (void)state;
   open_logs((const int[LOGS]){0, 1, 1}, LOGS);
   assert_int_equal(lab_rivals_try(&c, &changed, &error), LAB_OK);
   assert_false(changed);

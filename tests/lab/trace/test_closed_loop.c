@@ -48,7 +48,6 @@ static void set_waves(void)
 
 static int begin(void **state)
 {
-  (void)state;
   g = second_rig_default_r1_400();
   g.flow = SECOND_CHOKED;
   g.dead_volume = 4e-5;
@@ -156,7 +155,6 @@ static void test_lab_search_run__set_position_and_travel__nothing_is_missing(voi
 {
   const int area = 0; /* the first of `fit` */
   int friction;
-  (void)state;
   close_loop(WITH_SP);
   friction = lab_unknowns_find(&u, pneu_param_find("dry_friction"));
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -170,7 +168,6 @@ static void test_lab_search_run__set_position_and_travel__nothing_is_missing(voi
 
 static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(void **state)
 {
-  (void)state;
   set_waves();
   close_loop(WITH_SP);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -179,7 +176,6 @@ static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(voi
 
 static void test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized(void **state)
 {
-  (void)state;
   g.span = 0.03;
   close_loop(WITH_SP | WITH_P);
   assert_found("positioner_span", "positioner_span.span_excess", 0.03, 2e-2);
@@ -191,7 +187,6 @@ static void test_lab_search_run__positioner_out_of_adjustment__is_named_and_size
 
 static void test_lab_search_run__another_gain__is_a_value_that_is_off(void **state)
 {
-  (void)state;
   k.gain = 14;
   close_loop(WITH_SP | WITH_P);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -202,7 +197,6 @@ static void test_lab_search_run__another_gain__is_a_value_that_is_off(void **sta
  * blocked. */
 static void test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance(void **state)
 {
-  (void)state;
   g.vent_area = 0.95 * g.fill_area;
   close_loop(WITH_SP | WITH_P);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -218,7 +212,6 @@ static void test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_i
 static void test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis(void **state)
 {
   static const double level[] = {1, 0.9, 1, 0.85, 1};
-  (void)state;
   for (n_set = 0; n_set < sizeof level / sizeof *level; n_set++) {
     t_set[n_set] = n_set > 0 ? 8 * (double)n_set + 0.013 : 0;
     set[n_set] = level[n_set];
@@ -233,7 +226,6 @@ static void test_lab_search_run__partial_stroke_and_more_friction__is_no_hystere
 
 static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop(void **state)
 {
-  (void)state;
   g.supply_droop = 1e8;
   close_loop(WITH_SP);
   assert_found("supply_droop", "supply_droop.supply_resistance", 1e8, 5e-2);
@@ -272,7 +264,6 @@ static void test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_si
 
 static void test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized(void **state)
 {
-  (void)state;
   set_waves();
   g.leak_area = 3e-8;
   close_loop(WITH_SP | WITH_P);
@@ -293,7 +284,6 @@ static void hold_within_a_wider_band(void)
 
 static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it(void **state)
 {
-  (void)state;
   hold_within_a_wider_band();
   g.leak_area = 6e-8;
   close_loop(WITH_SP | WITH_P);
@@ -303,7 +293,6 @@ static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_ma
 
 static void test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant(void **state)
 {
-  (void)state;
   hold_within_a_wider_band();
   leak_since = 6e-8;
   leaks_since = 22.3;
@@ -329,7 +318,6 @@ static int jerks(void)
 
 static void test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks(void **state)
 {
-  (void)state;
   set_waves();
   assert_int_equal(jerks(), 0);
   g.stribeck = 1;
@@ -341,7 +329,6 @@ static void test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__
 
 static void test_lab_search_run__opening_at_every_row__nothing_is_missing(void **state)
 {
-  (void)state;
   k.cycle = spacing;
   close_loop(WITH_U | WITH_SP | WITH_P);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -351,7 +338,6 @@ static void test_lab_search_run__opening_at_every_row__nothing_is_missing(void *
 /* Between two rows the positioner has moved on: what matters is where it jumps, with the set position. */
 static void test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing(void **state)
 {
-  (void)state;
   k.cycle = 0.001;
   close_loop(WITH_U | WITH_P);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);

@@ -21,7 +21,6 @@ static void name(const char *param)
 static void test_lab_contest_is_better__value_far_off__is_told_only_by_odds(void **state)
 {
   const double odds = lab_constant(LAB_ALIKE_BIC);
-  (void)state;
   name("chamber_leak.leak_area");
   exact.best.quality.bic += odds - 0.1;
   assert_true(lab_contest_is_better(&exact, &tolerant));
@@ -32,7 +31,6 @@ static void test_lab_contest_is_better__value_far_off__is_told_only_by_odds(void
 static void test_lab_contest_is_better__gain_of_a_sensor__is_no_less_far_off(void **state)
 {
   const double odds = lab_constant(LAB_ALIKE_BIC);
-  (void)state;
   name("pressure_gain.pressure_gain");
   exact.best.quality.bic -= odds - 0.1;
   assert_false(lab_contest_is_better(&exact, &tolerant));

@@ -50,7 +50,6 @@ static int holds(enum lab_phase phase, int action, const lab_facts *f)
 static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **state)
 {
   lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0, 0};
-  (void)state;
   assert_true(lab_is_noise(&q));
   q.chi2 += 2;
   assert_false(lab_is_noise(&q));
@@ -66,7 +65,6 @@ static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **
 static void test_lab_is_clean__one_standard_deviation__is_the_limit(void **state)
 {
   const lab_quality in = quality(219, 0), out = quality(221, 0);
-  (void)state;
   assert_true(lab_is_clean(&in));
   assert_false(lab_is_clean(&out));
 }
@@ -75,7 +73,6 @@ static void test_lab_is_poor__half_of_the_excess__is_the_limit(void **state)
 {
   const lab_quality declared = quality(1200, 0), much = quality(699, 0), little = quality(701, 0);
   lab_quality failed = much;
-  (void)state;
   failed.fitted = 0;
   assert_false(lab_is_poor(&declared, &much));
   assert_true(lab_is_poor(&declared, &little));
@@ -85,7 +82,6 @@ static void test_lab_is_poor__half_of_the_excess__is_the_limit(void **state)
 static void test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.effect = 333;
   assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
   f.effect = 334;
@@ -107,7 +103,6 @@ static void test_rules__first_scores__call_for_free_terms_where_no_effect_explai
 static void test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_once(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.within = quality(1100, 1100);
   f.best = quality(1700, 1700);
   f.free_term = quality(349, 500);
@@ -125,7 +120,6 @@ static void test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_o
 static void test_rules__values_as_declared__end_where_tolerances_alone_are_better(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
   assert_true(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
   f.within = quality(1100, 1201); /* a tenth of the excess, and no better */
@@ -142,7 +136,6 @@ static void test_rules__values_as_declared__end_where_tolerances_alone_are_bette
 static void test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.begins = 121;
   f.throughout = 100;
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
@@ -170,7 +163,6 @@ static void test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken
 static void test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.within = quality(1100, 1201);
   f.has_begun = 1;
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
@@ -181,7 +173,6 @@ static void test_rules__what_begins_beside_values_as_declared__ends_where_more_t
 static void test_rules__values_as_declared__end_where_tolerances_beat_every_leader(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.extended = quality(600, 700);
   assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f)); /* there are no tolerances */
   f.within = quality(600, 701);
@@ -200,7 +191,6 @@ static void test_rules__values_as_declared__end_where_tolerances_beat_every_lead
 static void test_rules__values_within_tolerances__effects_come_before_onsets(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.can_begin = 1;
   f.begins = 121;
   f.throughout = 100;
@@ -213,7 +203,6 @@ static void test_rules__values_within_tolerances__effects_come_before_onsets(voi
 static void test_rules__extension__is_added_by_bic(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.extended = quality(1100, 1199);
   assert_true(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
   f.extended.bic = 1200;
@@ -226,7 +215,6 @@ static void test_rules__extension__is_added_by_bic(void **state)
 static void test_rules__after_a_round__earlier_effects_are_tried_again(void **state)
 {
   lab_facts f = two_effects();
-  (void)state;
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_REMOVE_NEEDLESS, &f));
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_EXCHANGE, &f));
   f.n_found = 3;
@@ -244,7 +232,6 @@ static void test_rules__after_a_round__earlier_effects_are_tried_again(void **st
 static void test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second(void **state)
 {
   lab_facts f = declared_alone();
-  (void)state;
   f.best.chi2 = 701;
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
   f.best.chi2 = 699;
@@ -258,7 +245,6 @@ static void test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the
 static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(void **state)
 {
   lab_facts f = two_effects();
-  (void)state;
   f.free_term = quality(599, 610);
   assert_true(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
   f.n_found = 1;
@@ -275,7 +261,6 @@ static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(v
 static void test_rules__free_term_beside__needs_room_and_something_left(void **state)
 {
   lab_facts f = two_effects();
-  (void)state;
   assert_true(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
   f.best.chi2 = 239;
   assert_false(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
@@ -302,7 +287,6 @@ static void test_rules__free_term_beside__needs_room_and_something_left(void **s
 static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
 {
   lab_facts f = two_effects();
-  (void)state;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.found_term = 1;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
@@ -324,7 +308,6 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
 /* A name can be found before everything was tried; that there is nothing to be found cannot. */
 static void test_lab_needs_the_whole_search__a_name__does_not(void **state)
 {
-  (void)state;
   assert_true(lab_needs_the_whole_search(LAB_VERDICT_NONE));
   assert_true(lab_needs_the_whole_search(LAB_VERDICT_UNLISTED));
   assert_false(lab_needs_the_whole_search(LAB_VERDICT_EFFECT));
@@ -332,7 +315,6 @@ static void test_lab_needs_the_whole_search__a_name__does_not(void **state)
 
 static void test_lab_values_stand_in__undecided_by_more_than_noise__they_do(void **state)
 {
-  (void)state;
   assert_true(lab_values_stand_in(LAB_VERDICT_UNDECIDED, 2.26));
   assert_true(lab_values_stand_in(LAB_VERDICT_UNDECIDED, NAN));
   assert_false(lab_values_stand_in(LAB_VERDICT_UNDECIDED, 2.24));

@@ -43,7 +43,6 @@ static void test_lab_free_term_equation__every_one__is_that_of_the_report(void *
                {PNEU_TERM_SHOWN_PRESSURE, "sensor", "an error of the pressure sensor"},
                {PNEU_TERM_SHOWN_POSITION, "sensor", "an error of the position sensor"}};
   int i;
-  (void)state;
   assert_int_equal(COUNT(cases), PNEU_TERM_EQUATION_COUNT);
   for (i = 0; i < COUNT(cases); i++) {
     const pneu_term t = flat(cases[i].equation, AT_X, 0, 1, 0);
@@ -81,7 +80,6 @@ static void test_lab_free_term_stretch__bump__is_where_it_is(void **state)
   static const double bump[] = {20, 60, 20}, dent[] = {-20, -60, -20};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20e-3, 0);
   const stretch up = {8e-3, 12e-3, 0, 60, 1}, down = {8e-3, 12e-3, 0, -60, 1};
-  (void)state;
   put(&t, 4, 3, bump);
   assert_stretch(&t, up);
   put(&t, 4, 3, dent);
@@ -94,7 +92,6 @@ static void test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_it
   static const double low[] = {14, 100, -14}, high[] = {16, 100, -16};
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, -1, 9, 0);
   const stretch narrow = {3.5, 4.5, 0, 100, 1}, wide = {3, 5, 0, 100, 1};
-  (void)state;
   put(&t, 4, 3, low);
   assert_stretch(&t, narrow);
   put(&t, 4, 3, high);
@@ -107,7 +104,6 @@ static void test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_
   pneu_term t = flat(PNEU_TERM_FLOW, AT_X, 0, 20e-3, 0);
   const double knot = 20e-3 / (t.n - 1);
   const stretch first = {0, knot / 2, 0, 100, 1}, last = {20e-3 - knot / 2, 20e-3, 0, 100, 1};
-  (void)state;
   put(&t, 0, 1, &high);
   assert_stretch(&t, first);
   t = flat(PNEU_TERM_FLOW, AT_X, 0, 20e-3, 0);
@@ -120,7 +116,6 @@ static void test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level(
   static const double bump[] = {130, 190, 130}, dent[] = {70, 10, 70};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 10, 100);
   const stretch up = {2, 4, 100, 90, 1}, down = {2, 4, 100, -90, 1};
-  (void)state;
   put(&t, 2, 3, bump);
   assert_stretch(&t, up);
   put(&t, 2, 3, dent);
@@ -132,7 +127,6 @@ static void test_lab_free_term_stretch__ends_at_zero__have_the_level_zero(void *
 {
   pneu_term t = flat(PNEU_TERM_FLOW, AT_P, 1e5, 2e5, 3e-6);
   const stretch all = {1.1e5, 1.9e5, 0, 3e-6, 0};
-  (void)state;
   t.value[0] = t.value[KNOTS - 1] = 0;
   assert_stretch(&t, all);
 }
@@ -143,7 +137,6 @@ static void test_lab_free_term_stretch__straight_line__is_everywhere(void **stat
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, 0, 10, 0);
   stretch got;
   int i;
-  (void)state;
   for (i = 0; i < KNOTS; i++)
     t.value[i] = (pneu_real)(7 + 3 * i);
   got = stretch_of(&t);
@@ -160,7 +153,6 @@ static void test_lab_free_term_stretch__half_of_the_knots__is_no_longer_short(vo
   static const double five[] = {8, 8, 8, 8, 8}, six[] = {8, 8, 8, 8, 8, 8};
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, 0, 10, 0);
   const stretch lesser = {3, 7, 0, 8, 1}, larger = {3, 8, 0, 8, 0};
-  (void)state;
   put(&t, 3, 5, five);
   assert_stretch(&t, lesser);
   put(&t, 3, 6, six);
@@ -170,7 +162,6 @@ static void test_lab_free_term_stretch__half_of_the_knots__is_no_longer_short(vo
 static void test_lab_free_term_stretch__nothing__has_no_peak(void **state)
 {
   const pneu_term t = flat(PNEU_TERM_FORCE, AT_X, 2, 12, 0), level = flat(PNEU_TERM_FORCE, AT_X, 2, 12, -5);
-  (void)state;
   assert_close(stretch_of(&t).peak, 0, 0, 0);
   assert_close(stretch_of(&level).level, -5, 0, 0);
   assert_close(stretch_of(&level).peak, 0, 0, 0);
@@ -183,7 +174,6 @@ static void test_lab_free_term_stretch__knots_that_no_log_has_reached__do_not_co
   static const double found[] = {101, 99, 100, 130, 100, 98, 102}, line[] = {10, 30, 50, 70, 90, 110, 140};
   pneu_term low = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0), high = low, rising = low;
   const stretch bump = {5, 7, 100, 30, 1}, late_bump = {13, 15, 100, 30, 1}, everywhere = {0, 12, 70, 70, 0};
-  (void)state;
   put(&low, 0, 7, found);
   put(&high, KNOTS - 7, 7, found);
   put(&rising, 0, 7, line);
@@ -198,7 +188,6 @@ static void test_lab_free_term_stretch__mostly_zero__has_the_level_zero(void **s
   static const double end[] = {60, 50, 40, 30, 20};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0);
   const stretch want = {0, 8, 0, 60, 1};
-  (void)state;
   put(&t, 0, 5, end);
   assert_stretch(&t, want);
 }
@@ -209,7 +198,6 @@ static void test_lab_free_term_stretch__cycle__is_all_of_it(void **state)
   static const double amplitudes[] = {50, -120, 3, 4};
   pneu_term t = flat(PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 0, 1.87, 0);
   const stretch want = {0, 1.87, 0, 130, 0};
-  (void)state;
   put(&t, 0, 4, amplitudes);
   t.n = 4;
   assert_stretch(&t, want);
@@ -252,7 +240,6 @@ static void test_lab_free_term_where__short_stretch__is_named_with_its_units(voi
       {PNEU_TERM_SHOWN_POSITION, AT_X, 1e-3, 4.2e-5, "x = 0.300 .. 0.500 mm; largest value 0.0420 mm"},
   };
   int i;
-  (void)state;
   for (i = 0; i < COUNT(cases); i++) {
     const pneu_term t = local(cases[i].equation, cases[i].argument, cases[i].to, cases[i].peak);
     assert_where(&t, cases[i].want);
@@ -263,7 +250,6 @@ static void test_lab_free_term_where__long_stretch__is_nearly_everywhere(void **
 {
   static const double all[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 14};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20e-3, 0);
-  (void)state;
   put(&t, 0, KNOTS, all);
   assert_where(&t, "nearly everywhere, x = 0 .. 20.0 mm, both directions; largest value 8.00 N");
   t.equation = PNEU_TERM_FORCE;
@@ -273,7 +259,6 @@ static void test_lab_free_term_where__long_stretch__is_nearly_everywhere(void **
 static void test_lab_free_term_where__long_stretch_with_ends_at_zero__is_a_stretch(void **state)
 {
   pneu_term t = flat(PNEU_TERM_SHOWN_PRESSURE, AT_P, 0, 5e5, 2e3);
-  (void)state;
   t.value[0] = t.value[KNOTS - 1] = 0;
   assert_where(&t, "p = 50.0 .. 450 kPa; largest value 2.00 kPa");
   t.value[0] = t.value[1] = 0;
@@ -285,7 +270,6 @@ static void test_lab_free_term_where__long_numbers__fit(void **state)
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_V, -1.23e252, 4.56e252, 0);
   char text[LAB_WHERE_TEXT];
   int i;
-  (void)state;
   for (i = 0; i < KNOTS; i++)
     t.value[i] = (pneu_real)(-1.58e-98 * (i + 1));
   t.value[KNOTS - 1] = (pneu_real)-1.9e-97;
@@ -308,7 +292,6 @@ static void test_lab_free_term_where__cycle__is_told_by_period_frequency_and_amp
   };
   static const double first[] = {147, -198.5, 30, 40}, second[] = {30, 40, 147, -198.5};
   int i;
-  (void)state;
   for (i = 0; i < COUNT(cases); i++) {
     pneu_term t = flat(cases[i].equation, PNEU_TERM_OVER_CYCLE, cases[i].from, cases[i].to, 0);
     t.n = 4;

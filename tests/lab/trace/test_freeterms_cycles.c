@@ -66,7 +66,6 @@ static void test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle(vo
   enum { N = 2000 };
   const double every = 1 / 1.5;
   size_t i;
-  (void)state;
   open_log(0, N);
   fill_with_noise(7);
   add_sine(r, 0, N, 5, every, 1);
@@ -85,7 +84,6 @@ static void test_lab_residual_periods__sine_in_noise__is_found_first(void **stat
   static const double amplitude[] = {0.3, 1, 5}, every[] = {0.21, 1.87, 9.3};
   enum { N = 2000 };
   int i, k, channel;
-  (void)state;
   open_log(0, N);
   for (i = 0; i < COUNT(amplitude); i++)
     for (k = 0; k < COUNT(every); k++)
@@ -104,7 +102,6 @@ static void test_lab_residual_periods__gaps__do_not_hide_it(void **state)
   enum { N = 2000 };
   uint64_t seed = 3;
   int i;
-  (void)state;
   open_log(0, N);
   fill_with_noise(2);
   add_sine(r, 0, N, 0.5, 1.87, 1);
@@ -121,7 +118,6 @@ static void test_lab_residual_periods__uneven_rows__do_not_hide_it(void **state)
   enum { N = 2000 };
   uint64_t seed = 4;
   int i;
-  (void)state;
   open_log(0, N);
   for (i = 1; i < N; i++)
     t[0][i] = t[0][i - 1] + spacing * fixture_random(&seed, 0.5, 1.5) + (i == 900 ? 5 : 0);
@@ -134,7 +130,6 @@ static void test_lab_residual_periods__uneven_rows__do_not_hide_it(void **state)
 /* More rows than cells: their means. */
 static void test_lab_residual_periods__long_log__is_seen_in_cells(void **state)
 {
-  (void)state;
   open_log(0, ROWS);
   fill_with_noise(6);
   add_sine(r, 0, ROWS, 0.3, 4.4, 2);
@@ -147,7 +142,6 @@ static void test_lab_residual_periods__two_logs_out_of_phase__add_up(void **stat
 {
   enum { N = 2000, SHORT = 1300 };
   int i;
-  (void)state;
   for (i = 0; i < 8; i++) {
     open_log(0, N);
     open_log(1, SHORT);
@@ -163,7 +157,6 @@ static void test_lab_residual_periods__two_logs_out_of_phase__add_up(void **stat
 static void test_lab_residual_periods__two_sines__are_found_in_the_order_of_their_size(void **state)
 {
   enum { N = 2000 };
-  (void)state;
   open_log(0, N);
   fill_with_noise(7);
   add_sine(r, 0, N, 1, 0.9, 0);
@@ -180,7 +173,6 @@ static void test_lab_residual_periods__drift__does_not_hide_it(void **state)
   uint64_t seed = 8;
   double walk = 0;
   int i;
-  (void)state;
   open_log(0, N);
   fill_with_noise(9);
   for (i = 0; i < N; i++)
@@ -196,7 +188,6 @@ static void test_lab_residual_periods__log_of_one_row__does_not_count(void **sta
   enum { N = 2000 };
   double alone[LAB_PERIODS_MAX];
   int n, i;
-  (void)state;
   open_log(0, N);
   fill_with_noise(11);
   add_sine(r, 0, N, 0.3, 1.87, 0);
@@ -216,7 +207,6 @@ static void test_lab_residual_periods__white_noise__prefers_no_period(void **sta
   enum { N = 480, TRIALS = 800 };
   const double length = (N - 1) * spacing, low = 3 / length, high = N / (8 * length);
   int count[10] = {0}, i, k, n, found = 0, lines = 0;
-  (void)state;
   open_log(0, N);
   for (i = 0; i < TRIALS; i++) {
     fill_with_noise((uint64_t)i + 100);
@@ -243,7 +233,6 @@ static void test_lab_residual_periods__too_short_a_log__has_none(void **state)
 {
   static const size_t few[] = {2, 10, 24};
   int i;
-  (void)state;
   fill_with_noise(10);
   for (i = 0; i < COUNT(few); i++) {
     open_log(0, few[i]);

@@ -106,14 +106,12 @@ static void check_cycle(int equation, double period, double cosine, double sine)
 
 static void test_lab_score_free_terms__periodic_force__ranks_force_over_cycles_first(void **state)
 {
-  (void)state;
   check_cycle(PNEU_TERM_FORCE, 1.87, 50, -60);
   check_cycle(PNEU_TERM_FORCE, 4.3, -40, 30);
 }
 
 static void test_lab_score_free_terms__periodic_supply__ranks_supply_over_cycles_first(void **state)
 {
-  (void)state;
   check_cycle(PNEU_TERM_SUPPLY, 2.3, 2e4, 1.5e4);
   check_cycle(PNEU_TERM_SUPPLY, 5.1, -1e4, 3e4);
 }
@@ -123,7 +121,6 @@ static void test_lab_score_free_terms__friction_bump__ranks_friction_over_positi
 {
   pneu_term bump = {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 11, 0, (pneu_real)0.02, {0}};
   int i, n;
-  (void)state;
   bump.value[6] = 120;
   bump.value[7] = 60;
   n = slots_of(&bump, 4);
@@ -142,7 +139,6 @@ static void test_lab_score_free_terms__friction_bump__ranks_friction_over_positi
 static void test_lab_score_free_terms__nothing_missing__is_chance(void **state)
 {
   int seed, i;
-  (void)state;
   for (seed = 5; seed < 9; seed++) {
     const int n = slots_of(NULL, (uint64_t)seed);
     assert_true(n > 10);
@@ -160,7 +156,6 @@ static void test_lab_score_free_terms__model_full_of_terms__has_no_slots(void **
 {
   lab_projection scan;
   int i, n;
-  (void)state;
   declare();
   open_log();
   measure(NULL, 1);

@@ -89,7 +89,6 @@ static void test_lab_search_run__leak_that_begins__is_named_since_when(void **st
 {
   const second_rig first = true_rig();
   second_rig later = first;
-  (void)state;
   later.leak_area = 6e-8;
   close_loop(&first, &later, 5.43);
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
@@ -107,7 +106,6 @@ static void test_lab_search_run__friction_that_rises__deviates_since_then(void *
 {
   const second_rig first = true_rig();
   second_rig later = first;
-  (void)state;
   later.dry_friction = 1300;
   close_loop(&first, &later, 7.61);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -124,7 +122,6 @@ static void test_lab_search_run__supply_that_falls__deviates_since_then(void **s
 {
   const second_rig first = true_rig();
   second_rig later = first;
-  (void)state;
   later.supply = 0.8 * first.supply;
   close_loop(&first, &later, 6.57);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -136,7 +133,6 @@ static void test_lab_search_run__supply_that_falls__deviates_since_then(void **s
 static void test_lab_search_run__nothing_begins__has_no_onset(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   close_loop(&g, NULL, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(u.rig.n_onsets, 0);
@@ -167,7 +163,6 @@ static void test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_
 {
   const second_rig first = true_rig();
   second_rig later = first;
-  (void)state;
   later.spring_rate *= 0.7;
   fit_early(&first, &later, 6.57);
   assert_false(lab_is_noise(&within.quality));
@@ -181,7 +176,6 @@ static void test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_
 static void test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run(void **state)
 {
   const second_rig g = true_rig();
-  (void)state;
   fit_early(&g, NULL, 0);
   assert_int_equal(onset.quality.fitted, 0);
   assert_int_equal(within.quality.fitted, 1);
@@ -193,7 +187,6 @@ static void test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run(void
 static void test_lab_early_fit__missing_from_the_start__finds_neither(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   g.leak_area = 2e-8;
   fit_early(&g, NULL, 0);
   assert_int_equal(onset.quality.fitted, 0);
@@ -209,7 +202,6 @@ static void test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on(voi
   double *y = malloc(2 * ROWS * sizeof *y), most = 0;
   lab_error error;
   size_t i;
-  (void)state;
   open_log(&g, NULL, 0);
   *pneu_param_at(&rig.params, pneu_param_find("pressure_lag.pressure_time")) = (pneu_real)0.05;
   assert_int_equal(lab_unknowns_add_onset(&u, pneu_param_find("supply_pressure"), from, 3e5, &error), LAB_OK);

@@ -51,7 +51,6 @@ static void assert_whole(void)
 static void test_lab_preview_search__leak__is_that_of_the_whole_run(void **state)
 {
   second_rig g = virtual_rig(5);
-  (void)state;
   g.leak_area = 2e-8;
   assert_true(preview(&g, NULL, 0));
   assert_whole();
@@ -67,7 +66,6 @@ static void test_lab_preview_search__leak__is_that_of_the_whole_run(void **state
 static void test_lab_preview_search__nothing_is_missing__finds_nothing(void **state)
 {
   const second_rig g = virtual_rig(6);
-  (void)state;
   assert_true(preview(&g, NULL, 0));
   assert_whole();
   assert_int_equal(found.result.verdict, LAB_VERDICT_NONE);
@@ -82,7 +80,6 @@ static void test_lab_preview_search__spring_that_breaks_later__is_left_to_the_se
 {
   const second_rig first = virtual_rig(7);
   second_rig later = first;
-  (void)state;
   later.spring_rate *= 0.7;
   assert_false(preview(&first, &later, 8.57));
   assert_memory_equal(&found, &before, sizeof found);
@@ -93,7 +90,6 @@ static void test_lab_preview_is_asked__short_or_several_or_coarse__no(void **sta
 {
   lab_run of_rows = {.n = 3000};
   lab_unknowns of_run = {.run = &of_rows, .n_runs = 1};
-  (void)state;
   assert_true(lab_preview_is_asked(&of_run));
   of_rows.n = 2999;
   assert_false(lab_preview_is_asked(&of_run));

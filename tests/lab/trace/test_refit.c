@@ -43,7 +43,6 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
   const double price = log(2 * ROWS);
   size_t i;
   lab_error error = {0, ""};
-  (void)state;
   open_log(&g, &whole.u);
   assert_int_equal(whole.u.n, 1 + COMMANDS);
   assert_int_equal(lab_candidate_fit(&whole, LAB_ROUNDS_ALL, &error), LAB_OK);
@@ -79,7 +78,6 @@ static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_
   static lab_candidate c;
   second_rig g = true_rig();
   int i, any;
-  (void)state;
   for (i = 0; i < 2; i++) {
     lab_error error = {0, ""};
     g.position_skew = skew[i]; /* [s] by which the position is older than the pressure beside it */
@@ -108,7 +106,6 @@ static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
   const int leak = pneu_param_find("chamber_leak.leak_area");
   lab_error error = {0, ""};
   second_rig g = true_rig();
-  (void)state;
   g.leak_area = 2e-8;
   g.dead_volume *= 1.2;
   g.spring_rate *= 0.95;
@@ -148,7 +145,6 @@ static void test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_
   static lab_candidate c[3];
   const double alike = lab_constant(LAB_ALIKE_BIC);
   int i;
-  (void)state;
   for (i = 0; i < 2; i++) {
     c[0] = begun("supply_droop.supply_resistance", 100);
     c[1] = begun("chamber_leak.leak_area", 101);

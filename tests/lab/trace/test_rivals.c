@@ -17,7 +17,6 @@ static void test_lab_rivals_try__second_best_effect__gives_way_to_the_true_one(v
   lab_error error = {0, ""};
   double before;
   int changed;
-  (void)state;
   truth.area_slope = 0.05;
   held_open(&h, &truth);
   held_add(&h, "spring_hardening.spring_cubic", 5e7);
@@ -38,7 +37,6 @@ static void test_lab_rivals_try__true_effects__stay_in_their_order(void **state)
   second_rig truth = virtual_rig(12);
   lab_error error = {0, ""};
   int changed;
-  (void)state;
   truth.area_slope = 0.05;
   truth.dead_time = 0.05;
   held_open(&h, &truth);

@@ -96,7 +96,6 @@ static void test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviatio
 {
   const lab_deviation *d;
   second_rig g = true_rig();
-  (void)state;
   g.dead_volume *= 1.2;
   run_loop(&g, brisk, 1);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -111,7 +110,6 @@ static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **
 {
   const lab_deviation *d;
   second_rig g = true_rig();
-  (void)state;
   g.dry_friction = 960;
   run_loop(&g, brisk, 1);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
@@ -130,7 +128,6 @@ static void test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says(void 
   const double narrower[] = {1, 10};
   lab_error error;
   int i, j, k;
-  (void)state;
   open_log(&g, brisk, 1);
   j = lab_unknowns_find(&u, PNEU_PARAM_spring_rate);
   for (i = 0; i < 2; i++) {
@@ -164,7 +161,6 @@ static int is_told(const char *name)
 static void test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   g.friction_position = 0.12;
   g.dead_volume *= 0.76;
   g.spring_rate *= 1.17;
@@ -178,7 +174,6 @@ static void test_lab_search_run__friction_over_position_and_tolerances__over_pre
 static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   g.leak_area = 0.02 * g.vent_area;
   g.dead_volume *= 1.2;
   run_loop(&g, brisk, 1);
@@ -190,7 +185,6 @@ static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(
 static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters(void **state)
 {
   const second_rig g = true_rig();
-  (void)state;
   run_loop(&g, brisk, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(result.n_found, 0);
@@ -203,7 +197,6 @@ static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parame
 static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   g.pressure_noise *= 1.25;
   g.position_noise *= 1.25;
   run_loop(&g, brisk, 0);
@@ -215,7 +208,6 @@ static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(vo
 static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   g.gas = SECOND_ENERGY;
   g.heat = 0;
   assert_named(&g, "heat_transfer");
@@ -225,7 +217,6 @@ static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **s
 static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   fixture_need("chamber_exponent");
   g.gas = SECOND_ENERGY;
   g.exponent = 1.2;
@@ -242,7 +233,6 @@ static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **s
 static void test_lab_search_run__leak__is_named_and_sized(void **state)
 {
   second_rig g = true_rig();
-  (void)state;
   fixture_need("chamber_leak");
   g.leak_area = 1.5e-8;
   assert_named(&g, "chamber_leak");
@@ -271,7 +261,6 @@ static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **s
   static const int plain[] = {0, 0, 1};
   second_rig g = true_rig();
   int i;
-  (void)state;
   min_gain = 0.1;
   for (i = 0; i < 3; i++) {
     g.leak_area = share[i] * g.vent_area;
@@ -291,7 +280,6 @@ static void test_lab_search_run__many_slopes__share_the_level(void **state)
 {
   const second_rig g = true_rig();
   lab_search_options options;
-  (void)state;
   lab_search_options_default(&options);
   run_loop(&g, brisk, 0);
   assert_true(result.scores.tests >= result.scores.n && result.scores.n > 10);
@@ -307,7 +295,6 @@ static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **s
   const pneu_term *term = &u.rig.term[0];
   char text[LAB_WHERE_TEXT];
   double from, to, level, peak;
-  (void)state;
   g.bump = 300;
   g.bump_at = 12e-3;
   g.bump_width = 1.5e-3;
@@ -335,7 +322,6 @@ static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **s
 {
   static const double slow[COMMANDS] = {0.06, 0.05, -0.05, 0.06, -0.05};
   second_rig g = true_rig();
-  (void)state;
   fixture_need("stribeck_friction");
   g.stribeck = 0.5;
   g.stribeck_velocity = 2e-3;
@@ -355,7 +341,6 @@ static void test_lab_search_list_small__again_and_again__is_there_once(void **st
 {
   static lab_search_result r;
   int i;
-  (void)state;
   for (i = 0; i < 3 * LAB_SCORES_MAX; i++)
     lab_search_list_small(&r, i / 2);
   assert_int_equal(r.n_listed, LAB_SCORES_MAX);
@@ -368,7 +353,6 @@ static void test_lab_rounds_note_way__full__has_the_last(void **state)
   static lab_search_result r;
   static lab_candidate c;
   int i;
-  (void)state;
   lab_rig_default(&c.u.rig);
   for (i = 0; i <= LAB_SEARCH_PATH; i++) {
     c.quality.chi2 = i;
