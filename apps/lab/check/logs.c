@@ -1,15 +1,21 @@
 #include "logs.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "mend.h"
 #include "../base/text.h"
 #include "../run/schedule.h"
 
+/* A set position with gaps is shown, and cannot drive. */
 static void leave_out_u(const lab_rig *rig, lab_log *log, lab_logs *b)
 {
+  size_t i;
   if (!log->value[LAB_CHANNEL_U] || !log->value[LAB_CHANNEL_SP] || !lab_rig_has_positioner(rig))
     return;
+  for (i = 0; i < log->n; i++)
+    if (isnan(log->value[LAB_CHANNEL_SP][i]))
+      return;
   free(log->value[LAB_CHANNEL_U]);
   log->value[LAB_CHANNEL_U] = NULL;
   b->n_without_u++;

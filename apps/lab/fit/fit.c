@@ -25,6 +25,7 @@ typedef struct descent {
   double *off;         /* m: where the linear model was wrong */
   double *J;           /* m * n, column by column */
   double A[N][N];      /* J'J */
+  double damped[N][N]; /* the part of it that a step is solved for */
   double g[N];         /* J'r */
   double chi2, lambda;
   double enough;
@@ -93,21 +94,21 @@ static void multiply(descent *d)
 }
 
 /* Damped step for the unknowns in `of`, the others moved by `step` already. */
-static int solve_free(const descent *d, const int *of, int k, const int *is_free, double *step)
+static int solve_free(descent *d, const int *of, int k, const int *is_free, double *step)
 {
   const int n = d->problem->n;
-  double a[N][N], b[N];
+  double b[N];
   int i, j;
   for (i = 0; i < k; i++) {
     for (j = 0; j < k; j++)
-      a[i][j] = d->A[of[i]][of[j]];
-    a[i][i] += d->lambda * a[i][i] + 1e-300;
+      d->damped[i][j] = d->A[of[i]][of[j]];
+    d->damped[i][i] += d->lambda * d->damped[i][i] + 1e-300;
     b[i] = -d->g[of[i]];
     for (j = 0; j < n; j++)
       if (!is_free[j])
         b[i] -= d->A[of[i]][j] * step[j];
   }
-  if (lab_solve_positive(k, N, &a[0][0], b))
+  if (lab_solve_positive(k, N, &d->damped[0][0], b))
     return -1;
   for (i = 0; i < k; i++)
     step[of[i]] = b[i];
@@ -116,7 +117,7 @@ static int solve_free(const descent *d, const int *of, int k, const int *is_free
 
 /* A step that stays within the bounds: what would leave them goes onto its bound, and the rest is solved again. What
  * stands on a bound and is pulled outwards does not take part.  Returns: 0, or -1 if there is no step. */
-static int bounded_step(const descent *d, double *step)
+static int bounded_step(descent *d, double *step)
 {
   const lab_fit_problem *p = d->problem;
   int is_free[N], of[N], j, k, hit = 1;

@@ -6,6 +6,7 @@
 
 #include "../base/array.h"
 #include "../base/format.h"
+#include "../base/noise.h"
 #include "drift.h"
 
 static const double median_of_square = 0.45493642311957283; /* of a normal value */
@@ -220,35 +221,42 @@ static double level_of(const lab_run *x, int c, const double *r, double *first, 
   return fabs(by_first / by_second - 1) < white && by_second * x->sigma[c] > x->resolution[c] ? by_second : 0;
 }
 
-/* What all errors of a channel of a run are, over what its noise counts as: the noise is no more than that, though rows
- * far between, in which much moves, made it seem so. No less than the resolution leaves. */
-static double most_noise(const lab_run *x, int c, const double *r)
+/* By how much the noise of a channel of a run was plainly taken for too much, where no rig file tells it: it is no more
+ * than all errors together, and the estimate from rows side by side is too large where much moves between them. 1 where
+ * that is not to be told; no less than the steps of the values leave.
+ * In:      spare  times that errors are larger beside values that were not fitted to them */
+static double overrated(const lab_run *x, int c, const double *r, double spare)
 {
-  double sum = 0;
+  const double *value = x->log->value[x->channel[c]] + x->first;
+  double sum = 0, most;
   size_t i, n = 0;
+  if (!isnan(x->rig->noise[x->channel[c]]) || x->rig->laws.pressure_input || x->jitter > 0 || x->raised[c] > 0)
+    return 1;
   for (i = 0; i < x->n; i++)
     if (!isnan(lab_run_measured(x, c, i))) {
       sum += r[i] * r[i];
       n++;
     }
-  return n < FEWEST / 2 ? 1 : fmax(sqrt(sum / (double)n), x->resolution[c] / x->sigma[c]);
+  most = spare * sqrt(sum / (double)n);
+  if (n < FEWEST / 2 || most * (1 + likely / sqrt(2 * (double)n)) > 1 / larger)
+    return 1;
+  return fmax(most, fmax(x->resolution[c], lab_smallest_step(value, x->n) / 4) / x->sigma[c]);
 }
 
 /* In/out: r  errors over noise  Returns: whether the noise counts as another now */
-static int set_levels(lab_run *x, double *r, double *first, double *room)
+static int set_levels(lab_run *x, double *r, double spare, double *first, double *room)
 {
   int c, any = 0;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
-    const int is_told = !isnan(x->rig->noise[x->channel[c]]);
-    const double most = is_told || x->rig->laws.pressure_input ? 1 : most_noise(x, c, r);
-    if (most < 1 / larger) {
+    const double most = overrated(x, c, r, spare);
+    if (most < 1) {
       set_level(x, c, most, r);
       any = 1;
     }
     if (x->colour[c].memory != 0)
       continue;
     x->level[c] = level_of(x, c, r, first, room);
-    if (!is_told || !(x->level[c] > larger))
+    if (isnan(x->rig->noise[x->channel[c]]) || !(x->level[c] > larger))
       continue;
     set_level(x, c, x->level[c], r);
     any = 1;
@@ -378,13 +386,14 @@ static int is_told(const lab_run *run, int n)
 
 static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *error)
 {
+  const double values = (double)u->n_values, spare = sqrt(values / fmax(values - u->n, 1));
   double jitter, *at = r;
   int e, any = 0;
   if (lab_unknowns_errors(u, r, error))
     return 0;
   for (e = 0; e < u->n_runs; e++) {
     any |= set_colours(&run[e], at, a->square, error);
-    any |= set_levels(&run[e], at, a->square, a->slope2);
+    any |= set_levels(&run[e], at, spare, a->square, a->slope2);
     at += run[e].n * (size_t)run[e].n_channels;
   }
   for (at = r, e = 0; e < u->n_runs; e++) {

@@ -119,15 +119,14 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
   return go_to(csv, guess->data - 1, error);
 }
 
-/* The first row, which shows what is a date, and back to the header. */
+/* The first row, which shows what is a date, and back to the header. A damaged one shows nothing here. */
 static int look_below(lab_csv *csv, const lab_log_format *format, int n, lab_heading *heading, lab_error *error)
 {
   const int line = csv->line;
+  lab_error damaged;
   int more;
-  if (lab_csv_line(csv, &more, error))
-    return error->status;
-  if (more && read_below(csv, format, n, heading, 0, error))
-    return lab_csv_fail_in(csv, error);
+  if (lab_csv_line(csv, &more, &damaged) == LAB_OK && more)
+    read_below(csv, format, n, heading, 0, &damaged);
   lab_csv_restart(csv);
   return go_to(csv, line, error);
 }

@@ -40,6 +40,7 @@ static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
   int i;
   a->rig_held = a->rig;
   a->held.is_whole = 1;
+  a->held.by_set_position = a->now.logs.n_without_u == a->now.logs.n_logs;
   lab_log_format_hold_out(&a->rig_held.log);
   for (i = 0; i < q->n_holdout; i++) {
     if (is_fitted(q, &a->rig, q->holdout[i]))
@@ -105,6 +106,10 @@ static int read_files(const lab_request *q, lab_answer *a, lab_error *error)
   if (lab_plausible_content(&a->rig, &a->now.logs.content, &a->now.logs.limitations, error) ||
       (q->n_baseline && lab_plausible_content(&a->rig, &a->then.logs.content, &a->then.logs.limitations, error)))
     return error->status;
+  if (a->now.logs.n_without_u > 0)
+    lab_limitation(
+        &a->now.logs.limitations,
+        "The set position drives the model by its positioner; u does not, for between rows it is not known.");
   prepare_positioner(a);
   return read_held_out(q, a, error);
 }
@@ -378,26 +383,35 @@ static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *tim
   return status;
 }
 
+/* Whether an explanation leaves plainly less than noise in some channel: it was taken for too much, and may have hidden
+ * something. */
+static int may_overrate_noise(const lab_completion *c)
+{
+  static const double plainly_less = 0.7;
+  int i, any = 0;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    any |= c->result.after.in_noise[i] < plainly_less; /* NaN where it is not measured */
+  return any && lab_search_explains(&c->result) && !c->result.cut_short;
+}
+
 /* Whether a model leaves so little more than noise that the noise may be told wrong, or has found a part of what was
- * taken for it; or plainly less than noise, which then was taken for too much and may have hidden something. */
+ * taken for it. */
 static int may_mistake_noise(const lab_completion *c)
 {
-  static const double plainly_less = 0.5;
-  const lab_errors *after = &c->result.after;
-  if (after->chi2 < plainly_less * (double)after->n)
-    return !c->result.cut_short;
   return c->result.verdict == LAB_VERDICT_UNDECIDED && !c->result.cut_short &&
          (c->result.n_found + c->completed.rig.n_onsets > 0 ||
           !lab_values_stand_in(c->result.verdict, c->result.fit.reduced_chi2));
 }
 
-/* Search; where a mistake in the noise may be all that is left, once more with that told again. */
+/* Search; where a mistake in the noise may be all that is left, or has hidden something, once more with that told
+ * again.
+ */
 static int search_with_noise(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
   int any = 0, status;
   if (lab_search_run(&c->completed, how, &c->result, error))
     return error->status;
-  if (!may_mistake_noise(c))
+  if (!may_mistake_noise(c) && !may_overrate_noise(c))
     return LAB_OK;
   status = lab_weigh_runs(&c->completed, c->logs.run, &any, error);
   if (status != LAB_OK || !any)
@@ -567,12 +581,14 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
   return LAB_OK;
 }
 
+/* In:      by_set_position  not 0: that drives where the logs have it beside u
+ * Out:     answer           to be freed; NULL after an error */
 static int find(const lab_request *request, int by_set_position, lab_answer **answer, lab_error *error)
 {
   lab_answer *a = *answer = calloc(1, sizeof *a);
   if (!a)
     return lab_fail_memory(error, "the answer");
-  a->now.logs.by_set_position = a->held.by_set_position = by_set_position;
+  a->now.logs.by_set_position = by_set_position;
   if (read_files(request, a, error) == LAB_OK && close_loop(request, a, error) == LAB_OK)
     return LAB_OK;
   lab_answer_free(a);
@@ -586,49 +602,50 @@ static int convinces(const lab_completion *c)
   return lab_search_explains(&c->result) && !lab_unknowns_is_far(&c->completed, lab_constant(LAB_STRAINED));
 }
 
+/* What a model leaves, as Schwarz's criterion but for what is the same of two models of the same rows, whatever each
+ * takes for noise. */
+static double left_by(const lab_search_result *r)
+{
+  double sum = r->fit.n * log((double)r->after.n);
+  int c, n = 0;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    n += isfinite(r->after.rmse[c]);
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    sum += isfinite(r->after.rmse[c]) ? 2 * (double)r->after.n / n * log(r->after.rmse[c]) : 0;
+  return sum;
+}
+
 static int is_better(const lab_search_result *other, const lab_search_result *first)
 {
   const int explains = lab_search_explains(other);
-  if (explains != lab_search_explains(first) || other->n_path == 0 || first->n_path == 0)
+  if (explains != lab_search_explains(first) || other->window != first->window)
     return explains;
-  return other->path[other->n_path - 1].bic < first->path[first->n_path - 1].bic;
-}
-
-/* The same with u, for what is left of the budget, where that is better.
- * In:      start  [s] of CPU, of all
- * In/out:  answer without u */
-static int find_with_u(const lab_request *request, double start, lab_answer **answer, lab_error *error)
-{
-  lab_request rest = *request;
-  lab_answer *other;
-  int status;
-  if (request->budget > 0)
-    rest.budget = fmax(request->budget - (lab_cpu_time() - start), 1);
-  status = find(&rest, 0, &other, error);
-  if (status == LAB_OK && is_better(&other->now.result, &(*answer)->now.result)) {
-    lab_answer *worse = *answer;
-    *answer = other;
-    other = worse;
-  }
-  if (status == LAB_OK)
-    lab_answer_free(other);
-  return status == LAB_NUMERIC ? LAB_OK : status;
+  return left_by(other) < left_by(first);
 }
 
 /* Between its rows the opening that a positioner gives is not known, and often it has come and gone there; what the
- * positioner follows is. So the set position drives first, and u does where that does not explain the logs. What has
- * changed since a baseline is asked of u alone. */
+ * positioner follows is. So the set position drives first, and u does, for what is left of the budget, where that does
+ * not explain the logs and u is the better. What has changed since a baseline is asked of u alone. */
 int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *error)
 {
   const double start = lab_cpu_time();
+  lab_request rest = *request;
+  lab_answer *by_u = NULL;
+  lab_error of_u;
   int status = find(request, request->n_baseline == 0, answer, error);
-  if (status == LAB_OK && (*answer)->now.logs.n_without_u > 0 && !convinces(&(*answer)->now))
-    status = find_with_u(request, start, answer, error);
-  if (status == LAB_OK && (*answer)->now.logs.n_without_u > 0)
-    lab_limitation(
-        &(*answer)->now.logs.limitations,
-        "The set position drives the model by its positioner; u does not, for between rows it is not known.");
-  return status;
+  if (request->n_baseline > 0 || status == LAB_DATA || status == LAB_WORLD ||
+      (status == LAB_OK && ((*answer)->now.logs.n_without_u == 0 || convinces(&(*answer)->now))))
+    return status;
+  if (request->budget > 0)
+    rest.budget = fmax(request->budget - (lab_cpu_time() - start), 1);
+  if (find(&rest, 0, &by_u, &of_u) == LAB_OK && (!*answer || is_better(&by_u->now.result, &(*answer)->now.result))) {
+    lab_answer *worse = *answer;
+    *answer = by_u;
+    by_u = worse;
+  }
+  if (by_u)
+    lab_answer_free(by_u);
+  return *answer ? LAB_OK : status;
 }
 
 void lab_answer_free(lab_answer *answer)

@@ -435,6 +435,14 @@ static void add_found(char *text, const lab_report *report)
   }
 }
 
+static int is_found(const lab_search_result *r, int param)
+{
+  int i, any = 0;
+  for (i = 0; i < r->n_found; i++)
+    any |= r->found[i].param == param;
+  return any;
+}
+
 /* Sensors that are off come last: what the valve does is asked first. */
 static void add_sensors(char *text, const lab_report *report)
 {
@@ -444,7 +452,7 @@ static void add_sensors(char *text, const lab_report *report)
     const lab_deviation *d = &all->of[i];
     char sentence[LAB_FOUND_SENTENCE];
     lab_rig last;
-    if (!lab_report_is_told(report, d) || !is_of_sensor(d))
+    if (!lab_report_is_told(report, d) || !is_of_sensor(d) || is_found(report->result, d->param))
       continue;
     lab_rig_at(&report->completed->rig, INFINITY, &last);
     *pneu_param_at(&last.params, d->param) = (pneu_real)d->found;
@@ -495,6 +503,7 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
                  : "Something is missing, but the log does not say what.");
     if (add_deviations(text, report, 1))
       ADD(text, ".");
+    add_sensors(text, report);
     return;
   }
   deviates = add_deviations(text, report, 0) > 0;

@@ -219,12 +219,70 @@ static void test_lab_answer_find__each_recorder__is_recognised(void **state)
   lab_answer_free(a);
 }
 
+/* ---- Opening and set position in one log ---- */
+
+static void append_to(const char *path, const char *text)
+{
+  FILE *file = fopen(path, "a");
+  assert_non_null(file);
+  fputs(text, file);
+  fclose(file);
+}
+
+static const second_positioner loop = {.gain = 14, .dead_band = 0.005, .cutoff_high = 1};
+
+/* A loop whose opening was logged as 0 all the time, or commands beside a set position that was. */
+static void write_loop(int is_loop)
+{
+  static const double t_set[] = {0.9, 7, 13, 19}, set[] = {0.6, 0.2, 0.8, 0.4}, spacing = 0.02;
+  const second_course course = {.t_cmd = t_set, .u_cmd = set, .n = COUNT(t_set), .positioner = &loop};
+  const second_log log = {.t = truth.t, .u = truth.u, .p = truth.p, .x = truth.x};
+  FILE *file = fopen(scratch_path("log.csv"), "w");
+  int k, steps = 0;
+  assert_non_null(file);
+  run_truth(0);
+  if (is_loop)
+    assert_int_equal(second_follow(&rig, &course, t_end, fine, &log, NULL), 0);
+  fputs("t [s],u [1],sp [1],p [kPa],x [mm]\n", file);
+  for (k = 0; k * spacing < t_end; k++) {
+    const double t = k * spacing;
+    steps += steps < (int)COUNT(t_set) && t >= t_set[steps] - 1e-9;
+    fprintf(file, "%.5f,%g,%g,%.5f,%.6f\n", t, is_loop ? 0 : truth.u[(int)(t / fine + 1e-6)],
+            is_loop && steps > 0 ? set[steps - 1] : 0, (at(truth.p, t) + noise_p * fixture_normal(&seed)) * 1e-3,
+            (at(truth.x, t) + noise_x * fixture_normal(&seed)) * 1e3);
+  }
+  fclose(file);
+}
+
+static void test_lab_answer_find__u_and_set_position__what_explains_the_log_drives(void **state)
+{
+  int is_loop;
+  for (is_loop = 0; is_loop < 2; is_loop++) {
+    char path[512], rig_path[512];
+    const char *log[] = {path};
+    lab_request q = {.rig = rig_path, .log = log, .n_logs = 1, .alpha = 0.01, .min_gain = 0.02};
+    lab_answer *answer;
+    seed = 20;
+    write_loop(is_loop);
+    write_rig(&as_declared);
+    strcpy(path, scratch_path("log.csv"));
+    strcpy(rig_path, scratch_path("rig.cfg"));
+    append_to(rig_path, "positioner = { gain = 14; dead_band = \"0.5 %\"; };\n");
+    if (lab_answer_find(&q, &answer, &error))
+      fail_msg("%s", error.text);
+    assert_int_equal(answer->now.logs.n_without_u, is_loop);
+    assert_int_equal(answer->now.result.verdict, LAB_VERDICT_NONE);
+    lab_answer_free(answer);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded),
       cmocka_unit_test(test_lab_answer_find__leak__is_named_however_it_was_recorded),
       cmocka_unit_test(test_lab_answer_find__each_recorder__is_recognised),
+      cmocka_unit_test(test_lab_answer_find__u_and_set_position__what_explains_the_log_drives),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

@@ -280,6 +280,14 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
   assert_string_equal(text,
                       "Something is missing, but the log does not say what. As far as the log tells, friction is 2 "
                       "times its sheet, the spring 25 % soft.");
+  d->of[1] = (lab_deviation){
+      .name = "position_gain", .param = pneu_param_find("position_gain"), .unit = "1", .found = 0.02, .beyond = 1};
+  lab_report_headline(&report, text);
+  assert_contains(text, "friction is 2 times its sheet. The position sensor shows 2.0 % of the reading too much.");
+  result.n_found = 1; /* as the best candidate it is told elsewhere */
+  result.found[0] = (lab_found){.effect = pneu_effect_find("position_gain"), .param = d->of[1].param};
+  lab_report_headline(&report, text);
+  assert_null(strstr(text, "too much"));
   result.jerks = 1;
   d->n = 0;
   lab_report_headline(&report, text);
