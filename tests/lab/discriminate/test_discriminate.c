@@ -433,7 +433,7 @@ static void test_lab_advise_precision__what_was_found__goes_first(void **state)
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
   int fit[COUNT(fitted) + 1];
-  lab_advice advice[2];
+  lab_advice each[2];
   int i;
   memcpy(fit, fitted, sizeof fitted);
   q.fit = fit;
@@ -443,10 +443,10 @@ static void test_lab_advise_precision__what_was_found__goes_first(void **state)
     if (fit[i] == PNEU_PARAM_spring_rate)
       fit[i] = PNEU_PARAM_moving_mass;
   for (i = 0; i < 2; i++, q.n_known = 0)
-    assert_int_equal(lab_advise_precision(&q, &rig.params, &advice[i], &error), LAB_OK);
-  assert_int_equal(advice[0].kind, LAB_ADVICE_TEST);
-  assert_int_equal(advice[0].param, PNEU_PARAM_spring_rate);
-  assert_int_not_equal(advice[1].param, PNEU_PARAM_spring_rate);
+    assert_int_equal(lab_advise_precision(&q, &rig.params, &each[i], &error), LAB_OK);
+  assert_int_equal(each[0].kind, LAB_ADVICE_TEST);
+  assert_int_equal(each[0].param, PNEU_PARAM_spring_rate);
+  assert_int_not_equal(each[1].param, PNEU_PARAM_spring_rate);
 }
 
 /* One parameter: information adds up, and that of the trial alone is the sum of squared slopes. */
