@@ -322,7 +322,10 @@ int lab_unknowns_find(const lab_unknowns *u, int param)
 enum { SWITCHES_END = LAB_FIT_MAX - 40 };
 
 static const double jump = 0.3; /* of the command: what half a row of it moves is far more than noise */
-enum { ROWS_A_SWITCH = 10 };    /* and more: a change of command has an instant of its own */
+
+/* A change of command has an instant of its own where so many rows and more tell of each; of many changes more rows,
+ * for as many are a controller's, which come at its rows. */
+enum { ROWS_A_SWITCH = 10, MANY_SWITCHES = 100, ROWS_EACH_OF_MANY = 20 };
 
 /* A change of command happened between the row before and the row that shows it: half the width, give or take what a
  * uniform distribution has. */
@@ -357,20 +360,25 @@ static size_t count_bracketed(const lab_run *x, int jumps)
   return n;
 }
 
+/* Whether there are rows enough to tell n instants, and room for them. */
+static int are_few(const lab_unknowns *u, const lab_run *x, size_t n)
+{
+  return n * (n > MANY_SWITCHES ? ROWS_EACH_OF_MANY : ROWS_A_SWITCH) <= x->n && (size_t)u->n + n <= SWITCHES_END;
+}
+
 /* The timing of the command in one experiment: an instant for each change where these are few beside the rows that tell
- * of them, and there is room for all; else one share of the row for all of them but the jumps. */
+ * of them; else one share of the row for all of them but the jumps. */
 static void add_switches(lab_unknowns *u, int e)
 {
   const lab_run *x = &u->run[e];
   const size_t n = count_bracketed(x, 0), jumps = count_bracketed(x, 1);
-  const int few = n * ROWS_A_SWITCH <= x->n && (size_t)u->n + n <= SWITCHES_END;
+  const int few = are_few(u, x, n);
   size_t k;
   if (x->on_rows)
     return;
   if (!few && u->n < SWITCHES_END)
     add_switch(u, e, LAB_ALL_INSTANTS, 1, "1");
-  for (k = 0; k < x->n_instants && (few || (jumps * ROWS_A_SWITCH <= x->n && (size_t)u->n + jumps <= SWITCHES_END));
-       k++)
+  for (k = 0; k < x->n_instants && (few || are_few(u, x, jumps)); k++)
     if (x->bracket[k] > 0 && (few || is_jump(x, k)))
       add_switch(u, e, (int)k, x->bracket[k], "s");
 }
