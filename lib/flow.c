@@ -215,8 +215,9 @@ static void mixed_flow(const pneu_terms *t, const passage *at, int slopes, pneu_
 
 /* Find the orifice that stands for the turbulence of a line: one under the model's law that by itself loses
  * resistance turbulence q_f at the full flow q_f of the fill orifice, were that little. A law begins as
- * area sqrt(p_up (p_up - p_down)); under ISO 6358 with a subsonic index other than 0.5 it is compared at a loss of 0.1
- * %. In/out:  line  area; nothing is lost yet */
+ * area sqrt(p_up (p_up - p_down)); under ISO 6358 with a subsonic index other than 0.5 it is compared where the share
+ * 2 PNEU_BLEND of p_up is lost.
+ * In/out:  line  area; nothing is lost yet */
 static void make_ready(const pneu_terms *t, pneu_line *line)
 {
   static const pneu_real little = 2 * PNEU_BLEND; /* of p_up */
@@ -232,8 +233,9 @@ static void make_ready(const pneu_terms *t, pneu_line *line)
 }
 
 /* Flow through a line that is ready, of a resistance above 0, q: linear q + (p_up - p_down) (q/q_o)^2 = p_up - p_down
- * is lost, where linear = resistance (1 - turbulence), and q_o is what passes the orifice. In:      p_up >= p_down [Pa]
- * abs, T_up [K] Out:     flow  q and its slopes in the pressures */
+ * is lost, where linear = resistance (1 - turbulence), and q_o is what passes the orifice.
+ * In:      p_up >= p_down [Pa] abs, T_up [K]
+ * Out:     flow  q [kg/s] and its slopes in the pressures */
 static void line_flow(const pneu_terms *t, const pneu_line *line, pneu_real p_up, pneu_real T_up, pneu_real p_down,
                       pneu_flow *flow)
 {

@@ -324,7 +324,7 @@ enum { SWITCHES_END = LAB_FIT_MAX - 40 };
 static const double jump = 0.3; /* of the command: what half a row of it moves is far more than noise */
 
 /* A change of command has an instant of its own where so many rows and more tell of each; of many changes more rows,
- * for as many are a controller's, which come at its rows. */
+ * for as many are a controller's, which come at its rows: 173 in 2,001. By judgement. */
 enum { ROWS_A_SWITCH = 10, MANY_SWITCHES = 100, ROWS_EACH_OF_MANY = 20 };
 
 /* A change of command happened between the row before and the row that shows it: half the width, give or take what a

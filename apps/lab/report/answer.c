@@ -387,7 +387,7 @@ static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *tim
  * something. */
 static int may_overrate_noise(const lab_completion *c)
 {
-  static const double plainly_less = 0.7;
+  static const double plainly_less = 0.7; /* by judgement */
   int i, any = 0;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++)
     any |= c->result.after.in_noise[i] < plainly_less; /* NaN where it is not measured */
@@ -403,8 +403,7 @@ static int may_mistake_noise(const lab_completion *c)
           !lab_values_stand_in(c->result.verdict, c->result.fit.reduced_chi2));
 }
 
-/* Search; where a mistake in the noise may be all that is left, or has hidden something, once more with that told
- * again.
+/* Search; where a mistake in the noise may be all that is left, or may have hidden something, once more with that told.
  */
 static int search_with_noise(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
@@ -551,8 +550,8 @@ static int leave_as_declared(lab_answer *a, lab_error *error)
 
 static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 {
-  static const double by_set_position = 0.6; /* of the budget: the rest is for u */
-  const allowance time = {lab_cpu_time(), (a->now.logs.n_without_u > 0 ? by_set_position : 1) * q->budget};
+  static const double without_u = 0.6; /* of the budget, by judgement: the rest is for u */
+  const allowance time = {lab_cpu_time(), (a->now.logs.n_without_u > 0 ? without_u : 1) * q->budget};
   const double start = lab_clock();
   double fit_s;
   a->report = (lab_report){.rig = &a->rig,
@@ -582,18 +581,25 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 }
 
 /* In:      by_set_position  not 0: that drives where the logs have it beside u
- * Out:     answer           to be freed; NULL after an error */
-static int find(const lab_request *request, int by_set_position, lab_answer **answer, lab_error *error)
+ * Out:     answer           to be freed; NULL after an error
+ *          without_u        logs of which u was left out for that */
+static int find(const lab_request *request, int by_set_position, lab_answer **answer, int *without_u, lab_error *error)
 {
   lab_answer *a = *answer = calloc(1, sizeof *a);
+  int status;
+  *without_u = 0;
   if (!a)
     return lab_fail_memory(error, "the answer");
   a->now.logs.by_set_position = by_set_position;
-  if (read_files(request, a, error) == LAB_OK && close_loop(request, a, error) == LAB_OK)
+  status = read_files(request, a, error);
+  if (status == LAB_OK)
+    status = close_loop(request, a, error);
+  *without_u = a->now.logs.n_without_u;
+  if (status == LAB_OK)
     return LAB_OK;
   lab_answer_free(a);
   *answer = NULL;
-  return error->status;
+  return status;
 }
 
 /* Whether an answer explains its logs by values that are near their sheet. */
@@ -632,13 +638,13 @@ int lab_answer_find(const lab_request *request, lab_answer **answer, lab_error *
   lab_request rest = *request;
   lab_answer *by_u = NULL;
   lab_error of_u;
-  int status = find(request, request->n_baseline == 0, answer, error);
-  if (request->n_baseline > 0 || status == LAB_DATA || status == LAB_WORLD ||
-      (status == LAB_OK && ((*answer)->now.logs.n_without_u == 0 || convinces(&(*answer)->now))))
+  int without_u, none, status = find(request, request->n_baseline == 0, answer, &without_u, error);
+  if (without_u == 0 || status == LAB_DATA || status == LAB_WORLD || (*answer && convinces(&(*answer)->now)))
     return status;
   if (request->budget > 0)
     rest.budget = fmax(request->budget - (lab_cpu_time() - start), 1);
-  if (find(&rest, 0, &by_u, &of_u) == LAB_OK && (!*answer || is_better(&by_u->now.result, &(*answer)->now.result))) {
+  if (find(&rest, 0, &by_u, &none, &of_u) == LAB_OK &&
+      (!*answer || is_better(&by_u->now.result, &(*answer)->now.result))) {
     lab_answer *worse = *answer;
     *answer = by_u;
     by_u = worse;

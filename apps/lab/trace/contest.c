@@ -286,7 +286,7 @@ static int search_both(const lab_unknowns *u, const lab_search_options *options,
 int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_options *options, lab_finding *f,
                     lab_error *error)
 {
-  static const double nearly_all = 0.8; /* what begins after that shows too little before the end */
+  static const double nearly_all = 0.8; /* by judgement: what begins after that shows too little before the end */
   contest *c = malloc(sizeof *c);
   double known;
   int status;
