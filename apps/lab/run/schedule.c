@@ -104,6 +104,10 @@ int lab_input_jumps(const pneu_input *before, double elapsed, const pneu_input *
 static const double ramp_like = 1.0 / 3.0; /* share of a pace that the one before or after it has on a ramp */
 static const double on_line = 1e-4;        /* of the command's range: how far a row may be from the line of a ramp */
 
+/* Stairs that rounding makes of a slow ramp: rows of a step at most, and its size over the resolution and the range. */
+enum { LONGEST_STEP = 16 };
+static const double one_rounding = 1.5, highest_step = 2e-3;
+
 /* A stretch of rows in which the command holds, runs along a line, and holds again. */
 typedef struct line {
   size_t from, to;
@@ -115,7 +119,8 @@ typedef struct line {
 typedef struct course {
   const double *t, *u;
   size_t first, end;
-  double off; /* how far a value may be from a line */
+  double off;  /* how far a value may be from a line */
+  double step; /* the highest of stairs that rounding makes */
 } course;
 
 /* The pace of the command from the row before; 0 where it does not change. */
@@ -125,12 +130,33 @@ static double pace_at(const course *c, size_t i)
   return known ? (c->u[i] - c->u[i - 1]) / (c->t[i] - c->t[i - 1]) : 0;
 }
 
+/* The change of the command at row i if it is no larger than rounding makes it; 0: none is, or a larger one. */
+static double small_change(const course *c, size_t i)
+{
+  const double change = i > c->first && i < c->end ? c->u[i] - c->u[i - 1] : 0;
+  return fabs(change) < c->step ? change : 0;
+}
+
+/* Whether a command is on stairs of single roundings between row i and the next: the change at it or before it goes the
+ * way of the one after. */
+static int is_on_stairs(const course *c, size_t i)
+{
+  size_t last = i, next = i + 1;
+  while (i - last < LONGEST_STEP && last > c->first && pace_at(c, last) == 0)
+    last--;
+  while (next - i < LONGEST_STEP && next < c->end && pace_at(c, next) == 0)
+    next++;
+  return small_change(c, last) * small_change(c, next) > 0;
+}
+
 /* Whether a command is on a ramp from the row before to row i, which goes on or comes from before at a like pace, or
- * does both. */
+ * does both; or which rounding makes stairs of. */
 static int is_ramp(const course *c, size_t i)
 {
   const double here = pace_at(c, i), before = pace_at(c, i - 1) / here, after = pace_at(c, i + 1) / here;
-  return here != 0 && (before >= ramp_like || after >= ramp_like || (before > 0 && after > 0));
+  if (here != 0 && (before >= ramp_like || after >= ramp_like || (before > 0 && after > 0)))
+    return 1;
+  return is_on_stairs(c, i) || (here != 0 && is_on_stairs(c, i - 1));
 }
 
 /* The longest line from a row on that misses none of the rows between by more than it may (Bristol 1990). */
@@ -143,9 +169,11 @@ static line line_from(const course *c, size_t i)
     const double dt = c->t[k] - c->t[i], slope = (c->u[k] - c->u[i]) / dt;
     if (slope < low || slope > high)
       break;
-    l.to = k;
-    l.end = c->t[k];
-    l.rate = slope;
+    if (pace_at(c, k) != 0) {
+      l.to = k;
+      l.end = c->t[k];
+      l.rate = slope;
+    }
     low = fmax(low, slope - c->off / dt);
     high = fmin(high, slope + c->off / dt);
   }
@@ -188,9 +216,11 @@ static course course_of(const pneu_model *model, const lab_log *log, size_t firs
 {
   const int command = lab_log_command(log);
   const double range = model->p.proportional_band > 0 ? (double)model->p.supply_pressure : 1;
-  course c = {log->value[LAB_CHANNEL_TIME], is_sampled(log) ? log->value[command] : NULL, first, end, on_line * range};
+  course c = {
+      log->value[LAB_CHANNEL_TIME], is_sampled(log) ? log->value[command] : NULL, first, end, on_line * range, 0};
   if (c.u)
     c.off = fmax(c.off, lab_resolution(c.u + first, end - first)); /* its ends are rounded too */
+  c.step = fmin(one_rounding * c.off, highest_step * range);
   return c;
 }
 

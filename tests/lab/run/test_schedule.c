@@ -182,18 +182,51 @@ static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
   assert_close(inputs.schedule.input[3].u_rate, 0.11 / 8, 1e-15, 0);
 }
 
+static void declare_positioner(void)
+{
+  fixture_set(&rig.params, "positioner.gain", 20);
+  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+}
+
+/* A ramp so slow that rounding makes stairs of it, which are none: one line within a step from row 1 to the last step,
+ * and the level after it. */
+static void test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line(void **state)
+{
+  char text[4096] = "t [s],sp [%],p [kPa]\n";
+  int i;
+  for (i = 0; i < 60; i++)
+    lab_append(text, sizeof text, "%d,%.2f,0\n", i, 0.004 * fmin(fmax(i - 5, 0), 40));
+  read_log(text);
+  declare_positioner();
+  drive(0);
+  assert_between(inputs.schedule.n, 3, 4);
+  assert_close(inputs.schedule.input[1].u_rate, 4e-5, 4e-6, 0);
+  assert_between(inputs.schedule.t[1], 4, 7);
+  assert_close(inputs.schedule.input[inputs.schedule.n - 1].u, 1.6e-3, 1e-12, 0);
+  assert_between(inputs.schedule.t[inputs.schedule.n - 1], 43, 46);
+}
+
+/* A step that is made again and again is no rounding. */
+static void test_lab_inputs_from_log__steps_that_come_again__hold(void **state)
+{
+  char text[4096] = "t [s],sp [%],p [kPa]\n";
+  int i;
+  for (i = 0; i < 100; i++)
+    lab_append(text, sizeof text, "%d,%.1f,0\n", i, 0.5 * (i / 5));
+  read_log(text);
+  declare_positioner();
+  drive(0);
+  assert_int_equal(inputs.schedule.n, 20);
+  for (i = 0; i < 20; i++)
+    assert_close(inputs.schedule.input[i].u_rate, 0, 0, 0);
+}
+
 static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **state)
 {
   read_log("t [s],u [1]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
   drive(0);
   assert_int_equal(inputs.schedule.n, 4);
   assert_close(inputs.schedule.t[3], 30, 0, 0);
-}
-
-static void declare_positioner(void)
-{
-  fixture_set(&rig.params, "positioner.gain", 20);
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
 }
 
 static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_command(void **state)
@@ -574,6 +607,8 @@ int main(void)
       CASE(test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace),
       CASE(test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows),
       CASE(test_lab_inputs_from_log__rounded_ramp__is_one_line),
+      CASE(test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line),
+      CASE(test_lab_inputs_from_log__steps_that_come_again__hold),
       CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold),
       CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),
       CASE(test_lab_inputs_from_log__second_run__has_its_own_rows),
