@@ -550,7 +550,7 @@ static int leave_as_declared(lab_answer *a, lab_error *error)
 
 static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 {
-  static const double without_u = 0.6; /* of the budget, by judgement: the rest is for u */
+  static const double without_u = 0.75; /* of the budget, by judgement: the rest is for u */
   const allowance time = {lab_cpu_time(), (a->now.logs.n_without_u > 0 ? without_u : 1) * q->budget};
   const double start = lab_clock();
   double fit_s;

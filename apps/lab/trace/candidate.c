@@ -271,7 +271,7 @@ int lab_candidate_place_again(lab_candidate *c, lab_error *error)
   if (!lab_candidate_begins(c))
     return LAB_OK;
   j = lab_unknowns_find_onset(&c->u, c->u.rig.onset[k].param);
-  status = lab_onset_settle(&c->u, j, 1, &c->quality.chi2, &c->begin[k], error);
+  status = lab_onset_settle(&c->u, j, !lab_is_noise(&c->quality), &c->quality.chi2, &c->begin[k], error);
   if (status == LAB_OK)
     status = lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
   return status == LAB_NUMERIC ? LAB_OK : status;

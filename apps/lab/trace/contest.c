@@ -147,10 +147,10 @@ static int take_held(lab_finding *f, lab_candidate *within, lab_error *error)
  * In/out:  begun   with the errors of the declared model; then what begins
  * Out:     within  with what is held, fitted; where something begins as u
  *          begins  whether anything does
- *          known   share of the run, from its beginning, that leaves only noise, as far as that was asked
+ *          sound   rows of the run, from its beginning, that leave only noise, as far as that was asked
  * Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD */
 static int fit_within(const lab_unknowns *u, const lab_search_options *options, lab_candidate *within,
-                      lab_finding *begun, int *begins, double *known, lab_error *error)
+                      lab_finding *begun, int *begins, size_t *sound, lab_error *error)
 {
   static const double most = 0.8; /* of the time: if nothing begins the rest has to do */
   const lab_errors *declared = &begun->result.before;
@@ -158,12 +158,12 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   int status;
   within->u = *u;
   within->u.until = lab_cpu_share(u->until, most);
-  *known = 0;
+  *sound = 0;
   *begins = within->quality.fitted = 0;
   status = begun->held ? take_held(begun, within, error) : lab_candidate_hold(within, error);
   if (status == LAB_OK && lab_is_plainly_off(&left) && lab_is_plainly_off(&within->quality) &&
       lab_rounds_may_begin(&within->u, options)) {
-    status = lab_early_fit(within, options->alpha, &begun->best, &begun->begins, known, error);
+    status = lab_early_fit(within, 0, options->alpha, &begun->best, &begun->begins, sound, error);
     begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
   }
@@ -288,23 +288,27 @@ int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_option
 {
   static const double nearly_all = 0.8; /* by judgement: what begins after that shows too little before the end */
   contest *c = malloc(sizeof *c);
-  double known;
+  size_t sound;
   int status;
   if (!c)
     return lab_fail_memory(error, "the search");
   c->exact = c->early = *f;
   c->is_exact = c->begins = 0;
+  f->sound = 0;
   c->start = lab_cpu_time() - (f->held && f->held->u.run == u->run ? f->held_s : 0);
   f->exact = u;
-  status = fit_within(u, options, &f->best, &c->early, &c->begins, &known, error);
+  status = fit_within(u, options, &f->best, &c->early, &c->begins, &sound, error);
   c->until = before_the_end(u->until, c->start);
   f->best.u.until = c->until;
   f->declared = f->best;
   if (status == LAB_OK && is_brief && is_explained(c, &f->best))
     f->result.verdict = LAB_VERDICT_NONE;
-  else if (status == LAB_OK && is_brief && !c->begins && known > nearly_all && known < 1)
+  else if (status == LAB_OK && is_brief && !c->begins && sound < u->run->n &&
+           (double)sound > nearly_all * (double)u->run->n) {
     f->result.verdict = LAB_VERDICT_UNDECIDED;
-  else
+    f->best = c->early.best;
+    f->sound = sound;
+  } else
     status = search_both(u, options, c, status, f, error);
   f->best.u.until = c->until;
   free(c);

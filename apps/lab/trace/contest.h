@@ -16,7 +16,8 @@ int lab_contest_hold(const lab_unknowns *u, lab_finding *f, lab_error *error);
 /* In:      u         the declared model, fitted
  *          is_brief  not 0: if tolerances alone leave only noise, look for nothing else; nor if they do so nearly to
  *                    the end, and what begins there is not plain
- * In/out:  f         with the errors of that; then what is taken for the answer
+ * In/out:  f         with the errors of that; then what is taken for the answer, or the values of that beginning and
+ *                    its rows
  * Returns: as lab_rounds_run. */
 int lab_contest_run(const lab_unknowns *u, int is_brief, const lab_search_options *options, lab_finding *f,
                     lab_error *error);

@@ -11,14 +11,15 @@
 
 /* Fit ever longer beginnings of the only run, which as a whole is plainly off. If one that leaves only noise ends
  * before the run does, look for what begins there, and fit the whole run with it.
- * In:      alpha   chance of naming anything when nothing begins
- * In/out:  within  the declared model with what is held among its unknowns, seen row by row, fitted to the whole run;
- *                  where the beginnings lead all the way, fitted so
- * Out:     onset   with what begins, fitted where that leaves only noise
- *          begins  scores of what may begin, about the values of the beginning
- *          known   share of the run that is such a beginning
+ * In:      rows    of the run that leave only noise with the values of `within`; 0: not known
+ *          alpha   chance of naming anything when nothing begins
+ * In/out:  within  the declared model with what is held among its unknowns, seen row by row, fitted; where the
+ *                  beginnings lead all the way, fitted so
+ * Out:     onset   with what begins, fitted where that leaves only noise; else with the values of the beginning
+ *          begins  scores of what may begin, about these
+ *          sound   rows of the beginning
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_early_fit(lab_candidate *within, double alpha, lab_candidate *onset, lab_onset_scores *begins, double *known,
-                  lab_error *error);
+int lab_early_fit(lab_candidate *within, size_t rows, double alpha, lab_candidate *onset, lab_onset_scores *begins,
+                  size_t *sound, lab_error *error);
 
 #endif

@@ -5,6 +5,8 @@
 #include "../base/clock.h"
 #include "../fit/beginning.h"
 #include "contest.h"
+#include "early.h"
+#include "refill.h"
 #include "resume.h"
 
 int lab_preview_is_asked(const lab_unknowns *u)
@@ -21,14 +23,16 @@ static int search_first(const lab_unknowns *u, size_t n, const lab_search_option
 {
   lab_unknowns *first = malloc(sizeof *first);
   lab_run part = {0};
-  int status = first ? lab_beginning_open(u->run, n, &part, error) : lab_fail_memory(error, "the search");
+  int leaks = 0, status = first ? lab_beginning_open(u->run, n, &part, error) : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *first = *u;
     first->run = &part;
     first->until = lab_cpu_share(u->until, lab_constant(LAB_PREVIEW_TIME));
     lab_unknowns_view(first, 0);
     status = lab_unknowns_fit(first, LAB_ROUNDS_ALL, NULL, error);
-    if (status == LAB_OK)
+    if (status == LAB_OK && lab_refill_is_asked(first))
+      status = lab_refill_search(first, options, f, &leaks, error);
+    if (status == LAB_OK && !leaks)
       status = lab_contest_run(first, 1, options, f, error);
     *cut_short = lab_cpu_is_spent(first->until);
   }
@@ -43,6 +47,52 @@ static void widen(const lab_unknowns *u, lab_candidate *c)
   c->u.run = u->run;
   c->u.until = u->until;
   lab_unknowns_view(&c->u, 0);
+}
+
+/* Nothing is missing from the first rows: they say what the values are when something begins after them.
+ * In/out:  f  best: with the values of these rows; then fitted to the whole run, with what begins in it, or neither */
+static int fit_further(lab_finding *f, size_t rows, double alpha, lab_error *error)
+{
+  const size_t n = f->best.u.run->n;
+  lab_candidate *onset = malloc(sizeof *onset);
+  size_t sound = 0;
+  int status = onset ? lab_early_fit(&f->best, rows, alpha, onset, &f->begins, &sound, error)
+                     : lab_fail_memory(error, "what begins");
+  if (status == LAB_OK && onset->quality.fitted)
+    f->best = *onset;
+  else
+    f->best.quality.fitted &= sound == n;
+  free(onset);
+  return status;
+}
+
+/* Whether the model of the first rows leaves only noise of the whole run after a few steps; else it is as it was. */
+static int fit_at_once(lab_candidate *c, lab_error *error)
+{
+  enum { STEPS = 12 };
+  lab_candidate *whole = malloc(sizeof *whole);
+  int sound = 0;
+  if (!whole)
+    return 0;
+  *whole = *c;
+  sound = lab_candidate_fit(whole, STEPS, error) == LAB_OK && lab_is_noise(&whole->quality);
+  if (sound)
+    *c = *whole;
+  free(whole);
+  return sound;
+}
+
+/* What was found in the first n rows, fitted to the whole run. */
+static int fit_whole(const lab_unknowns *u, size_t n, const lab_search_options *options, lab_finding *f,
+                     lab_error *error)
+{
+  const int all = f->result.verdict == LAB_VERDICT_NONE && f->best.quality.fitted && lab_is_noise(&f->best.quality);
+  widen(u, &f->best);
+  if (all && fit_at_once(&f->best, error))
+    return LAB_OK;
+  if ((all || f->sound > 0) && lab_rounds_may_begin(&f->best.u, options))
+    return fit_further(f, all ? n : f->sound, options->alpha, error);
+  return lab_candidate_fit_held(&f->best, error);
 }
 
 /* What was tried on the first n rows is what is told of. */
@@ -62,16 +112,16 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
 {
   const size_t n = (size_t)(lab_constant(LAB_PREVIEW_SHARE) * (double)u->run->n);
   lab_finding *first = malloc(sizeof *first), *whole = malloc(sizeof *whole);
-  int cut_short = 0, status = first && whole ? LAB_OK : lab_fail_memory(error, "the search");
+  lab_candidate *held = calloc(1, sizeof *held);
+  int cut_short = 0, status = first && whole && held ? LAB_OK : lab_fail_memory(error, "the search");
   *done = 0;
   if (status == LAB_OK) {
     *first = *whole = *f;
-    first->held = NULL;
+    first->held = held;
     status = search_first(u, n, options, first, &cut_short, error);
   }
-  if (status == LAB_OK && (first->result.verdict != LAB_VERDICT_UNDECIDED || cut_short)) {
-    widen(u, &first->best);
-    status = lab_candidate_fit_held(&first->best, error);
+  if (status == LAB_OK && (first->result.verdict != LAB_VERDICT_UNDECIDED || first->sound > 0 || cut_short)) {
+    status = fit_whole(u, n, options, first, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
     keep_scores(u->run, n, first, whole);
     if (*done)
@@ -80,6 +130,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     if (*done)
       *f = *whole;
   }
+  free(held);
   free(first);
   free(whole);
   return status == LAB_WORLD ? status : LAB_OK;

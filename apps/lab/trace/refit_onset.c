@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../fit/nuisance.h"
+#include "refill.h"
 
 /* The time of a row of the only run [s]. */
 static double time_of(const lab_candidate *c, size_t row)
@@ -200,7 +201,7 @@ int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *score
   reach = lab_constant(LAB_RIVAL) * lab_least_chi2(c, *n);
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < *n; i++)
-    if (c[i].quality.fitted && c[i].quality.chi2 <= reach)
+    if (c[i].quality.fitted && c[i].quality.chi2 <= reach && !lab_refill_loops(&c[i].u))
       place_near(&c[i], error);
   qsort(c, (size_t)*n, sizeof *c, lab_candidate_by_bic);
   lab_refit_put_simplest_first(c, *n);
@@ -213,6 +214,7 @@ int lab_refit_instead(const lab_candidate *c, const lab_onset_scores *scores, do
   const int most = lab_count(LAB_ONSET_LEADERS), k = c->u.rig.n_onsets - 1;
   const lab_rig_onset now = c->u.rig.onset[k];
   lab_candidate *base = malloc(sizeof *base);
+  double reach;
   int i;
   *n = 0;
   if (!base)
@@ -226,7 +228,14 @@ int lab_refit_instead(const lab_candidate *c, const lab_onset_scores *scores, do
   for (i = 0; i < most; i++) {
     other[i].quality.fitted = 0;
     if (i < scores->n && scores->of[i].param != now.param)
-      begin_onset(base, &scores->of[i], now.from, LAB_ROUNDS_ALL, &other[i], error);
+      begin_onset(base, &scores->of[i], now.from, lab_count(LAB_BRIEF_STEPS), &other[i], error);
+  }
+  reach = lab_constant(LAB_RIVAL) * fmin(lab_least_chi2(other, most), c->quality.chi2);
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < most; i++) {
+    if (!other[i].quality.fitted || other[i].quality.chi2 > reach)
+      continue;
+    lab_refit_one(&other[i], LAB_ROUNDS_ALL, error);
     if (other[i].quality.fitted && !lab_is_noise(&c->quality))
       end_onset(&other[i], level, error);
   }

@@ -15,6 +15,7 @@ typedef struct lab_finding {
   double held_s;             /* [s] of CPU that its fit took */
   double gain;               /* of chi-square, by tolerances after the search */
   lab_onset_scores begins;   /* what may begin */
+  size_t sound;              /* rows of a run of which `best` is known to leave only noise; 0: of all, or of none */
   lab_search_result result;
 } lab_finding;
 

@@ -75,15 +75,6 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   return status;
 }
 
-/* A long run by its beginning first. */
-static int search_row_by_row(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, lab_error *error)
-{
-  int done = 0, status = LAB_OK;
-  if (lab_preview_is_asked(u))
-    status = lab_preview_search(u, options, f, &done, error);
-  return status == LAB_OK && !done ? lab_contest_run(u, 0, options, f, error) : status;
-}
-
 void lab_search_options_default(lab_search_options *options)
 {
   memset(options, 0, sizeof *options);
@@ -265,19 +256,21 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   lab_finding *f = calloc(1, sizeof *f);
   lab_unknowns *declared = malloc(sizeof *declared);
   lab_candidate *held = calloc(1, sizeof *held);
-  int done = 0, coarse = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
+  int early = 0, done = 0, coarse = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *declared = *u;
     f->held = held;
     status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
   }
-  if (status == LAB_OK && lab_refill_is_asked(u))
+  if (status == LAB_OK && lab_preview_is_asked(u))
+    status = lab_preview_search(u, options, f, &early, error);
+  if (status == LAB_OK && !early && lab_refill_is_asked(u))
     status = lab_refill_search(u, options, f, &done, error);
-  if (status == LAB_OK && !done)
+  if (status == LAB_OK && !done && !early)
     status = search_coarsely(u, options, f, &coarse, error);
   done |= coarse;
-  if (status == LAB_OK && !done)
-    status = search_row_by_row(u, options, f, error);
+  if (status == LAB_OK && !done && !early)
+    status = lab_contest_run(u, 0, options, f, error);
   if (status == LAB_OK && !done)
     status = try_rivals(f, error);
   if (status == LAB_OK && !done)

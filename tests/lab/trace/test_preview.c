@@ -75,12 +75,29 @@ static void test_lab_preview_search__nothing_is_missing__finds_nothing(void **st
   close_log();
 }
 
-/* After what was seen of it. */
-static void test_lab_preview_search__spring_that_breaks_later__is_left_to_the_search_of_the_whole(void **state)
+/* After what was seen of it: the values of the beginning tell when the run leaves them, and by what. */
+static void test_lab_preview_search__spring_that_breaks_later__is_found_from_there(void **state)
 {
   const second_rig first = virtual_rig(7);
   second_rig later = first;
   later.spring_rate *= 0.7;
+  assert_true(preview(&first, &later, 8.57));
+  assert_whole();
+  assert_int_equal(found.result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(found.best.u.rig.n_onsets, 1);
+  assert_int_equal(found.best.u.rig.onset[0].param, pneu_param_find("spring_rate"));
+  assert_close(found.best.u.rig.onset[0].value, later.spring_rate, 0, 0.02);
+  assert_between(8.57, found.best.begin[0].low, found.best.begin[0].high);
+  close_log();
+}
+
+static void test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_the_whole(void **state)
+{
+  const second_rig first = virtual_rig(7);
+  second_rig later = first;
+  later.spring_rate *= 0.7;
+  later.dry_friction *= 4;
+  later.leak_area = 2e-7;
   assert_false(preview(&first, &later, 8.57));
   assert_memory_equal(&found, &before, sizeof found);
   close_log();
@@ -106,7 +123,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_preview_search__leak__is_that_of_the_whole_run),
       cmocka_unit_test(test_lab_preview_search__nothing_is_missing__finds_nothing),
-      cmocka_unit_test(test_lab_preview_search__spring_that_breaks_later__is_left_to_the_search_of_the_whole),
+      cmocka_unit_test(test_lab_preview_search__spring_that_breaks_later__is_found_from_there),
+      cmocka_unit_test(test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_the_whole),
       cmocka_unit_test(test_lab_preview_is_asked__short_or_several_or_coarse__no),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
