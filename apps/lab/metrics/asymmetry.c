@@ -159,14 +159,14 @@ static int check(const lab_edge *e, const char *which, lab_error *error)
 
 int lab_asymmetry_measure(const lab_edge *up, const lab_edge *down, lab_asymmetry *out, lab_error *error)
 {
-  double y_up[GRID + 1], y_down[GRID + 1];
+  double y_up[GRID + 1], y_down[GRID + 1], ignored;
   if (check(up, "rising", error) || check(down, "falling", error))
     return error->status;
   out->rise_time = resample(up, y_up);
   out->fall_time = resample(down, y_down);
   out->duration_ratio = out->fall_time / out->rise_time;
   compare_shapes(y_up, y_down, out);
-  out->T1 = lab_asymmetry_lag_time(up, &out->lag_error);
-  out->T2 = lab_asymmetry_ramp_time(down, &out->ramp_error);
+  out->T1 = lab_asymmetry_lag_time(up, &ignored);
+  out->T2 = lab_asymmetry_ramp_time(down, &ignored);
   return LAB_OK;
 }

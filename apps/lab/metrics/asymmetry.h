@@ -24,8 +24,6 @@ typedef struct lab_asymmetry {
                               where the rise runs above the mirrored fall; contributions of opposite ways add up */
   double T1;               /* [s] time constant of k exp(-tau s)/(T s + 1) fitted to the rising stroke */
   double T2;               /* [s] of k exp(-tau s)/(T s), k = travel, fitted to the falling stroke */
-  double lag_error;        /* [1] rms of the first-order fit to the rise, over its travel */
-  double ramp_error;       /* [1] rms of the integrator's fit to the fall */
 } lab_asymmetry;
 
 /* Compare two strokes.

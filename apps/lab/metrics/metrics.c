@@ -62,7 +62,7 @@ void lab_metric_set(lab_metrics_work *m, int metric, double value, double uncert
   va_end(list);
 }
 
-static void deny_all(lab_metrics_work *m, int first, int last, const char *reason)
+void lab_metrics_deny(lab_metrics_work *m, int first, int last, const char *reason)
 {
   for (; first <= last; first++)
     lab_metric_absent(m, first, "%s", reason);
@@ -161,26 +161,24 @@ static void report_air(lab_metrics_work *m, const cycle *c)
 
 static void measure_cycle(lab_metrics_work *m)
 {
-  enum { FIRST = LAB_METRIC_ENERGY_IN, LAST = LAB_METRIC_ENERGY_EFFICIENCY };
-  static const char no_cycle[] = "no cycle: no full stroke up that a full stroke down follows";
   const lab_record *r = m->record;
-  cycle c;
-  const int found = r->p && find_cycle(m, &c);
-  if (!r->p)
-    deny_all(m, FIRST, LAST, "the record has no chamber pressure");
-  else if (!found)
-    deny_all(m, FIRST, LAST, no_cycle);
-  else if (!(r->supply > 0))
-    deny_all(m, FIRST, LAST, "the supply pressure is not known");
+  cycle c = {NULL, NULL};
+  const char *no_cycle =
+      r->p && find_cycle(m, &c) ? NULL : "no cycle: no full stroke up that a full stroke down follows";
+  const char *no_energy = !r->p              ? "the record has no chamber pressure"
+                          : no_cycle         ? no_cycle
+                          : !(r->supply > 0) ? "the supply pressure is not known"
+                                             : NULL;
+  const char *no_air = r->command == LAB_COMMAND_PRESSURE
+                           ? "chamber pressure is the input: nothing is known of the flow that makes it"
+                       : !r->mass_in ? "the record has no mass flow; a simulation of it has"
+                                     : no_cycle;
+  if (no_energy)
+    lab_metrics_deny(m, LAB_METRIC_ENERGY_IN, LAB_METRIC_ENERGY_EFFICIENCY, no_energy);
   else
     report_energy(m, &c);
-  if (r->command == LAB_COMMAND_PRESSURE)
-    deny_all(m, LAB_METRIC_AIR_MASS, LAB_METRIC_AIR_VOLUME,
-             "chamber pressure is the input: nothing is known of the flow that makes it");
-  else if (!r->mass_in)
-    deny_all(m, LAB_METRIC_AIR_MASS, LAB_METRIC_AIR_VOLUME, "the record has no mass flow; a simulation of it has");
-  else if (!found)
-    deny_all(m, LAB_METRIC_AIR_MASS, LAB_METRIC_AIR_VOLUME, no_cycle);
+  if (no_air)
+    lab_metrics_deny(m, LAB_METRIC_AIR_MASS, LAB_METRIC_AIR_VOLUME, no_air);
   else
     report_air(m, &c);
 }
@@ -211,22 +209,25 @@ static int measure(lab_metrics_work *m, lab_error *error)
   return LAB_OK;
 }
 
+/* Why a record gives nothing; NULL: it may give something. */
+static const char *unfit(const lab_record *r)
+{
+  return r->unfit           ? r->unfit
+         : !(r->stroke > 0) ? "there is no stem: the stroke is 0"
+         : !r->x            ? "the record has no position"
+         : r->n == 0        ? "the record has no rows"
+                            : NULL;
+}
+
 int lab_metrics_measure(const lab_record *record, lab_metrics *metrics, lab_error *error)
 {
-  lab_metrics_work m = {0};
+  const char *reason = unfit(record);
+  lab_metrics_work m = {.record = record, .metrics = metrics};
   int status = LAB_OK;
   memset(metrics, 0, sizeof *metrics);
   metrics->command = record->command;
-  m.record = record;
-  m.metrics = metrics;
-  if (record->unfit)
-    deny_all(&m, 0, LAB_METRIC_COUNT - 1, record->unfit);
-  else if (!(record->stroke > 0))
-    deny_all(&m, 0, LAB_METRIC_COUNT - 1, "there is no stem: the stroke is 0");
-  else if (!record->x)
-    deny_all(&m, 0, LAB_METRIC_COUNT - 1, "the record has no position");
-  else if (record->n == 0)
-    deny_all(&m, 0, LAB_METRIC_COUNT - 1, "the record has no rows");
+  if (reason)
+    lab_metrics_deny(&m, 0, LAB_METRIC_COUNT - 1, reason);
   else
     status = measure(&m, error);
   free(m.hold);

@@ -60,6 +60,8 @@ void lab_metric_set(lab_metrics_work *m, int metric, double value, double uncert
     LAB_PRINTF(5, 6);
 /* Say why there is none. */
 #define lab_metric_absent(m, metric, ...) lab_metric_set(m, metric, (double)NAN, (double)NAN, __VA_ARGS__)
+/* The same of several, from the first to the last in their order. */
+void lab_metrics_deny(lab_metrics_work *m, int first, int last, const char *reason);
 
 /* Of the rated travel, from which on a stroke is a full one. */
 #define LAB_FULL_STROKE 0.9

@@ -464,10 +464,10 @@ static void sample(const lab_metrics_work *m, loop *l)
 }
 
 /* The loop of two neighbouring legs that covers most travel.
- * Out:     cover, of slow loops; cover_fast, of all [m] */
-static int find_loop(const lab_path *path, loop *l, double *cover, double *cover_any)
+ * Out:     l          if a slow one is there
+ *          cover      of slow loops, cover_any of all [m]; 0: there is none */
+static void find_loop(const lab_path *path, loop *l, double *cover, double *cover_any)
 {
-  int found = 0;
   size_t k;
   *cover = *cover_any = 0;
   for (k = 1; k < path->n_legs; k++) {
@@ -481,9 +481,7 @@ static int find_loop(const lab_path *path, loop *l, double *cover, double *cover
     *cover = both;
     l->up = a->up ? a : b;
     l->down = a->up ? b : a;
-    found = 1;
   }
-  return found;
 }
 
 /* ---- The straight line that suits best ---- */
@@ -563,39 +561,33 @@ static void report(lab_metrics_work *m, const loop *l, double cover)
 
 static void deny(lab_metrics_work *m, double cover, double cover_any)
 {
-  static const int of_loop[] = {LAB_METRIC_HYSTERESIS_DEAD_BAND, LAB_METRIC_HYSTERESIS, LAB_METRIC_LINEARITY};
   const double stroke = m->record->stroke;
-  size_t i;
-  for (i = 0; i < sizeof of_loop / sizeof *of_loop; i++)
-    if (m->path.rejected)
-      lab_metric_absent(m, of_loop[i], "%s", m->path.rejected);
-    else if (cover_any >= whole * stroke)
-      lab_metric_absent(m, of_loop[i], "no slow loop: the stem moves faster than 5 %% of the travel a second");
-    else
-      lab_metric_absent(m, of_loop[i], "no loop over most of the travel: the largest%s covers %.3g %%",
-                        cover > 0 ? " slow one" : "", 100 * fmax(cover, cover_any) / stroke);
+  char reason[LAB_METRIC_TEXT] = "no slow loop: the stem moves faster than 5 % of the travel a second";
+  if (cover_any < whole * stroke)
+    snprintf(reason, sizeof reason, "no loop over most of the travel: the largest%s covers %.3g %%",
+             cover > 0 ? " slow one" : "", 100 * cover_any / stroke);
+  lab_metrics_deny(m, LAB_METRIC_HYSTERESIS_DEAD_BAND, LAB_METRIC_LINEARITY, reason);
 }
 
 static void report_loop(lab_metrics_work *m)
 {
-  double cover = 0, cover_any = 0;
+  double cover, cover_any;
   loop l;
-  if (m->path.rejected || !find_loop(&m->path, &l, &cover, &cover_any) || cover < whole * m->record->stroke) {
+  find_loop(&m->path, &l, &cover, &cover_any);
+  if (cover >= whole * m->record->stroke) {
+    sample(m, &l);
+    report(m, &l, cover);
+  } else
     deny(m, cover, cover_any);
-    return;
-  }
-  sample(m, &l);
-  report(m, &l, cover);
 }
 
 void lab_static_measure(lab_metrics_work *m)
 {
   if (m->path.rejected) {
-    lab_metric_absent(m, LAB_METRIC_DEAD_BAND, "%s", m->path.rejected);
-    lab_metric_absent(m, LAB_METRIC_RESOLUTION, "%s", m->path.rejected);
-  } else {
-    report_dead_band(m);
-    report_resolution(m);
+    lab_metrics_deny(m, LAB_METRIC_DEAD_BAND, LAB_METRIC_LINEARITY, m->path.rejected);
+    return;
   }
+  report_dead_band(m);
+  report_resolution(m);
   report_loop(m); /* for which the dead band is known */
 }
