@@ -49,14 +49,8 @@ static lab_cost cost_since(double start)
   return cost;
 }
 
-/* The path of something in the folder of the results, in a text that is there until the block ends. */
-#define IN_FOLDER(b, name) in_folder(b, name, (char[LAB_PATH_TEXT]){0})
-
-static const char *in_folder(const batch *b, const char *name, char path[LAB_PATH_TEXT])
-{
-  snprintf(path, LAB_PATH_TEXT, "%s/%s", b->out, name);
-  return path;
-}
+/* The path of something in the folder of the results. */
+#define IN_FOLDER(b, name) LAB_IN_FOLDER((b)->out, name)
 
 static void limit(int what, rlim_t most)
 {

@@ -151,10 +151,7 @@ void lab_row_error(const lab_error *error, lab_outcome *outcome)
 
 /* ---- On the disk ---- */
 
-static void path_in(const char *folder, char path[LAB_PATH_TEXT + 32])
-{
-  snprintf(path, LAB_PATH_TEXT + 32, "%s/.done", folder);
-}
+static const char done_name[] = ".done";
 
 /* Two lines: numbers, and the row. The end of the second tells that it is whole. */
 static int read_lines(FILE *file, lab_done *done)
@@ -176,12 +173,9 @@ static int read_lines(FILE *file, lab_done *done)
 
 int lab_done_read(const char *folder, lab_done *done)
 {
-  char path[LAB_PATH_TEXT + 32];
-  FILE *file;
+  FILE *file = fopen(LAB_IN_FOLDER(folder, done_name), "r");
   int whole;
-  path_in(folder, path);
   memset(done, 0, sizeof *done);
-  file = fopen(path, "r");
   whole = file && read_lines(file, done);
   if (file)
     fclose(file);
@@ -191,10 +185,8 @@ int lab_done_read(const char *folder, lab_done *done)
 int lab_done_write(const char *folder, const lab_done *done, lab_error *error)
 {
   const lab_cost *cost = &done->outcome.cost;
-  char path[LAB_PATH_TEXT + 32];
   lab_outfile out;
-  path_in(folder, path);
-  if (lab_out_open(&out, path, error))
+  if (lab_out_open(&out, LAB_IN_FOLDER(folder, done_name), error))
     return error->status;
   fprintf(out.file, "%016" PRIx64 " %d %d %.3f %.3f %.1f\n%s\n", done->key, done->extent, done->outcome.status,
           cost->seconds, cost->cpu, cost->memory, done->outcome.row);
@@ -203,7 +195,5 @@ int lab_done_write(const char *folder, const lab_done *done, lab_error *error)
 
 void lab_done_remove(const char *folder)
 {
-  char path[LAB_PATH_TEXT + 32];
-  path_in(folder, path);
-  remove(path);
+  remove(LAB_IN_FOLDER(folder, done_name));
 }

@@ -708,31 +708,20 @@ int lab_answer_write(const lab_answer *answer, const char *folder, int extent, l
   return status;
 }
 
-static void path_in(const char *folder, const char *name, char path[LAB_PATH_TEXT + 32])
-{
-  snprintf(path, LAB_PATH_TEXT + 32, "%s/%s", folder, name);
-}
-
 void lab_answer_remove(const char *folder)
 {
-  char path[LAB_PATH_TEXT + 32];
   lab_error error;
   size_t i;
-  for (i = 0; i < sizeof files / sizeof *files; i++) {
-    path_in(folder, files[i].name, path);
-    remove(path);
-  }
+  for (i = 0; i < sizeof files / sizeof *files; i++)
+    remove(LAB_IN_FOLDER(folder, files[i].name));
   lab_figures_draw(NULL, folder, 0, &error);
 }
 
 int lab_answer_is_there(const char *folder, int extent)
 {
-  char path[LAB_PATH_TEXT + 32];
   size_t i;
-  for (i = 0; i < sizeof files / sizeof *files; i++) {
-    path_in(folder, files[i].name, path);
-    if (files[i].extent <= extent && access(path, R_OK))
+  for (i = 0; i < sizeof files / sizeof *files; i++)
+    if (files[i].extent <= extent && access(LAB_IN_FOLDER(folder, files[i].name), R_OK))
       return 0;
-  }
   return 1;
 }

@@ -8,6 +8,12 @@
 #include "../base/format.h"
 #include "../trace/freeterms.h"
 
+const char *lab_in_folder(const char *folder, const char *name, char path[LAB_FILE_TEXT])
+{
+  snprintf(path, LAB_FILE_TEXT, "%s/%s", folder, name);
+  return path;
+}
+
 int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
                     lab_error *error)
 {

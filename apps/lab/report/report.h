@@ -62,6 +62,11 @@ lab_report_writer lab_report_html;     /* a page that needs nothing else, figure
 int lab_report_file(const char *folder, const char *name, lab_report_writer *write, const lab_sources *from,
                     lab_error *error);
 
+/* The path of a file in a folder, in a text that is there until the block ends. */
+#define LAB_IN_FOLDER(folder, name) lab_in_folder(folder, name, (char[LAB_FILE_TEXT]){0})
+enum { LAB_FILE_TEXT = LAB_PATH_TEXT + 160 };
+const char *lab_in_folder(const char *folder, const char *name, char path[LAB_FILE_TEXT]);
+
 /* The template of a page, and to its values the styles and scripts that the program carries inside for it.
  * In:      page    "report", or "index" of a batch
  * Returns: to be freed; NULL without memory */
