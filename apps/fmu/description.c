@@ -8,6 +8,7 @@
 #include <libxml/xmlwriter.h>
 
 #include "../lab/base/escape.h"
+#include "../lab/base/text.h"
 #include "../lab/base/units.h"
 #include "carried.h"
 
@@ -288,11 +289,11 @@ static void unknown(document *xml, const fmu_description *d, const char *element
 {
   const int is_output = d->list.variable[place].causality == FMU_OUTPUT && strcmp(element, "InitialUnknown") != 0;
   char dependencies[16 * PNEU_STATE_MAX] = "";
-  int depends[PNEU_STATE_MAX], n = is_output ? fmu_dependencies(&d->data, &d->list, place, depends) : -1, i, at = 0;
+  int depends[PNEU_STATE_MAX], n = is_output ? fmu_dependencies(&d->data, &d->list, place, depends) : -1, i;
   xml_open(xml, element);
   xml_whole(xml, d->fmi == 2 ? "index" : "valueReference", pointer(d, place));
   for (i = 0; i < n; i++)
-    at += snprintf(dependencies + at, sizeof dependencies - (size_t)at, "%s%ld", i ? " " : "", pointer(d, depends[i]));
+    lab_append(dependencies, sizeof dependencies, "%s%ld", i ? " " : "", pointer(d, depends[i]));
   if (n >= 0)
     xml_text(xml, "dependencies", dependencies);
   xml_close(xml);

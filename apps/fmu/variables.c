@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../lab/base/text.h"
 #include "../lab/rig/rig.h"
 
 #define NONE ((double)NAN)
@@ -98,12 +99,12 @@ static void add_outputs(fmu_list *list, const fmu_data *data)
 {
   static const words mode = {"mode", NULL, NULL},
                      choked = {"choked", NULL, "1: flow through the transducer is choked; 0: it is not, or shut"};
-  int i, at = 0;
+  int i;
   for (i = 0; i < FMU_OUTPUT_COUNT; i++)
     if (fmu_has_variable(&data->law, FMU_REF_OUTPUT + (unsigned)i))
       add(list, FMU_REF_OUTPUT + (unsigned)i, FMU_OUTPUT, &output_words[i]);
   for (i = 0; i < PNEU_MODE_COUNT; i++)
-    at += snprintf(list->modes + at, sizeof list->modes - (size_t)at, "%s%d %s", i ? ", " : "", i, pneu_mode_text(i));
+    lab_append(list->modes, sizeof list->modes, "%s%d %s", i ? ", " : "", i, pneu_mode_text(i));
   add(list, FMU_REF_MODE, FMU_OUTPUT, &mode)->integer = 1;
   list->variable[list->n - 1].meaning = list->modes;
   if (fmu_has_variable(&data->law, FMU_REF_CHOKED))

@@ -11,6 +11,7 @@
 #include "../base/outfile.h"
 #include "../base/format.h"
 #include "../base/json.h"
+#include "../base/names.h"
 #include "../base/template.h"
 #include "../base/text.h"
 
@@ -55,12 +56,11 @@ static double worst(const cut_row *row, int stage)
 static int severity_of(const cut_row *row)
 {
   const char *condition = row->cell[LAB_ROW_CONDITION].begin, *verdict = row->cell[LAB_ROW_VERDICT].begin;
-  int s = 0;
+  int s;
   if (!strcmp(verdict, severities[SEVERITIES - 1]) && !strcmp(condition, lab_condition_text(LAB_CONDITION_DEVIATES)))
     verdict = condition;
-  while (s < SEVERITIES - 1 && strcmp(verdict, severities[s]) != 0)
-    s++;
-  return s;
+  s = lab_name_index(verdict, severities, SEVERITIES, sizeof *severities);
+  return s < 0 ? SEVERITIES - 1 : s;
 }
 
 /* ---- Order ---- */
@@ -217,7 +217,7 @@ static int put_page(const lab_index *index, const cJSON *page, char *template, F
 int lab_index_write(lab_index *index, const char *list, const lab_trends *trends, const char *folder, lab_error *error)
 {
   cJSON *page = cJSON_CreateObject();
-  char path[LAB_PATH_TEXT + 160], *template = lab_page_text("index", page);
+  char *template = lab_page_text("index", page);
   lab_outfile out;
   int status = template ? LAB_OK : lab_fail_memory(error, "index.html");
   lab_json_put(page, "list", "%s", lab_file_name(list));
@@ -226,8 +226,7 @@ int lab_index_write(lab_index *index, const char *list, const lab_trends *trends
   add_counts(index, page);
   lab_trends_page(trends, page);
   qsort(index->entry, (size_t)index->n, sizeof *index->entry, by_severity);
-  snprintf(path, sizeof path, "%s/index.html", folder);
-  if (status == LAB_OK && (status = lab_out_open(&out, path, error)) == LAB_OK)
+  if (status == LAB_OK && (status = lab_out_open(&out, LAB_IN_FOLDER(folder, "index.html"), error)) == LAB_OK)
     status = lab_out_end(&out, put_page(index, page, template, out.file, error), error);
   cJSON_Delete(page);
   free(template);

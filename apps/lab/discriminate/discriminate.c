@@ -479,7 +479,7 @@ static int find_best(const design *s, const lab_advice_request *q, const pair *p
 {
   enum { TRIES = 6 };
   double value[LAB_TEST_PLAN_MAX], settled[LAB_TEST_PLAN_MAX];
-  int i = -1, tries;
+  int i, tries;
   for (i = 0; i < s->plans.n; i++) {
     value[i] = estimate(s, q, p, i);
     settled[i] = (double)NAN;

@@ -401,11 +401,10 @@ static const char *inspect(const lab_report *report, const lab_found *found, cha
 #include "inspect.def"
 #undef X
   };
-  size_t i;
-  for (i = 0; found->effect >= 0 && i < sizeof table / sizeof *table; i++)
-    if (!strcmp(table[i].effect, name_of(found->effect)))
-      return table[i].text;
-  return lab_report_found_sentence(report, found, sentence);
+  const int i = found->effect < 0
+                    ? -1
+                    : lab_name_index(name_of(found->effect), table, sizeof table / sizeof *table, sizeof *table);
+  return i >= 0 ? table[i].text : lab_report_found_sentence(report, found, sentence);
 }
 
 /* Each declared value that is told to be off. */

@@ -75,7 +75,7 @@ void lab_bin_means(const double *at, const double *value, size_t n, double from,
   size_t i;
   int b;
   for (b = 0; b < n_bins; b++)
-    bin[b] = (lab_bin){0, from + (to - from) * (b + 0.5) / n_bins, 0};
+    bin[b] = (lab_bin){0, 0};
   for (i = 0; i < n; i++)
     if (!isnan(at[i]) && !isnan(value[i])) {
       lab_bin *mine = &bin[column_of(at[i], from, to, n_bins)];

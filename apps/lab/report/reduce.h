@@ -27,7 +27,7 @@ size_t lab_envelope(const lab_line *line, int columns, lab_point *point);
 
 typedef struct lab_bin {
   size_t n;
-  double at, mean; /* centre; mean of the values, NaN in an empty bin */
+  double mean; /* of the values, NaN in an empty bin */
 } lab_bin;
 
 /* Means of `value` in n_bins equal parts of from..to of `at`; NaN of either is left out. */

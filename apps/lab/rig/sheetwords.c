@@ -65,12 +65,10 @@ static int is_key(const lab_key *row, const char *name)
 /* A key that more groups than one have: with which to write it.  Out: list  Returns: how many there are */
 static int list_groups(const char *name, char list[LAB_SHEET_VALUE])
 {
-  size_t used = 0;
   int i, n = 0;
-  for (i = 0; i < lab_key_count; i++)
-    if (strcmp(lab_keys[i].key, name) == 0 && used < LAB_SHEET_VALUE)
-      used += (size_t)snprintf(list + used, LAB_SHEET_VALUE - used, "%s\"%s.%s\"", n++ ? " or " : "", lab_keys[i].group,
-                               name);
+  for (*list = '\0', i = 0; i < lab_key_count; i++)
+    if (strcmp(lab_keys[i].key, name) == 0)
+      lab_append(list, LAB_SHEET_VALUE, "%s\"%s.%s\"", n++ ? " or " : "", lab_keys[i].group, name);
   return n;
 }
 
@@ -216,12 +214,12 @@ static const lab_product positioners[] = {
 static int unlisted(const char *kind, const char *text, const lab_product *of, size_t n, lab_error *error)
 {
   char list[sizeof error->text - 200] = "";
-  size_t i, used = 0, like = 0;
+  size_t i, like = 0;
   for (i = 0; i < n; i++)
     like += strstr(of[i].name, text) != NULL;
-  for (i = 0; i < n && used < sizeof list; i++)
+  for (i = 0; i < n; i++)
     if (like == 0 || strstr(of[i].name, text))
-      used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", of[i].name);
+      lab_append(list, sizeof list, "%s%s", *list ? ", " : "", of[i].name);
   return lab_fail(error, LAB_USAGE, "--sheet: no %s \"%.80s\"; known ones%s: %s", kind, text, like ? " like it" : "",
                   list);
 }
