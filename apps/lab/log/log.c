@@ -18,7 +18,6 @@ struct reader {
   lab_log_format *format;
   lab_header header;
   lab_log *log;
-  size_t run_room; /* entries allocated for log->run */
   size_t rows;     /* of data seen, taken or not: the clock of a file without t */
   double last_t;   /* [s] of the last row taken */
   double value;    /* long format: number of the row being read */
@@ -198,28 +197,15 @@ static int check_command(struct reader *r)
   return LAB_OK;
 }
 
-static int add_run(struct reader *r)
-{
-  lab_log *log = r->log;
-  if (log->n_runs + 2 > r->run_room) {
-    size_t room = 2 * r->run_room + 2;
-    size_t *more = realloc(log->run, room * sizeof *more);
-    if (!more)
-      return lab_fail_memory(r->error, log->path);
-    log->run = more;
-    r->run_room = room;
-  }
-  log->run[log->n_runs++] = log->n;
-  return LAB_OK;
-}
-
 /* Time must grow within a run; a run begins at the first row, or where the format says. */
 static int check_time(struct reader *r, double t)
 {
   if (isnan(t))
     return lab_fail(r->error, LAB_DATA, "channel t: expected a number, found a gap");
-  if (r->log->n == 0 || (r->format->new_run == LAB_RUN_T_DROPS && t < r->last_t))
-    return add_run(r);
+  if (r->log->n == 0 || (r->format->new_run == LAB_RUN_T_DROPS && t < r->last_t)) {
+    r->log->run[r->log->n_runs++] = r->log->n;
+    return LAB_OK;
+  }
   if (t <= r->last_t && r->format->n_quantities == 0)
     return lab_fail(r->error, LAB_DATA, "channel t: expected more than the %.9g s of the row before, found %.9g s%s%s",
                     r->last_t, t, t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "", LEAVE_OUT);
@@ -271,7 +257,8 @@ static int allocate(struct reader *r, size_t rows)
       return lab_fail_memory(r->error, log->path);
   }
   log->line = malloc(rows * sizeof *log->line);
-  return log->line ? LAB_OK : lab_fail_memory(r->error, log->path);
+  log->run = malloc((rows + 1) * sizeof *log->run); /* a run has a row at least */
+  return log->line && log->run ? LAB_OK : lab_fail_memory(r->error, log->path);
 }
 
 static int finish(struct reader *r)

@@ -93,10 +93,7 @@ static int read_mark(const config_setting_t *setting, char *mark, lab_error *err
   int named = text ? lab_name_index(text, marks, MARKS, sizeof marks[0]) : -1;
   if (!text || (named < 0 && strlen(text) != 1))
     return lab_config_expected(setting, "one character, \"tab\", \"comma\", \"semicolon\" or \"blanks\"", error);
-  if (named < 0)
-    *mark = *text;
-  else
-    *mark = marks[named].mark;
+  *mark = named < 0 ? *text : marks[named].mark;
   return LAB_OK;
 }
 

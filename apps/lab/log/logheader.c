@@ -57,10 +57,12 @@ static int ask_for_columns(const lab_csv *csv, int cells, lab_error *error)
   return lab_csv_fail_in(csv, error);
 }
 
-/* Step to a line of the file. */
+/* Step to a line of the file, forward or back. */
 static int go_to(lab_csv *csv, int line, lab_error *error)
 {
   int more = 1;
+  if (csv->line > line)
+    lab_csv_restart(csv);
   while (csv->line < line && more)
     if (lab_csv_line(csv, &more, error))
       return error->status;
@@ -115,7 +117,6 @@ static int read_guessed(lab_csv *csv, const lab_log_format *format, const lab_gu
       read_below(csv, format, *n, heading, 0, error))
     return lab_csv_fail_in(csv, error);
   *n = guess->cells;
-  lab_csv_restart(csv);
   return go_to(csv, guess->data - 1, error);
 }
 
@@ -127,7 +128,6 @@ static int look_below(lab_csv *csv, const lab_log_format *format, int n, lab_hea
   int more;
   if (lab_csv_line(csv, &more, &damaged) == LAB_OK && more)
     read_below(csv, format, n, heading, 0, &damaged);
-  lab_csv_restart(csv);
   return go_to(csv, line, error);
 }
 
@@ -176,15 +176,13 @@ static int read_columns(lab_csv *csv, lab_log_format *format, const lab_guess *g
   if (guess->guessed ? read_guessed(csv, format, guess, heading, &n, error)
                      : read_first(csv, format, heading, &n, error))
     return error->status;
-  if (guess->guessed && guess->header) {
+  if (guess->guessed) {
     if (lab_long_check(csv, format, guess, heading, error))
       return fail_in_header(csv, guess, error);
-    lab_csv_restart(csv);
     if (go_to(csv, guess->data - 1, error))
       return error->status;
-  }
-  if (guess->guessed)
     lab_guess_say(guess, format, said);
+  }
   if (lab_map_columns(heading, n, guess->guessed, format, header, said, error))
     return lab_map_is_named(heading, n) || guess->guessed ? fail_in_header(csv, guess, error)
                                                           : fail_without_rows(csv, error);

@@ -79,6 +79,11 @@ static int is_free(const naming *m, int i)
   return m->header->column[i].channel == LAB_COLUMN_IGNORED;
 }
 
+static int is_stamp(const naming *m, int i)
+{
+  return m->heading[i].stamp.has_day || m->heading[i].stamp.has_time;
+}
+
 /* Note what was guessed of a column. */
 static void say(naming *m, int channel, int i)
 {
@@ -114,13 +119,20 @@ static int find_unit(const naming *m, int i, int channel, const char *own, char 
   return is_signal;
 }
 
+static int has_unit_of(const naming *m, int i, int channel)
+{
+  char unit[LAB_COLUMN_TEXT];
+  int absolute = 0;
+  return find_unit(m, i, channel, "", unit, &absolute);
+}
+
 /* Make column i a channel.
  * In:      own  its unit as log.map has it, or "" */
 static int take(naming *m, int i, int channel, int absolute, const char *own)
 {
   char unit[LAB_COLUMN_TEXT];
   m->taken[channel] = i + 1;
-  if (channel == LAB_CHANNEL_TIME && (m->heading[i].stamp.has_day || m->heading[i].stamp.has_time) && !*own) {
+  if (channel == LAB_CHANNEL_TIME && is_stamp(m, i) && !*own) {
     m->header->column[i] = (lab_column){LAB_CHANNEL_TIME, 1, 0, 1};
     return LAB_OK;
   }
@@ -215,11 +227,6 @@ static int has_form(const char *text)
   return n > 0 && strchr("])", text[n - 1]);
 }
 
-static int is_stamp(const naming *m, int i)
-{
-  return m->heading[i].stamp.has_day || m->heading[i].stamp.has_time;
-}
-
 /* A date and a time of day, in either order, are time together.  Returns: 1 if they are that */
 static int join_day(naming *m, int a, int b)
 {
@@ -235,10 +242,8 @@ static int join_day(naming *m, int a, int b)
 /* Of two columns that may be a channel, the one that says more of its unit; -1 where that settles nothing. */
 static int better(const naming *m, int channel, int a, int b)
 {
-  char unit[LAB_COLUMN_TEXT];
-  int absolute = 0;
-  const int with_a = (channel == LAB_CHANNEL_TIME && is_stamp(m, a)) || find_unit(m, a, channel, "", unit, &absolute);
-  const int with_b = (channel == LAB_CHANNEL_TIME && is_stamp(m, b)) || find_unit(m, b, channel, "", unit, &absolute);
+  const int with_a = (channel == LAB_CHANNEL_TIME && is_stamp(m, a)) || has_unit_of(m, a, channel);
+  const int with_b = (channel == LAB_CHANNEL_TIME && is_stamp(m, b)) || has_unit_of(m, b, channel);
   return with_a == with_b ? -1 : with_a ? a : b;
 }
 
@@ -347,13 +352,6 @@ static int is_any_measured(const naming *m)
 /* What a log usually has. */
 static const int usual[] = {LAB_CHANNEL_U, LAB_CHANNEL_P, LAB_CHANNEL_X};
 enum { USUAL = sizeof usual / sizeof usual[0] };
-
-static int has_unit_of(const naming *m, int i, int channel)
-{
-  char unit[LAB_COLUMN_TEXT];
-  int absolute = 0;
-  return find_unit(m, i, channel, "", unit, &absolute);
-}
 
 /* The next of what a log usually has that is not asked for and goes with the unit of a column, if that has one of
  * theirs; -1: none. */
