@@ -1,7 +1,6 @@
 #include "testplan.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* One move of a template: open by u until travel passes `level`, and stay so for some seconds more. */
@@ -174,7 +173,7 @@ static int follow(const pneu_model *model, const template *from, double stroke_t
   lab_error ignored;
   int i;
   memset(plan, 0, sizeof *plan);
-  snprintf(plan->text, sizeof plan->text, "%s", from->text);
+  plan->text = from->text;
   pneu_input_default(model, &input);
   input.u = (pneu_real)from->step[0].u;
   if (lab_test_plan_start(model, &input, settle, &w.state, &ignored))

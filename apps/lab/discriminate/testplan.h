@@ -8,10 +8,10 @@
 
 #include "../rig/rig.h"
 
-enum { LAB_TEST_PLAN_STEPS = 32, LAB_TEST_PLAN_MAX = 24, LAB_TEST_PLAN_TEXT = 128 };
+enum { LAB_TEST_PLAN_STEPS = 32, LAB_TEST_PLAN_MAX = 24 };
 
 typedef struct lab_test_plan {
-  char text[LAB_TEST_PLAN_TEXT]; /* "hold at 80 % travel with both orifices shut for 10 s" */
+  const char *text;              /* "hold at 80 % travel with both orifices shut for 10 s" */
   int n;                         /* commands */
   double t[LAB_TEST_PLAN_STEPS]; /* [s] command u[i] is given at t[i], the first at 0 */
   double u[LAB_TEST_PLAN_STEPS]; /* [1] */
