@@ -3,6 +3,8 @@
 #ifndef TESTS_RIGFILE_H
 #define TESTS_RIGFILE_H
 
+#include <stddef.h>
+
 #include "scratch.h"
 
 #include "../apps/lab/rig/rig.h"
@@ -40,6 +42,26 @@ static inline lab_rig write_and_read(const lab_rig *rig, const char *remark)
   assert_int_equal(fclose(file), 0);
   succeed(lab_rig_read(path, &again, &error));
   return again;
+}
+
+/* The first of the listed parts in which two rigs differ; NULL: none. */
+static inline const char *rig_difference(const lab_rig *a, const lab_rig *b)
+{
+#define PART(field)                                                                                                    \
+  {                                                                                                                    \
+#field, offsetof(lab_rig, field), sizeof a->field                                                                  \
+  }
+  static const struct part {
+    const char *name;
+    size_t at, size;
+  } parts[] = {PART(params), PART(laws), PART(action),      PART(friction), PART(n_terms), PART(term),
+               PART(n_fit),  PART(fit),  PART(fit_per_log), PART(noise),    PART(input),   PART(log)};
+#undef PART
+  size_t i;
+  for (i = 0; i < sizeof parts / sizeof *parts; i++)
+    if (memcmp((const char *)a + parts[i].at, (const char *)b + parts[i].at, parts[i].size) != 0)
+      return parts[i].name;
+  return strcmp(a->name, b->name) ? "name" : NULL;
 }
 
 #endif

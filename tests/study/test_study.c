@@ -27,13 +27,10 @@ static const struct entry {
 /* Write the file with another text for one key.  Returns: its path */
 static const char *file_with(const char *key, const char *instead)
 {
-  char text[4096];
-  size_t used = 0;
+  char text[4096] = "";
   int i;
-  for (i = 0; i < (int)(sizeof entries / sizeof *entries); i++) {
-    const int other = strcmp(entries[i].key, key) == 0;
-    used += (size_t)snprintf(text + used, sizeof text - used, "%s\n", other ? instead : entries[i].text);
-  }
+  for (i = 0; i < (int)(sizeof entries / sizeof *entries); i++)
+    lab_append(text, sizeof text, "%s\n", strcmp(entries[i].key, key) == 0 ? instead : entries[i].text);
   scratch_text("r1.cfg", "actuator = { name = \"r1\"; };\n");
   return scratch_text("study.cfg", text);
 }

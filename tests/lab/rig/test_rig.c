@@ -434,22 +434,11 @@ static void test_lab_rig_read__bad_effects__are_refused(void **state)
 
 /* ---- Writing ---- */
 
-/* Two rigs agree in everything but the name of the file. */
 static void assert_same(const lab_rig *a, const lab_rig *b)
 {
-  assert_memory_equal(&a->params, &b->params, sizeof a->params);
-  assert_memory_equal(&a->laws, &b->laws, sizeof a->laws);
-  assert_string_equal(a->name, b->name);
-  assert_int_equal(a->action, b->action);
-  assert_int_equal(a->friction, b->friction);
-  assert_int_equal(a->n_fit, b->n_fit);
-  assert_memory_equal(a->fit, b->fit, (size_t)a->n_fit * sizeof a->fit[0]);
-  assert_memory_equal(a->fit_per_log, b->fit_per_log, (size_t)a->n_fit * sizeof a->fit_per_log[0]);
-  assert_int_equal(a->n_terms, b->n_terms);
-  assert_memory_equal(a->term, b->term, (size_t)a->n_terms * sizeof a->term[0]);
-  assert_memory_equal(a->noise, b->noise, sizeof a->noise);
-  assert_memory_equal(a->input, b->input, sizeof a->input);
-  assert_memory_equal(&a->log, &b->log, sizeof a->log);
+  const char *what = rig_difference(a, b);
+  if (what)
+    fail_msg("another %s", what);
 }
 
 static void assert_comes_back(const lab_rig *rig)
@@ -564,14 +553,6 @@ static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(vo
   assert_comes_back(&rig);
 }
 
-static void test_lab_rig_write__name_with_quotes__comes_back(void **state)
-{
-  lab_rig rig;
-  lab_rig_default(&rig);
-  strcpy(rig.name, "the \"old\" back\\slash");
-  assert_comes_back(&rig);
-}
-
 static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void **state)
 {
   lab_rig rig, again;
@@ -682,7 +663,6 @@ int main(void)
       cmocka_unit_test(test_lab_rig_write__remark__heads_the_file),
       cmocka_unit_test(test_lab_rig_read__too_many_quantities__are_refused),
       cmocka_unit_test(test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit),
-      cmocka_unit_test(test_lab_rig_write__name_with_quotes__comes_back),
       cmocka_unit_test(test_lab_rig_write__friction_law_fitted_to_nothing__stays_off),
       cmocka_unit_test(test_lab_rig_write__log_group__comes_back),
       cmocka_unit_test(test_lab_rig_write__long_log__comes_back),

@@ -1,14 +1,12 @@
 /* apps/lab/rig/rig and rigwrite, apps/lab/log/logformat: whatever rig file is accepted, what is written of
  * it is read as the same rig. Files are drawn by the keys that they may have, with values at the ends of what is
  * allowed. */
-#include "../../scratch.h"
+#include "../../rigfile.h"
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "../../../apps/lab/base/escape.h"
 #include "../../../apps/lab/base/number.h"
-#include "../../../apps/lab/rig/rig.h"
 #include "../../../apps/lab/rig/rigkeys.h"
 #include "../../../apps/lab/rig/rigterm.h"
 
@@ -337,26 +335,6 @@ static void put_model(FILE *file)
   lab_rig_write(file, &rig, NULL);
 }
 
-/* What differs, NULL if nothing does. */
-static const char *difference(const lab_rig *a, const lab_rig *b)
-{
-#define PART(field)                                                                                                    \
-  {                                                                                                                    \
-#field, offsetof(lab_rig, field), sizeof a->field                                                                  \
-  }
-  static const struct part {
-    const char *name;
-    size_t at, size;
-  } parts[] = {PART(params), PART(laws), PART(action),      PART(friction), PART(n_terms), PART(term),
-               PART(n_fit),  PART(fit),  PART(fit_per_log), PART(noise),    PART(input),   PART(log)};
-#undef PART
-  size_t i;
-  for (i = 0; i < sizeof parts / sizeof *parts; i++)
-    if (memcmp((const char *)a + parts[i].at, (const char *)b + parts[i].at, parts[i].size) != 0)
-      return parts[i].name;
-  return strcmp(a->name, b->name) ? "name" : NULL;
-}
-
 static void assert_again(int number, const char *source)
 {
   const char *what;
@@ -364,7 +342,7 @@ static void assert_again(int number, const char *source)
   check_note("rig %d", number);
   if (lab_rig_read(model, &again, &error))
     fail_msg("%s; from\n%s", error.text, scratch_read(source));
-  what = difference(&rig, &again);
+  what = rig_difference(&rig, &again);
   if (what)
     fail_msg("another %s; from\n%s\nand\n%s", what, scratch_read(source), scratch_read(model));
 }
