@@ -83,8 +83,7 @@ static void test_report__laws_that_differ__counted_and_marked(void **state)
                                             "1,one-bench,bench,isothermal,paper,1,,1,contradicted,e\n"
                                             "2,one,printed,isothermal,paper,1,,1,holds when it rains,e\n"
                                             "2,one,printed,isothermal,choked,1,,1,holds when it snows,e\n");
-  report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
-                                            "depends_on\n"
+  report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,depends_on\n"
                                             "1,printed,isothermal,paper,holds,,,,,,set\n"
                                             "1,printed,isothermal,choked,contradicted,,,,,,\"threshold, set\"\n"
                                             "2,printed,isothermal,paper,holds when,,,,,,\n");
@@ -103,8 +102,7 @@ static void test_report__conclusions_that_hold_throughout__in_words(void **state
                                             "3,one,printed,isothermal,choked,1,,1,contradicted,e\n"
                                             "11,one,printed,isothermal,paper,1,,1,holds,e\n"
                                             "11,one,printed,isothermal,choked,1,,1,holds,e\n");
-  report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,"
-                                            "depends_on\n"
+  report_with("conclusions_thresholds.csv", "conclusion,set,gas,flow,verdict,at_5,at_10,at_20,at_30,at_41,depends_on\n"
                                             "2,printed,isothermal,paper,holds,,,,,,threshold\n");
   assert_contains(
       text, "these hold:\n\n11 fall: theoretical change free of parameters (as the theoretical change; over their "

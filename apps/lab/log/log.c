@@ -190,10 +190,9 @@ static int check_command(struct reader *r)
   if (command == LAB_CHANNEL_SP && fabs(now) > set_point_max)
     return lab_fail(r->error, LAB_DATA, "channel sp: expected a share of the stroke, found %g; is its unit %%?", now);
   if (command == LAB_CHANNEL_U && !r->format->command_is_pressure && fabs(now) > command_max)
-    return lab_fail(r->error, LAB_DATA,
-                    "channel u: expected -1..1, found %g; is its unit %%, or a pressure "
-                    "(transducer.proportional_band)?",
-                    now);
+    return lab_fail(
+        r->error, LAB_DATA,
+        "channel u: expected -1..1, found %g; is its unit %%, or a pressure (transducer.proportional_band)?", now);
   return LAB_OK;
 }
 

@@ -44,11 +44,10 @@ static int read_held_out(const lab_request *q, lab_answer *a, lab_error *error)
   lab_log_format_hold_out(&a->rig_held.log);
   for (i = 0; i < q->n_holdout; i++) {
     if (is_fitted(q, &a->rig, q->holdout[i]))
-      lab_limitation(
-          &a->now.logs.limitations,
-          "%s is held out, but fitted too, so that it tests nothing: give another log, or hold out some of its "
-          "rows by log.holdout in the rig file.",
-          lab_file_name(q->holdout[i]));
+      lab_limitation(&a->now.logs.limitations,
+                     "%s is held out, but fitted too, so that it tests nothing: give another log, or hold out some of "
+                     "its rows by log.holdout in the rig file.",
+                     lab_file_name(q->holdout[i]));
     if (lab_logs_add(&a->held, &a->rig_held, q->holdout[i], error))
       return error->status;
   }

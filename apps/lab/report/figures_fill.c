@@ -566,8 +566,7 @@ static const struct {
   int (*fill)(const drawing *d);
 } known[LAB_FIGURE_COUNT] = {
     {"A loop wider than its lines has more friction than dry friction, or was run fast. Green lines apart from the "
-     "orange "
-     "ones: a value is not as declared.",
+     "orange ones: a value is not as declared.",
      fill_signature},
     {"Where the lines leave the grey, the model is wrong; the figure of the residual magnifies this.", fill_response},
     {"A good model leaves an even residual within the band. Humps and spikes show when the model errs. Each panel has "

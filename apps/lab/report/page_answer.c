@@ -101,11 +101,10 @@ static void say_more(const lab_change *change, cJSON *list)
   if (change->n_alike)
     lab_json_say(list, "The logs are explained by %s as well as by %s.", names, name);
   if (change->low <= change->then && change->then <= change->high)
-    lab_json_say(
-        list,
-        "The interval of %s reaches the value then: it is that of now alone, with what is not known of then and "
-        "what the model leaves. The p-value is of the difference.",
-        name);
+    lab_json_say(list,
+                 "The interval of %s reaches the value then: it is that of now alone, with what is not known of then "
+                 "and what the model leaves. The p-value is of the difference.",
+                 name);
   say_when(name, &change->begin, "since", list);
   say_when(name, &change->end, "until", list);
 }
@@ -130,10 +129,8 @@ static void put_changes(const lab_changes *changes, cJSON *page)
     lab_json_say(remarks, "%s%s.",
                  changes->condition == LAB_SINCE_CANNOT_TELL ? "It cannot be told: " : "There is more: ", changes->why);
   if (changes->tests)
-    lab_json_say(
-        remarks,
-        "What differs from day to day on a sound rig does not count: supply, weather, zeros and gains of sensors, "
-        "a little of friction and spring.");
+    lab_json_say(remarks, "What differs from day to day on a sound rig does not count: supply, weather, zeros and "
+                          "gains of sensors, a little of friction and spring.");
 }
 
 /* ---- Why ---- */
@@ -211,9 +208,8 @@ static void put_why(const lab_sources *t, cJSON *page)
   if (lab_report_is_unfinished(r))
     lab_json_say(reasons, "The search was ended by --budget before everything was tried.");
   else if (r->verdict == LAB_VERDICT_UNDECIDED)
-    lab_json_say(reasons,
-                 "The residual is not noise, and nothing that was tried explains it. The figures below show when and "
-                 "where it arises.");
+    lab_json_say(reasons, "The residual is not noise, and nothing that was tried explains it. The figures below show "
+                          "when and where it arises.");
 }
 
 /* ---- What is missing, and how large it is ---- */
@@ -317,11 +313,10 @@ static void say_held_out(const lab_report *report, cJSON *list)
                  LAB_NUMBER(lab_report_in_noise(&report->holdout_before), 3),
                  LAB_NUMBER(lab_report_in_noise(&report->holdout_after), 3));
   else
-    lab_json_say(
-        list,
-        "On a log that was not used for the fit, the error is %s times the noise. Nothing is fitted there, not even "
-        "when a command came between two rows.",
-        LAB_NUMBER(lab_report_in_noise(&report->holdout_before), 3));
+    lab_json_say(list,
+                 "On a log that was not used for the fit, the error is %s times the noise. Nothing is fitted there, "
+                 "not even when a command came between two rows.",
+                 LAB_NUMBER(lab_report_in_noise(&report->holdout_before), 3));
 }
 
 /* Whether what is left is noise: as the verdict has it. */
@@ -331,11 +326,10 @@ static void say_left(const lab_sources *t, cJSON *list)
   const lab_residual_stats *left = r->left[LAB_STAGE_AFTER];
   const int coloured = lab_residual_stats_coloured(left);
   if (r->window > 0 && r->n_found > 0)
-    lab_json_say(
-        list,
-        "The stem sticks and slips, and no model predicts the instants of single slips: the log was compared in "
-        "windows of %zu rows, and the error row by row need not fall.",
-        r->window);
+    lab_json_say(list,
+                 "The stem sticks and slips, and no model predicts the instants of single slips: the log was compared "
+                 "in windows of %zu rows, and the error row by row need not fall.",
+                 r->window);
   else if (coloured > 0 && r->window == 0 && (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT))
     lab_json_say(list, "The residual is no larger than noise, but not white on %d of %d channels.", coloured,
                  t->figures->table.n_channels);
@@ -474,11 +468,10 @@ static void put_rough(const lab_sources *t, cJSON *list)
                    100 * half / fabs(u->unknown[j].value));
   }
   if (knots > 0)
-    lab_json_say(
-        list,
-        "%d values of the free term have an uncertainty of more than %g %%: those near 0, and those that the model "
-        "hardly reaches.",
-        knots, 100 * rough);
+    lab_json_say(list,
+                 "%d values of the free term have an uncertainty of more than %g %%: those near 0, and those that the "
+                 "model hardly reaches.",
+                 knots, 100 * rough);
 }
 
 /* Effects none of whose candidates leaves a trace. */
@@ -533,14 +526,11 @@ static const cJSON *put_next(const lab_sources *t, cJSON *page)
   if (t->report->next.kind == LAB_ADVICE_TEST)
     lab_json_say(list, "Record this: %s. %s", t->report->next.text, t->report->next.why);
   if (r->verdict == LAB_VERDICT_UNDECIDED || r->verdict == LAB_VERDICT_UNLISTED)
-    lab_json_say(
-        list,
-        "These tests separate the equations: a hold with both orifices shut at several positions (mass), slow full "
-        "strokes both ways (forces), rest on either stop (sensors).");
+    lab_json_say(list, "These tests separate the equations: a hold with both orifices shut at several positions "
+                       "(mass), slow full strokes both ways (forces), rest on either stop (sensors).");
   if (!t->report->has_holdout)
-    lab_json_say(list,
-                 "Record another log with other commands and give it by --holdout: a fit cannot adapt to a log that "
-                 "it does not see.");
+    lab_json_say(list, "Record another log with other commands and give it by --holdout: a fit cannot adapt to a log "
+                       "that it does not see.");
   if (cJSON_GetArraySize(list) == 0)
     lab_json_say(list, "No further test is needed for this verdict.");
   return list;

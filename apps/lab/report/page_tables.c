@@ -244,17 +244,15 @@ static void put_parameters(const lab_sources *t, cJSON *page)
   lab_json_put(page, "has_knots", cJSON_GetArraySize(knots) ? "yes" : "");
   list = cJSON_AddArrayToObject(page, "switches");
   if (switches > 0)
-    lab_json_say(
-        list,
-        "Also fitted: the instants of %d changes of command, each between the two rows that bracket it. On logs "
-        "held out a command changes at the row that shows it.",
-        switches);
+    lab_json_say(list,
+                 "Also fitted: the instants of %d changes of command, each between the two rows that bracket it. On "
+                 "logs held out a command changes at the row that shows it.",
+                 switches);
   if (clocks > 0)
-    lab_json_say(
-        list,
-        "Also fitted: by what share of a row the command is ahead of the log, one for each of %d runs in which it "
-        "changes often. On logs held out a command changes at the row that shows it.",
-        clocks);
+    lab_json_say(list,
+                 "Also fitted: by what share of a row the command is ahead of the log, one for each of %d runs in "
+                 "which it changes often. On logs held out a command changes at the row that shows it.",
+                 clocks);
 }
 
 /* ---- Whether what is left is white, and which effects the residual of the declared model asks for ---- */

@@ -172,9 +172,7 @@ static const struct {
 static void write_size(const about *a, const char *name, size_t length, char text[2 * LAB_FORMAT_TEXT])
 {
   enum { SIZES = sizeof sizes / sizeof *sizes };
-  char number[LAB_FORMAT_TEXT];
   pneu_params params = a->rig.params;
-  pneu_param_info info;
   double size;
   int i = 0;
   while (i < SIZES && (strlen(sizes[i].name) != length || strncmp(sizes[i].name, name, length) != 0))
@@ -185,9 +183,10 @@ static void write_size(const about *a, const char *name, size_t length, char tex
   size = sizes[i].times * sizes[i].amount(a);
   if (sizes[i].of != NONE)
     size /= (double)*pneu_param_at(&params, sizes[i].of);
-  pneu_param_describe(a->param, &info);
-  snprintf(text, 2 * LAB_FORMAT_TEXT, "%s",
-           lab_format_quantity(size, *sizes[i].unit ? sizes[i].unit : info.unit, *sizes[i].unit ? 2 : 3, number));
+  if (*sizes[i].unit)
+    lab_format_quantity(size, sizes[i].unit, 2, text);
+  else
+    lab_format_quantity(size, lab_param_info(a->param).unit, 3, text);
   if (sizes[i].amount == leak_normal)
     lab_append(text, 2 * LAB_FORMAT_TEXT, " at %.3g bar supply", 1e-5 * (double)a->rig.params.supply_pressure);
   if (!isfinite(size) || (sizes[i].most > 0 && size > sizes[i].most))
@@ -498,8 +497,7 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
     ADD(text, "%s",
         r->jerks ? "The stem moves by jerks and the model's does not: something is missing, perhaps friction that "
-                   "sticks or a "
-                   "force that shakes it."
+                   "sticks or a force that shakes it."
                  : "Something is missing, but the log does not say what.");
     if (add_deviations(text, report, 1))
       ADD(text, ".");

@@ -161,8 +161,7 @@ static int check_cutoffs(const config_setting_t *group, const lab_rig *rig, lab_
     return LAB_OK;
   return lab_config_fail(
       group, error,
-      "cutoff_low, %g %%, is not below cutoff_high, %g %%: nothing would be positioned between them; "
-      "0 is none",
+      "cutoff_low, %g %%, is not below cutoff_high, %g %%: nothing would be positioned between them; 0 is none",
       100 * low, 100 * high);
 }
 

@@ -155,8 +155,7 @@ static const char fisher[] = "Fisher Bulletin 61.1:657, table 1 (largest travel)
 static const char fisher_large[] =
     "Fisher 657 sizes 80 and 100, instruction manual D100307X012, table 1 (largest travel)";
 static const char masoneilan[] =
-    "Masoneilan 37/38, instruction manual, GE Oil & Gas 2015, page 4 (largest stroke, usual "
-    "range)";
+    "Masoneilan 37/38, instruction manual, GE Oil & Gas 2015, page 4 (largest stroke, usual range)";
 static const char polna[] = "Polna, multi-spring actuators P/R, data sheet (the first of the ranges)";
 static const char hora[] = "HORA PA-N 160 and PA-N 280, manual, table 1: stroke volume over stroke, total less stroke "
                            "volume";

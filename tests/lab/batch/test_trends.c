@@ -185,8 +185,7 @@ static void test_lab_trends__written__table_and_page(void **state)
   assert_string_equal(
       text, "rig,parameter,unit,n,first_date,last_date,slope_per_day,slope_low,slope_high,days_left,"
             "days_left_low,days_left_high,last_value,declared,tolerance,scatter\n"
-            "\"'=r,1\",spring_rate,N/m,2,\"day, 0\",\"day, 40\",1,0.86141,1.13859,60,49.921,73.2124,1040,1000,"
-            "0.1,0\n");
+            "\"'=r,1\",spring_rate,N/m,2,\"day, 0\",\"day, 40\",1,0.86141,1.13859,60,49.921,73.2124,1040,1000,0.1,0\n");
   free(text);
   lab_trends_page(&trends, page);
   text = cJSON_PrintUnformatted(page);
