@@ -106,7 +106,7 @@ static const double on_line = 1e-4;        /* of the command's range: how far a 
 
 /* Stairs that rounding makes of a slow ramp: rows of a step at most, and its size over the resolution and the range. */
 enum { LONGEST_STEP = 16 };
-static const double one_rounding = 1.5, highest_step = 2e-3;
+static const double one_rounding = 1.5, highest_step = 2.5e-4;
 
 /* A stretch of rows in which the command holds, runs along a line, and holds again. */
 typedef struct line {

@@ -10,7 +10,7 @@
 /* What was added: an effect, or a free term where nothing that has a name would do. */
 typedef struct lab_found {
   int effect, param; /* effect: -1 for a free term */
-  int term;                 /* of the model's free terms; -1 for an effect */
+  int term;          /* of the model's free terms; -1 for an effect */
   double statistic, p_value, explained;
   int degrees;  /* of freedom of the statistic */
   double scale; /* free term: a value of it that matters */
@@ -86,11 +86,12 @@ int lab_candidate_begins(const lab_candidate *c);
  * its unknowns Out:     any  whether there are some Returns: as lab_candidate_fit. */
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error);
 
-/* Place again what begins: about other values it may begin elsewhere.  Returns: LAB_OK, LAB_WORLD */
+/* Place again what begins: about other values it may begin elsewhere; where only noise is left, near where it does.
+ * Returns: LAB_OK, LAB_WORLD */
 int lab_candidate_place_again(lab_candidate *c, lab_error *error);
 
-/* Where a fitted model leaves more than noise, give its last effect the forms that it may do without (PNEU_FORM_OPTION);
- * it keeps them if BIC asks for that.  Returns: LAB_OK, LAB_WORLD */
+/* Where a fitted model leaves more than noise, give its last effect the forms that it may do without
+ * (PNEU_FORM_OPTION); it keeps them if BIC asks for that.  Returns: LAB_OK, LAB_WORLD */
 int lab_candidate_try_options(lab_candidate *c, lab_error *error);
 
 /* One more addition, to be filled in.  Returns: its place. */

@@ -48,21 +48,30 @@ static size_t find_break(const lab_run *x, const double *r, size_t first, size_t
   return at;
 }
 
+/* Whether residuals are more than noise; a gap leaves 0.  In: n  of them */
+static int is_off(const double *r, size_t n)
+{
+  static const double deviations = 8, share = 1.5;
+  double values = 0;
+  size_t i;
+  for (i = 0; i < n; i++)
+    values += r[i] != 0;
+  return lab_dot(r, r, n) > fmax(values + deviations * sqrt(2 * values), share * values);
+}
+
 /* The row, after the first `known` ones, from which a residual is more than noise; the end of the run if there is none.
  * In:      r  residual of the run, channel by channel */
 static size_t find_departure(const lab_run *x, const double *r, size_t known)
 {
   enum { STRETCHES = 64 };
-  static const double deviations = 8, share = 1.5;
-  int c, k;
-  for (k = 0; k < STRETCHES; k++) {
-    const size_t first = x->n * (size_t)k / STRETCHES, end = x->n * (size_t)(k + 1) / STRETCHES;
-    for (c = 0; c < x->n_channels && end > known; c++) {
-      const double *v = r + (size_t)c * x->n + first, values = (double)(end - first);
-      const double chi2 = lab_dot(v, v, end - first);
-      if (chi2 > fmax(values + deviations * sqrt(2 * values), share * values))
-        return find_break(x, r, first > 0 ? x->n * (size_t)(k - 1) / STRETCHES : 0, end);
-    }
+  const size_t length = x->n / STRETCHES + 1;
+  size_t first;
+  int c;
+  for (first = known; first < x->n; first += length) {
+    const size_t end = first + length < x->n ? first + length : x->n;
+    for (c = 0; c < x->n_channels; c++)
+      if (is_off(r + (size_t)c * x->n + first, end - first))
+        return find_break(x, r, first > known + length ? first - length : known, end);
   }
   return x->n;
 }
@@ -90,11 +99,11 @@ static size_t go_further(const size_t between[2], size_t rows, size_t n)
   return between[1] <= n ? (known + between[1]) / 2 : more < n ? more : n;
 }
 
-/* How many rows to fit first, or next; 0: no more. The values of more than half of a run that leads no further say
- * best where it leaves them.
+/* How many rows to fit first, or next; 0: no more. The values of more than half of a run say best where that leaves
+ * them, but for the instants of the next commands, which they do not know.
  * In:      c        fitted to the first between[0] of them, if there are any
- * In/out:  between  as of lab_departure_find */
-static int find_length(const lab_candidate *c, size_t between[2], size_t *length, lab_error *error)
+ *          between  as of lab_departure_find */
+static int find_length(const lab_candidate *c, const size_t between[2], size_t *length, lab_error *error)
 {
   const size_t n = c->u.run->n;
   size_t row;
@@ -104,10 +113,8 @@ static int find_length(const lab_candidate *c, size_t between[2], size_t *length
   if (lab_departure_row(c, between[0], &row, error))
     return error->status;
   *length = go_further(between, row, n);
-  if (between[1] <= n && between[0] > n / 2) {
-    *length = 0;
-    between[1] = row + n / CLOSE < between[1] ? row + n / CLOSE : between[1];
-  }
+  if (between[1] <= n && between[0] > n / 2)
+    *length = row >= between[0] && row + n / CLOSE < between[1] ? row + n / CLOSE : 0;
   return LAB_OK;
 }
 
@@ -120,7 +127,8 @@ int lab_departure_find(lab_candidate *c, size_t known, size_t between[2], lab_er
   between[0] = known;
   between[1] = n + 1;
   for (i = 0; status == LAB_OK && i < LOOKS && between[1] > between[0] + n / CLOSE + 1; i++) {
-    if (find_length(c, between, &length, error) || length == 0)
+    status = find_length(c, between, &length, error);
+    if (status != LAB_OK || length == 0)
       break;
     *next = *c;
     status = fit_beginning(next, between[1] > n ? between[0] : n, length, error);

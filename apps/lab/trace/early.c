@@ -116,11 +116,12 @@ static int refit_loop(lab_candidate *frozen, const size_t between[2], size_t row
   const size_t end = between[1] < x->n ? between[1] + (size_t)(share * (double)(x->n - between[1])) : x->n;
   lab_run part = {0};
   int status = lab_beginning_open(x, end, &part, error);
-  frozen->u.n = 0;
-  frozen->u.run = &part;
-  lab_unknowns_view(&frozen->u, 0);
-  if (status == LAB_OK)
+  if (status == LAB_OK) {
+    frozen->u.n = 0;
+    frozen->u.run = &part;
+    lab_unknowns_view(&frozen->u, 0);
     status = refit_frozen(frozen, between, row, alpha, begins, c, n, error);
+  }
   lab_beginning_close(&part);
   return status;
 }
@@ -135,7 +136,7 @@ static int fit_onset(const lab_candidate *base, const size_t between[2], double 
   if (status == LAB_OK) {
     *frozen = *base;
     freeze(&frozen->u);
-    row = 0 < row && row < between[1] ? row : between[0];
+    row = between[0] < row && row < between[1] ? row : between[0];
     status = (lab_refill_loops(&base->u) ? refit_loop : refit_open)(frozen, between, row, alpha, begins, c, &n, error);
   }
   if (status == LAB_OK)

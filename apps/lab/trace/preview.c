@@ -53,15 +53,19 @@ static void widen(const lab_unknowns *u, lab_candidate *c)
  * In/out:  f  best: with the values of these rows; then fitted to the whole run, with what begins in it, or neither */
 static int fit_further(lab_finding *f, size_t rows, double alpha, lab_error *error)
 {
-  const size_t n = f->best.u.run->n;
+  static const double most = 0.6; /* of the time that is left, by judgement: else the whole is searched */
+  const double until = f->best.u.until;
   lab_candidate *onset = malloc(sizeof *onset);
   size_t sound = 0;
-  int status = onset ? lab_early_fit(&f->best, rows, alpha, onset, &f->begins, &sound, error)
-                     : lab_fail_memory(error, "what begins");
+  int status;
+  f->best.u.until = lab_cpu_share(until, most);
+  status = onset ? lab_early_fit(&f->best, rows, alpha, onset, &f->begins, &sound, error)
+                 : lab_fail_memory(error, "what begins");
   if (status == LAB_OK && onset->quality.fitted)
     f->best = *onset;
   else
-    f->best.quality.fitted &= sound == n;
+    f->best.quality.fitted &= sound == f->best.u.run->n;
+  f->best.u.until = until;
   free(onset);
   return status;
 }
@@ -82,16 +86,20 @@ static int fit_at_once(lab_candidate *c, lab_error *error)
   return sound;
 }
 
-/* What was found in the first n rows, fitted to the whole run. */
-static int fit_whole(const lab_unknowns *u, size_t n, const lab_search_options *options, lab_finding *f,
+/* What was found in the first n rows, fitted to the whole run.
+ * In:      is_last  not 0: there is no time for a search of the whole */
+static int fit_whole(const lab_unknowns *u, size_t n, int is_last, const lab_search_options *options, lab_finding *f,
                      lab_error *error)
 {
   const int all = f->result.verdict == LAB_VERDICT_NONE && f->best.quality.fitted && lab_is_noise(&f->best.quality);
   widen(u, &f->best);
   if (all && fit_at_once(&f->best, error))
     return LAB_OK;
-  if ((all || f->sound > 0) && lab_rounds_may_begin(&f->best.u, options))
-    return fit_further(f, all ? n : f->sound, options->alpha, error);
+  if ((all || f->sound > 0) && lab_rounds_may_begin(&f->best.u, options)) {
+    const int status = fit_further(f, all ? n : f->sound, options->alpha, error);
+    if (status != LAB_OK || f->best.quality.fitted || !is_last)
+      return status;
+  }
   return lab_candidate_fit_held(&f->best, error);
 }
 
@@ -121,7 +129,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     status = search_first(u, n, options, first, &cut_short, error);
   }
   if (status == LAB_OK && (first->result.verdict != LAB_VERDICT_UNDECIDED || first->sound > 0 || cut_short)) {
-    status = fit_whole(u, n, options, first, error);
+    status = fit_whole(u, n, cut_short, options, first, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
     keep_scores(u->run, n, first, whole);
     if (*done)

@@ -212,7 +212,7 @@ static void test_lab_inputs_from_log__steps_that_come_again__hold(void **state)
   char text[4096] = "t [s],sp [%],p [kPa]\n";
   int i;
   for (i = 0; i < 100; i++)
-    lab_append(text, sizeof text, "%d,%.1f,0\n", i, 0.5 * (i / 5));
+    lab_append(text, sizeof text, "%d,%.1f,0\n", i, 0.1 * (i / 5));
   read_log(text);
   declare_positioner();
   drive(0);

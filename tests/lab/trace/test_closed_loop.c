@@ -6,6 +6,7 @@
 #include "../../second/rig.h"
 
 #include "../../../apps/lab/check/logs.h"
+#include "../../../apps/lab/trace/departure.h"
 #include "../../../apps/lab/trace/search.h"
 
 enum { ROWS = 2001, CHANGES = 400 };
@@ -19,6 +20,7 @@ static second_rig g;
 static second_positioner k;
 static double t_set[CHANGES], set[CHANGES];
 static double leaks_since, leak_since; /* [s], [m2]: a leak that begins; 0: none */
+static double rises_by;                /* [N] friction then */
 static size_t n_set;
 
 static int fits_nothing; /* all is as the sheet says, to its tolerance */
@@ -59,7 +61,7 @@ static int begin(void **state)
   g.seed = 1;
   k = (second_positioner){.gain = 20, .dead_band = 0.002, .cutoff_low = 0.01, .cutoff_high = 0.99};
   fits_nothing = 0;
-  leak_since = leaks_since = 0;
+  leak_since = leaks_since = rises_by = 0;
   set_stairs();
   return 0;
 }
@@ -80,13 +82,14 @@ static const char *write_log(int columns)
                                 .u_cmd = set,
                                 .n = n_set,
                                 .positioner = &k,
-                                .later = leak_since > 0 ? &later : NULL,
+                                .later = leaks_since > 0 ? &later : NULL,
                                 .change = leaks_since};
   second_log log = {.t = t, .u = sent, .p = p, .x = x};
   const char *path = scratch_path("log.csv");
   FILE *file = fopen(path, "w");
   int i;
   later.leak_area += leak_since;
+  later.dry_friction += rises_by;
   assert_non_null(file);
   assert_int_equal(second_samples(lasting, spacing), ROWS);
   assert_int_equal(second_follow(&g, &course, lasting, spacing, &log, NULL), 0);
@@ -305,6 +308,28 @@ static void test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_ins
   assert_close(u.rig.onset[0].from, 22.3, 0.1, 0);
 }
 
+/* Friction that rises shows at the next move; that the loop does not follow the commands on the way is no departure. */
+static void test_lab_departure_find__friction_that_rises__is_between_the_rows(void **state)
+{
+  static lab_candidate c;
+  lab_error error = {0, ""};
+  size_t between[2], row;
+  const double *t;
+  rises_by = 600;
+  leaks_since = 22.3;
+  open_loop(WITH_SP | WITH_P);
+  c.u = u;
+  assert_int_equal(lab_candidate_hold(&c, &error), LAB_OK);
+  lab_unknowns_undo_fit(&c.u);
+  assert_int_equal(lab_departure_find(&c, 0, between, &error), LAB_OK);
+  t = logs.log[0].value[LAB_CHANNEL_TIME];
+  assert_between(22.3, t[between[0]] - 2, t[between[1]]);
+  assert_true(between[1] < logs.log[0].n);
+  assert_int_equal(lab_departure_row(&c, between[0], &row, &error), LAB_OK);
+  assert_between(row, between[0], between[1]);
+  lab_logs_close(&logs);
+}
+
 /* Whether the stem of the log sticks and slips where the declared model's does not. */
 static int jerks(void)
 {
@@ -360,6 +385,7 @@ int main(void)
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
       CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
       CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant),
+      CASE(test_lab_departure_find__friction_that_rises__is_between_the_rows),
       CASE(test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks),
       CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing),
       CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing),
