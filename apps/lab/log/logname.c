@@ -148,6 +148,7 @@ static const struct name_word {
     {"target", LAB_CHANNEL_SP},
     {"demand", LAB_CHANNEL_SP},
     {"soll", LAB_CHANNEL_SP},
+    {"stellsignal", LAB_CHANNEL_SP},
     {"sp", LAB_CHANNEL_SP},
     {"command", LAB_CHANNEL_U},
     {"cmd", LAB_CHANNEL_U},

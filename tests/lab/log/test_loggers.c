@@ -254,6 +254,15 @@ static void test_lab_log_read__order_of_dates__is_that_of_the_rig_file(void **st
                  "log = { date = \"dmy\"; };");
 }
 
+/* Words of German plants. */
+static void test_lab_log_read__names_of_plants__are_known(void **state)
+{
+  read_well("",
+            scratch_text("d.csv", "Zeit (s);Stellsignal (%);Kammerdruck (bar);Hub (mm)\n0;50;1,5;10\n1;50;1,6;11\n"));
+  assert_close(seen.value[LAB_CHANNEL_SP][0], 0.5, 1e-12, 0);
+  assert_close(seen.value[LAB_CHANNEL_X][1], 11e-3, 1e-12, 0);
+}
+
 static void test_lab_log_read__time_of_day__goes_on_after_midnight(void **state)
 {
   read_well("", scratch_text("d.csv",
@@ -316,6 +325,7 @@ int main(void)
       cmocka_unit_test(test_lab_rig_read__signals_that_are_none__are_refused),
       cmocka_unit_test(test_lab_log_read__long_form_of_wincc__is_read_by_keys),
       cmocka_unit_test(test_lab_log_read__order_of_dates__is_that_of_the_rig_file),
+      cmocka_unit_test(test_lab_log_read__names_of_plants__are_known),
       cmocka_unit_test(test_lab_log_read__time_of_day__goes_on_after_midnight),
       cmocka_unit_test(test_lab_text_read__binary_files__say_what_makes_text_of_them),
       cmocka_unit_test(test_lab_text_read__utf16_of_either_order_and_without_mark__is_read),
