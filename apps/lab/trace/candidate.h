@@ -82,8 +82,10 @@ int lab_candidate_has_cause(const lab_candidate *c);
 int lab_candidate_begins(const lab_candidate *c);
 
 /* Take errors of instruments, and a vent off beside the fill orifice, that are far beyond what is known of them
- * beforehand, by odds (ALIKE_BIC), for what is missing, and fit again. In/out:  c    fitted, with what is held among
- * its unknowns Out:     any  whether there are some Returns: as lab_candidate_fit. */
+ * beforehand, by odds (ALIKE_BIC), for what is missing, and fit again.
+ * In/out:  c    fitted, with what is held among its unknowns
+ * Out:     any  whether there are some
+ * Returns: as lab_candidate_fit. */
 int lab_candidate_take_instruments(lab_candidate *c, int *any, lab_error *error);
 
 /* Place again what begins: about other values it may begin elsewhere; where only noise is left, near where it does.

@@ -5,11 +5,11 @@
 
 #include "../base/array.h"
 
+/* By judgement. */
 enum {
   SHORTEST = 4, /* the first beginning is one such part of the run */
   CLOSE = 24,   /* where the run leaves the model is known to one such part */
-  LOOKS = 8,    /* beginnings that are tried, at most */
-  STEPS = 12    /* of a fit from the values of a shorter one: these are near, unless something begins */
+  LOOKS = 8     /* beginnings that are tried, at most */
 };
 
 /* Fit the first n rows from the values of the first `known`; from the declared values as well where these are few and
@@ -17,7 +17,7 @@ enum {
 static int fit_beginning(lab_candidate *c, size_t known, size_t n, lab_error *error)
 {
   lab_candidate *afresh = malloc(sizeof *afresh);
-  int status = afresh ? lab_candidate_fit_beginning(c, n, known > 0 ? STEPS : LAB_ROUNDS_ALL, error)
+  int status = afresh ? lab_candidate_fit_beginning(c, n, known > 0 ? LAB_STEPS_ONWARD : LAB_ROUNDS_ALL, error)
                       : lab_fail_memory(error, "the beginning of a run");
   if (status == LAB_OK && !lab_is_noise(&c->quality) && known > 0 && known <= c->u.run->n / SHORTEST) {
     *afresh = *c;
@@ -51,7 +51,7 @@ static size_t find_break(const lab_run *x, const double *r, size_t first, size_t
 /* Whether residuals are more than noise; a gap leaves 0.  In: n  of them */
 static int is_off(const double *r, size_t n)
 {
-  static const double deviations = 8, share = 1.5;
+  static const double deviations = 8, share = 1.5; /* by judgement */
   double values = 0;
   size_t i;
   for (i = 0; i < n; i++)

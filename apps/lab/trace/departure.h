@@ -5,6 +5,9 @@
 
 #include "candidate.h"
 
+/* Steps of a fit from the values of a shorter beginning: these are near, unless something begins. By judgement. */
+enum { LAB_STEPS_ONWARD = 12 };
+
 /* Fit ever longer beginnings of the only run, to the longest that leaves only noise.
  * In:      known    rows that do, with the values of c; 0: none are known to
  * In/out:  c        the declared model with its values held; then fitted to that beginning
@@ -13,7 +16,9 @@
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_departure_find(lab_candidate *c, size_t known, size_t between[2], lab_error *error);
 
-/* The row from which a model of the first `known` rows no longer follows the run.
+/* The row from which a model of the first rows no longer follows the run.
+ * In:      c      fitted to these
+ *          known  how many
  * Out:     row  0: it cannot be simulated; the end of the run: it follows
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_departure_row(const lab_candidate *c, size_t known, size_t *row, lab_error *error);

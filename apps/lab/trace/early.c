@@ -7,10 +7,7 @@
 #include "departure.h"
 #include "refill.h"
 
-enum {
-  SHOWS = 16, /* what begins shows within one such part of the run */
-  STEPS = 12  /* of the fit of all values to a part of what follows */
-};
+enum { SHOWS = 16 }; /* what begins shows within one such part of the run: by judgement */
 
 /* Keep the values that all runs share as they are; what a run has for itself, the instants of its commands, still
  * varies. */
@@ -28,12 +25,12 @@ static void freeze(lab_unknowns *u)
  * what the run had not done before. */
 static int fit_beside(lab_candidate *c, size_t after, lab_error *error)
 {
-  static const double share = 0.25;
+  static const double share = 0.25; /* of the rest, by judgement */
   const size_t rest = c->u.run->n - after;
   const int loops = lab_refill_loops(&c->u);
   if (loops && c->u.rig.onset[c->u.rig.n_onsets - 1].param == pneu_param_find("leak_area"))
     return lab_refill_fit(c, error);
-  if (loops && lab_candidate_fit_beginning(c, after + (size_t)(share * (double)rest), STEPS, error))
+  if (loops && lab_candidate_fit_beginning(c, after + (size_t)(share * (double)rest), LAB_STEPS_ONWARD, error))
     return error->status;
   return lab_candidate_fit_held(c, error);
 }
@@ -111,7 +108,7 @@ static int refit_open(lab_candidate *frozen, const size_t between[2], size_t row
 static int refit_loop(lab_candidate *frozen, const size_t between[2], size_t row, double alpha,
                       lab_onset_scores *begins, lab_candidate *c, int *n, lab_error *error)
 {
-  static const double share = 0.12; /* of the rest */
+  static const double share = 0.12; /* of the rest, by judgement */
   const lab_run *x = frozen->u.run;
   const size_t end = between[1] < x->n ? between[1] + (size_t)(share * (double)(x->n - between[1])) : x->n;
   lab_run part = {0};

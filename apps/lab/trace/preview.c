@@ -5,6 +5,7 @@
 #include "../base/clock.h"
 #include "../fit/beginning.h"
 #include "contest.h"
+#include "departure.h"
 #include "early.h"
 #include "refill.h"
 #include "resume.h"
@@ -73,13 +74,12 @@ static int fit_further(lab_finding *f, size_t rows, double alpha, lab_error *err
 /* Whether the model of the first rows leaves only noise of the whole run after a few steps; else it is as it was. */
 static int fit_at_once(lab_candidate *c, lab_error *error)
 {
-  enum { STEPS = 12 };
   lab_candidate *whole = malloc(sizeof *whole);
   int sound = 0;
   if (!whole)
     return 0;
   *whole = *c;
-  sound = lab_candidate_fit(whole, STEPS, error) == LAB_OK && lab_is_noise(&whole->quality);
+  sound = lab_candidate_fit(whole, LAB_STEPS_ONWARD, error) == LAB_OK && lab_is_noise(&whole->quality);
   if (sound)
     *c = *whole;
   free(whole);

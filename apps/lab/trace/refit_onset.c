@@ -199,6 +199,7 @@ int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *score
   for (i = 0; i < *n; i++)
     begin_onset(base, &scores->of[i], time_of(base, row), lab_count(LAB_BRIEF_STEPS), &c[i], error);
   reach = lab_constant(LAB_RIVAL) * lab_least_chi2(c, *n);
+  /* in a closed loop, where each look is dear, only what is fitted with all values is placed */
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < *n; i++)
     if (c[i].quality.fitted && c[i].quality.chi2 <= reach && !lab_refill_loops(&c[i].u))

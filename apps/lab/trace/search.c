@@ -75,6 +75,20 @@ static int search_coarsely(const lab_unknowns *u, const lab_search_options *opti
   return status;
 }
 
+/* The whole run: for a leak that a positioner makes up for, coarsely, then row by row.
+ * Out:     leaks   whether such a leak is the answer, with what was found beside it
+ *          coarse  whether what was seen coarsely is */
+static int search_whole(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *leaks,
+                        int *coarse, lab_error *error)
+{
+  int status = LAB_OK;
+  if (lab_refill_is_asked(u))
+    status = lab_refill_search(u, options, f, leaks, error);
+  if (status == LAB_OK && !*leaks)
+    status = search_coarsely(u, options, f, coarse, error);
+  return status == LAB_OK && !*leaks && !*coarse ? lab_contest_run(u, 0, options, f, error) : status;
+}
+
 void lab_search_options_default(lab_search_options *options)
 {
   memset(options, 0, sizeof *options);
@@ -256,7 +270,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   lab_finding *f = calloc(1, sizeof *f);
   lab_unknowns *declared = malloc(sizeof *declared);
   lab_candidate *held = calloc(1, sizeof *held);
-  int early = 0, done = 0, coarse = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
+  int early = 0, leaks = 0, coarse = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *declared = *u;
     f->held = held;
@@ -264,16 +278,11 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   }
   if (status == LAB_OK && lab_preview_is_asked(u))
     status = lab_preview_search(u, options, f, &early, error);
-  if (status == LAB_OK && !early && lab_refill_is_asked(u))
-    status = lab_refill_search(u, options, f, &done, error);
-  if (status == LAB_OK && !done && !early)
-    status = search_coarsely(u, options, f, &coarse, error);
-  done |= coarse;
-  if (status == LAB_OK && !done && !early)
-    status = lab_contest_run(u, 0, options, f, error);
-  if (status == LAB_OK && !done)
+  if (status == LAB_OK && !early)
+    status = search_whole(u, options, f, &leaks, &coarse, error);
+  if (status == LAB_OK && !leaks && !coarse)
     status = try_rivals(f, error);
-  if (status == LAB_OK && !done)
+  if (status == LAB_OK && !leaks && !coarse)
     status = take_out_what_harms(f, error);
   if (status == LAB_OK && !coarse)
     status = rest_what_is_absent(f, error);
