@@ -143,11 +143,24 @@ static int fit_onset(const lab_candidate *base, const size_t between[2], double 
   return status;
 }
 
-/* Whether something begins after the first row, beyond doubt. */
-static int begins_later(const lab_candidate *onset)
+/* Whether something begins after the first row, beyond doubt: what acts throughout may have bent the values of a
+ * beginning that shows little of it. */
+static int begins_later(const lab_candidate *onset, double alpha, int *later, lab_error *error)
 {
   const lab_run *x = onset->u.run;
-  return lab_candidate_begins(onset) && onset->begin[0].low > x->log->value[LAB_CHANNEL_TIME][x->first];
+  lab_unknowns *u = malloc(sizeof *u);
+  lab_onset begin = onset->begin[0];
+  double chi2 = onset->quality.chi2;
+  int status = u ? LAB_OK : lab_fail_memory(error, "what begins");
+  *later = lab_is_noise(&onset->quality) && lab_candidate_begins(onset) &&
+           begin.low > x->log->value[LAB_CHANNEL_TIME][x->first];
+  if (status == LAB_OK && *later) {
+    *u = onset->u;
+    status = lab_onset_extend(u, lab_unknowns_find_onset(u, u->rig.onset[0].param), alpha, &chi2, &begin, error);
+    *later = begin.known;
+  }
+  free(u);
+  return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
 int lab_early_fit(lab_candidate *within, size_t rows, double alpha, lab_candidate *onset, lab_onset_scores *begins,
@@ -156,7 +169,7 @@ int lab_early_fit(lab_candidate *within, size_t rows, double alpha, lab_candidat
   const size_t n = within->u.run->n;
   lab_candidate *c = malloc(sizeof *c);
   size_t between[2] = {0, 0};
-  int status = c ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
+  int later = 0, status = c ? LAB_OK : lab_fail_memory(error, "the beginning of a run");
   onset->quality.fitted = 0;
   if (status == LAB_OK) {
     *c = *within;
@@ -169,7 +182,9 @@ int lab_early_fit(lab_candidate *within, size_t rows, double alpha, lab_candidat
   else if (status == LAB_OK && between[0] > 0)
     status = fit_onset(c, between, alpha, onset, begins, error);
   *sound = between[0];
-  onset->quality.fitted &= status == LAB_OK && lab_is_noise(&onset->quality) && begins_later(onset);
+  if (status == LAB_OK && onset->quality.fitted)
+    status = begins_later(onset, alpha, &later, error);
+  onset->quality.fitted &= status == LAB_OK && later;
   if (!onset->quality.fitted && c) {
     *onset = *c;
     onset->quality.fitted = 0;

@@ -250,13 +250,11 @@ int lab_onset_settle(lab_unknowns *u, int change, int anywhere, double *chi2, la
   return status;
 }
 
-int lab_onset_find(lab_unknowns *u, int change, double level, double *chi2, lab_onset *begin, lab_error *error)
+int lab_onset_extend(lab_unknowns *u, int change, double level, double *chi2, lab_onset *begin, lab_error *error)
 {
   lab_unknowns *throughout = malloc(sizeof *throughout);
   double whole;
   int status = throughout ? LAB_OK : lab_fail_memory(error, "an onset");
-  if (status == LAB_OK)
-    status = lab_onset_settle(u, change, 1, chi2, begin, error);
   if (status == LAB_OK) {
     *throughout = *u;
     set_from(throughout, change, -HUGE_VAL);
@@ -269,4 +267,10 @@ int lab_onset_find(lab_unknowns *u, int change, double level, double *chi2, lab_
   }
   free(throughout);
   return status;
+}
+
+int lab_onset_find(lab_unknowns *u, int change, double level, double *chi2, lab_onset *begin, lab_error *error)
+{
+  const int status = lab_onset_settle(u, change, 1, chi2, begin, error);
+  return status == LAB_OK ? lab_onset_extend(u, change, level, chi2, begin, error) : status;
 }

@@ -18,7 +18,11 @@ enum { LAB_ONSET_PLACES = 8 }; /* stretches of a run between which a change may 
  * In/out, Out, Returns: as lab_onset_find */
 int lab_onset_settle(lab_unknowns *u, int change, int anywhere, double *chi2, lab_onset *begin, lab_error *error);
 
-/* The same; where that is no better than acting throughout, the change acts throughout.
+/* Where that is no worse, let a change act throughout.
+ * In/out, Out, Returns: as lab_onset_find */
+int lab_onset_extend(lab_unknowns *u, int change, double level, double *chi2, lab_onset *begin, lab_error *error);
+
+/* Settle, then extend.
  * In:      change  place of a fitted LAB_UNKNOWN_CHANGE that the last run alone has, or of a LAB_UNKNOWN_ONSET of the
  *                  only run, seen row by row
  *          level   p-value that the improvement has to pass

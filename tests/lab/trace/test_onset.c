@@ -196,6 +196,32 @@ static void test_lab_early_fit__missing_from_the_start__finds_neither(void **sta
   close_log();
 }
 
+/* Whether a leak still begins at 5 s after it was asked to act throughout. */
+static int leak_begins(const second_rig *first, const second_rig *later)
+{
+  static const double at = 5;
+  const int leak = pneu_param_find("leak_area");
+  lab_onset begin = {1, at, at, at};
+  lab_error error = {0, ""};
+  double chi2;
+  open_log(first, later, at);
+  assert_int_equal(lab_unknowns_add_onset(&u, leak, at, 1e-8, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  assert_int_equal(lab_onset_extend(&u, lab_unknowns_find_onset(&u, leak), 0.01, &chi2, &begin, &error), LAB_OK);
+  assert_close(u.unknown[lab_unknowns_find_onset(&u, leak)].value, 2e-8, 0, 0.05);
+  close_log();
+  return begin.known;
+}
+
+static void test_lab_onset_extend__leak__begins_only_where_it_does(void **state)
+{
+  const second_rig tight = true_rig();
+  second_rig leaks = tight;
+  leaks.leak_area = 2e-8;
+  assert_true(leak_begins(&tight, &leaks));
+  assert_false(leak_begins(&leaks, NULL));
+}
+
 /* What a sensor shows is a state that goes on when the supply falls. */
 static void test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on(void **state)
 {
@@ -229,6 +255,7 @@ int main(void)
       cmocka_unit_test(test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model),
       cmocka_unit_test(test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run),
       cmocka_unit_test(test_lab_early_fit__missing_from_the_start__finds_neither),
+      cmocka_unit_test(test_lab_onset_extend__leak__begins_only_where_it_does),
       cmocka_unit_test(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
