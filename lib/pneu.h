@@ -280,7 +280,7 @@ typedef struct pneu_input {
   pneu_real force;           /* [N] on the stem, positive against the air, added to external_force */
   pneu_real pressure_rate;   /* [Pa/s] slope of the chamber pressure, where it is an input */
   pneu_real position_rate;   /* [m/s] slope of the position, where it is an input */
-  pneu_delay *delay;         /* commands on their way, for a model with a dead time; else NULL will do */
+  pneu_delay *delay;         /* commands on their way, for a model with command_delay; else NULL will do */
   int set_position;          /* not 0: u is a set position, for a model with a positioner (effect positioner); 0: its
                                 positioner does nothing */
 } pneu_input;
@@ -353,10 +353,11 @@ typedef struct pneu_line {
 
 /* Constant after pneu_model_init and pneu_model_terms; may lie in read-only memory.
  *
- * Time that the state does not hold: commands on their way to a model with command_delay (effect dead_time) are in
- * pneu_input.delay; without one pneu_run and pneu_step refuse such a model. position_skew (effect channel_skew) is the
- * recorder's: pneu_show and pneu_observe say what the sensor has at time t, and the recorder shows it at
- * t + position_skew. The programs do so; firmware that compares positions puts them through a pneu_delay of its own. */
+ * Time that the state does not hold: commands on their way to a model with command_delay (effect dead_time, no
+ * positioner) are in pneu_input.delay; without one pneu_run and pneu_step refuse such a model. position_skew (effect
+ * channel_skew) is the recorder's: pneu_show and pneu_observe say what the sensor has at time t, and the recorder shows
+ * it at t + position_skew. The programs do so; firmware that compares positions puts them through a pneu_delay of its
+ * own. */
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
@@ -379,7 +380,8 @@ struct pneu_model {
                                           0, see effects/positioner.c */
   pneu_line supply_loss;               /* on the way from the supply, without a volume */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
-  pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay */
+  pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay; 0 where a positioner
+                                          acts, in whose loop the dead time is states */
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */
   pneu_real force_noise;               /* [N] rounding of the balance of forces; break-away asks for more */
   pneu_real force_resolved;            /* [N] by which a stem that has just stopped must be pushed to go on */

@@ -15,6 +15,9 @@ enum {
   U,
   X,
   V,
+  LATE,
+  LATER,
+  LATEST,
   OPENING,
   INTEGRAL,
   WALL,
@@ -291,6 +294,25 @@ static double asked(const world *w, const double *y, double *d)
   return u;
 }
 
+/* The share of the dead time that stands for it within a loop: three lags in a row, each of a third. What a controller
+ * that works by turns has sent comes late by the dead time itself. */
+static double waits(const world *w)
+{
+  return is_continuous(w) ? w->rig->dead_time / 3.0 : 0.0;
+}
+
+/* What comes of what is asked, dead time later. */
+static double arrived(const world *w, const double *y, double ask, double *d)
+{
+  double wait = waits(w);
+  if (wait <= 0.0)
+    return ask;
+  d[LATE] = (ask - y[LATE]) / wait;
+  d[LATER] = (y[LATE] - y[LATER]) / wait;
+  d[LATEST] = (y[LATER] - y[LATEST]) / wait;
+  return y[LATEST];
+}
+
 /* How far a port of the spool is open, the fill port for u and the vent port for -u. */
 static double port(const second_rig *g, double u)
 {
@@ -302,7 +324,7 @@ static double port(const second_rig *g, double u)
 static void transducer(const world *w, const double *y, double t, const chamber *c, double *d)
 {
   const second_rig *g = w->rig;
-  double ask = asked(w, y, d), u = g->transducer_lag > 0.0 ? y[OPENING] : ask;
+  double ask = arrived(w, y, asked(w, y, d), d), u = g->transducer_lag > 0.0 ? y[OPENING] : ask;
   double fill = port(g, u) * g->fill_area, vent = port(g, -u) * g->vent_area;
   if (g->transducer_lag > 0.0)
     d[OPENING] = (ask - y[OPENING]) / g->transducer_lag;
@@ -672,8 +694,7 @@ static void start(world *w)
   y[X_LAG] = y[X];
   if (k && k->integral_time > 0.0)
     y[INTEGRAL] = w->positioner.integral = k->integral_start;
-  if (g->transducer_lag > 0.0)
-    y[OPENING] = asked(w, y, rate);
+  y[LATE] = y[LATER] = y[LATEST] = y[OPENING] = asked(w, y, rate);
   y[T_LAG] = T;
   w->mode = y[V] > 0.0 ? UP : DOWN;
   if (g->bristle_rate > 0.0)
@@ -707,14 +728,15 @@ static void control(world *w, const second_positioner *k)
   c->u[c->cycles++ % SENT] = u;
 }
 
-/* Command at the valve at t: as sent, or with a positioner as it was a dead time ago. */
+/* Command at the valve at t, or at a positioner that works all the time: as sent; of one that works by turns what it sent
+ * a dead time ago. */
 static double command(const world *w, double t)
 {
   const second_positioner *k = w->course->positioner;
   double delay = w->rig->dead_time;
   long cycle;
   if (!k || is_continuous(w))
-    return sent(w, t - delay);
+    return sent(w, k ? t : t - delay);
   cycle = (long)floor((t - delay + margin) / k->cycle);
   return cycle < 0 ? 0.0 : w->positioner.u[cycle % SENT];
 }
@@ -723,7 +745,8 @@ static double command(const world *w, double t)
 static double next_change(const world *w, double t, double limit)
 {
   const second_course *c = w->course;
-  double delay = w->rig->dead_time, cycle = c->positioner ? c->positioner->cycle : 0.0; /* 0: none */
+  double delay = is_continuous(w) ? 0.0 : w->rig->dead_time;
+  double cycle = c->positioner ? c->positioner->cycle : 0.0; /* 0: none */
   size_t i = w->latest;
   if (c->later && w->rig != c->later)
     limit = fmin(limit, c->change);

@@ -154,7 +154,7 @@ static int begins_later(const lab_candidate *onset, double alpha, int *later, la
   int status = u ? LAB_OK : lab_fail_memory(error, "what begins");
   *later = lab_is_noise(&onset->quality) && lab_candidate_begins(onset) &&
            begin.low > x->log->value[LAB_CHANNEL_TIME][x->first];
-  if (status == LAB_OK && *later) {
+  if (status == LAB_OK && *later && onset->n_found > 0) { /* values vary from the first row in any case */
     *u = onset->u;
     status = lab_onset_extend(u, lab_unknowns_find_onset(u, u->rig.onset[0].param), alpha, &chi2, &begin, error);
     *later = begin.known;

@@ -286,6 +286,7 @@ static const effect_case positioned[] = {
     {"positioner_underlap",       {3e-4, 7e-5, 2e-6}, set_positioner, {SAME(overlap, overlap, -0.05)}},
     {"positioner_zero",           {6e-5, 9e-5, 3e-5}, set_positioner_integral, {SAME(zero_shift, zero, 5e-4)}},
     CASE(positioner_start,         1e-4, 3e-4, 5e-5),
+    {"dead_time",                 {2e-5, 1e-5, 3e-6}, set_positioner, {SAME(dead_time, dead_time, 0.033)}},
 };
 /* clang-format on */
 
@@ -514,6 +515,36 @@ static void test_lab_response_run__positioner__is_that_of_the_second_implementat
       snprintf(what, sizeof what, "%s, %s", positioned[i].name, pneu_gas_key(laws[law][0]));
       assert_agrees(&e, &positioned[i].most, what);
     }
+}
+
+/* How far the stem is from that of a controller that works by turns, and is heard a dead time later [of the stroke]. */
+static double off_turns(const char *name, double seconds)
+{
+  run e = random_experiment(1, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  random_set_positions(&e, 50);
+  memset(&other, 0, sizeof other);
+  other.cutoff_low = -1, other.cutoff_high = 2; /* none */
+  set_positioner(&e.p, &e.g, 1);
+  other.cycle = 1e-3;
+  e.g.dead_time = 0.033;
+  fixture_set(&e.p, name, seconds);
+  e.positioner = &other;
+  return compare(&e).x;
+}
+
+/* Within the loop a dead time is made of lags: nearer to it than one lag of the same length is, or none. */
+static void test_lab_response_run__dead_time_of_a_positioner__is_nearly_that_of_one_that_works_by_turns(void **state)
+{
+  double off, lag, none;
+  fixture_need("positioner");
+  fixture_need("dead_time");
+  fixture_need("transducer_lag");
+  off = off_turns("dead_time", 0.033);
+  lag = off_turns("transducer_time", 0.033);
+  none = off_turns("transducer_time", 0);
+  check_note("off by %g, one lag by %g, none by %g of the stroke", off, lag, none);
+  assert_true(off < 0.8 * lag);
+  assert_true(off < 0.5 * none);
 }
 
 /* Give an experiment some of the first n effects, at random sizes, and append their names. */
@@ -757,6 +788,8 @@ int main(void)
       cmocka_unit_test(test_lab_response_run__lines__are_those_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__exponent__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__start_temperature__is_that_of_the_second_implementation),
+      cmocka_unit_test(
+          test_lab_response_run__dead_time_of_a_positioner__is_nearly_that_of_one_that_works_by_turns),
       cmocka_unit_test(test_lab_response_run__positioner__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__lines_in_random_sets__agree_with_the_second_implementation),
