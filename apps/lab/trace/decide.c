@@ -63,12 +63,16 @@ int lab_is_poor(const lab_quality *declared, const lab_quality *q)
   return !q->fitted || excess(q) > lab_constant(LAB_MUCH) * excess(declared);
 }
 
-/* A free term can bend to nearly anything, and says nothing beyond what it has seen: it must leave only noise, or at
- * most a share of what another model leaves. */
-static int convinces(const lab_quality *with_term, const lab_quality *other, double share)
+/* What bends easily must leave only noise, or at most a share of what another model leaves. */
+static int convinces(const lab_quality *with, const lab_quality *other, double share)
 {
-  return with_term->fitted && with_term->bic < other->bic &&
-         (lab_is_noise(with_term) || excess(with_term) < share * excess(other));
+  return with->fitted && with->bic < other->bic && (lab_is_noise(with) || excess(with) < share * excess(other));
+}
+
+/* A free term can bend to nearly anything, and says nothing beyond what it has seen. */
+static int term_convinces(const lab_quality *with, const lab_quality *other, double share)
+{
+  return convinces(with, other, share) && with->bic + lab_constant(LAB_ALIKE_BIC) < other->bic;
 }
 
 int lab_onset_convinces(const lab_quality *with, const lab_quality *without)
@@ -132,7 +136,7 @@ static int a_term_stands_out(const lab_facts *f)
 
 static int a_term_comes_near(const lab_facts *f)
 {
-  return !lab_is_noise(&f->free_term) && convinces(&f->free_term, &f->best, lab_constant(LAB_TERM_COMPELLING));
+  return !lab_is_noise(&f->free_term) && term_convinces(&f->free_term, &f->best, lab_constant(LAB_TERM_COMPELLING));
 }
 
 static int a_term_needs_tolerances(const lab_facts *f)
@@ -183,7 +187,7 @@ static int wants_a_term(const lab_facts *f)
 static int a_term_is_better(const lab_facts *f)
 {
   return leaves_more_than_noise(f) &&
-         convinces(&f->free_term, &f->best, f->n_found > 1 ? 1 : lab_constant(LAB_TERM_CONVINCING));
+         term_convinces(&f->free_term, &f->best, f->n_found > 1 ? 1 : lab_constant(LAB_TERM_CONVINCING));
 }
 
 static int has_room_for_a_term(const lab_facts *f)
@@ -196,13 +200,18 @@ static int has_room_for_a_term(const lab_facts *f)
 static int a_term_beside_convinces(const lab_facts *f)
 {
   const int in_vain = lab_is_noise(&f->best) && lab_is_strained(&f->best) && lab_is_strained(&f->extended);
-  return !in_vain && convinces(&f->extended, &f->best, lab_constant(LAB_TERM_CONVINCING));
+  return !in_vain && term_convinces(&f->extended, &f->best, lab_constant(LAB_TERM_CONVINCING));
 }
 
 static int has_found_a_term(const lab_facts *f)
 {
   const double most = lab_constant(LAB_TERM_REST) * f->best.values;
   return f->found_term && (lab_is_noise(&f->best) || (!lab_is_strained(&f->best) && f->best.chi2 < most));
+}
+
+static int has_a_term_beside_an_onset(const lab_facts *f)
+{
+  return f->found_term && f->begins_within;
 }
 
 static int has_found(const lab_facts *f)
@@ -272,7 +281,8 @@ const lab_rule lab_rules[] = {
      wants_a_term, "Refit the declared model with the best free term, if its score passes.", LAB_DO_FIT_TERM},
 
     {LAB_PHASE_END,
-     "More than noise is left. The declared model with a free term has a lower BIC and leaves only noise, or less than "
+     "More than noise is left. The declared model with a free term has a BIC lower by ALIKE_BIC and leaves only noise, "
+     "or less than "
      "TERM_CONVINCING of the excess; less than the excess where two effects were added.",
      a_term_is_better, "Take it in place of the best model.", LAB_DO_TAKE_TERM},
     {LAB_PHASE_END,
@@ -280,7 +290,8 @@ const lab_rule lab_rules[] = {
      "REST_DEVIATIONS.",
      has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
     {LAB_PHASE_END,
-     "That has a lower BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no declared value "
+     "That has a BIC lower by ALIKE_BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no "
+     "declared value "
      "STRAINED tolerances off, if the best model has such a one and leaves only noise.",
      a_term_beside_convinces,
      "If the error of some channel falls by MIN_GAIN, add the free term and take out each effect without which BIC is "
@@ -288,6 +299,11 @@ const lab_rule lab_rules[] = {
      "higher; else list the term as small.",
      LAB_DO_ADD_TERM},
 
+    {LAB_PHASE_VERDICT,
+     "A free term was added beside something that begins within the run: of two things that are rare one is as likely "
+     "to "
+     "stand in for the other.",
+     has_a_term_beside_an_onset, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT,
      "A free term was added. Only noise is left; or chi-square is less than TERM_REST times its expectation and no "
      "declared value is more than STRAINED tolerances off.",

@@ -69,6 +69,7 @@ static lab_facts facts_of_best(const lab_candidate *best)
   f.best = best->quality;
   f.n_found = best->n_found;
   f.n_terms = best->u.rig.n_terms;
+  f.begins_within = lab_candidate_begins(best);
   for (i = 0; i < best->n_found; i++)
     f.found_term |= best->found[i].term >= 0;
   return f;

@@ -162,10 +162,18 @@ static int effect_slope(void *context, double size, double *slope, lab_error *er
   return lab_projection_slope(e->p, &e->model, slope, error);
 }
 
-double lab_score_shape(const lab_score *score, int which)
+/* What is usual for a rig: a small chamber has a small tube. */
+static double usual_shape(const pneu_params *p, const pneu_param_info *info)
+{
+  static const double most = 0.5; /* of what the chamber has beside its stroke, by judgement */
+  const double usual = (double)info->value;
+  return strcmp(info->unit, "m3") == 0 ? fmin(usual, most * (double)p->dead_volume) : usual;
+}
+
+double lab_score_shape(const pneu_params *p, const lab_score *score, int which)
 {
   const pneu_param_info info = lab_param_info(score->shape);
-  return fmin(fmax(shapes[which] * (double)info.value, (double)info.lower), (double)info.upper);
+  return fmin(fmax(shapes[which] * usual_shape(p, &info), (double)info.lower), (double)info.upper);
 }
 
 /* One shape of an effect, in the model that is scored. */
@@ -181,7 +189,7 @@ static void prepare(const lab_projection *p, const lab_score *score, int which, 
   trial->offset = effect->present - (double)info.neutral;
   if (score->shape < 0)
     return;
-  trial->shape_value = lab_score_shape(score, which);
+  trial->shape_value = lab_score_shape(&effect->model.params, score, which);
   *pneu_param_at(&effect->model.params, score->shape) = (pneu_real)trial->shape_value;
 }
 

@@ -100,7 +100,7 @@ int lab_score_try(const lab_projection *p, const lab_trial *trial, lab_score *sc
 enum { LAB_SCORE_SHAPES = 3 };
 
 /* Shapes that an effect is tried with, 0 <= which < LAB_SCORE_SHAPES. */
-double lab_score_shape(const lab_score *score, int which);
+double lab_score_shape(const pneu_params *p, const lab_score *score, int which);
 
 /* Largest statistic first, for qsort. */
 int lab_score_by_statistic(const void *a, const void *b);

@@ -315,6 +315,16 @@ static int doubt(const lab_search_result *result)
   return 2 * (of_verdict[result->verdict] + result->n_found) + (result->n_listed > 0 || result->has_small);
 }
 
+/* How many declared values an explanation puts far from their sheet. */
+static int let_go(const lab_unknowns *declared, const lab_unknowns *u)
+{
+  int j, n = 0;
+  for (j = 0; j < u->n; j++)
+    n += lab_param_is_value(u->unknown[j].index) && u->unknown[j].kind == LAB_UNKNOWN_PARAM &&
+         !lab_unknown_is_held(&u->unknown[j]) && lab_unknowns_find(declared, u->unknown[j].index) < 0;
+  return n;
+}
+
 /* Whether the values can be accidents. What an effect does comes back with every change of the command, or with every
  * other one, and may last a row where rows are far between. */
 static int can_be_accidents(const lab_outliers *out, const lab_logs *bench)
@@ -358,11 +368,15 @@ static int run_again(const lab_search_options *options, outcome *o, lab_error *e
   return lab_search_run(&o->completed, options, &o->result, error);
 }
 
-/* Whether an answer without the isolated values is to be taken: it decides, and less is found or in doubt, or nothing
- * either way. Where more than these values is beyond the model, they may be real. */
-static int is_clearer(const lab_search_result *without, const lab_search_result *with)
+/* Whether an answer without the isolated values is to be taken: it decides, and less is found or in doubt, or as much
+ * with fewer declared values far off, or nothing either way. Where more than these values is beyond the model, they may
+ * be real. */
+static int is_clearer(const outcome *without, const lab_unknowns *completed, const lab_search_result *with)
 {
-  return without->verdict != LAB_VERDICT_UNDECIDED && (doubt(without) < doubt(with) || doubt(without) == 0);
+  const int now = doubt(&without->result), before = doubt(with);
+  return without->result.verdict != LAB_VERDICT_UNDECIDED &&
+         (now < before || now == 0 ||
+          (now == before && let_go(&without->declared, &without->completed) < let_go(&without->declared, completed)));
 }
 
 int lab_search_without_outliers(const lab_search_options *options, lab_logs *bench, lab_unknowns *declared,
@@ -385,7 +399,7 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
     status = run_again(options, o, error);
   }
   result->cut_short = o && o->result.cut_short;
-  if (o && status == LAB_OK && !result->cut_short && is_clearer(&o->result, result)) {
+  if (o && status == LAB_OK && !result->cut_short && is_clearer(o, completed, result)) {
     *declared = o->declared;
     *completed = o->completed;
     *result = o->result;

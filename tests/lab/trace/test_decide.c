@@ -251,7 +251,7 @@ static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(v
   assert_false(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
   f.free_term.chi2 = 399;
   assert_true(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
-  f.free_term.bic = f.best.bic;
+  f.free_term.bic = f.best.bic - 9;
   assert_false(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
   f.free_term.bic = 610;
   f.best.chi2 = 319; /* noise */
@@ -298,6 +298,9 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.best.chi2 = 200;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
+  f.begins_within = 1;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
+  f.begins_within = 0;
   f.found_term = 0;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
   f.n_found = 0;
