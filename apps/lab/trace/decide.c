@@ -214,6 +214,12 @@ static int has_a_term_beside_an_onset(const lab_facts *f)
   return f->found_term && f->begins_within;
 }
 
+static int has_too_many_causes(const lab_facts *f)
+{
+  enum { MOST = 2 };
+  return f->in_one_loop && f->n_causes > MOST;
+}
+
 static int has_found(const lab_facts *f)
 {
   return f->n_found > 0;
@@ -308,6 +314,11 @@ const lab_rule lab_rules[] = {
      "A free term was added. Only noise is left; or chi-square is less than TERM_REST times its expectation and no "
      "declared value is more than STRAINED tolerances off.",
      has_found_a_term, "`unlisted`", LAB_VERDICT_UNLISTED},
+    {LAB_PHASE_VERDICT,
+     "Three effects were added to a single run behind a positioner, errors of sensors apart: the loop hides most of "
+     "each, "
+     "and some three of the catalogue fit nearly anything.",
+     has_too_many_causes, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
     {LAB_PHASE_VERDICT, "Nothing was added.", has_found_nothing, "`none`", LAB_VERDICT_NONE},

@@ -108,6 +108,8 @@ typedef struct lab_facts {
   int held;              /* declared values vary within their tolerances */
   int has_begun;         /* something that begins within the run was taken up in this round */
   int found_term;        /* a free term was added to it */
+  int n_causes;          /* effects that were added to it, errors of sensors apart */
+  int in_one_loop;       /* there is a single run, behind a positioner */
   int begins_within;     /* something in it begins within the run */
   int can_begin;         /* the logs are one run, of which nothing is known to begin within it */
   lab_quality onset;     /* the declared model with what begins within its run; not fitted: not tried yet, or nothing */

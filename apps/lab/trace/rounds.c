@@ -70,8 +70,11 @@ static lab_facts facts_of_best(const lab_candidate *best)
   f.n_found = best->n_found;
   f.n_terms = best->u.rig.n_terms;
   f.begins_within = lab_candidate_begins(best);
-  for (i = 0; i < best->n_found; i++)
+  f.in_one_loop = best->u.n_runs == 1 && lab_rig_has_positioner(&best->u.rig);
+  for (i = 0; i < best->n_found; i++) {
     f.found_term |= best->found[i].term >= 0;
+    f.n_causes += best->found[i].effect >= 0 && !lab_found_is_of_sensor(&best->found[i]);
+  }
   return f;
 }
 

@@ -303,6 +303,11 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   f.begins_within = 0;
   f.found_term = 0;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
+  f.in_one_loop = 1;
+  f.n_causes = 3;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
+  f.n_causes = 2;
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
   f.n_found = 0;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_NONE);
   assert_string_equal(lab_verdict_text(LAB_VERDICT_NONE), "none");
