@@ -141,6 +141,12 @@ static inline pneu_delay *pneu_commands(const pneu_input *input)
   return pneu_has_dead_time() ? input->delay : NULL;
 }
 
+/* Whether a dead time lies in the loop of a positioner, which has prepared its dead band, and not before the model. */
+static inline int pneu_is_late_in_loop(const pneu_model *model, const pneu_input *input)
+{
+  return model->band_edge > 0 && input->set_position;
+}
+
 /* Whether pressure, temperature and volume of a state are above zero. */
 int pneu_is_physical(const pneu_model *model, const pneu_state *state);
 

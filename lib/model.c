@@ -41,11 +41,12 @@ static int bad_param(pneu_params *p)
   return -1;
 }
 
-static int is_active(const pneu_model *model, int e)
+/* Returns: enum pneu_action */
+static int action_of(const pneu_model *model, int e)
 {
   const pneu_effect *effect = pneu_effect_at(e);
   const pneu_real *param = &model->p.effect[model->param_of[e]];
-  return effect->acts ? effect->acts(model, param) : is_switched_on(e, param);
+  return effect->acts ? effect->acts(model, param) : is_switched_on(e, param) ? PNEU_ACTS : PNEU_RESTS;
 }
 
 static int state_count(int e)
@@ -66,11 +67,13 @@ static void activate(pneu_model *model)
     model->param_of[e] = (unsigned char)(pneu_effect_params(e, NULL) - PNEU_PARAM_BASE_COUNT);
   for (stage = 0; stage <= PNEU_STAGE_SENSOR; stage++)
     for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
-      if (pneu_effect_at(e)->stage != stage || !is_active(model, e))
+      const int action = pneu_effect_at(e)->stage == stage ? action_of(model, e) : PNEU_RESTS;
+      if (action == PNEU_RESTS)
         continue;
       model->active[model->n_active++] = (unsigned char)e;
       model->state_of[e] = (unsigned char)model->n_extra;
-      model->n_extra += state_count(e);
+      model->states_of[e] = (unsigned char)(action == PNEU_ACTS ? state_count(e) : 0);
+      model->n_extra += model->states_of[e];
       if (pneu_effect_at(e)->prepare)
         pneu_effect_at(e)->prepare(model, &model->p.effect[model->param_of[e]]);
       model->bristle |= stage == PNEU_STAGE_BRISTLE;

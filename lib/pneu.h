@@ -319,6 +319,9 @@ typedef struct pneu_term {
   pneu_real value[PNEU_TERM_ROOM]; /* at the knots, in the unit of the equation; over a cycle cos, sin, cos, sin ... */
 } pneu_term;
 
+/* How an effect is at work: not at all; with its states; by the model's constants alone, without states. */
+enum pneu_action { PNEU_RESTS, PNEU_ACTS, PNEU_ACTS_BY_CONSTANTS };
+
 typedef struct pneu_model pneu_model;
 struct pneu_terms; /* the running sums of one evaluation; private to lib/ */
 
@@ -334,7 +337,8 @@ typedef struct pneu_effect {
   const pneu_param_info *param; /* as many as effects.def says */
   void (*add)(const pneu_real *param, const pneu_real *state, struct pneu_terms *terms, pneu_real *rate);
   void (*start)(const pneu_real *param, const struct pneu_terms *terms, pneu_real *state); /* at rest; NULL: 0 */
-  int (*acts)(const struct pneu_model *model, const pneu_real *param); /* NULL: where any parameter is not neutral */
+  int (*acts)(const struct pneu_model *model, const pneu_real *param); /* enum pneu_action; NULL: with its states where
+                                                                           any parameter is not neutral */
   void (*prepare)(struct pneu_model *model, const pneu_real *param);   /* change the model's constants; may be NULL */
 } pneu_effect;
 
@@ -353,11 +357,11 @@ typedef struct pneu_line {
 
 /* Constant after pneu_model_init and pneu_model_terms; may lie in read-only memory.
  *
- * Time that the state does not hold: commands on their way to a model with command_delay (effect dead_time, no
- * positioner) are in pneu_input.delay; without one pneu_run and pneu_step refuse such a model. position_skew (effect
- * channel_skew) is the recorder's: pneu_show and pneu_observe say what the sensor has at time t, and the recorder shows
- * it at t + position_skew. The programs do so; firmware that compares positions puts them through a pneu_delay of its
- * own. */
+ * Time that the state does not hold: commands on their way to a model with command_delay (effect dead_time), set
+ * positions apart, are in pneu_input.delay; without one pneu_run and pneu_step refuse such a model. position_skew
+ * (effect channel_skew) is the recorder's: pneu_show and pneu_observe say what the sensor has at time t, and the
+ * recorder shows it at t + position_skew. The programs do so; firmware that compares positions puts them through a
+ * pneu_delay of its own. */
 struct pneu_model {
   pneu_params p;
   pneu_laws law;
@@ -380,8 +384,8 @@ struct pneu_model {
                                           0, see effects/positioner.c */
   pneu_line supply_loss;               /* on the way from the supply, without a volume */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
-  pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay; 0 where a positioner
-                                          acts, in whose loop the dead time is states */
+  pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay; a set position acts
+                                          at once, with the dead time in its loop */
   pneu_real position_skew;             /* [s] from a position to its record; below 0 it is the rest that comes late */
   pneu_real force_noise;               /* [N] rounding of the balance of forces; break-away asks for more */
   pneu_real force_resolved;            /* [N] by which a stem that has just stopped must be pushed to go on */
@@ -392,9 +396,10 @@ struct pneu_model {
   int n_extra;                         /* states of active effects, and the clock */
   int n_gas;                           /* states before x in the packed vector: p, [T], effects */
   int n_active;
-  unsigned char active[PNEU_EFFECT_COUNT + 1];   /* effects not at their neutral value, by stage */
-  unsigned char param_of[PNEU_EFFECT_COUNT + 1]; /* first parameter in p.effect */
-  unsigned char state_of[PNEU_EFFECT_COUNT + 1]; /* first state in pneu_state.extra */
+  unsigned char active[PNEU_EFFECT_COUNT + 1];    /* effects not at their neutral value, by stage */
+  unsigned char param_of[PNEU_EFFECT_COUNT + 1];  /* first parameter in p.effect */
+  unsigned char state_of[PNEU_EFFECT_COUNT + 1];  /* first state in pneu_state.extra */
+  unsigned char states_of[PNEU_EFFECT_COUNT + 1]; /* how many an active effect has */
   int supply_line;       /* place in pneu_state.extra of the pressure in the supply's line; -1: it has no volume */
   int n_terms;
   const pneu_term *term; /* free terms, the caller's */

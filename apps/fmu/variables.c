@@ -121,8 +121,9 @@ static void add_states(fmu_list *list, const pneu_model *model)
     if (kind >= FMU_STATE_EFFECT) {
       const pneu_effect *effect = pneu_effect_at(fmu_state_effect(kind));
       const words w = {"", "1", effect->what};
+      const int number = fmu_state_number(kind);
       v = add(list, fmu_state_reference(kind), FMU_LOCAL, &w);
-      snprintf(v->name, sizeof v->name, "%s.state", effect->name);
+      snprintf(v->name, sizeof v->name, number ? "%s.state[%d]" : "%s.state", effect->name, number);
       v->nominal = 1;
     } else {
       v = &list->variable[fmu_list_find(list, fmu_state_reference(kind))];

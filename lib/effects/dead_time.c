@@ -1,7 +1,7 @@
 /* The command acts late: u(t - d). The delay is a constant of the model; what is on its way is in pneu_input.delay.
- * With a positioner it is what this opens that acts late, within the loop: three lags of d/3 in a row, which reach half
- * of a step after 0.9 d, as what is on its way there is no command and has to be a state.
- * Size: 3 ms per metre of tube (speed of sound), 5 to 30 ms for the transducer's electronics and bus. */
+ * Of a positioner it is what this opens that acts late, within the loop: three lags of d/3 in a row, which reach half
+ * of a step after 0.9 d, as what is on its way there is no command and has to be a state. Size: 3 ms per metre of tube
+ * (speed of sound), 5 to 30 ms for the transducer's electronics and bus. */
 #include "../internal.h"
 
 enum { DELAY };
@@ -10,16 +10,27 @@ enum { LAGS = 3 };
 static const pneu_param_info params[] = {
     {"dead_time", "s", 0, PNEU_C(100.0), PNEU_C(0.02), 0, 0, "delay of the command"}};
 
+static int acts(const pneu_model *model, const pneu_real *param)
+{
+  const pneu_real lag = param[DELAY] / LAGS;
+  if (!(model->band_edge > 0))
+    return param[DELAY] > 0 ? PNEU_ACTS_BY_CONSTANTS : PNEU_RESTS;
+  return pneu_lag_acts(model, &lag);
+}
+
+static void prepare(pneu_model *model, const pneu_real *param)
+{
+  model->command_delay = param[DELAY];
+}
+
+/* An opening that is not the positioner's comes late by its line. */
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
+  const int late = pneu_is_late_in_loop(t->model, t->input);
   int i;
-  for (i = 0; i < LAGS; i++)
-    rate[i] = 0;
-  if (t->model->command_delay > 0)
-    return;
-  for (i = 0; i < LAGS; i++) {
-    rate[i] = LAGS * (t->opening - state[i]) / param[DELAY];
-    t->opening = state[i];
+  for (i = 0; i < LAGS && t->model->band_edge > 0; i++) {
+    rate[i] = late ? LAGS * (t->opening - state[i]) / param[DELAY] : 0;
+    t->opening = late ? state[i] : t->opening;
   }
 }
 
@@ -27,15 +38,8 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 {
   int i;
   (void)param;
-  for (i = 0; i < LAGS; i++)
+  for (i = 0; i < LAGS && t->model->band_edge > 0; i++)
     state[i] = t->opening;
-}
-
-/* The positioner, of an earlier stage, has prepared its dead band if there is one. */
-static void prepare(pneu_model *model, const pneu_real *param)
-{
-  if (!(model->band_edge > 0))
-    model->command_delay = param[DELAY];
 }
 
 const pneu_effect pneu_effect_record_dead_time = {
@@ -49,7 +53,7 @@ const pneu_effect pneu_effect_record_dead_time = {
     params,
     add,
     start,
-    pneu_lag_acts,
+    acts,
     prepare};
 
 const char pneu_effect_sentence_dead_time[] = "Every command acts {size} late.";

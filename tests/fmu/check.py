@@ -307,6 +307,20 @@ def check_agreement():
         print(f"worst FMI {version} {kind}: {error:.1e} of stroke")
 
 
+def check_loop():
+    """A dead time has three states in the loop of a positioner, each with a name, and none without; there it can be set."""
+    names = {}
+    for version in VERSIONS:
+        for loop in ("positioner = { gain = 20; };\n", ""):
+            fmu = export(model(f"late-{len(loop)}", more=loop + "effects = { dead_time = { dead_time = \"0.03 s\"; }; };\n"), version)
+            problems = validate_fmu(fmu)
+            check(f"a late loop, FMI {version}: valid", not problems, "; ".join(problems))
+            names[loop] = [v.name for v in read_model_description(fmu).modelVariables if v.name.startswith("dead_time.")]
+        loop, alone = names.values()
+        check(f"a late loop, FMI {version}: states", len(loop) == 4 and len(set(loop)) == 4 and alone == ["dead_time.dead_time"],
+              " ".join(loop + alone))
+
+
 # Models driven by pressure, by position or by both: study files, and the R1-400 with more to it.
 PUMPED = """effects = { heat_transfer = { film_resistance = "0.5 K/W"; }; stribeck_friction = { stribeck_excess = "0.05";
   stribeck_velocity = "20 mm/s"; }; presliding = { presliding_length = "0.05 mm"; }; dead_time = { dead_time = "0.05 s"; }; };\n"""
@@ -956,6 +970,7 @@ def main():
     check_ramp()
     check_agreement()
     check_driven()
+    check_loop()
     check_measured()
     check_slopes()
     check_names()

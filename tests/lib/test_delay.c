@@ -13,11 +13,13 @@ typedef struct loop {
   pneu_workspace work;
 } loop;
 
-/* At rest under a command that has been acting; without dead time for 0. */
-static void begin(loop *l, double dead_time, int room, double u)
+/* At rest under a command that has been acting; without dead time, or positioner, for 0. */
+static void begin_behind(loop *l, double gain, double dead_time, int room, double u)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   p.fill_area = p.vent_area = (pneu_real)4e-6;
+  if (gain > 0)
+    fixture_set(&p, "gain", gain);
   if (dead_time > 0)
     fixture_set(&p, "dead_time", dead_time);
   memset(l, 0, sizeof *l);
@@ -26,6 +28,11 @@ static void begin(loop *l, double dead_time, int room, double u)
   l->input = fixture_input(&l->model, u);
   l->input.delay = &l->line;
   l->state = fixture_rest(&l->model, 0, 0, &l->input);
+}
+
+static void begin(loop *l, double dead_time, int room, double u)
+{
+  begin_behind(l, 0, dead_time, room, u);
 }
 
 static int run(loop *l, double u, double duration)
@@ -92,6 +99,23 @@ static void test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_comman
     assert_int_equal(run(&prompt, u[i], duration[i] - (i == 2 ? 0.0415 : 0)), PNEU_OK);
   assert_alike(&late, &prompt, TOL(0.1, 200), TOL(1e-9, 1e-5));
   assert_int_equal(late.line.n, 0);
+}
+
+/* Past a positioner the line delays an opening as without one; a set position needs no line. */
+static void test_pneu_run__dead_time_beside_a_positioner__is_the_lines_only_for_openings(void **state)
+{
+  loop beside, alone;
+  fixture_need("dead_time");
+  fixture_need("positioner");
+  begin_behind(&beside, 20, 0.0415, SLOTS, 0);
+  begin(&alone, 0.0415, SLOTS, 0);
+  assert_int_equal(run(&beside, 1, 0.06), PNEU_OK);
+  assert_int_equal(run(&alone, 1, 0.06), PNEU_OK);
+  assert_true(alone.state.p > 1000);
+  assert_alike(&beside, &alone, TOL(0.1, 200), TOL(1e-9, 1e-5));
+  beside.input.set_position = 1;
+  beside.input.delay = NULL;
+  assert_int_equal(run(&beside, 0.5, 0.1), PNEU_OK);
 }
 
 /* A loop of 1 kHz whose dead time ends within a step, against runs; what reads off a state sees the command that acts.
@@ -225,6 +249,7 @@ int main(void)
       cmocka_unit_test(test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_change_nothing),
       cmocka_unit_test(test_pneu_run_and_step__line_without_dead_time__change_not_a_bit),
       cmocka_unit_test(test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_commands),
+      cmocka_unit_test(test_pneu_run__dead_time_beside_a_positioner__is_the_lines_only_for_openings),
       cmocka_unit_test(test_pneu_step__dead_time__commands_act_to_the_instant),
       cmocka_unit_test(test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing),
       cmocka_unit_test(test_pneu_delay__many_changes__no_time_is_lost),

@@ -205,7 +205,8 @@ int fmu_refresh(fmu_instance *i)
     return FMU_OK;
   if (make_model(i))
     return FMU_ERROR;
-  fmu_delay_begin(&m->delay, (double)i->model.command_delay, m->time, m->input[FMU_INPUT_U]);
+  fmu_delay_begin(&m->delay, fmu_command_kind(&m->params) == FMU_COMMAND_POSITION ? 0 : (double)i->model.command_delay,
+                  m->time, m->input[FMU_INPUT_U]);
   fmu_drive(i, &input);
   p = law->pressure_input ? fmu_driven_pressure(i) : m->start[FMU_START_PRESSURE];
   x = law->position_input ? fmu_driven_position(i) : m->start[FMU_START_POSITION];

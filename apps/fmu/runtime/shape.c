@@ -48,6 +48,12 @@ int fmu_state_effect(int kind)
   return e;
 }
 
+int fmu_state_number(int kind)
+{
+  const int effect = fmu_state_effect(kind);
+  return state_counts[effect] > 1 ? 1 + kind - first_state(effect) : 0;
+}
+
 unsigned fmu_state_reference(int kind)
 {
   return (unsigned)(kind < FMU_STATE_EFFECT ? FMU_REF_OUTPUT + kind : FMU_REF_STATE + kind);
@@ -100,7 +106,7 @@ void fmu_shape_of(const pneu_model *model, fmu_shape *shape)
   if (model->thermal)
     shape->kind[n++] = FMU_STATE_T;
   for (i = 0; i < model->n_active; i++)
-    for (j = 0; j < state_counts[model->active[i]]; j++)
+    for (j = 0; j < model->states_of[model->active[i]]; j++)
       shape->kind[n++] = first_state(model->active[i]) + j;
   if (!model->law.position_input) {
     shape->kind[n++] = FMU_STATE_X;

@@ -98,4 +98,7 @@ unsigned fmu_state_reference(int kind);
 /* The effect to which a state belongs. */
 int fmu_state_effect(int kind);
 
+/* Which of the states of its effect a state is, from 1 on; 0: the only one. */
+int fmu_state_number(int kind);
+
 #endif

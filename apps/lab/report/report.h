@@ -121,6 +121,9 @@ void lab_report_deviation(const lab_report *report, const lab_deviation *d, char
 /* Whether what is left may be noise, and only the time was spent before everything was tried. */
 int lab_report_is_unfinished(const lab_search_result *r);
 
+/* Whether what the candidates leave may be noise, and others may leave no more: nothing is named for that. */
+int lab_report_is_ambiguous(const lab_search_result *r);
+
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);
 void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT]);

@@ -477,10 +477,21 @@ static const char *nothing(const lab_report *report, int deviates)
              : "Nothing is missing.";
 }
 
-int lab_report_is_unfinished(const lab_search_result *r)
+/* Whether a verdict is undecided where what is left may be noise. */
+static int may_leave_noise(const lab_search_result *r)
 {
   const double in_noise = lab_report_in_noise(&r->after);
-  return r->verdict == LAB_VERDICT_UNDECIDED && r->cut_short && in_noise * in_noise < lab_constant(LAB_NOISE_DOUBTFUL);
+  return r->verdict == LAB_VERDICT_UNDECIDED && in_noise * in_noise < lab_constant(LAB_NOISE_DOUBTFUL);
+}
+
+int lab_report_is_unfinished(const lab_search_result *r)
+{
+  return r->cut_short && may_leave_noise(r);
+}
+
+int lab_report_is_ambiguous(const lab_search_result *r)
+{
+  return !r->cut_short && r->n_found > 0 && may_leave_noise(r);
 }
 
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
@@ -536,7 +547,9 @@ static void add_undecided(char *text, const lab_search_result *r)
                     : " and ",
         r->found[i].effect >= 0 ? pneu_effect_at(r->found[i].effect)->name : "a free term");
   ADD(text, ", the error falls from %.2f to %.2f times the noise%s.", before, after,
-      lab_report_is_unfinished(r) ? "" : ", but what is left is not noise");
+      lab_report_is_unfinished(r)  ? ""
+      : lab_report_is_ambiguous(r) ? ", as it may with others"
+                                   : ", but what is left is not noise");
 }
 
 static void add_small(char *text, const lab_search_result *r)

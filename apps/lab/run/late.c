@@ -30,8 +30,9 @@ static const pneu_model *model_of(const lab_simulation *task, const pneu_model *
 /* When the command of a row acts. */
 static double acts_at(const lab_simulation *task, const pneu_model *model, size_t row, double before)
 {
-  const double at = task->schedule->t[row] + (double)model_of(task, model, row)->command_delay;
-  return fmax(at, before);
+  const pneu_model *m = model_of(task, model, row);
+  const int in_loop = m->band_edge > 0 && task->schedule->input[row].set_position;
+  return fmax(task->schedule->t[row] + (in_loop ? 0 : (double)m->command_delay), before);
 }
 
 /* The inputs of a row, with the command that acts then; before the first one begins to run, it holds. */

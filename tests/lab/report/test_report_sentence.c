@@ -144,7 +144,12 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
   report = answer(LAB_VERDICT_UNDECIDED, 3);
   assert_string_equal(sentence_of(&report),
                       "Something is missing, but the log does not say what. With the best candidates, dead_time, "
-                      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, but what is "
+                      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
+                      "others.");
+  result.after.chi2 = 4;
+  assert_string_equal(sentence_of(&report),
+                      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
+                      "pressure_gain and position_lag, the error falls from 3.00 to 2.00 times the noise, but what is "
                       "left is not noise.");
   report = answer(LAB_VERDICT_UNDECIDED, 0);
   assert_string_equal(sentence_of(&report),
