@@ -10,10 +10,16 @@ enum { LAGS = 3 };
 static const pneu_param_info params[] = {
     {"dead_time", "s", 0, PNEU_C(100.0), PNEU_C(0.02), 0, 0, "delay of the command"}};
 
+/* A model without a positioner has the line alone. */
+static int count_lags(const pneu_model *model)
+{
+  return model->band_edge > 0 ? LAGS : 0;
+}
+
 static int acts(const pneu_model *model, const pneu_real *param)
 {
   const pneu_real lag = param[DELAY] / LAGS;
-  if (!(model->band_edge > 0))
+  if (count_lags(model) == 0)
     return param[DELAY] > 0 ? PNEU_ACTS_BY_CONSTANTS : PNEU_RESTS;
   return pneu_lag_acts(model, &lag);
 }
@@ -28,7 +34,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
 {
   const int late = pneu_is_late_in_loop(t->model, t->input);
   int i;
-  for (i = 0; i < LAGS && t->model->band_edge > 0; i++) {
+  for (i = 0; i < count_lags(t->model); i++) {
     rate[i] = late ? LAGS * (t->opening - state[i]) / param[DELAY] : 0;
     t->opening = late ? state[i] : t->opening;
   }
@@ -38,7 +44,7 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 {
   int i;
   (void)param;
-  for (i = 0; i < LAGS && t->model->band_edge > 0; i++)
+  for (i = 0; i < count_lags(t->model); i++)
     state[i] = t->opening;
 }
 

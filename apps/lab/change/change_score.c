@@ -123,7 +123,8 @@ static int score_shapes(tried *t, lab_trial *trial, int throughout, int within, 
       tests += lab_score_try(t->p, trial, score, slope, all);
   }
   if (score->shape >= 0)
-    set_shape(t, trial, score->shape, score->shape_value > 0 ? score->shape_value : lab_score_shape(&t->u.rig.params, score, 0));
+    set_shape(t, trial, score->shape,
+              score->shape_value > 0 ? score->shape_value : lab_score_shape(&t->u.rig.params, score, 0));
   for (k = 1; k < LAB_ONSET_PLACES && within; k++)
     *parts += score_since(t, trial, t->u.run[t->u.n_runs - 1].n * (size_t)k / LAB_ONSET_PLACES, slope, score, all);
   free(slope);

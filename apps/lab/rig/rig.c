@@ -587,7 +587,8 @@ int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error)
   if (status != PNEU_OK)
     return lab_fail(error, LAB_DATA, "%s: %s%s%s", rig->file, bad >= 0 ? lab_fit_name(bad, name) : "",
                     bad >= 0 ? ": " : "", pneu_status_text(status));
-  model->band_edge = (pneu_real)fmax((double)model->band_edge, rig->band_edge);
+  if (model->band_edge > 0)
+    model->band_edge = (pneu_real)fmax((double)model->band_edge, rig->band_edge);
   status = pneu_model_terms(model, rig->term, rig->n_terms);
   if (status != PNEU_OK)
     return lab_fail(error, LAB_DATA, "%s: unlisted: %s", rig->file, pneu_status_text(status));

@@ -17,8 +17,7 @@ static void begin_lags(const pneu_model *from, const pneu_model *to, const pneu_
   enum { COUNT = 2 };
   static const char *const lags[COUNT] = {"dead_time", "transducer_lag"};
   pneu_output now;
-  int k;
-  int i;
+  int k, i;
   if (pneu_observe(from, before, input, &now) != PNEU_OK)
     return;
   for (k = 0; k < COUNT; k++) {

@@ -288,8 +288,7 @@ const lab_rule lab_rules[] = {
 
     {LAB_PHASE_END,
      "More than noise is left. The declared model with a free term has a BIC lower by ALIKE_BIC and leaves only noise, "
-     "or less than "
-     "TERM_CONVINCING of the excess; less than the excess where two effects were added.",
+     "or less than TERM_CONVINCING of the excess; less than the excess where two effects were added.",
      a_term_is_better, "Take it in place of the best model.", LAB_DO_TAKE_TERM},
     {LAB_PHASE_END,
      "The best model has no free term and fewer than EFFECTS effects, and either none or an excess beyond "
@@ -297,8 +296,7 @@ const lab_rule lab_rules[] = {
      has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
     {LAB_PHASE_END,
      "That has a BIC lower by ALIKE_BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no "
-     "declared value "
-     "STRAINED tolerances off, if the best model has such a one and leaves only noise.",
+     "declared value STRAINED tolerances off, if the best model has such a one and leaves only noise.",
      a_term_beside_convinces,
      "If the error of some channel falls by MIN_GAIN, add the free term and take out each effect without which BIC is "
      "no "
@@ -306,9 +304,8 @@ const lab_rule lab_rules[] = {
      LAB_DO_ADD_TERM},
 
     {LAB_PHASE_VERDICT,
-     "A free term was added beside something that begins within the run: of two things that are rare one is as likely "
-     "to "
-     "stand in for the other.",
+     "A free term was added beside something that begins within the run: of two things that are rare one is as "
+     "likely to stand in for the other.",
      has_a_term_beside_an_onset, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT,
      "A free term was added. Only noise is left; or chi-square is less than TERM_REST times its expectation and no "
@@ -316,8 +313,7 @@ const lab_rule lab_rules[] = {
      has_found_a_term, "`unlisted`", LAB_VERDICT_UNLISTED},
     {LAB_PHASE_VERDICT,
      "Three effects were added to a single run behind a positioner, errors of sensors apart: the loop hides most of "
-     "each, "
-     "and some three of the catalogue fit nearly anything.",
+     "each, and some three of the catalogue fit nearly anything.",
      has_too_many_causes, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
