@@ -91,20 +91,54 @@ static int thaw_best(const lab_candidate *base, const size_t between[2], lab_can
   return status;
 }
 
-/* What may begin between two rows, by all that the run has after them. */
-static int refit_open(lab_candidate *frozen, const size_t between[2], size_t row, double alpha,
-                      lab_onset_scores *begins, lab_candidate *c, int *n, lab_error *error)
+/* Whether what comes nearest, acting from the first row, leaves only noise of the run, and less than it does from its
+ * row on: then it is not what begins. */
+static int acts_throughout(const lab_candidate *base, const lab_candidate *nearest, int *throughout, lab_error *error)
+{
+  const lab_found last =
+      nearest->n_found > base->n_found ? nearest->found[nearest->n_found - 1] : (lab_found){.effect = -1};
+  const lab_score score = {.effect = last.effect, .param = last.param, .shape = -1};
+  lab_candidate *c;
+  int status = LAB_OK;
+  *throughout = 0;
+  if (last.effect < 0)
+    return LAB_OK;
+  c = malloc(sizeof *c);
+  if (!c)
+    return lab_fail_memory(error, "what acts throughout");
+  *c = *base;
+  c->quality.fitted = 0;
+  if (lab_candidate_add_effect(c, &score,
+                               nearest->u.rig.onset[nearest->u.rig.n_onsets - 1].value -
+                                   (double)lab_param_info(last.param).neutral,
+                               error) == LAB_OK)
+    status = lab_candidate_fit_held(c, error);
+  *throughout = lab_is_noise(&c->quality) && c->quality.chi2 < nearest->quality.chi2;
+  free(c);
+  return status;
+}
+
+/* What may begin between two rows, by all that the run has after them; none if that acts throughout.
+ * In:      base  whose values vary */
+static int refit_open(const lab_candidate *base, lab_candidate *frozen, const size_t between[2], size_t row,
+                      double alpha, lab_onset_scores *begins, lab_candidate *c, int *n, lab_error *error)
 {
   lab_nuisance instants = {0};
-  int status = lab_nuisance_open(&frozen->u, &instants, error);
+  int throughout = 0, status = lab_nuisance_open(&frozen->u, &instants, error);
   if (status == LAB_OK)
     status = refit_frozen(frozen, between, row, alpha, begins, c, n, error);
+  if (status == LAB_OK && *n > 0 && c[0].quality.fitted)
+    status = acts_throughout(base, &c[0], &throughout, error);
+  if (throughout)
+    *n = 0;
+  if (status == LAB_OK)
+    status = lab_refit_place_onsets(c, *n, error);
   lab_nuisance_close(&instants);
   return status;
 }
 
 /* The same in a closed loop, by what comes next: later a change of a wrong size, or at a wrong time, falls out of step.
- */
+ * Each look is dear there: only what is fitted with all values is placed. */
 static int refit_loop(lab_candidate *frozen, const size_t between[2], size_t row, double alpha,
                       lab_onset_scores *begins, lab_candidate *c, int *n, lab_error *error)
 {
@@ -118,6 +152,7 @@ static int refit_loop(lab_candidate *frozen, const size_t between[2], size_t row
     frozen->u.run = &part;
     lab_unknowns_view(&frozen->u, 0);
     status = refit_frozen(frozen, between, row, alpha, begins, c, n, error);
+    lab_refit_put_simplest_first(c, *n);
   }
   lab_beginning_close(&part);
   return status;
@@ -134,7 +169,8 @@ static int fit_onset(const lab_candidate *base, const size_t between[2], double 
     *frozen = *base;
     freeze(&frozen->u);
     row = between[0] < row && row < between[1] ? row : between[0];
-    status = (lab_refill_loops(&base->u) ? refit_loop : refit_open)(frozen, between, row, alpha, begins, c, &n, error);
+    status = lab_refill_loops(&base->u) ? refit_loop(frozen, between, row, alpha, begins, c, &n, error)
+                                        : refit_open(base, frozen, between, row, alpha, begins, c, &n, error);
   }
   if (status == LAB_OK)
     status = thaw_best(base, between, c, n, onset, error);

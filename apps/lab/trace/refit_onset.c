@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../fit/nuisance.h"
-#include "refill.h"
 
 /* The time of a row of the only run [s]. */
 static double time_of(const lab_candidate *c, size_t row)
@@ -189,7 +188,6 @@ int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *score
                         lab_candidate *c, int *n, lab_error *error)
 {
   const int most = lab_count(LAB_ONSET_LEADERS);
-  double reach;
   int i;
   error->status = LAB_OK;
   *n = 0;
@@ -198,14 +196,21 @@ int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *score
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < *n; i++)
     begin_onset(base, &scores->of[i], time_of(base, row), lab_count(LAB_BRIEF_STEPS), &c[i], error);
-  reach = lab_constant(LAB_RIVAL) * lab_least_chi2(c, *n);
-  /* in a closed loop, where each look is dear, only what is fitted with all values is placed */
-#pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < *n; i++)
-    if (c[i].quality.fitted && c[i].quality.chi2 <= reach && !lab_refill_loops(&c[i].u))
-      place_near(&c[i], error);
   qsort(c, (size_t)*n, sizeof *c, lab_candidate_by_bic);
-  lab_refit_put_simplest_first(c, *n);
+  return error->status;
+}
+
+int lab_refit_place_onsets(lab_candidate *c, int n, lab_error *error)
+{
+  const double reach = lab_constant(LAB_RIVAL) * lab_least_chi2(c, n);
+  int i;
+  error->status = LAB_OK;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < n; i++)
+    if (c[i].quality.fitted && c[i].quality.chi2 <= reach)
+      place_near(&c[i], error);
+  qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
+  lab_refit_put_simplest_first(c, n);
   return error->status;
 }
 
