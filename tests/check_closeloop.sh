@@ -58,7 +58,7 @@ expect 0 "model.cfg" "$programs/closeloop" "$folder/whole/model.cfg" "$folder/lo
 [ -e "$folder/model/response.svg" ] && complain "--no-figures drew a figure"
 
 # model.h with a catalogue: the whole one or its own give the model, any other does not compile
-expect 0 "a leak" "$programs/closeloop" study/guides/leak/rig.cfg study/guides/leak/fit.csv --out "$folder/leak" --no-figures
+expect 0 "a leak" "$programs/closeloop" study/guides/leak/rig.cfg study/guides/leak/fit.csv --budget 600 --out "$folder/leak" --no-figures
 awk -F, 'NR > 1 { print int($1 * 1000 + 0.5), $2, $3 * 1000 }' study/guides/leak/fit.csv >"$folder/rows"
 # watch CATALOGUE: what the guide's program says with it
 watch() {

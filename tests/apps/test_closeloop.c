@@ -17,15 +17,15 @@ static int open_all(void **state)
   return scratch_open(state);
 }
 
-/* Run closeloop with DIR "out" in the scratch folder.
+/* Run closeloop with DIR "out" in the scratch folder, with time for slow machines and sanitizers.
  * Out:     text  its messages on both streams, to be freed
  * Returns: exit status */
 static int run(const char *rig, const char *log, char **text)
 {
   char command[2048];
   int status;
-  snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --out '%s/out' >'%s/said.txt' 2>&1", rig, log,
-           scratch_folder, scratch_folder);
+  snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --budget 600 --out '%s/out' >'%s/said.txt' 2>&1", rig,
+           log, scratch_folder, scratch_folder);
   scratch_remove(scratch_path("out"));
   status = system(command);
   assert_true(WIFEXITED(status));

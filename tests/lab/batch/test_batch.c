@@ -439,7 +439,7 @@ static int run_list(const char *list, const char *folder)
   how.min_gain = 0.02;
   how.at_once = 2;
   how.quiet = 1;
-  how.budget = options.budget ? options.budget : 60;
+  how.budget = options.budget ? options.budget : 600;
   how.memory = options.memory ? options.memory : 4096;
   how.room = options.room ? options.room : 1 << 29;
   assert_int_equal(pipe(ends), 0);
