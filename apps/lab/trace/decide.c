@@ -216,8 +216,7 @@ static int has_a_term_beside_an_onset(const lab_facts *f)
 
 static int has_too_many_causes(const lab_facts *f)
 {
-  enum { MOST = 2 };
-  return f->in_one_loop && f->n_causes > MOST;
+  return f->in_one_loop && f->n_causes > lab_count(LAB_LOOP_CAUSES);
 }
 
 static int has_found(const lab_facts *f)
@@ -312,8 +311,7 @@ const lab_rule lab_rules[] = {
      "declared value is more than STRAINED tolerances off.",
      has_found_a_term, "`unlisted`", LAB_VERDICT_UNLISTED},
     {LAB_PHASE_VERDICT,
-     "Three effects were added to a single run behind a positioner, errors of sensors apart: the loop hides most of "
-     "each, and some three of the catalogue fit nearly anything.",
+     "More than LOOP_CAUSES effects were added to a single run behind a positioner, errors of sensors apart.",
      has_too_many_causes, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},

@@ -98,6 +98,7 @@ static int acts_throughout(const lab_candidate *base, const lab_candidate *neare
   const lab_found last =
       nearest->n_found > base->n_found ? nearest->found[nearest->n_found - 1] : (lab_found){.effect = -1};
   const lab_score score = {.effect = last.effect, .param = last.param, .shape = -1};
+  const double value = nearest->u.rig.onset[nearest->u.rig.n_onsets - 1].value;
   lab_candidate *c;
   int status = LAB_OK;
   *throughout = 0;
@@ -108,10 +109,7 @@ static int acts_throughout(const lab_candidate *base, const lab_candidate *neare
     return lab_fail_memory(error, "what acts throughout");
   *c = *base;
   c->quality.fitted = 0;
-  if (lab_candidate_add_effect(c, &score,
-                               nearest->u.rig.onset[nearest->u.rig.n_onsets - 1].value -
-                                   (double)lab_param_info(last.param).neutral,
-                               error) == LAB_OK)
+  if (lab_candidate_add_effect(c, &score, value - (double)lab_param_info(last.param).neutral, error) == LAB_OK)
     status = lab_candidate_fit_held(c, error);
   *throughout = lab_is_noise(&c->quality) && c->quality.chi2 < nearest->quality.chi2;
   free(c);
