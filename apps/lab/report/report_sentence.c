@@ -105,27 +105,12 @@ static double growth_at_supply(const about *a)
   return at_supply(a) * (double)a->rig.params.dead_volume;
 }
 
-/* What leaves a chamber at supply pressure while both orifices are shut [kg/s]. */
-static double outflow(const lab_rig *rig)
-{
-  const pneu_params *p = &rig->params;
-  const pneu_input input = {.supply_pressure = p->supply_pressure};
-  const pneu_state state = {
-      .p = p->supply_pressure, .T = p->ambient_temperature, .x = p->stroke, .mode = PNEU_MODE_STUCK};
-  pneu_model model;
-  pneu_output out;
-  lab_error error;
-  if (lab_rig_model(rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
-    return (double)NAN;
-  return (double)out.mass_out;
-}
-
 /* How much more that is with the effect than without [kg/s]. */
 static double leak(const about *a)
 {
   lab_rig without = a->rig;
   *pneu_param_at(&without.params, a->param) = 0;
-  return outflow(&a->rig) - outflow(&without);
+  return lab_rig_outflow(&a->rig) - lab_rig_outflow(&without);
 }
 
 /* In litres at 0 degC and 101325 Pa (DIN 1343) an hour. */

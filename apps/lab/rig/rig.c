@@ -545,6 +545,20 @@ static void begin_onset(const lab_rig_onset *onset, pneu_params *params)
   params->vent_area *= (pneu_real)onset->value;
 }
 
+double lab_rig_outflow(const lab_rig *rig)
+{
+  const pneu_params *p = &rig->params;
+  const pneu_input input = {.supply_pressure = p->supply_pressure};
+  const pneu_state state = {
+      .p = p->supply_pressure, .T = p->ambient_temperature, .x = p->stroke, .mode = PNEU_MODE_STUCK};
+  pneu_model model;
+  pneu_output out;
+  lab_error error;
+  if (lab_rig_model(rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
+    return (double)NAN;
+  return (double)out.mass_out;
+}
+
 void lab_rig_at(const lab_rig *rig, double t, lab_rig *now)
 {
   int i;

@@ -207,7 +207,7 @@ int lab_refit_place_onsets(lab_candidate *c, int n, lab_error *error)
   error->status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++)
-    if (c[i].quality.fitted && c[i].quality.chi2 <= reach)
+    if (c[i].quality.fitted && (i < lab_count(LAB_ONSET_FINALISTS) || c[i].quality.chi2 <= reach))
       place_near(&c[i], error);
   qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
   lab_refit_put_simplest_first(c, n);

@@ -6,6 +6,7 @@
 
 #include "../base/clock.h"
 #include "carry.h"
+#include "refill.h"
 #include "refit_private.h"
 
 /* Those that stand for one effect: the first is the model that has it, last of what was found. */
@@ -47,6 +48,55 @@ static int find_leaders(const field *f, const lab_candidate *without, const lab_
   return status == LAB_WORLD ? -1 : n;
 }
 
+/* The parameters of each leak: its size and, of some, its shape. Behind a positioner that makes up for a leak no slope
+ * from none tells one from another. */
+static const struct {
+  const char *size, *shape;
+} leaks[] = {{"leak_area", NULL}, {"laminar_leak", NULL}, {"porous_leak", "crossover_pressure"}};
+enum { LEAKS = sizeof leaks / sizeof *leaks };
+
+static int is_refilled(const lab_candidate *c, const lab_found *found)
+{
+  int i, any = 0;
+  for (i = 0; i < LEAKS; i++)
+    any |= found->param == pneu_param_find(leaks[i].size);
+  return any && lab_refill_loops(&c->u);
+}
+
+/* What flows out through one leak of some size [kg/s]. */
+static double outflow(lab_rig *rig, int param, double size)
+{
+  double without;
+  *pneu_param_at(&rig->params, param) = 0;
+  without = lab_rig_outflow(rig);
+  *pneu_param_at(&rig->params, param) = (pneu_real)size;
+  return lab_rig_outflow(rig) - without;
+}
+
+/* The other leaks, each with the flow of the one that was found.  Returns: how many */
+static int find_leaks(const lab_candidate *c, const lab_found *found, lab_score *leader)
+{
+  const lab_rig with = lab_unknowns_expected(&c->u);
+  lab_rig rig = with;
+  const double flow = outflow(&rig, found->param, lab_param_value(&with, found->param));
+  int i, n = 0;
+  for (i = 0; i < LEAKS && isfinite(flow); i++) {
+    const int param = pneu_param_find(leaks[i].size), shape = leaks[i].shape ? pneu_param_find(leaks[i].shape) : -1;
+    lab_score *x = &leader[n];
+    if (param < 0 || param == found->param)
+      continue;
+    *x = (lab_score){.effect = pneu_effect_of(param), .param = param, .shape = shape};
+    if (shape >= 0)
+      x->shape_value = lab_score_shape(&with.params, x, 1);
+    rig = with;
+    *pneu_param_at(&rig.params, found->param) = 0;
+    x->size = (double)lab_param_info(param).value;
+    x->size *= flow / outflow(&rig, param, x->size);
+    n++;
+  }
+  return n;
+}
+
 /* An effect in the place of what was found last: briefly, and to the end if it comes near.
  * In/out:  c  the model without it */
 static void fit_rival(const field *f, const lab_score *score, lab_candidate *c, lab_error *all)
@@ -71,11 +121,12 @@ static int line_up(field *f, lab_error *error)
 {
   lab_score leader[LAB_RIVALS_MAX];
   lab_candidate *without = &f->of[1];
+  const lab_found *last = &f->of[0].found[f->of[0].n_found - 1];
   int i, n;
   *without = f->of[0];
   without->quality.fitted = 0;
   lab_candidate_drop(without, without->n_found - 1);
-  n = find_leaders(f, without, &f->of[0].found[f->of[0].n_found - 1], leader, error);
+  n = is_refilled(&f->of[0], last) ? find_leaks(&f->of[0], last, leader) : find_leaders(f, without, last, leader, error);
   if (n < 0)
     return error->status;
   f->n = 1 + n;

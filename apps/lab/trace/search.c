@@ -280,7 +280,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     status = lab_preview_search(u, options, f, &early, error);
   if (status == LAB_OK && !early)
     status = search_whole(u, options, f, &leaks, &coarse, error);
-  if (status == LAB_OK && !leaks && !coarse)
+  if (status == LAB_OK && !coarse)
     status = try_rivals(f, error);
   if (status == LAB_OK && !leaks && !coarse)
     status = take_out_what_harms(f, error);
