@@ -2,6 +2,7 @@
 # The tests. Ends with one line of totals.
 #   run.sh         `make check`: units, the core in single precision, programs, the study against results/, a few blind trials
 #   run.sh all     `make check-all`: these and everything else, each at a length that lets all of it end within half an hour
+#   run.sh searches   the tests that search logs over and over, with sanitizers, which make them five times as long
 # JOBS run at once (as many as there are cores). Each check is a line "WORDS | COMMAND" of a list, run by tests/run_one.sh.
 set -u
 : "${MAKE:=make}" "${CC:=cc}" "${CXX:=c++}" "${BUILD:=build}" "${MEASURED:=../shared/data}"
@@ -80,8 +81,11 @@ guides: every command, and what it prints | sh tests/check_guides.sh study/guide
 the same bytes with 1, 2 and 3 threads | sh tests/check_threads.sh
 LIST
   blind 32 2
-  suites sanitized "$sanitized" tests
+  suites sanitized "$sanitized" tests | grep -Ev "$searches"
 }
+
+# Of these tests one run with sanitizers takes as long as all others together; check_closeloop.sh goes the same ways.
+searches='(apps/test_closeloop|lab/change/test_change|lab/report/test_recorded|lab/trace/test_closed_loop) '
 
 # What builds something of its own, one after the other.
 alone() {
@@ -114,19 +118,26 @@ LIST
 
 [ -d "$MEASURED" ] ||
   echo "absent: measured data, $MEASURED: the tests on it are skipped; study/measured/fetch.sh loads what can be had"
-core=$(find tests/lib -name 'test_*.c' | sed "s|^|$single/|; s|\\.c\$||")
-built "$BUILD" tests tests "$BUILD/tests/blind/blind" "$BUILD/tests/compare" "$BUILD/tests/decisions"
-# shellcheck disable=SC2086
-built "$single" "tests in single precision" SINGLE=1 $core
-short | run short "$JOBS"
-if [ "${1:-}" = all ]; then
+if [ "${1:-}" != searches ]; then
+  core=$(find tests/lib -name 'test_*.c' | sed "s|^|$single/|; s|\\.c\$||")
+  built "$BUILD" tests tests "$BUILD/tests/blind/blind" "$BUILD/tests/compare" "$BUILD/tests/decisions"
+  # shellcheck disable=SC2086
+  built "$single" "tests in single precision" SINGLE=1 $core
+  short | run short "$JOBS"
+fi
+if [ -n "${1:-}" ]; then
   built "$sanitized" "sanitized tests" SANITIZE=address,undefined OPT=-O1 tests \
     "$sanitized/bin/sweep" "$sanitized/bin/simulate" "$sanitized/bin/closeloop"
+fi
+case "${1:-}" in
+searches) suites sanitized "$sanitized" tests | grep -E "$searches" | run searches "$JOBS" ;;
+all)
   long | run long "$JOBS"
   elsewhere | run elsewhere 1 &
   alone | run alone 1
   wait
-fi
+  ;;
+esac
 
 cat "$folder"/*.count | awk '{ passed += $1; failed += $2; skipped += $3 }
   END { print passed " passed, " failed " failed, " skipped " skipped"; exit failed != 0 }'

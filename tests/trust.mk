@@ -79,6 +79,7 @@ step-search: $(BUILD)/tests/step_search
 
 ## Run at full length what CONTRIBUTING.md lists beside the tests; hours
 check-long:
+	@$(TESTED_WITH) sh tests/run.sh searches
 	$(MAKE) fuzz
 	$(MAKE) valgrind
 	$(MAKE) step-search STEPS=5000000

@@ -570,7 +570,7 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
   on_progress(q, "evaluating on the held-out logs");
   if (hold_out(a, error) || lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error))
     return error->status;
-  if (!a->now.result.cut_short) {
+  if (!a->now.result.cut_short && a->then.logs.n == 0) { /* with a baseline the question is what has changed */
     on_progress(q, "looking for the test to record next");
     if (advise(a, error))
       return error->status;
