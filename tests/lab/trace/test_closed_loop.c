@@ -294,6 +294,14 @@ static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_ma
   assert_true(result.found[0].statistic > 1e4 && result.scores.n > 0);
 }
 
+static void test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_through_a_hole(void **state)
+{
+  hold_within_a_wider_band();
+  g.laminar_leak = 4.4e-16;
+  close_loop(WITH_SP);
+  assert_found("laminar_leak", "laminar_leak.laminar_leak", 4.4e-16, 0.1);
+}
+
 static void test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant(void **state)
 {
   hold_within_a_wider_band();
@@ -384,6 +392,7 @@ int main(void)
       CASE(test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
       CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
+      CASE(test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_through_a_hole),
       CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant),
       CASE(test_lab_departure_find__friction_that_rises__is_between_the_rows),
       CASE(test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks),
