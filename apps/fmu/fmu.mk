@@ -29,9 +29,15 @@ $(BUILD)/fmu2.dll $(BUILD)/fmu3.dll: $(FMU_FILES)
 
 FMU_CARRIED := $(foreach file,$(FMU_FILES),$(file)=$(file)) $(foreach file,$(FMU_SHARED),$(file)=$(BUILD)/$(file)) \
                icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png index.html=apps/fmu/carried/index.html license.txt=LICENSE
-$(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(FMU_SHARED:%=$(BUILD)/%) $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh
+$(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(FMU_SHARED:%=$(BUILD)/%) $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh \
+                               $(BUILD)/carries
 	@mkdir -p $(@D)
 	$(say) sh apps/fmu/carry.sh $(FMU_CARRIED) > $@
+
+# MinGW may come after the first build.
+$(BUILD)/carries: FORCE
+	@mkdir -p $(BUILD)
+	@echo '$(FMU_SHARED)' | cmp -s - $@ || echo '$(FMU_SHARED)' >$@
 
 $(BUILD)/apps/fmu/carried.o: $(BUILD)/apps/fmu/carried.inc
 $(BUILD)/apps/fmu/%.o: LAB_FLAGS += -I$(BUILD) $(FMU_XML)

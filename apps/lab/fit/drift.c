@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/array.h"
 #include "../base/format.h"
@@ -16,12 +17,15 @@ static double tolerance_of(const lab_run *x, int c)
                                     : 0;
 }
 
-/* What one tolerance of drift adds to one channel at a row, over the noise; 0 where nothing was measured. */
-static double line_at(const lab_run *x, int c, size_t i)
+/* What one tolerance of drift adds to one channel, over the noise; 0 where nothing was measured.  Out: line  x->n values
+ */
+static void draw_line(const lab_run *x, int c, double *line)
 {
   const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first, whole = t[x->n - 1] - t[0];
-  const double share = whole > 0 && !isnan(lab_run_measured(x, c, i)) ? (t[i] - t[0]) / whole : 0;
-  return share * tolerance_of(x, c) / x->sigma[c];
+  const double slope = whole > 0 ? tolerance_of(x, c) / x->sigma[c] / whole : 0;
+  size_t i;
+  for (i = 0; i < x->n; i++)
+    line[i] = isnan(lab_run_measured(x, c, i)) ? 0 : slope * (t[i] - t[0]);
 }
 
 /* One channel: from w to v, of which I - v v' is (I + w w')^(-1/2). */
@@ -29,8 +33,7 @@ static void open_channel(const lab_run *x, int c, double *v)
 {
   double length2, scale;
   size_t i;
-  for (i = 0; i < x->n; i++)
-    v[i] = line_at(x, c, i);
+  draw_line(x, c, v);
   lab_run_weigh(x, c, v);
   length2 = lab_dot(v, v, x->n);
   scale = length2 > 0 ? sqrt((1 - 1 / sqrt(1 + length2)) / length2) : 0;
@@ -66,15 +69,14 @@ static void subtract_line(const lab_run *x, int c, double *r, double *room)
 {
   double *line = room, *left = room + x->n, drift;
   size_t i;
-  for (i = 0; i < x->n; i++) {
-    line[i] = line_at(x, c, i);
-    left[i] = r[i];
-  }
+  draw_line(x, c, line);
+  memcpy(left, r, x->n * sizeof *left);
   lab_run_weigh(x, c, line);
   lab_run_weigh(x, c, left);
   drift = lab_dot(line, left, x->n) / (1 + lab_dot(line, line, x->n));
+  draw_line(x, c, line);
   for (i = 0; i < x->n; i++)
-    r[i] -= drift * line_at(x, c, i);
+    r[i] -= drift * line[i];
 }
 
 int lab_drift_errors(const lab_unknowns *u, double *r, lab_error *error)
