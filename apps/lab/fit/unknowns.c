@@ -88,16 +88,23 @@ static void find_ends(const lab_unknowns *u, int param, double tolerances, doubl
   *upper = room > 0 ? value + room : (double)INFINITY;
 }
 
-int lab_unknowns_is_far(const lab_unknowns *u, double tolerances)
+int lab_unknowns_count_far(const lab_unknowns *u, double tolerances, int *known)
 {
   double lower, upper;
-  int j, any = 0;
-  for (j = 0; j < u->n; j++)
-    if (u->unknown[j].kind == LAB_UNKNOWN_PARAM) {
-      find_ends(u, u->unknown[j].index, tolerances, &lower, &upper);
-      any |= u->unknown[j].value <= lower || u->unknown[j].value >= upper;
-    }
-  return any;
+  int j, n = 0, n_known = 0;
+  for (j = 0; j < u->n; j++) {
+    const lab_unknown *x = &u->unknown[j];
+    if (x->kind != LAB_UNKNOWN_PARAM)
+      continue;
+    find_ends(u, x->index, tolerances, &lower, &upper);
+    if (x->value > lower && x->value < upper)
+      continue;
+    n++;
+    n_known += lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
+  }
+  if (known)
+    *known = n_known;
+  return n;
 }
 
 /* The bounds of an unknown, by what its value may be at most. */

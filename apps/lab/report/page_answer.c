@@ -338,7 +338,7 @@ static void say_left(const lab_sources *t, cJSON *list)
   else if (!lab_residual_stats_white(left))
     lab_json_say(list, "There are too few values to tell whether the residual is white.");
   else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_doubt(t->report) && !lab_report_is_unfinished(r) &&
-           !lab_report_is_ambiguous(r))
+           !lab_report_is_ambiguous(r) && !lab_report_has_far_values(t->report))
     lab_json_say(list, "The residual is white on every channel, but its size differs from the declared noise.");
   else
     lab_json_say(list, "The residual is white on every channel.");
@@ -358,6 +358,9 @@ static void say_undecided(const lab_sources *t, cJSON *list)
     lab_json_say(list, "No effect is named, because the log and the rig file contradict each other.");
   else if (lab_report_is_unfinished(r))
     lab_json_say(list, "The residual may be noise, but the search was ended before everything was tried.");
+  else if (lab_report_has_far_values(t->report))
+    lab_json_say(list, "With these values what is left is about as much as noise, but a rig is seldom off its sheet in "
+                       "several of them. Whether something else is missing, the log does not tell.");
   else if (lab_report_is_ambiguous(r))
     lab_json_say(list,
                  "Something is missing: what the candidates leave is about as much as noise, and others may leave no "

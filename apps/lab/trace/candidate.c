@@ -258,6 +258,12 @@ int lab_candidate_has_cause(const lab_candidate *c)
   return any;
 }
 
+int lab_candidate_is_far(const lab_unknowns *u)
+{
+  int known;
+  return lab_unknowns_count_far(u, lab_constant(LAB_STRAINED), &known) > lab_count(LAB_FAR_VALUES) && known > 0;
+}
+
 int lab_candidate_begins(const lab_candidate *c)
 {
   const int n = c->u.rig.n_onsets;

@@ -126,7 +126,8 @@ static int line_up(field *f, lab_error *error)
   *without = f->of[0];
   without->quality.fitted = 0;
   lab_candidate_drop(without, without->n_found - 1);
-  n = is_refilled(&f->of[0], last) ? find_leaks(&f->of[0], last, leader) : find_leaders(f, without, last, leader, error);
+  n = is_refilled(&f->of[0], last) ? find_leaks(&f->of[0], last, leader)
+                                   : find_leaders(f, without, last, leader, error);
   if (n < 0)
     return error->status;
   f->n = 1 + n;

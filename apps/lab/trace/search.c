@@ -387,7 +387,8 @@ int lab_search_without_outliers(const lab_search_options *options, lab_logs *ben
   int status;
   if (result->window > 0 || result->cut_short || (doubt(result) == 0 && completed->rig.n_onsets > 0))
     return LAB_OK; /* a step that is not quite one leaves a few values alone */
-  status = lab_outliers_take(result->verdict == LAB_VERDICT_UNDECIDED ? completed : declared, bench->log, &out, error);
+  status = lab_outliers_take(lab_values_stand_in(result->verdict, result->fit.reduced_chi2) ? completed : declared,
+                             bench->log, &out, error);
   if (status == LAB_OK && can_be_accidents(&out, bench)) {
     o = malloc(sizeof *o);
     status = o ? LAB_OK : lab_fail_memory(error, "a search without outliers");
