@@ -5,6 +5,10 @@
 #   run.sh searches   the tests that search logs over and over, with sanitizers, which make them five times as long
 # JOBS run at once (as many as there are cores). Each check is a line "WORDS | COMMAND" of a list, run by tests/run_one.sh.
 set -u
+case "${1:-}" in
+"" | all | searches) ;;
+*) echo "run.sh: nothing, all or searches, not $1" >&2 && exit 2 ;;
+esac
 : "${MAKE:=make}" "${CC:=cc}" "${CXX:=c++}" "${BUILD:=build}" "${MEASURED:=../shared/data}"
 : "${JOBS:=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)}"
 single="$BUILD/single"

@@ -88,23 +88,22 @@ static void find_ends(const lab_unknowns *u, int param, double tolerances, doubl
   *upper = room > 0 ? value + room : (double)INFINITY;
 }
 
-int lab_unknowns_count_far(const lab_unknowns *u, double tolerances, int *known)
+int lab_unknown_is_far(const lab_unknowns *u, int j, double tolerances)
 {
+  const lab_unknown *x = &u->unknown[j];
   double lower, upper;
-  int j, n = 0, n_known = 0;
-  for (j = 0; j < u->n; j++) {
-    const lab_unknown *x = &u->unknown[j];
-    if (x->kind != LAB_UNKNOWN_PARAM)
-      continue;
-    find_ends(u, x->index, tolerances, &lower, &upper);
-    if (x->value > lower && x->value < upper)
-      continue;
-    n++;
-    n_known += lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
-  }
-  if (known)
-    *known = n_known;
-  return n;
+  if (x->kind != LAB_UNKNOWN_PARAM)
+    return 0;
+  find_ends(u, x->index, tolerances, &lower, &upper);
+  return x->value <= lower || x->value >= upper;
+}
+
+int lab_unknowns_is_far(const lab_unknowns *u, double tolerances)
+{
+  int j, any = 0;
+  for (j = 0; j < u->n; j++)
+    any |= lab_unknown_is_far(u, j, tolerances);
+  return any;
 }
 
 /* The bounds of an unknown, by what its value may be at most. */

@@ -170,11 +170,13 @@ int lab_unknowns_find_onset(const lab_unknowns *u, int param);
 /* Drop the last free term. */
 void lab_unknowns_drop_term(lab_unknowns *u);
 
-/* How many values of the rig are so many tolerances off their declared ones, or more. What is fitted may be off by
- * much, but one that runs away stands in for what is missing: a damping of 20 times its sheet for a lag or a stem that
- * sticks.
- * Out:     known  not NULL: how many of these are not in `fit` */
-int lab_unknowns_count_far(const lab_unknowns *u, double tolerances, int *known);
+/* Whether unknown j is a value of the rig that is so many tolerances off its declared one, or more. What is fitted may
+ * be off by much, but one that runs away stands in for what is missing: a damping of 20 times its sheet for a lag or a
+ * stem that sticks. */
+int lab_unknown_is_far(const lab_unknowns *u, int j, double tolerances);
+
+/* Whether any is. */
+int lab_unknowns_is_far(const lab_unknowns *u, double tolerances);
 
 /* Let none be further off from now on, what is added neither. */
 void lab_unknowns_stay_near(lab_unknowns *u, double tolerances);

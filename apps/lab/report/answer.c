@@ -425,7 +425,7 @@ static int search_with_noise(const lab_search_options *how, lab_completion *c, l
 static int says_as_much(const lab_completion *c, const lab_completion *first)
 {
   const lab_search_result *near = &c->result, *any = &first->result;
-  if (lab_unknowns_count_far(&c->completed, c->declared.most_off, NULL))
+  if (lab_unknowns_is_far(&c->completed, c->declared.most_off))
     return 0;
   if (!lab_search_explains(any))
     return lab_search_is_better(near, any);
@@ -440,7 +440,7 @@ static int search_near_sheet(const lab_search_options *how, lab_completion *c, l
   const double tolerances = lab_constant(LAB_FAR_OFF), until = c->declared.until;
   lab_completion *first;
   int cut_short, status = search_with_noise(how, c, error);
-  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_count_far(&c->completed, tolerances, NULL))
+  if (status != LAB_OK || c->result.cut_short || !lab_unknowns_is_far(&c->completed, tolerances))
     return status;
   first = malloc(sizeof *first);
   if (!first)
@@ -534,8 +534,8 @@ static int compare(const lab_request *q, const allowance *time, lab_answer *a, l
   a->report.baseline = &then->completed.rig;
   on_progress(q, "looking for what has changed");
   then->completed.until = time->budget > 0 ? time->start + both * time->budget : 0;
-  return lab_changes_find(&then->completed, then->result.verdict != LAB_VERDICT_UNDECIDED, a->now.logs.run,
-                          a->now.logs.n, q->alpha, &a->changes, error);
+  return lab_changes_find(&then->completed, !lab_values_stand_in(then->result.verdict, then->result.fit.reduced_chi2),
+                          a->now.logs.run, a->now.logs.n, q->alpha, &a->changes, error);
 }
 
 /* With nothing to fit the declared model is judged as it stands: its command changes at the rows that show it. */
@@ -604,7 +604,7 @@ static int find(const lab_request *request, int by_set_position, lab_answer **an
 /* Whether an answer explains its logs by values that are near their sheet. */
 static int convinces(const lab_completion *c)
 {
-  return lab_search_explains(&c->result) && !lab_unknowns_count_far(&c->completed, lab_constant(LAB_STRAINED), NULL);
+  return lab_search_explains(&c->result) && !lab_unknowns_is_far(&c->completed, lab_constant(LAB_STRAINED));
 }
 
 /* What a model leaves, as Schwarz's criterion but for what is the same of two models of the same rows, whatever each

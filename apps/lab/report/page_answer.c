@@ -207,6 +207,10 @@ static void put_why(const lab_sources *t, cJSON *page)
                  lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
   if (lab_report_is_unfinished(r))
     lab_json_say(reasons, "The search was ended by --budget before everything was tried.");
+  else if (r->is_far)
+    lab_json_say(reasons, "The residual is about as large as noise, but only with several values far off their sheet.");
+  else if (lab_report_is_ambiguous(r))
+    lab_json_say(reasons, "What is left is about as large as noise, and other candidates may leave no more.");
   else if (r->verdict == LAB_VERDICT_UNDECIDED)
     lab_json_say(reasons, "The residual is not noise, and nothing that was tried explains it. The figures below show "
                           "when and where it arises.");
@@ -338,7 +342,7 @@ static void say_left(const lab_sources *t, cJSON *list)
   else if (!lab_residual_stats_white(left))
     lab_json_say(list, "There are too few values to tell whether the residual is white.");
   else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_doubt(t->report) && !lab_report_is_unfinished(r) &&
-           !lab_report_is_ambiguous(r) && !lab_report_has_far_values(t->report))
+           !lab_report_is_ambiguous(r) && !r->is_far)
     lab_json_say(list, "The residual is white on every channel, but its size differs from the declared noise.");
   else
     lab_json_say(list, "The residual is white on every channel.");
@@ -358,7 +362,7 @@ static void say_undecided(const lab_sources *t, cJSON *list)
     lab_json_say(list, "No effect is named, because the log and the rig file contradict each other.");
   else if (lab_report_is_unfinished(r))
     lab_json_say(list, "The residual may be noise, but the search was ended before everything was tried.");
-  else if (lab_report_has_far_values(t->report))
+  else if (r->is_far)
     lab_json_say(list, "With these values what is left is about as much as noise, but a rig is seldom off its sheet in "
                        "several of them. Whether something else is missing, the log does not tell.");
   else if (lab_report_is_ambiguous(r))
@@ -540,7 +544,8 @@ static const cJSON *put_next(const lab_sources *t, cJSON *page)
     lab_json_say(list, "Record another log with other commands and give it by --holdout: a fit cannot adapt to a log "
                        "that it does not see.");
   if (cJSON_GetArraySize(list) == 0)
-    lab_json_say(list, "No further test is needed for this verdict.");
+    lab_json_say(list, t->report->changes ? "Beside a baseline no test is sought; the new logs alone have one."
+                                          : "No further test is needed for this verdict.");
   return list;
 }
 

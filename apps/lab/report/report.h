@@ -121,9 +121,6 @@ void lab_report_deviation(const lab_report *report, const lab_deviation *d, char
 /* Whether what is left may be noise, and only the time was spent before everything was tried. */
 int lab_report_is_unfinished(const lab_search_result *r);
 
-/* Whether what is left may be noise, but with several values so far off that something may be missing all the same. */
-int lab_report_has_far_values(const lab_report *report);
-
 /* Whether what the candidates leave may be noise, and others may leave no more: nothing is named for that. */
 int lab_report_is_ambiguous(const lab_search_result *r);
 

@@ -9,7 +9,6 @@
 #include "../base/names.h"
 #include "../base/text.h"
 #include "../rig/tolerance.h"
-#include "../trace/candidate.h"
 #include "../trace/freeterms.h"
 #include "report.h"
 
@@ -475,15 +474,9 @@ int lab_report_is_unfinished(const lab_search_result *r)
   return r->cut_short && may_leave_noise(r);
 }
 
-int lab_report_has_far_values(const lab_report *report)
-{
-  return !report->result->cut_short && may_leave_noise(report->result) && report->completed &&
-         lab_candidate_is_far(report->completed);
-}
-
 int lab_report_is_ambiguous(const lab_search_result *r)
 {
-  return !r->cut_short && r->n_found > 0 && may_leave_noise(r);
+  return !r->cut_short && !r->is_far && r->n_found > 0 && may_leave_noise(r);
 }
 
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
@@ -499,11 +492,10 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   }
   if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
     ADD(text, "%s",
-        r->jerks ? "The stem moves by jerks and the model's does not: something is missing, perhaps friction that "
-                   "sticks or a force that shakes it."
-        : lab_report_has_far_values(report)
-            ? "Several values are far off their sheet: it is that of another rig, or something else is missing."
-            : "Something is missing, but the log does not say what.");
+        r->jerks    ? "The stem moves by jerks and the model's does not: something is missing, perhaps friction that "
+                      "sticks or a force that shakes it."
+        : r->is_far ? "Several values are far off their sheet: it is that of another rig, or something else is missing."
+                    : "Something is missing, but the log does not say what.");
     if (add_deviations(text, report, 1))
       ADD(text, ".");
     add_sensors(text, report);
@@ -523,16 +515,14 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 /* ---- What that does to the error ---- */
 
 /* "With the best candidates, laminar_leak, heat_transfer and a free term, the error falls ..." */
-static void add_undecided(char *text, const lab_report *report)
+static void add_undecided(char *text, const lab_search_result *r)
 {
-  const lab_search_result *r = report->result;
   const double before = lab_report_in_noise(&r->before), after = lab_report_in_noise(&r->after);
   const int n = r->n_found;
   int i;
   if (n == 0) {
     ADD(text, "The residual is %.2f times the noise%s.", after,
-        lab_report_is_unfinished(r) || lab_report_has_far_values(report) ? ""
-                                                                         : ", and nothing that was tried explains it");
+        lab_report_is_unfinished(r) || r->is_far ? "" : ", and nothing that was tried explains it");
     return;
   }
   ADD(text, "With the best candidate%s, ", n > 1 ? "s" : "");
@@ -543,9 +533,9 @@ static void add_undecided(char *text, const lab_report *report)
                     : " and ",
         r->found[i].effect >= 0 ? pneu_effect_at(r->found[i].effect)->name : "a free term");
   ADD(text, ", the error falls from %.2f to %.2f times the noise%s.", before, after,
-      lab_report_is_unfinished(r)  ? ""
-      : lab_report_is_ambiguous(r) ? ", as it may with others"
-                                   : ", but what is left is not noise");
+      lab_report_is_unfinished(r) || r->is_far ? ""
+      : lab_report_is_ambiguous(r)             ? ", as it may with others"
+                                               : ", but what is left is not noise");
 }
 
 static void add_small(char *text, const lab_search_result *r)
@@ -583,7 +573,7 @@ void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   if (lab_report_doubt(report))
     return;
   if (r->verdict == LAB_VERDICT_UNDECIDED)
-    add_undecided(text, report);
+    add_undecided(text, r);
   else if (r->window > 0 && r->n_found > 0)
     ADD(text, "%s the stem sticks and slips as it does in the log; the instants of single slips cannot be predicted.",
         with);

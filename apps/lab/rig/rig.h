@@ -89,9 +89,8 @@ void lab_rig_write_catalogue(FILE *file, const lab_rig *rig);
  * unmoved. Out:     model Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
 
-/* What leaves a chamber at supply pressure while both orifices are shut [kg/s]; NaN where the library has no such
- * model.
- */
+/* What leaves a chamber at supply pressure while both orifices are shut [kg/s]: nothing below ambient pressure.
+ * Returns: NaN where the library has no such model. */
 double lab_rig_outflow(const lab_rig *rig);
 
 /* A rig as it is at some time of a log, whose model the library has.

@@ -258,10 +258,26 @@ int lab_candidate_has_cause(const lab_candidate *c)
   return any;
 }
 
+/* Another spring has another preload as well, orifices of another make differ alike. */
+static int cause_of(int param)
+{
+  return param == PNEU_PARAM_spring_preload ? PNEU_PARAM_spring_rate
+         : param == PNEU_PARAM_vent_area    ? PNEU_PARAM_fill_area
+                                            : param;
+}
+
 int lab_candidate_is_far(const lab_unknowns *u)
 {
-  int known;
-  return lab_unknowns_count_far(u, lab_constant(LAB_STRAINED), &known) > lab_count(LAB_FAR_VALUES) && known > 0;
+  unsigned char off[LAB_PARAM_COUNT] = {0};
+  int j, n = 0, known = 0;
+  for (j = 0; j < u->n; j++)
+    if (lab_unknown_is_far(u, j, lab_constant(LAB_STRAINED))) {
+      const lab_unknown *x = &u->unknown[j];
+      n += !off[cause_of(x->index)];
+      off[cause_of(x->index)] = 1;
+      known |= lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
+    }
+  return n > lab_count(LAB_FAR_VALUES) && known;
 }
 
 int lab_candidate_begins(const lab_candidate *c)

@@ -78,7 +78,8 @@ int lab_found_is_of_sensor(const lab_found *found);
 /* Whether something was found that acts on the stem or its air: an error of a sensor makes no stem stick and slip. */
 int lab_candidate_has_cause(const lab_candidate *c);
 
-/* Whether a model needs several values far off their sheet, one that is not fitted among them: a rig is seldom so. */
+/* Whether a model needs more than FAR_VALUES values STRAINED tolerances off their sheet, one of them not in `fit`: a
+ * rig is seldom so. What one cause moves together counts once. */
 int lab_candidate_is_far(const lab_unknowns *u);
 
 /* Whether something was found that begins. */

@@ -219,11 +219,6 @@ static int has_too_many_causes(const lab_facts *f)
   return f->in_one_loop && f->n_causes > lab_count(LAB_LOOP_CAUSES);
 }
 
-static int is_far_off(const lab_facts *f)
-{
-  return f->is_far;
-}
-
 static int has_found(const lab_facts *f)
 {
   return f->n_found > 0;
@@ -318,9 +313,6 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_VERDICT,
      "More than LOOP_CAUSES effects were added to a single run behind a positioner, errors of sensors apart.",
      has_too_many_causes, "`undecided`", LAB_VERDICT_UNDECIDED},
-    {LAB_PHASE_VERDICT,
-     "More than FAR_VALUES values are STRAINED tolerances off or more, one that is not fitted among them.", is_far_off,
-     "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
     {LAB_PHASE_VERDICT, "Nothing was added.", has_found_nothing, "`none`", LAB_VERDICT_NONE},

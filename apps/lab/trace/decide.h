@@ -110,7 +110,6 @@ typedef struct lab_facts {
   int found_term;        /* a free term was added to it */
   int n_causes;          /* effects that were added to it, errors of sensors apart */
   int in_one_loop;       /* there is a single run, behind a positioner */
-  int is_far;            /* it needs several values far off their sheet */
   int begins_within;     /* something in it begins within the run */
   int can_begin;         /* the logs are one run, of which nothing is known to begin within it */
   lab_quality onset;     /* the declared model with what begins within its run; not fitted: not tried yet, or nothing */

@@ -52,7 +52,8 @@ void lab_refit_put_simplest_first(lab_candidate *c, int n);
 int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, size_t row,
                         lab_candidate *c, int *n, lab_error *error);
 
-/* Find when near its time each of n begins, and put the simplest of the best first.  Returns: LAB_OK, LAB_WORLD. */
+/* Find when near its time each of n begins that is among the best or comes near, and put the simplest of the best
+ * first.  Returns: LAB_OK, LAB_WORLD. */
 int lab_refit_place_onsets(lab_candidate *c, int n, lab_error *error);
 
 /* Refit the leaders among what may begin in place of what does in a candidate, at the same time; at another where that

@@ -23,16 +23,24 @@ static void put_first_last(lab_candidate *c)
   c->found[c->n_found - 1] = first;
 }
 
+static int is_listed(const lab_score *leader, int n, int effect)
+{
+  int i, any = 0;
+  for (i = 0; i < n; i++)
+    any |= leader[i].effect == effect;
+  return any;
+}
+
 /* What scores nearly as high as the best in a model from which an effect was taken out.
- * Out:     leader  room for LAB_RIVALS_MAX
+ * In/out:  leader  room for LAB_RIVALS_MAX, n of them listed already
  * Returns: how many; -1: see error */
 static int find_leaders(const field *f, const lab_candidate *without, const lab_found *taken_out, lab_score *leader,
-                        lab_error *error)
+                        int n, lab_error *error)
 {
   lab_unknowns u = without->u;
   lab_projection p = {0};
   lab_scores scores = {0};
-  int i, n = 0, status = lab_unknowns_keep_slopes(&u, error);
+  int i, status = lab_unknowns_keep_slopes(&u, error);
   if (status == LAB_OK) {
     lab_unknowns_begin_with(&u, &f->base);
     status = lab_projection_open(&u, &p, error);
@@ -42,7 +50,7 @@ static int find_leaders(const field *f, const lab_candidate *without, const lab_
   lab_projection_close(&p);
   lab_unknowns_forget_slopes(&u);
   for (i = 0; status == LAB_OK && i < scores.n && n < LAB_RIVALS_MAX; i++)
-    if (scores.of[i].effect != taken_out->effect &&
+    if (scores.of[i].effect != taken_out->effect && !is_listed(leader, n, scores.of[i].effect) &&
         scores.of[i].statistic >= lab_constant(LAB_RIVAL_SHARE) * scores.of[0].statistic)
       leader[n++] = scores.of[i];
   return status == LAB_WORLD ? -1 : n;
@@ -73,26 +81,28 @@ static double outflow(lab_rig *rig, int param, double size)
   return lab_rig_outflow(rig) - without;
 }
 
-/* The other leaks, each with the flow of the one that was found.  Returns: how many */
-static int find_leaks(const lab_candidate *c, const lab_found *found, lab_score *leader)
+/* The leaks that the model lacks, each with the flow of the one that was found.
+ * In:      without  the model without that
+ * Returns: how many */
+static int find_leaks(const lab_candidate *c, const lab_candidate *without, const lab_found *found, lab_score *leader)
 {
-  const lab_rig with = lab_unknowns_expected(&c->u);
-  lab_rig rig = with;
-  const double flow = outflow(&rig, found->param, lab_param_value(&with, found->param));
+  lab_rig with = lab_unknowns_expected(&c->u);
+  const double flow = outflow(&with, found->param, lab_param_value(&with, found->param));
   int i, n = 0;
-  for (i = 0; i < LEAKS && isfinite(flow); i++) {
+  for (i = 0; i < LEAKS; i++) {
     const int param = pneu_param_find(leaks[i].size), shape = leaks[i].shape ? pneu_param_find(leaks[i].shape) : -1;
     lab_score *x = &leader[n];
-    if (param < 0 || param == found->param)
+    lab_rig rig = with;
+    if (param < 0 || param == found->param || !lab_score_lacks(&without->u, pneu_effect_of(param)))
       continue;
     *x = (lab_score){.effect = pneu_effect_of(param), .param = param, .shape = shape};
-    if (shape >= 0)
+    if (shape >= 0) {
       x->shape_value = lab_score_shape(&with.params, x, 1);
-    rig = with;
-    *pneu_param_at(&rig.params, found->param) = 0;
+      *pneu_param_at(&rig.params, shape) = (pneu_real)x->shape_value;
+    }
     x->size = (double)lab_param_info(param).value;
     x->size *= flow / outflow(&rig, param, x->size);
-    n++;
+    n += isfinite(x->size) && x->size > 0;
   }
   return n;
 }
@@ -126,8 +136,8 @@ static int line_up(field *f, lab_error *error)
   *without = f->of[0];
   without->quality.fitted = 0;
   lab_candidate_drop(without, without->n_found - 1);
-  n = is_refilled(&f->of[0], last) ? find_leaks(&f->of[0], last, leader)
-                                   : find_leaders(f, without, last, leader, error);
+  n = is_refilled(&f->of[0], last) ? find_leaks(&f->of[0], without, last, leader) : 0;
+  n = find_leaders(f, without, last, leader, n, error);
   if (n < 0)
     return error->status;
   f->n = 1 + n;

@@ -69,7 +69,6 @@ static lab_facts facts_of_best(const lab_candidate *best)
   f.best = best->quality;
   f.n_found = best->n_found;
   f.n_terms = best->u.rig.n_terms;
-  f.is_far = lab_candidate_is_far(&best->u);
   f.begins_within = lab_candidate_begins(best);
   f.in_one_loop = best->u.n_runs == 1 && lab_rig_has_positioner(&best->u.rig);
   for (i = 0; i < best->n_found; i++) {

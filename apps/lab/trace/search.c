@@ -227,8 +227,8 @@ static int find_intervals(lab_finding *f, lab_error *error)
   return status;
 }
 
-/* Intervals and errors of the model that was found, and whether the stem moves by jerks beside it.
- * Out:     u, result */
+/* Intervals and errors of the model that was found, whether the stem moves by jerks beside it, and whether its values
+ * are no answer. Out:     u, result */
 static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, lab_error *error)
 {
   int status = find_intervals(f, error);
@@ -251,6 +251,10 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
     size_t window;
     status = lab_unknowns_sticks_and_slips(u, 1, &window, error);
     result->jerks = window > 0;
+  }
+  if (status == LAB_OK && lab_search_explains(result) && lab_candidate_is_far(u)) {
+    result->verdict = LAB_VERDICT_UNDECIDED;
+    result->is_far = 1;
   }
   if (status == LAB_OK && result->n_path > 0) {
     result->path[result->n_path - 1].rig = lab_unknowns_expected(u);

@@ -62,6 +62,7 @@ typedef struct lab_search_result {
   size_t window; /* rows of a window if the log is rough and was seen coarsely (windowed.h); else 0 */
   double level;  /* p-value that a single score has to pass */
   int jerks;     /* not 0: the verdict is undecided, and the stem moves by jerks where the model's does not */
+  int is_far;    /* not 0: the verdict is undecided only for the values that the model needs (lab_candidate_is_far) */
 } lab_search_result;
 
 /* As the table of constants says. */

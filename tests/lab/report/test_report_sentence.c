@@ -293,6 +293,13 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
   result.found[0] = (lab_found){.effect = pneu_effect_find("position_gain"), .param = d->of[1].param};
   lab_report_headline(&report, text);
   assert_null(strstr(text, "too much"));
+  result.is_far = 1;
+  d->n = 1;
+  lab_report_sentence(&report, text);
+  assert_contains(text, "Several values are far off their sheet: it is that of another rig, or something else is "
+                        "missing. As far as the log tells, friction is 2 times its sheet.");
+  assert_null(strstr(text, "is not noise"));
+  result.is_far = 0;
   result.jerks = 1;
   d->n = 0;
   lab_report_headline(&report, text);

@@ -308,9 +308,6 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
   f.n_causes = 2;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
-  f.is_far = 1;
-  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
-  f.is_far = 0;
   f.n_found = 0;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_NONE);
   assert_string_equal(lab_verdict_text(LAB_VERDICT_NONE), "none");
