@@ -329,6 +329,17 @@ static void flow_between(const pneu_terms *t, const passage *at, pneu_line *line
     mixed_flow(t, at, t->extent == PNEU_EXTENT_SLOPES, flow);
 }
 
+void pneu_let_in(pneu_terms *t, pneu_real q)
+{
+  if (t->model->law.pressure_input)
+    return;
+  if (q > 0) {
+    t->mass_in += q;
+    t->mass_in_T += q * t->model->p.ambient_temperature;
+  } else
+    t->mass_out -= q;
+}
+
 int pneu_exchange(pneu_terms *t, pneu_real area, pneu_real p_other, pneu_real T_other, pneu_line *line)
 {
   const int out = p_other < t->p;

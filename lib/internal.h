@@ -153,6 +153,9 @@ int pneu_is_physical(const pneu_model *model, const pneu_state *state);
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 
+/* Ambient air that comes into the chamber [kg/s]; below 0 it leaves it. None where pressure is an input. */
+void pneu_let_in(pneu_terms *terms, pneu_real q);
+
 /* Flow between the chamber and a reservoir, either way, added to the sums.
  * In/out:  line  between orifice and reservoir; NULL: none
  * Returns: whether it is choked. */

@@ -86,17 +86,6 @@ static pneu_real series_at(const pneu_term *term, pneu_real time)
   return sum;
 }
 
-static void add_flow(pneu_terms *t, pneu_real q)
-{
-  if (t->model->law.pressure_input)
-    return;
-  if (q > 0) {
-    t->mass_in += q;
-    t->mass_in_T += q * t->model->p.ambient_temperature;
-  } else
-    t->mass_out -= q;
-}
-
 static void add_supply(pneu_terms *t, pneu_real difference)
 {
   const pneu_real least = PNEU_C(1e-3) * t->model->p.ambient_pressure;
@@ -118,7 +107,7 @@ static void add_sum(pneu_terms *t, int equation, pneu_real sum)
     t->friction = PNEU_M(fmax)(t->friction + sum, 0);
     break;
   case PNEU_TERM_FLOW:
-    add_flow(t, sum);
+    pneu_let_in(t, sum);
     break;
   case PNEU_TERM_HEAT:
     if (t->model->thermal && t->model->law.gas != PNEU_GAS_POLYTROPIC)

@@ -10,17 +10,9 @@ static const pneu_param_info params[] = {{"laminar_leak", "kg/s/Pa2", 0, PNEU_C(
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
-  const pneu_params *p = &t->model->p;
-  const pneu_real pa = p->ambient_pressure, q = param[CONDUCTANCE] * (t->p - pa) * (t->p + pa);
+  const pneu_real pa = t->model->p.ambient_pressure;
   (void)state, (void)rate;
-  if (t->model->law.pressure_input)
-    return;
-  if (q > 0) {
-    t->mass_out += q;
-  } else {
-    t->mass_in -= q;
-    t->mass_in_T -= q * p->ambient_temperature;
-  }
+  pneu_let_in(t, param[CONDUCTANCE] * (pa - t->p) * (pa + t->p));
 }
 
 const pneu_effect pneu_effect_record_laminar_leak = {

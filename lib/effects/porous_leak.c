@@ -17,19 +17,10 @@ static const pneu_param_info params[] = {
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
-  const pneu_params *p = &t->model->p;
-  const pneu_real pa = p->ambient_pressure, s = (t->p - pa) * (t->p + pa), crossover = param[CROSSOVER];
+  const pneu_real pa = t->model->p.ambient_pressure, s = (t->p - pa) * (t->p + pa), crossover = param[CROSSOVER];
   const pneu_real slow = PNEU_M(sqrt)(1 + 4 * PNEU_M(fabs)(s) / (crossover * crossover));
-  const pneu_real q = 2 * param[CONDUCTANCE] * s / (1 + slow);
   (void)state, (void)rate;
-  if (t->model->law.pressure_input)
-    return;
-  if (q > 0) {
-    t->mass_out += q;
-  } else {
-    t->mass_in -= q;
-    t->mass_in_T -= q * p->ambient_temperature;
-  }
+  pneu_let_in(t, -2 * param[CONDUCTANCE] * s / (1 + slow));
 }
 
 const pneu_effect pneu_effect_record_porous_leak = {
