@@ -23,10 +23,12 @@ static double tolerance_of(const lab_run *x, int c)
 static void draw_line(const lab_run *x, int c, double *line)
 {
   const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first, whole = t[x->n - 1] - t[0];
-  const double slope = whole > 0 ? tolerance_of(x, c) / x->sigma[c] / whole : 0;
+  const double tolerance = tolerance_of(x, c);
   size_t i;
-  for (i = 0; i < x->n; i++)
-    line[i] = isnan(lab_run_measured(x, c, i)) ? 0 : slope * (t[i] - t[0]);
+  for (i = 0; i < x->n; i++) {
+    const double share = whole > 0 && !isnan(lab_run_measured(x, c, i)) ? (t[i] - t[0]) / whole : 0;
+    line[i] = share * tolerance / x->sigma[c];
+  }
 }
 
 /* One channel: from w to v, of which I - v v' is (I + w w')^(-1/2). */
