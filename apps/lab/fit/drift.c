@@ -17,9 +17,8 @@ static double tolerance_of(const lab_run *x, int c)
                                     : 0;
 }
 
-/* What one tolerance of drift adds to one channel, over the noise; 0 where nothing was measured.  Out: line  x->n
- * values
- */
+/* What one tolerance of drift adds to one channel, over the noise; 0 where nothing was measured.
+ * Out:     line  x->n values */
 static void draw_line(const lab_run *x, int c, double *line)
 {
   const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first, whole = t[x->n - 1] - t[0];

@@ -227,8 +227,9 @@ static int find_intervals(lab_finding *f, lab_error *error)
   return status;
 }
 
-/* Intervals and errors of the model that was found, whether the stem moves by jerks beside it, and whether its values
- * are no answer. Out:     u, result */
+/* Intervals and errors of the model that was found; whether the stem moves by jerks beside it, or its values are no
+ * answer.
+ * Out:     u, result */
 static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, lab_error *error)
 {
   int status = find_intervals(f, error);
