@@ -105,12 +105,9 @@ static double growth_at_supply(const about *a)
   return at_supply(a) * (double)a->rig.params.dead_volume;
 }
 
-/* How much more that is with the effect than without [kg/s]. */
 static double leak(const about *a)
 {
-  lab_rig without = a->rig;
-  *pneu_param_at(&without.params, a->param) = 0;
-  return lab_rig_outflow(&a->rig) - lab_rig_outflow(&without);
+  return lab_rig_leak(&a->rig, a->param);
 }
 
 /* In litres at 0 degC and 101325 Pa (DIN 1343) an hour. */

@@ -545,7 +545,8 @@ static void begin_onset(const lab_rig_onset *onset, pneu_params *params)
   params->vent_area *= (pneu_real)onset->value;
 }
 
-double lab_rig_outflow(const lab_rig *rig)
+/* All that leaves it [kg/s]. */
+static double outflow(const lab_rig *rig)
 {
   const pneu_params *p = &rig->params;
   const pneu_input input = {.supply_pressure = p->supply_pressure};
@@ -557,6 +558,13 @@ double lab_rig_outflow(const lab_rig *rig)
   if (lab_rig_model(rig, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
     return (double)NAN;
   return (double)out.mass_out;
+}
+
+double lab_rig_leak(const lab_rig *rig, int param)
+{
+  lab_rig without = *rig;
+  *pneu_param_at(&without.params, param) = 0;
+  return outflow(rig) - outflow(&without);
 }
 
 void lab_rig_at(const lab_rig *rig, double t, lab_rig *now)

@@ -89,9 +89,11 @@ void lab_rig_write_catalogue(FILE *file, const lab_rig *rig);
  * unmoved. Out:     model Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
 
-/* What leaves a chamber at supply pressure while both orifices are shut [kg/s]: nothing below ambient pressure.
+/* What a leak lets out of a chamber at supply pressure while both orifices are shut [kg/s]: nothing below ambient
+ * pressure.
+ * In:      param  its size, 0 for none
  * Returns: NaN where the library has no such model. */
-double lab_rig_outflow(const lab_rig *rig);
+double lab_rig_leak(const lab_rig *rig, int param);
 
 /* A rig as it is at some time of a log, whose model the library has.
  * In:      t    [s]; infinite: when all that begins has begun

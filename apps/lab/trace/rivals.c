@@ -71,23 +71,13 @@ static int is_refilled(const lab_candidate *c, const lab_found *found)
   return any && lab_refill_loops(&c->u);
 }
 
-/* What flows out through one leak of some size [kg/s]. */
-static double outflow(lab_rig *rig, int param, double size)
-{
-  double without;
-  *pneu_param_at(&rig->params, param) = 0;
-  without = lab_rig_outflow(rig);
-  *pneu_param_at(&rig->params, param) = (pneu_real)size;
-  return lab_rig_outflow(rig) - without;
-}
-
 /* The leaks that the model lacks, each with the flow of the one that was found.
  * In:      without  the model without that
  * Returns: how many */
 static int find_leaks(const lab_candidate *c, const lab_candidate *without, const lab_found *found, lab_score *leader)
 {
-  lab_rig with = lab_unknowns_expected(&c->u);
-  const double flow = outflow(&with, found->param, lab_param_value(&with, found->param));
+  const lab_rig with = lab_unknowns_expected(&c->u);
+  const double flow = lab_rig_leak(&with, found->param);
   int i, n = 0;
   for (i = 0; i < LEAKS; i++) {
     const int param = pneu_param_find(leaks[i].size), shape = leaks[i].shape ? pneu_param_find(leaks[i].shape) : -1;
@@ -100,8 +90,8 @@ static int find_leaks(const lab_candidate *c, const lab_candidate *without, cons
       x->shape_value = lab_score_shape(&with.params, x, 1);
       *pneu_param_at(&rig.params, shape) = (pneu_real)x->shape_value;
     }
-    x->size = (double)lab_param_info(param).value;
-    x->size *= flow / outflow(&rig, param, x->size);
+    *pneu_param_at(&rig.params, param) = lab_param_info(param).value;
+    x->size = (double)lab_param_info(param).value * flow / lab_rig_leak(&rig, param);
     n += isfinite(x->size) && x->size > 0;
   }
   return n;
