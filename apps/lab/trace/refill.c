@@ -7,13 +7,17 @@
 #include "../base/clock.h"
 #include "../base/quantile.h"
 #include "contest.h"
+#include "forces.h"
 #include "resume.h"
+#include "standing.h"
 
 /* Sizes that are tried, as shares of the fill orifice: from 1/2048 to 1/2, each 1.4 times the one before. */
 enum { SIZES = 21, SMALLEST = -11, FITTED = 4, STEPS = 30 };
 
 typedef struct trial {
-  double size, chi2; /* [m2] of the leak; of the model with it, infinite where it was not tried */
+  int leak;    /* a parameter, its size */
+  double size; /* in its unit */
+  double chi2; /* of the model with it, infinite where it was not tried */
 } trial;
 
 int lab_refill_loops(const lab_unknowns *u)
@@ -33,11 +37,10 @@ static int by_chi2(const void *x, const void *y)
   return a < b ? -1 : a > b;
 }
 
-static int add_leak(lab_candidate *c, double size, lab_error *error)
+static int add_leak(lab_candidate *c, const trial *t, lab_error *error)
 {
-  const lab_score leak = {
-      .effect = pneu_effect_find("chamber_leak"), .param = pneu_param_find("leak_area"), .shape = -1};
-  return lab_candidate_add_effect(c, &leak, size, error);
+  const lab_score leak = {.effect = pneu_effect_of(t->leak), .param = t->leak, .shape = -1};
+  return lab_candidate_add_effect(c, &leak, t->size, error);
 }
 
 /* Whether something may be missing: more than noise is left, or values far off their sheet stand in for it. */
@@ -48,31 +51,58 @@ static int is_off(const lab_quality *within)
 
 /* Chi-square of a model with a leak from some time [s] on.
  * In:      since  infinite: from the start
- * Out:     chi2   infinite where the model cannot be simulated
+ * In/out:  t      chi2: infinite where the model cannot be simulated
  * Returns: LAB_OK, LAB_WORLD */
-static int try_leak(const lab_unknowns *model, double size, double since, double *chi2, lab_error *error)
+static int try_leak(const lab_unknowns *model, double since, trial *t, lab_error *error)
 {
-  const int leak = pneu_param_find("leak_area");
   lab_unknowns u = *model;
-  int status =
-      isfinite(since) ? lab_unknowns_add_onset(&u, leak, since, size, error) : lab_unknowns_add(&u, leak, size, error);
+  int status = isfinite(since) ? lab_unknowns_add_onset(&u, t->leak, since, t->size, error)
+                               : lab_unknowns_add(&u, t->leak, t->size, error);
   if (status == LAB_OK) {
     lab_unknowns_take(&u);
-    status = lab_unknowns_chi2(&u, chi2, error);
+    status = lab_unknowns_chi2(&u, &t->chi2, error);
   }
   if (status != LAB_OK)
-    *chi2 = HUGE_VAL;
+    t->chi2 = HUGE_VAL;
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* All sizes, the nearest first; as far as there is time. */
+/* The leak that the log shows while the pressure falls with both orifices shut, of the kind that is most alike in all
+ * of it.  Out: size  0: none shows */
+static int leak_that_shows(const lab_unknowns *model, double since, double *size)
+{
+  static const char *const kinds[] = {"leak_area", "laminar_leak"};
+  double least = 0.5, scatter; /* of its size: where stretches are less alike no leak makes them, by judgement */
+  int leak = pneu_param_find(kinds[0]);
+  size_t k;
+  *size = 0;
+  for (k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+    const int of = pneu_param_find(kinds[k]);
+    double seen;
+    if (of < 0 || !lab_score_lacks(model, pneu_effect_of(of)))
+      continue;
+    seen = lab_standing_leak(model, of, since, &scatter);
+    if (!(scatter < least))
+      continue;
+    least = scatter;
+    leak = of;
+    *size = seen;
+  }
+  return leak;
+}
+
+/* All sizes, the nearest first; as far as there is time. Where a leak shows they are close to that: sizes far between
+ * are out of step with how often the positioner makes up for it. */
 static int try_sizes(const lab_unknowns *model, double since, trial *t, lab_error *error)
 {
+  double seen;
+  const int leak = leak_that_shows(model, since, &seen);
   int k, status = LAB_OK;
   for (k = 0; k < SIZES && status == LAB_OK; k++) {
-    t[k] = (trial){(double)model->rig.params.fill_area * pow(2, SMALLEST + 0.5 * k), HUGE_VAL};
+    const double shares = (double)model->rig.params.fill_area * pow(2, SMALLEST + 0.5 * k);
+    t[k] = (trial){leak, seen > 0 ? seen * pow(2, (k - SIZES / 2) / 20.) : shares, HUGE_VAL};
     if (!lab_cpu_is_spent(model->until))
-      status = try_leak(model, t[k].size, since, &t[k].chi2, error);
+      status = try_leak(model, since, &t[k], error);
   }
   if (status == LAB_OK)
     qsort(t, SIZES, sizeof *t, by_chi2);
@@ -131,7 +161,7 @@ static int fit_sizes(const lab_quality *within, const lab_candidate *declared, c
        k++) {
     c = *declared;
     c.quality.fitted = 0;
-    if (isfinite(t[k].chi2) && add_leak(&c, t[k].size, error) == LAB_OK)
+    if (isfinite(t[k].chi2) && add_leak(&c, &t[k], error) == LAB_OK)
       status = lab_refill_fit(&c, error);
     if (is_better(&c.quality, within) && lab_candidate_by_bic(&c, leaks) < 0)
       *leaks = c;
@@ -155,8 +185,10 @@ static int find(const lab_candidate *within, lab_candidate *leaks, lab_error *er
     *declared = *within;
     lab_unknowns_undo_fit(&declared->u);
     declared->u.until = lab_cpu_share(within->u.until, 0.25); /* what else may be missing needs the rest */
-    status = lab_unknowns_chi2(&declared->u, &none, error);
+    status = lab_forces_begin(&declared->u, error);
   }
+  if (status == LAB_OK)
+    status = lab_unknowns_chi2(&declared->u, &none, error);
   if (status == LAB_OK)
     status = try_sizes(&declared->u, HUGE_VAL, t, error);
   if (status == LAB_OK && t[0].chi2 < nearer * none)
@@ -220,10 +252,10 @@ int lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *be
   lab_score first;
   double none = 0;
   int i = 0, status = lab_unknowns_chi2(&base->u, &none, error);
-  while (i < begins->n && begins->of[i].param != pneu_param_find("leak_area"))
-    i++;
-  if (status == LAB_OK && i < begins->n)
+  if (status == LAB_OK)
     status = try_sizes(&base->u, x->log->value[LAB_CHANNEL_TIME][x->first + row], t, error);
+  while (status == LAB_OK && i < begins->n && begins->of[i].param != t[0].leak)
+    i++;
   if (status != LAB_OK || i == begins->n || !(none - t[0].chi2 > begins->of[0].statistic))
     return status == LAB_WORLD ? status : LAB_OK;
   first = begins->of[i];
