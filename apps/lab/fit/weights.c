@@ -387,7 +387,8 @@ static int is_told(const lab_run *run, int n)
 static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *error)
 {
   const double values = (double)u->n_values, spare = sqrt(values / fmax(values - u->n, 1));
-  double jitter, *at = r;
+  const double declared = run->rig->noise[LAB_CHANNEL_TIME];
+  double jitter = 0, *at = r;
   int e, any = 0;
   if (lab_unknowns_errors(u, r, error))
     return 0;
@@ -402,7 +403,8 @@ static int look(lab_unknowns *u, lab_run *run, double *r, rows *a, lab_error *er
   }
   if (error->status != LAB_OK)
     return 0;
-  jitter = is_told(run, u->n_runs) ? 0 : jitter_of(a, share_of_row * shortest_row(u), rounding_of(run, u->n_runs));
+  if (!is_told(run, u->n_runs))
+    jitter = !isnan(declared) ? declared : jitter_of(a, share_of_row * shortest_row(u), rounding_of(run, u->n_runs));
   for (at = r, e = 0; jitter > 0 && e < u->n_runs; e++) {
     weigh(&run[e], at, jitter);
     at += run[e].n * (size_t)run[e].n_channels;
@@ -427,6 +429,25 @@ int lab_weigh_runs(lab_unknowns *u, lab_run *run, int *any, lab_error *error)
     lab_fail_memory(error, "weights");
   free(memory);
   return error->status;
+}
+
+int lab_weigh_unseen(const lab_rig *model, double jitter, lab_run *run, int n, lab_error *error)
+{
+  lab_unknowns *u = malloc(sizeof *u);
+  double *r = NULL, *at;
+  int e, status = u ? LAB_OK : lab_fail_memory(error, "weights");
+  if (status == LAB_OK) {
+    lab_unknowns_none(model, run, n, u);
+    at = r = malloc((u->n_rows + 1) * sizeof *r);
+    status = r ? lab_unknowns_errors(u, r, error) : lab_fail_memory(error, "weights");
+  }
+  for (e = 0; status == LAB_OK && e < n; e++) {
+    weigh(&run[e], at, jitter);
+    at += run[e].n * (size_t)run[e].n_channels;
+  }
+  free(r);
+  free(u);
+  return status;
 }
 
 /* ---- In words ---- */

@@ -21,6 +21,13 @@
  * Returns: LAB_OK; LAB_NUMERIC, LAB_WORLD. */
 int lab_weigh_runs(lab_unknowns *u, lab_run *run, int *any, lab_error *error);
 
+/* Runs that took no part in the fit have the clock of those that did: their rows weigh for it as well, by how fast the
+ * model says that the channels move.
+ * In:      jitter  [s] of the runs that were fitted
+ * In/out:  run     jitter and weight change
+ * Returns: as lab_unknowns_errors. */
+int lab_weigh_unseen(const lab_rig *model, double jitter, lab_run *run, int n, lab_error *error);
+
 /* Say in a sentence each what was recognised: another noise than declared, values recorded in steps that the noise does
  * not hide, noise with memory, rows whose time is uncertain. */
 void lab_weights_say(const lab_run *run, int n, lab_limitations *limitations);

@@ -154,6 +154,9 @@ static int hold_out(lab_answer *a, lab_error *error)
     lab_limitation(&a->now.logs.limitations,
                    "what begins at %.6g s of the log begins at the same time of a held-out log",
                    a->now.completed.rig.onset[a->rig.n_onsets].from);
+  if (a->now.logs.run->jitter > 0 &&
+      lab_weigh_unseen(&after, a->now.logs.run->jitter, held->run, held->n, error) == LAB_WORLD)
+    return LAB_WORLD;
   report->has_holdout = !lab_judge(&before, held->run, held->n, &report->holdout_before, error) &&
                         !lab_judge(&after, held->run, held->n, &report->holdout_after, error) &&
                         !judge_each(a, &before, &after, error);

@@ -238,12 +238,13 @@ static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error
   return status;
 }
 
-/* Channel of a key in the noise group, "pressure" or "p"; time and command have no noise. */
+/* Channel of a key in the noise group, "pressure" or "p"; commands have no noise. */
 static int noise_channel(const char *key)
 {
   int i;
-  for (i = LAB_CHANNEL_P; i < LAB_CHANNEL_COUNT; i++)
-    if (strcmp(lab_channels[i].quantity, key) == 0 || strcmp(lab_channels[i].key, key) == 0)
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    if (i != LAB_CHANNEL_U && i != LAB_CHANNEL_SP &&
+        (strcmp(lab_channels[i].quantity, key) == 0 || strcmp(lab_channels[i].key, key) == 0))
       return i;
   return -1;
 }

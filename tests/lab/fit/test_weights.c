@@ -67,6 +67,21 @@ static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
 }
 
 /* What a poor model left may have been taken for memory: that it is none is as much news as that it is one. */
+static void test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is(void **state)
+{
+  int any;
+  write_log(0);
+  open_stuck(3e-4);
+  rig.noise[LAB_CHANNEL_TIME] = 0.05;
+  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  assert_true(any);
+  assert_close(run.jitter, 0.05, 0, 0);
+  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  assert_close(run.jitter, 0.05, 0, 0);
+  lab_run_close(&run);
+  lab_log_free(&one_log);
+}
+
 static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(void **state)
 {
   int any, again;
@@ -126,6 +141,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_weigh_runs__set_position_stays__noise_has_memory),
       cmocka_unit_test(test_lab_weigh_runs__set_position_moves__is_no_noise),
+      cmocka_unit_test(test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is),
       cmocka_unit_test(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once),
       cmocka_unit_test(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise),
       cmocka_unit_test(test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left),

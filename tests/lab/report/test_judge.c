@@ -2,6 +2,7 @@
 #include "../../scratch.h"
 #include "../../virtual.h"
 
+#include "../../../apps/lab/fit/weights.h"
 #include "../../../apps/lab/report/judge.h"
 
 enum { ROWS = 401, COMMANDS = 3, FEW = 40 };
@@ -62,10 +63,32 @@ static void test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved(v
   close_log();
 }
 
+/* By its clock a row may be off by as much as the stem moves in that time. */
+static void test_lab_weigh_unseen__rows_that_move__weigh_less(void **state)
+{
+  const double jitter = 0.01; /* [s] */
+  double least = 1, fastest = 0;
+  size_t i;
+  open_log(0.402);
+  assert_int_equal(lab_weigh_unseen(&rig, jitter, &run, 1, &error), LAB_OK);
+  for (i = 1; i + 1 < ROWS; i++) {
+    const double *x = seen.value[LAB_CHANNEL_X];
+    fastest = fmax(fastest, fabs(x[i + 1] - x[i - 1]) / (2 * spacing));
+    least = fmin(least, run.weight[ROWS + i]);
+  }
+  assert_int_equal(run.channel[1], LAB_CHANNEL_X);
+  assert_close(run.jitter, jitter, 0, 0);
+  assert_close(least, 1 / hypot(1, jitter * fastest / 2e-5), 0, 0.15);
+  for (i = 0; i < 7; i++) /* before the first command */
+    assert_close(run.weight[ROWS + i], 1, 1e-3, 0);
+  close_log();
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_lab_judge__unseen_log__tells_its_own_value_by_its_start),
+      cmocka_unit_test(test_lab_weigh_unseen__rows_that_move__weigh_less),
       cmocka_unit_test(test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

@@ -24,7 +24,7 @@ static const char declared[] =
     "  polytropic_index = 1.2; };\n"
     "laws = { gas = \"energy\";  flow = \"iso6358\";  friction = \"coulomb\"; };\n"
     "fit = ( \"orifice_area\", \"dry_friction\", \"damping\" );\n"
-    "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; };\n";
+    "noise = { pressure = \"0.112 kPa\";  x = \"0.0381 mm\"; temperature = \"0.5 degC\"; t = \"2 ms\"; };\n";
 
 static double param(const lab_rig *rig, const char *effect, const char *name)
 {
@@ -97,6 +97,7 @@ static void test_lab_rig_read__fit_and_noise__are_listed(void **state)
   assert_close(rig.noise[LAB_CHANNEL_P], 112, 0, 1e-14);
   assert_close(rig.noise[LAB_CHANNEL_X], 38.1e-6, 0, 1e-14);
   assert_close(rig.noise[LAB_CHANNEL_T], 0.5, 0, 1e-12);
+  assert_close(rig.noise[LAB_CHANNEL_TIME], 2e-3, 0, 1e-14);
   assert_true(isnan(rig.noise[LAB_CHANNEL_FORCE]));
 }
 

@@ -7,7 +7,9 @@
 
 #include "../../../apps/lab/check/logs.h"
 #include "../../../apps/lab/trace/departure.h"
+#include "../../../apps/lab/trace/forces.h"
 #include "../../../apps/lab/trace/search.h"
+#include "../../../apps/lab/trace/standing.h"
 
 enum { ROWS = 2001, CHANGES = 400 };
 static const double spacing = 0.02, lasting = 40; /* [s] */
@@ -285,6 +287,66 @@ static void hold_within_a_wider_band(void)
   g.spring_rate = 0.96 * 4e5;
 }
 
+/* What a log shows of a leak.  Returns: over its size */
+static double shown(const char *param, double size, double *scatter)
+{
+  double seen;
+  open_loop(WITH_SP | WITH_P);
+  seen = lab_standing_leak(&u, pneu_param_find(param), HUGE_VAL, scatter);
+  lab_logs_close(&logs);
+  return seen / size;
+}
+
+/* The declared chamber is a third larger than the true one, of which the swept part is known; where the stem goes all the
+ * way the pressures are so far apart that a hole and a gap differ. */
+static void test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_about_the_size(void **state)
+{
+  double alike, other;
+  hold_within_a_wider_band();
+  g.leak_area = 6e-8;
+  assert_close(shown("leak_area", 6e-8, &alike), 1, 0, 0.1);
+  set_stairs();
+  g.leak_area = 0;
+  g.laminar_leak = 4.4e-16;
+  assert_close(shown("laminar_leak", 4.4e-16, &alike), 1, 0, 0.1);
+  shown("leak_area", 1, &other);
+  assert_true(alike < other);
+}
+
+static void test_lab_standing_leak__no_leak_or_before_its_time__shows_none(void **state)
+{
+  double scatter;
+  hold_within_a_wider_band();
+  shown("leak_area", 1, &scatter);
+  assert_false(scatter < 0.5);
+  g.leak_area = 6e-8;
+  open_loop(WITH_SP | WITH_P);
+  assert_close(lab_standing_leak(&u, pneu_param_find("leak_area"), lasting, &scatter), 0, 0, 0);
+  assert_true(isinf(scatter));
+  lab_logs_close(&logs);
+  open_loop(WITH_SP);
+  assert_close(lab_standing_leak(&u, pneu_param_find("leak_area"), HUGE_VAL, &scatter), 0, 0, 0);
+  lab_logs_close(&logs);
+}
+
+static void test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_pressure_moves_it(void **state)
+{
+  lab_error error = {0, ""};
+  hold_within_a_wider_band();
+  g.leak_area = 6e-8;
+  g.dry_friction = 420;
+  g.spring_preload = 0.0106;
+  open_loop(WITH_SP | WITH_P);
+  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  lab_unknowns_undo_fit(&u);
+  assert_int_equal(lab_forces_begin(&u, &error), LAB_OK);
+  assert_close((double)u.rig.params.spring_rate, 0.96 * 4e5, 0, 0.01);
+  assert_close((double)u.rig.params.spring_preload, 0.0106, 0, 0.01);
+  assert_close((double)u.rig.params.dry_friction, 420, 0, 0.05);
+  assert_close((double)u.rig.params.dead_volume, 4e-5, 0, 1e-6);
+  lab_logs_close(&logs);
+}
+
 static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it(void **state)
 {
   hold_within_a_wider_band();
@@ -391,6 +453,9 @@ int main(void)
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
       CASE(test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
+      CASE(test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_about_the_size),
+      CASE(test_lab_standing_leak__no_leak_or_before_its_time__shows_none),
+      CASE(test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_pressure_moves_it),
       CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
       CASE(test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_through_a_hole),
       CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant),
