@@ -305,10 +305,12 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
- * that a new one has to be as plain as one that is added (PLAIN_BIC). */
+/* Whether a change is more than what the model leaves may feign: its interval leaves out what was, and of the many
+ * effects one or the other bends to that, so that a new one has to be as plain as one that is added (PLAIN_BIC). */
 static int is_plain(const lab_change *change)
 {
+  if (change->low <= change->then && change->then <= change->high)
+    return 0;
   return pneu_effect_of(change->param) < 0 || change->then != (double)lab_param_info(change->param).neutral ||
          change->statistic > lab_constant(LAB_PLAIN_BIC);
 }
@@ -343,6 +345,7 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
 
 static int conclude(lab_sides *c, lab_changes *changes, lab_error *error)
 {
+  static const double stand_ins = 3; /* times the noise: changes that leave so much stand in for others, by judgement */
   lab_rest left;
   if (lab_sides_rest(&c->u, c->first, &left, error))
     return error->status;
@@ -350,6 +353,8 @@ static int conclude(lab_sides *c, lab_changes *changes, lab_error *error)
   changes->now = left.now;
   changes->condition = changes->n ? LAB_SINCE_CHANGED : LAB_SINCE_UNCHANGED;
   if (lab_rest_is_doubtful(&left)) {
+    if (left.now > stand_ins * fmax(left.then, 1))
+      changes->n = 0;
     if (!changes->n)
       changes->condition = LAB_SINCE_CANNOT_TELL;
     snprintf(changes->why, sizeof changes->why,

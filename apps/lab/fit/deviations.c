@@ -97,6 +97,16 @@ static double earlier_factor(const lab_unknowns *u, const lab_unknown *x)
   return j < 0 ? 1 : u->unknown[j].value;
 }
 
+/* Whether a value is plainly beyond its tolerance: one that is known to no better than half of that, only where all of
+ * its interval is. */
+static int is_beyond(const lab_deviation *d, double tolerance)
+{
+  static const double known = 0.5; /* of the tolerance, by judgement */
+  const double off = fabs(d->found - d->declared);
+  const double least = d->found > d->declared ? d->lower - d->declared : d->declared - d->upper;
+  return off > tolerance && (off - least <= known * tolerance || least > tolerance);
+}
+
 /* The deviation of unknown j.  Returns: its size over the tolerance */
 static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d)
 {
@@ -113,7 +123,7 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   d->ratio = d->declared != 0 ? d->found / d->declared : (double)NAN;
   d->tolerance = d->declared != 0 ? tolerance / fabs(d->declared) : tolerance;
   d->held = lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
-  d->beyond = fabs(d->found - d->declared) > tolerance;
+  d->beyond = is_beyond(d, tolerance);
   return tolerance > 0 ? fabs(d->found - d->declared) / tolerance : (double)INFINITY;
 }
 

@@ -23,8 +23,9 @@ typedef struct lab_deviation {
   double ratio;                   /* found over declared; NaN where declared is 0 */
   double tolerance; /* standard deviation with which `declared` is known: a share of it, or, where it is 0, [unit];
                        NaN: it was declared as a start only */
-  int beyond;       /* not 0: further off than the tolerance allows */
-  int held;         /* not 0: it was not in `fit` */
+  int beyond; /* not 0: further off than the tolerance allows; if it is known to no better than half of that, in all
+                 of its interval */
+  int held;   /* not 0: it was not in `fit` */
 } lab_deviation;
 
 /* A fitted value beside what was declared.  Out: d  Returns: 0 if unknown j is no declared value */

@@ -215,42 +215,6 @@ const char *lab_effect_sentence(const lab_rig *rig, int effect, int param, char 
   return text;
 }
 
-/* ---- What has changed since the baseline ---- */
-
-/* "dry_friction from 480 N to 724 N (1.51 times) since 14.2 s" */
-static void say_change(const lab_change *change, char text[LAB_SENTENCE_TEXT])
-{
-  char name[LAB_PARAM_NAME_TEXT];
-  const char *unit = lab_change_unit(change), *now = LAB_QUANTITY(change->now, unit, 3);
-  lab_change_name(change->param, name);
-  if (change->then == 0)
-    ADD(text, "%s of %s", name, now);
-  else
-    ADD(text, "%s from %s to %s (%s times)", name, LAB_QUANTITY(change->then, unit, 3), now,
-        LAB_NUMBER(change->now / change->then, 3));
-  if (change->begin.known)
-    ADD(text, " since %s s", LAB_NUMBER(change->begin.t, 4));
-  if (change->end.known)
-    ADD(text, " until %s s", LAB_NUMBER(change->end.t, 4));
-}
-
-static void add_changes(const lab_changes *changes, char text[LAB_SENTENCE_TEXT])
-{
-  int i;
-  if (changes->condition == LAB_SINCE_UNCHANGED)
-    ADD(text, "As it was: nothing has changed since the baseline. ");
-  if (changes->condition == LAB_SINCE_CANNOT_TELL)
-    ADD(text, "Whether anything has changed since the baseline cannot be told: %s. ", changes->why);
-  if (changes->condition != LAB_SINCE_CHANGED)
-    return;
-  ADD(text, "Changed since the baseline: ");
-  for (i = 0; i < changes->n; i++) {
-    ADD(text, "%s", i ? ", " : "");
-    say_change(&changes->change[i], text);
-  }
-  ADD(text, ". ");
-}
-
 /* ---- What deviates ---- */
 
 /* What a person calls a parameter, and by how much less or more of it there is; others are "the" and their name. */
@@ -305,14 +269,29 @@ static int is_of_fill(const lab_report *report, const lab_deviation *d)
   return vent && d->param == LAB_PARAM_ORIFICE_AREA;
 }
 
+enum { CALLED_TEXT = LAB_PARAM_NAME_TEXT + 4 };
+
+static int in_plain(const char *name)
+{
+  return lab_name_index(name, plain, sizeof plain / sizeof *plain, sizeof *plain);
+}
+
+/* "friction", "the dead volume". */
+static const char *called(const char *name, char text[CALLED_TEXT])
+{
+  const int i = in_plain(name);
+  char *at;
+  snprintf(text, CALLED_TEXT, i < 0 ? "the %s" : "%s", i < 0 ? name : plain[i].called);
+  while ((at = strpbrk(text, "_.")))
+    *at = ' ';
+  return text;
+}
+
 static void add_deviation(char *text, const lab_report *report, const lab_deviation *d, int first)
 {
-  const int i = lab_name_index(d->name, plain, sizeof plain / sizeof *plain, sizeof *plain);
-  char name[LAB_PARAM_NAME_TEXT + 4], since[LAB_SINCE_TEXT], *at;
-  snprintf(name, sizeof name, "the %s", d->name);
-  while ((at = strpbrk(name, "_.")))
-    *at = ' ';
-  ADD(text, "%s %s", is_of_fill(report, d) ? "the fill orifice" : i < 0 ? name : plain[i].called, first ? "is " : "");
+  const int i = in_plain(d->name);
+  char name[CALLED_TEXT], since[LAB_SINCE_TEXT];
+  ADD(text, "%s %s", is_of_fill(report, d) ? "the fill orifice" : called(d->name, name), first ? "is " : "");
   add_ratio(text, report->rig, d, i < 0 ? NULL : plain[i].less, i < 0 ? NULL : plain[i].more);
   ADD(text, "%s", lab_report_since(lab_report_onset(report, d->param), since));
 }
@@ -363,6 +342,66 @@ static int add_deviations(char *text, const lab_report *report, int is_hedged)
   if (!is_hedged)
     *begin = (char)toupper((unsigned char)*begin);
   return n;
+}
+
+/* ---- What has changed since the baseline ---- */
+
+/* "friction from 480 N to 724 N (1.51 times)" */
+static void say_value(const lab_change *change, char text[LAB_SENTENCE_TEXT])
+{
+  const char *unit = lab_change_unit(change), *now = LAB_QUANTITY(change->now, unit, 3);
+  char name[LAB_PARAM_NAME_TEXT], is_called[CALLED_TEXT];
+  ADD(text, "%s ", called(lab_change_name(change->param, name), is_called));
+  if (change->then == 0)
+    ADD(text, "of %s", now);
+  else
+    ADD(text, "from %s to %s (%s times)", LAB_QUANTITY(change->then, unit, 3), now,
+        LAB_NUMBER(change->now / change->then, 3));
+}
+
+/* "the chamber leaks: 0.0602 mm2, ... (chamber_leak; 0.02 mm2 then)" */
+static void say_effect(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
+{
+  char sentence[LAB_EFFECT_SENTENCE], name[LAB_PARAM_NAME_TEXT];
+  lab_rig now;
+  lab_rig_at(&report->completed->rig, INFINITY, &now);
+  *pneu_param_at(&now.params, change->param) = (pneu_real)change->now;
+  lab_effect_sentence(&now, pneu_effect_of(change->param), change->param, sentence);
+  *sentence = (char)tolower((unsigned char)*sentence);
+  ADD(text, "%.*s (%s", (int)strlen(sentence) - 1, sentence, lab_change_name(change->param, name));
+  if (change->then != 0)
+    ADD(text, "; %s then", LAB_QUANTITY(change->then, lab_change_unit(change), 3));
+  ADD(text, ")");
+}
+
+static void say_change(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
+{
+  if (change->param < LAB_PARAM_ORIFICE_AREA && pneu_effect_of(change->param) >= 0)
+    say_effect(report, change, text);
+  else
+    say_value(change, text);
+  if (change->begin.known)
+    ADD(text, " since %s s", LAB_NUMBER(change->begin.t, 4));
+  if (change->end.known)
+    ADD(text, " until %s s", LAB_NUMBER(change->end.t, 4));
+}
+
+static void add_changes(const lab_report *report, char text[LAB_SENTENCE_TEXT])
+{
+  const lab_changes *changes = report->changes;
+  int i;
+  if (changes->condition == LAB_SINCE_UNCHANGED)
+    ADD(text, "As it was: nothing has changed since the baseline. ");
+  if (changes->condition == LAB_SINCE_CANNOT_TELL)
+    ADD(text, "Whether anything has changed since the baseline cannot be told: %s. ", changes->why);
+  if (changes->condition != LAB_SINCE_CHANGED)
+    return;
+  ADD(text, "Changed since the baseline: ");
+  for (i = 0; i < changes->n; i++) {
+    ADD(text, "%s", i ? "; " : "");
+    say_change(report, &changes->change[i], text);
+  }
+  ADD(text, ". ");
 }
 
 /* ---- What is missing ---- */
@@ -482,7 +521,7 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   int deviates;
   *text = '\0';
   if (report->changes)
-    add_changes(report->changes, text);
+    add_changes(report, text);
   if (lab_report_doubt(report)) {
     ADD(text, "Undecided: %s", lab_report_doubt(report));
     return;

@@ -163,6 +163,35 @@ static void test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_rati
   assert_true(d.beyond);
 }
 
+/* Friction is declared to half of itself: a value that the log knows to a quarter is taken as it is, of another all of
+ * its interval has to be beyond that. */
+static void test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_interval_is(void **state)
+{
+  static const struct {
+    double found, half;
+    int beyond;
+  } cases[] = {{1.45, 0.1, 0}, {1.7, 0.25, 1}, {1.7, 0.3, 0}, {2, 0.45, 1}, {0.3, 0.3, 0}, {0.3, 0.15, 1}};
+  static lab_rig rig;
+  double friction;
+  size_t i;
+  lab_rig_default(&rig);
+  friction = (double)rig.params.dry_friction;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  for (i = 0; i < sizeof cases / sizeof *cases; i++) {
+    static lab_unknowns u;
+    static lab_fit_result fit;
+    lab_deviation d;
+    u.n = 0;
+    u.rig = rig;
+    u.declared = rig.params;
+    put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_dry_friction, cases[i].found * friction, friction);
+    fit.low[0] = (cases[i].found - cases[i].half) * friction;
+    fit.high[0] = (cases[i].found + cases[i].half) * friction;
+    assert_true(lab_deviation_of(&rig, &u, &fit, 0, &d));
+    assert_int_equal(d.beyond, cases[i].beyond);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -170,6 +199,7 @@ int main(void)
       cmocka_unit_test(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger),
       cmocka_unit_test(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them),
       cmocka_unit_test(test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_ratio_is_known),
+      cmocka_unit_test(test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_interval_is),
       cmocka_unit_test(test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -142,10 +142,11 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
                       "Every command acts 20.0 ms late (dead_time). The pressure sensor shows 2.0 % of the reading too "
                       "much (pressure_gain). With them the error falls from 3.00 to 1.00 times the noise.");
   report = answer(LAB_VERDICT_UNDECIDED, 3);
-  assert_string_equal(sentence_of(&report),
-                      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
-                      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
-                      "others.");
+  assert_string_equal(
+      sentence_of(&report),
+      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
+      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
+      "others.");
   result.after.chi2 = 4;
   assert_string_equal(sentence_of(&report),
                       "Something is missing, but the log does not say what. With the best candidates, dead_time, "
@@ -326,6 +327,26 @@ static void test_lab_report_headline__value_that_changes__is_told_within_its_tol
   assert_int_equal(lab_report_count_told(&report), 0);
 }
 
+/* Values and effects since the baseline are told as those of today are. */
+static void test_lab_report_headline__since_the_baseline__is_told_in_the_same_words(void **state)
+{
+  static lab_changes changes;
+  lab_report report = answer(LAB_VERDICT_NONE, 0);
+  lab_rig_default(&completed.rig);
+  completed.rig.laws.flow = PNEU_FLOW_CHOKED;
+  report.changes = &changes;
+  changes.condition = LAB_SINCE_CHANGED;
+  changes.n = 3;
+  changes.change[0] = (lab_change){.param = PNEU_PARAM_dry_friction, .then = 480, .now = 720};
+  changes.change[1] = (lab_change){.param = pneu_param_find("leak_area"), .now = 1.3e-8, .begin = {1, 14.2, 14, 15}};
+  changes.change[2] = (lab_change){.param = pneu_param_find("dead_time.dead_time"), .then = 0.01, .now = 0.012};
+  lab_report_headline(&report, text);
+  assert_contains(text,
+                  "Changed since the baseline: friction from 480 N to 720 N (1.50 times); the chamber leaks: 0.0130 mm²,"
+                  " 1.5 % of the fill orifice, 42 Nl/h at 4 bar supply (chamber_leak) since 14.20 s; every command"
+                  " acts 12.0 ms late (dead_time; 10.0 ms then). ");
+}
+
 /* What to look at on the rig stands beside effects that there are. */
 static void test_inspect_def__each_line__is_of_an_effect(void **state)
 {
@@ -383,6 +404,7 @@ int main(void)
       cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
       cmocka_unit_test(test_lab_report_headline__undecided__tells_values_last_and_with_care),
       cmocka_unit_test(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance),
+      cmocka_unit_test(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words),
       cmocka_unit_test(test_inspect_def__each_line__is_of_an_effect),
       cmocka_unit_test(test_lab_report_chance__cycle__counts_what_was_looked_at),
   };
