@@ -335,7 +335,7 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
       status = error->status;
       break;
     }
-    changes->n += change->p_value < changes->level && is_plain(change);
+    changes->n += change->p_value < changes->level && (followed || is_plain(change));
   }
   qsort(changes->change, (size_t)changes->n, sizeof *changes->change, by_statistic);
   free(without);
