@@ -305,17 +305,23 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* Whether a change is more than what the model leaves may feign: its interval leaves out what was, and of the many
- * effects one or the other bends to that, so that a new one has to be as plain as one that is added (PLAIN_BIC). */
+/* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
+ * that a new one has to be as plain as one that is added (PLAIN_BIC). */
 static int is_plain(const lab_change *change)
 {
-  if (change->low <= change->then && change->then <= change->high)
-    return 0;
   return pneu_effect_of(change->param) < 0 || change->then != (double)lab_param_info(change->param).neutral ||
          change->statistic > lab_constant(LAB_PLAIN_BIC);
 }
 
-static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
+/* Whether the logs tell the value of a change from none. */
+static int is_known(const lab_sides *c, const lab_fit_result *fit, const lab_change *change)
+{
+  const int d = told_by(c, change);
+  return fabs(c->u.unknown[d].value) > lab_student_quantile(0.975, (double)INFINITY) * sqrt(fit->covariance[d][d]);
+}
+
+/* Out:     unknown  whether something has changed of which the logs do not tell the value */
+static int describe(lab_sides *c, lab_changes *changes, int *unknown, lab_error *error)
 {
   lab_unknowns *without = malloc(sizeof *without);
   lab_fit_result *fit = malloc(sizeof *fit);
@@ -335,7 +341,12 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
       status = error->status;
       break;
     }
-    changes->n += change->p_value < changes->level && (followed || is_plain(change));
+    if (!(change->p_value < changes->level) || !is_plain(change))
+      continue;
+    if (followed || is_known(c, fit, change))
+      changes->n++;
+    else
+      *unknown = 1;
   }
   qsort(changes->change, (size_t)changes->n, sizeof *changes->change, by_statistic);
   free(without);
@@ -343,7 +354,7 @@ static int describe(lab_sides *c, lab_changes *changes, lab_error *error)
   return status;
 }
 
-static int conclude(lab_sides *c, lab_changes *changes, lab_error *error)
+static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *error)
 {
   static const double stand_ins = 3; /* times the noise: changes that leave so much stand in for others, by judgement */
   lab_rest left;
@@ -361,6 +372,10 @@ static int conclude(lab_sides *c, lab_changes *changes, lab_error *error)
              "what the model of the baseline leaves of the new log, %.2f times the noise, is more than it leaves of "
              "the baseline, %.2f times, and no change in the list explains it",
              changes->now, changes->then);
+  } else if (!changes->n && unknown) {
+    changes->condition = LAB_SINCE_CANNOT_TELL;
+    snprintf(changes->why, sizeof changes->why,
+             "something has, but the logs do not tell the value of what would explain it");
   }
   return LAB_OK;
 }
@@ -388,7 +403,7 @@ static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *
 static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *error)
 {
   extension *course = malloc(sizeof *course);
-  int status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
+  int unknown = 0, status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
   if (status == LAB_OK)
     status = lab_sides_approach(&c->u, &c->chi2, error);
   if (status == LAB_OK || (status == LAB_NUMERIC && course->fitted))
@@ -397,7 +412,7 @@ static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *
   if (status != LAB_OK)
     return status;
   c->u.until = 0; /* what was found is sized in any case */
-  return describe(c, changes, error) ? error->status : conclude(c, changes, error);
+  return describe(c, changes, &unknown, error) ? error->status : conclude(c, unknown, changes, error);
 }
 
 int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, double alpha,

@@ -118,6 +118,14 @@ static void put_tolerance(const lab_deviation *d, cJSON *row)
     put_quantity(row, "tolerance", d->tolerance, d->unit, 3);
 }
 
+static const char *beyond_or_within(const lab_deviation *d)
+{
+  if (d->beyond)
+    return "beyond";
+  return fabs(d->found - d->declared) > d->tolerance * (d->declared != 0 ? fabs(d->declared) : 1) ? "perhaps beyond"
+                                                                                                  : "within";
+}
+
 static void put_deviations(const lab_sources *t, cJSON *page)
 {
   const lab_deviations *all = &t->report->deviations;
@@ -135,7 +143,7 @@ static void put_deviations(const lab_sources *t, cJSON *page)
     put_number(row, "ratio", d->ratio, 3);
     put_tolerance(d, row);
     lab_json_put(row, "mood", d->beyond ? "bad" : "good");
-    lab_json_put(row, "words", d->beyond ? "beyond" : "within");
+    lab_json_put(row, "words", "%s", beyond_or_within(d));
     lab_json_put(row, "held", d->held ? "yes" : "");
     lab_json_put(row, "since", "%s", lab_report_since(lab_report_onset(t->report, d->param), since));
   }

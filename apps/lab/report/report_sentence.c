@@ -351,7 +351,10 @@ static void say_value(const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
   const char *unit = lab_change_unit(change), *now = LAB_QUANTITY(change->now, unit, 3);
   char name[LAB_PARAM_NAME_TEXT], is_called[CALLED_TEXT];
-  ADD(text, "%s ", called(lab_change_name(change->param, name), is_called));
+  if (change->param == PNEU_PARAM_spring_rate)
+    ADD(text, "the rate of the spring ");
+  else
+    ADD(text, "%s ", called(lab_fit_name(change->param, name), is_called));
   if (change->then == 0)
     ADD(text, "of %s", now);
   else
@@ -359,24 +362,33 @@ static void say_value(const lab_change *change, char text[LAB_SENTENCE_TEXT])
         LAB_NUMBER(change->now / change->then, 3));
 }
 
-/* "the chamber leaks: 0.0602 mm2, ... (chamber_leak; 0.02 mm2 then)" */
+/* "the chamber leaks: 0.0602 mm2, ... (chamber_leak, 3 times what it was)", "no longer: the chamber leaks: ..." */
 static void say_effect(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
+  const int is_gone = change->now == (double)lab_param_info(change->param).neutral;
   char sentence[LAB_EFFECT_SENTENCE], name[LAB_PARAM_NAME_TEXT];
-  lab_rig now;
-  lab_rig_at(&report->completed->rig, INFINITY, &now);
-  *pneu_param_at(&now.params, change->param) = (pneu_real)change->now;
-  lab_effect_sentence(&now, pneu_effect_of(change->param), change->param, sentence);
+  lab_rig rig;
+  lab_rig_at(&report->completed->rig, INFINITY, &rig);
+  *pneu_param_at(&rig.params, change->param) = (pneu_real)(is_gone ? change->then : change->now);
+  lab_effect_sentence(&rig, pneu_effect_of(change->param), change->param, sentence);
   *sentence = (char)tolower((unsigned char)*sentence);
-  ADD(text, "%.*s (%s", (int)strlen(sentence) - 1, sentence, lab_change_name(change->param, name));
-  if (change->then != 0)
-    ADD(text, "; %s then", LAB_QUANTITY(change->then, lab_change_unit(change), 3));
+  ADD(text, "%s%.*s (%s", is_gone ? "no longer: " : "", (int)strlen(sentence) - 1, sentence,
+      lab_change_name(change->param, name));
+  if (change->then != 0 && !is_gone)
+    ADD(text, ", %s times what it was", LAB_NUMBER(change->now / change->then, 3));
   ADD(text, ")");
+}
+
+/* Whether the sentence of an effect tells of a parameter: its size, and not the positioner, which is declared. */
+static int has_sentence(int param)
+{
+  const int effect = param < LAB_PARAM_ORIFICE_AREA ? pneu_effect_of(param) : -1;
+  return effect >= 0 && !lab_param_info(param).shape && effect != pneu_effect_find("positioner");
 }
 
 static void say_change(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
-  if (change->param < LAB_PARAM_ORIFICE_AREA && pneu_effect_of(change->param) >= 0)
+  if (has_sentence(change->param))
     say_effect(report, change, text);
   else
     say_value(change, text);

@@ -238,15 +238,31 @@ static int read_fit(const config_setting_t *list, lab_rig *rig, lab_error *error
   return status;
 }
 
-/* Channel of a key in the noise group, "pressure" or "p"; commands have no noise. */
+/* Commands have no noise. */
+static int has_noise(int channel)
+{
+  return channel != LAB_CHANNEL_U && channel != LAB_CHANNEL_SP;
+}
+
+/* Channel of a key in the noise group, "pressure" or "p"; -1: none */
 static int noise_channel(const char *key)
 {
   int i;
   for (i = 0; i < LAB_CHANNEL_COUNT; i++)
-    if (i != LAB_CHANNEL_U && i != LAB_CHANNEL_SP &&
-        (strcmp(lab_channels[i].quantity, key) == 0 || strcmp(lab_channels[i].key, key) == 0))
+    if (has_noise(i) && (strcmp(lab_channels[i].quantity, key) == 0 || strcmp(lab_channels[i].key, key) == 0))
       return i;
   return -1;
+}
+
+static int unknown_noise(const config_setting_t *setting, lab_error *error)
+{
+  const char *known[LAB_CHANNEL_COUNT];
+  size_t n = 0;
+  int i;
+  for (i = 0; i < LAB_CHANNEL_COUNT; i++)
+    if (has_noise(i))
+      known[n++] = lab_channels[i].quantity;
+  return lab_config_unknown(setting, known, n, sizeof *known, error);
 }
 
 static int read_noise(const config_setting_t *group, lab_rig *rig, lab_error *error)
@@ -254,10 +270,9 @@ static int read_noise(const config_setting_t *group, lab_rig *rig, lab_error *er
   int i, status = lab_config_is_group(group, error);
   for (i = 0; status == LAB_OK && i < config_setting_length(group); i++) {
     const config_setting_t *setting = config_setting_get_elem(group, (unsigned)i);
-    int channel = noise_channel(config_setting_name(setting));
+    const int channel = noise_channel(config_setting_name(setting));
     if (channel < 0)
-      return lab_config_unknown(setting, &lab_channels[LAB_CHANNEL_P].quantity, LAB_CHANNEL_COUNT - LAB_CHANNEL_P,
-                                sizeof lab_channels[0], error);
+      return unknown_noise(setting, error);
     status = lab_config_difference(setting, lab_channels[channel].unit, &rig->noise[channel], error);
     if (status == LAB_OK && !(rig->noise[channel] > 0))
       status = lab_config_expected(setting, "a standard deviation above 0", error);

@@ -11,8 +11,9 @@
 #include "resume.h"
 #include "standing.h"
 
-/* Sizes that are tried, as shares of the fill orifice: from 1/2048 to 1/2, each 1.4 times the one before. */
-enum { SIZES = 21, SMALLEST = -11, FITTED = 4, STEPS = 30 };
+/* Sizes that are tried: shares of the fill orifice from 1/2048 to 1/2, each 1.4 times the one before; where a leak
+ * shows, every other one of these, and CLOSE sizes from 0.75 to 1.3 times that. */
+enum { SIZES = 21, SMALLEST = -11, CLOSE = 11, FITTED = 4, STEPS = 30 };
 
 typedef struct trial {
   int leak;    /* a parameter, its size */
@@ -91,16 +92,23 @@ static int leak_that_shows(const lab_unknowns *model, double since, double *size
   return leak;
 }
 
-/* All sizes, the nearest first; as far as there is time. Where a leak shows they are close to that: sizes far between
- * are out of step with how often the positioner makes up for it. */
+/* Size k where a leak of some size shows, or none does: sizes far between are out of step with how often the positioner
+ * makes up for it. */
+static double size_of(const lab_unknowns *model, double seen, int k)
+{
+  if (seen > 0 && k < CLOSE)
+    return seen * pow(2, (k - CLOSE / 2) / 12.);
+  return (double)model->rig.params.fill_area * pow(2, SMALLEST + (seen > 0 ? k - CLOSE + 1 : 0.5 * k));
+}
+
+/* All sizes, the nearest first; as far as there is time. */
 static int try_sizes(const lab_unknowns *model, double since, trial *t, lab_error *error)
 {
   double seen;
-  const int leak = leak_that_shows(model, since, &seen);
+  const int shows = leak_that_shows(model, since, &seen), hole = pneu_param_find("leak_area");
   int k, status = LAB_OK;
   for (k = 0; k < SIZES && status == LAB_OK; k++) {
-    const double shares = (double)model->rig.params.fill_area * pow(2, SMALLEST + 0.5 * k);
-    t[k] = (trial){leak, seen > 0 ? seen * pow(2, (k - SIZES / 2) / 20.) : shares, HUGE_VAL};
+    t[k] = (trial){seen > 0 && k < CLOSE ? shows : hole, size_of(model, seen, k), HUGE_VAL};
     if (!lab_cpu_is_spent(model->until))
       status = try_leak(model, since, &t[k], error);
   }

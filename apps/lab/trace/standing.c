@@ -77,11 +77,12 @@ static told ask(const lab_rig *rig, int leak, const lab_log *log, size_t first, 
       slope_of(log->value[LAB_CHANNEL_TIME], log->value[LAB_CHANNEL_P], first, end, &pressure, &spread);
   const double x = fmin(fmax(position, 0), (double)p->stroke), one = (double)lab_param_info(leak).value;
   const double volume = (double)(p->dead_volume + p->area * p->swept_ratio * (pneu_real)x);
-  const double lost = -(slope * volume + (pressure + (double)p->ambient_pressure) * (double)p->area * x_slope) /
+  const double swept = (double)(p->area * p->swept_ratio) * x_slope;
+  const double lost = -(slope * volume + (pressure + (double)p->ambient_pressure) * swept) /
                       (double)(p->gas_constant * p->ambient_temperature);
-  const double passes = outflow(rig, leak, one, pressure, x);
+  const double without = outflow(rig, leak, 0, pressure, x), passes = outflow(rig, leak, one, pressure, x) - without;
   if (passes > 0 && isfinite(lost))
-    of = (told){one * lost / passes, spread};
+    of = (told){one * (lost - without) / passes, spread};
   return of;
 }
 

@@ -66,7 +66,6 @@ static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
   assert_close(memory_told(1, 2e-4), 0, 0, 0);
 }
 
-/* What a poor model left may have been taken for memory: that it is none is as much news as that it is one. */
 static void test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is(void **state)
 {
   int any;
@@ -82,6 +81,7 @@ static void test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is(void **
   lab_log_free(&one_log);
 }
 
+/* What a poor model left may have been taken for memory: that it is none is as much news as that it is one. */
 static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(void **state)
 {
   int any, again;

@@ -336,15 +336,24 @@ static void test_lab_report_headline__since_the_baseline__is_told_in_the_same_wo
   completed.rig.laws.flow = PNEU_FLOW_CHOKED;
   report.changes = &changes;
   changes.condition = LAB_SINCE_CHANGED;
-  changes.n = 3;
+  changes.n = 4;
   changes.change[0] = (lab_change){.param = PNEU_PARAM_dry_friction, .then = 480, .now = 720};
   changes.change[1] = (lab_change){.param = pneu_param_find("leak_area"), .now = 1.3e-8, .begin = {1, 14.2, 14, 15}};
   changes.change[2] = (lab_change){.param = pneu_param_find("dead_time.dead_time"), .then = 0.01, .now = 0.012};
+  changes.change[3] = (lab_change){.param = pneu_param_find("transducer_time"), .then = 0.2};
+  lab_report_headline(&report, text);
+  assert_contains(
+      text, "Changed since the baseline: friction from 480 N to 720 N (1.50 times); the chamber leaks: 0.0130 mm²,"
+            " 1.5 % of the fill orifice, 42 Nl/h at 4 bar supply (chamber_leak) since 14.20 s; every command"
+            " acts 12.0 ms late (dead_time, 1.20 times what it was); no longer: the transducer follows its command"
+            " with a lag of 200 ms (transducer_lag). ");
+  changes.n = 2;
+  changes.change[0] = (lab_change){.param = pneu_param_find("positioner.dead_band"), .then = 0.005, .now = 0.008};
+  changes.change[1] = (lab_change){.param = PNEU_PARAM_spring_rate, .then = 4e5, .now = 3e5};
   lab_report_headline(&report, text);
   assert_contains(text,
-                  "Changed since the baseline: friction from 480 N to 720 N (1.50 times); the chamber leaks: 0.0130 mm²,"
-                  " 1.5 % of the fill orifice, 42 Nl/h at 4 bar supply (chamber_leak) since 14.20 s; every command"
-                  " acts 12.0 ms late (dead_time; 10.0 ms then). ");
+                  "baseline: the positioner dead band from 0.00500 to 0.00800 (1.60 times); the rate of the spring"
+                  " from 400 N/mm to 300 N/mm (0.750 times). ");
 }
 
 /* What to look at on the rig stands beside effects that there are. */

@@ -348,6 +348,7 @@ static void test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where(void *
       {"log = { holdout = { window = ( \"2 s\", \"1 s\" ); }; };\n", "log.holdout.window", "from 2 s to 1 s"},
       {"log = { lead = ( { t = \"0 s\"; p = \"2e15 Pa\"; } ); };\n", "log.lead[0].p", "-5e+14 to 5e+14"},
       {"noise = { presure = 1; };\n", "noise.presure", "\"pressure\""},
+      {"noise = { tme = 1; };\n", "noise.tme", "\"time\""},
       {"noise = { pressure = 0; };\n", "noise.pressure", "above 0"},
       {"noise = { pressure = \"-1 kPa\"; };\n", "noise.pressure", "above 0"},
       {"noise = { pressure = \"1 mm\"; };\n", "noise.pressure", "expected a unit like Pa"},
