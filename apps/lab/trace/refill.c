@@ -68,8 +68,8 @@ static int try_leak(const lab_unknowns *model, double since, trial *t, lab_error
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* The leak that the log shows while the pressure falls with both orifices shut, of the kind that is most alike in all
- * of it.  Out: size  0: none shows */
+/* The leak that the log shows while the pressure falls though the positioner would not vent, of the kind that is most
+ * alike in all of it.  Out: size  0: none shows */
 static int leak_that_shows(const lab_unknowns *model, double since, double *size)
 {
   static const char *const kinds[] = {"leak_area", "laminar_leak"};
@@ -253,17 +253,28 @@ int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, 
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
+/* Place of a leak among what begins; n: it is not there */
+static int place_of(const lab_onset_scores *begins, int leak)
+{
+  int i = 0;
+  while (i < begins->n && begins->of[i].param != leak)
+    i++;
+  return i;
+}
+
 int lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *begins, lab_error *error)
 {
   const lab_run *x = base->u.run;
   trial t[SIZES];
   lab_score first;
   double none = 0;
-  int i = 0, status = lab_unknowns_chi2(&base->u, &none, error);
-  if (status == LAB_OK)
+  int i = place_of(begins, pneu_param_find("leak_area")), status = LAB_OK;
+  if (i < begins->n)
+    status = lab_unknowns_chi2(&base->u, &none, error);
+  if (status == LAB_OK && i < begins->n) {
     status = try_sizes(&base->u, x->log->value[LAB_CHANNEL_TIME][x->first + row], t, error);
-  while (status == LAB_OK && i < begins->n && begins->of[i].param != t[0].leak)
-    i++;
+    i = status == LAB_OK ? place_of(begins, t[0].leak) : i;
+  }
   if (status != LAB_OK || i == begins->n || !(none - t[0].chi2 > begins->of[0].statistic))
     return status == LAB_WORLD ? status : LAB_OK;
   first = begins->of[i];

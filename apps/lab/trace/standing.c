@@ -96,7 +96,8 @@ static double change_at(const double *p, size_t i)
   return sum;
 }
 
-/* Whether the pressure falls about row i though the stem is not so far up that the positioner would vent. */
+/* Whether the pressure falls about row i though the stem is not so far up that the positioner would vent. Far below,
+ * where it fills, the pressure rises, but for a moment in which the stem breaks away. */
 static int falls_shut(const lab_rig *rig, const lab_log *log, double dead_band, size_t i)
 {
   static const double within = 0.5; /* of the dead band, for the noise of the position */
