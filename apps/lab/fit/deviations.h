@@ -57,4 +57,12 @@ int lab_deviations_find(const lab_rig *rig, const lab_unknowns *u, const lab_fit
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *error);
 
+/* What is held and not told apart from its declared value goes back to it, if all of these together may and no other
+ * value has to give for it; the rest is fitted again about them, and the intervals move along.
+ * In/out:  u     fitted, with what is held
+ *          chi2  of it
+ *          fit   its intervals
+ * Returns: LAB_OK, LAB_WORLD; where no fit is found nothing changes. */
+int lab_deviations_forget(lab_unknowns *u, double *chi2, lab_fit_result *fit, lab_error *error);
+
 #endif

@@ -243,6 +243,8 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
     result->verdict = LAB_VERDICT_UNDECIDED;
   if (status == LAB_OK)
     status = lab_deviations_widen(u, &result->fit, error);
+  if (status == LAB_OK)
+    status = lab_deviations_forget(u, &f->best.quality.chi2, &result->fit, error);
   lab_unknowns_view(u, 0);
   if (status == LAB_OK)
     status = lab_search_measure(u, LAB_STAGE_AFTER, result, error);
