@@ -561,13 +561,11 @@ static void begin_onset(const lab_rig_onset *onset, pneu_params *params)
   params->vent_area *= (pneu_real)onset->value;
 }
 
-/* All that leaves it [kg/s]. */
-static double outflow(const lab_rig *rig)
+double lab_rig_outflow(const lab_rig *rig, double p, double x)
 {
-  const pneu_params *p = &rig->params;
-  const pneu_input input = {.supply_pressure = p->supply_pressure};
+  const pneu_input input = {.supply_pressure = rig->params.supply_pressure};
   const pneu_state state = {
-      .p = p->supply_pressure, .T = p->ambient_temperature, .x = p->stroke, .mode = PNEU_MODE_STUCK};
+      .p = (pneu_real)p, .T = rig->params.ambient_temperature, .x = (pneu_real)x, .mode = PNEU_MODE_STUCK};
   pneu_model model;
   pneu_output out;
   lab_error error;
@@ -578,9 +576,10 @@ static double outflow(const lab_rig *rig)
 
 double lab_rig_leak(const lab_rig *rig, int param)
 {
+  const double supply = (double)rig->params.supply_pressure, stroke = (double)rig->params.stroke;
   lab_rig without = *rig;
   *pneu_param_at(&without.params, param) = 0;
-  return outflow(rig) - outflow(&without);
+  return lab_rig_outflow(rig, supply, stroke) - lab_rig_outflow(&without, supply, stroke);
 }
 
 void lab_rig_at(const lab_rig *rig, double t, lab_rig *now)

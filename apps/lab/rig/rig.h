@@ -89,6 +89,10 @@ void lab_rig_write_catalogue(FILE *file, const lab_rig *rig);
  * unmoved. Out:     model Returns: LAB_OK, LAB_DATA naming the parameter at fault. */
 int lab_rig_model(const lab_rig *rig, pneu_model *model, lab_error *error);
 
+/* All that leaves the chamber [kg/s] at gauge pressure p [Pa] and position x [m], without a command.
+ * Returns: NaN where the library has no such model. */
+double lab_rig_outflow(const lab_rig *rig, double p, double x);
+
 /* What a leak lets out of a chamber at supply pressure while both orifices are shut [kg/s]: nothing below ambient
  * pressure.
  * In:      param  its size, 0 for none

@@ -29,23 +29,13 @@ static double weighted_median(told *of, size_t n)
   return n ? of[i].leak : 0;
 }
 
-/* What flows out of a chamber through a leak of some size while both orifices are shut [kg/s]; NaN where that is
- * unknown.
- */
-static double outflow(const lab_rig *rig, int leak, double size, double p, double x)
+/* The rig with a leak of some size, and both orifices shut. */
+static lab_rig shut(const lab_rig *rig, int leak, double size)
 {
-  const pneu_input input = {.supply_pressure = rig->params.supply_pressure};
-  const pneu_state state = {
-      .p = (pneu_real)p, .T = rig->params.ambient_temperature, .x = (pneu_real)x, .mode = PNEU_MODE_STUCK};
   lab_rig leaks = *rig;
-  lab_error error;
-  pneu_model model;
-  pneu_output out;
   *pneu_param_at(&leaks.params, pneu_param_find("positioner.gain")) = 0;
   *pneu_param_at(&leaks.params, leak) = (pneu_real)size;
-  if (lab_rig_model(&leaks, &model, &error) || pneu_observe(&model, &state, &input, &out) != PNEU_OK)
-    return (double)NAN;
-  return (double)out.mass_out;
+  return leaks;
 }
 
 /* Mean of a channel and its slope over time in rows first..end - 1.  Out: spread  sum of squares of the times */
@@ -80,7 +70,9 @@ static told ask(const lab_rig *rig, int leak, const lab_log *log, size_t first, 
   const double swept = (double)(p->area * p->swept_ratio) * x_slope;
   const double lost = -(slope * volume + (pressure + (double)p->ambient_pressure) * swept) /
                       (double)(p->gas_constant * p->ambient_temperature);
-  const double without = outflow(rig, leak, 0, pressure, x), passes = outflow(rig, leak, one, pressure, x) - without;
+  const lab_rig tight = shut(rig, leak, 0), leaks = shut(rig, leak, one);
+  const double without = lab_rig_outflow(&tight, pressure, x);
+  const double passes = lab_rig_outflow(&leaks, pressure, x) - without;
   if (passes > 0 && isfinite(lost))
     of = (told){one * (lost - without) / passes, spread};
   return of;

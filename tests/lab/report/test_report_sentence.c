@@ -142,11 +142,10 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
                       "Every command acts 20.0 ms late (dead_time). The pressure sensor shows 2.0 % of the reading too "
                       "much (pressure_gain). With them the error falls from 3.00 to 1.00 times the noise.");
   report = answer(LAB_VERDICT_UNDECIDED, 3);
-  assert_string_equal(
-      sentence_of(&report),
-      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
-      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
-      "others.");
+  assert_string_equal(sentence_of(&report),
+                      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
+                      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
+                      "others.");
   result.after.chi2 = 4;
   assert_string_equal(sentence_of(&report),
                       "Something is missing, but the log does not say what. With the best candidates, dead_time, "
