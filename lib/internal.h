@@ -153,6 +153,10 @@ int pneu_is_physical(const pneu_model *model, const pneu_state *state);
 /* Flow through the open orifice of the transducer into or out of pressure t->p, added to the sums. */
 void pneu_transducer_flow(pneu_terms *terms);
 
+/* The same where it faces pressure p [Pa] abs and air at temperature T [K] in place of the chamber's: the sums, and
+ * nothing else, are its own. */
+void pneu_transducer_at(pneu_terms *terms, pneu_real p, pneu_real T);
+
 /* Ambient air that comes into the chamber [kg/s]; below 0 it leaves it. None where pressure is an input. */
 void pneu_let_in(pneu_terms *terms, pneu_real q);
 

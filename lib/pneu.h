@@ -109,7 +109,7 @@ extern "C" {
   X(area,                "m2",       1e-6,   10.0,   0.04,      "effective area of the diaphragm") \
   X(dead_volume,         "m3",       1e-9,   10.0,   2e-6,      "chamber volume at x = 0, with the line") \
   X(swept_ratio,         "1",        0.0,    2.0,    1.0,       "volume swept per travel over effective area") \
-  X(stroke,              "m",        0.0,    2.0,    0.02,      "travel between the stops; 0 makes a vessel") \
+  X(stroke,              "m",        0.0,    10.0,   0.02,      "travel between the stops; 0 makes a vessel") \
   X(spring_rate,         "N/m",      0.0,    1e9,    4e5,       "spring rate") \
   X(spring_preload,      "m",       -1.0,    1.0,    0.01,      "compression of the spring at x = 0") \
   X(moving_mass,         "kg",       1e-4,   1e4,    2.0,       "lumped moving mass") \

@@ -37,3 +37,14 @@ void pneu_transducer_flow(pneu_terms *t)
   if (PNEU_EFFECT_COUNT > 0 && t->crossing != 0)
     flow_through(t, t->crossing);
 }
+
+void pneu_transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
+{
+  const pneu_real p_chamber = t->p, T_chamber = t->T;
+  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = t->supply_line.lost = 0;
+  t->p = p;
+  t->T = T;
+  pneu_transducer_flow(t);
+  t->p = p_chamber;
+  t->T = T_chamber;
+}

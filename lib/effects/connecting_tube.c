@@ -22,19 +22,6 @@ static const pneu_param_info params[] = {
     {"tube_turbulence", "1", 0, 1, PNEU_C(0.5), 0, PNEU_FORM_OPTION,
      "share of the resistance, at the full flow of the fill orifice, that grows with the flow"}};
 
-/* What the transducer adds when it faces pressure p and air at temperature T: the sums, and nothing else, are its own.
- */
-static void transducer_at(pneu_terms *t, pneu_real p, pneu_real T)
-{
-  const pneu_real p_chamber = t->p, T_chamber = t->T;
-  t->mass_in = t->mass_out = t->drawn = t->mass_in_T = t->supply_line.lost = 0;
-  t->p = p;
-  t->T = T;
-  pneu_transducer_flow(t);
-  t->p = p_chamber;
-  t->T = T_chamber;
-}
-
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
   const pneu_params *p = &t->model->p;
@@ -45,7 +32,7 @@ static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, p
     return;
   q = pneu_line_pass(t, param[RESISTANCE], param[TURBULENCE], p_tube, p->ambient_temperature, t->p, t->T, &slope);
   mixing = MIXING * scale * slope;
-  transducer_at(t, p_tube, p->ambient_temperature);
+  pneu_transducer_at(t, p_tube, p->ambient_temperature);
   rate[0] = p->gas_constant * p->ambient_temperature / (param[VOLUME] * scale) * (t->mass_in - t->mass_out - q);
   t->mass_in = (q + PNEU_M(sqrt)(q * q + mixing * mixing)) / 2;
   t->mass_out = t->mass_in - q;

@@ -124,6 +124,8 @@ static pneu_params ground(int e, int *gas)
   }
   if (is_of_positioner(e) && pneu_effect_find("positioner") >= 0)
     fixture_set(&p, "gain", 2);
+  if (strcmp(names[e], "long_chamber") == 0)
+    p.dead_volume = PNEU_C(0.25);
   return p;
 }
 

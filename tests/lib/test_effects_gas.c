@@ -530,6 +530,51 @@ static void footprint_connecting_tube(void)
   check_share_of_turbulence();
 }
 
+/* A vessel 5 m long and 36 mm wide. */
+static pneu_params long_vessel(double friction)
+{
+  pneu_params p = fixture_vessel(5e-3);
+  p.area = (pneu_real)1e-3;
+  fixture_set(&p, "line_length", 1);
+  fixture_set(&p, "line_friction", friction);
+  return p;
+}
+
+/* Rate at which friction takes the flow [1/s], at the Reynolds number of it and even pressure. */
+static double damping(double friction, double reynolds)
+{
+  const pneu_params p = long_vessel(friction);
+  pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  pneu_input input = fixture_input(&m, 0);
+  pneu_state s = fixture_rest(&m, 2e5, 0, &input);
+  const double A = 1e-3, bore = 0.0356824823, q = reynolds * A * 1.82e-5 / bore;
+  pneu_real y[PNEU_STATE_MAX], f[PNEU_STATE_MAX];
+  s.extra[1] = (pneu_real)(q * sqrt((double)p.gas_constant * (double)p.ambient_temperature) / (A * (double)m.scale[0]));
+  pneu_pack(&m, &s, y);
+  assert_int_equal(pneu_rhs(&m, &s, &input, y, f), PNEU_OK);
+  return -(double)f[2] / (double)s.extra[1];
+}
+
+/* Constant choked inflow q with hardly any friction: with C = V/(R T) and omega = 2 sqrt(R T)/L the far end's pressure
+ * rises by q/C (t - sin(omega t)/omega); 64/Re or Blasius's 0.3164/Re^0.25 takes lambda u/(2 D) of the flow. */
+static void footprint_long_chamber(void)
+{
+  static const double at[] = {0.003, 0.01, 0.03};
+  pneu_params p = long_vessel(0.1);
+  const double RT = (double)p.gas_constant * (double)p.ambient_temperature, omega = 2 * sqrt(RT) / 5;
+  const pneu_params base = fixture_vessel(5e-3);
+  const double q = inflow(&base, PNEU_FLOW_CHOKED, 0), rho = (2e5 + (double)p.ambient_pressure) / RT;
+  const double unit = 1.82e-5 / (rho * 0.0356824823 * 0.0356824823);
+  int i;
+  for (i = 0; i < COUNT(at); i++) {
+    check_note("t = %g s", at[i]);
+    assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1, at[i]).p,
+                 q * RT / 5e-3 * (at[i] - sin(omega * at[i]) / omega), 0, TOL(2e-3, 2e-2));
+  }
+  assert_close(damping(1, 50), 32 * unit, 0, TOL(1e-3, 1e-2));
+  assert_close(damping(3, 1e5), 3 * 0.1582 * pow(1e5, 0.75) * unit, 0, TOL(1e-4, 1e-2));
+}
+
 /* What leaves the chamber leaves at its temperature, what comes in has that of the tube; the pressure is shared. */
 static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void **state)
 {
@@ -955,6 +1000,7 @@ static footprint footprints[] = {
     {"exhaust_back_pressure", "venting__is_slowed_and_filling_is_not", footprint_exhaust_back_pressure},
     {"heat_transfer", "shut_vessel__levels_temperature_and_pressure_recovers", footprint_heat_transfer},
     {"laminar_leak", "shut_vessel__follows_the_closed_form", footprint_laminar_leak},
+    {"long_chamber", "constant_inflow__swings_and_friction_damps_it", footprint_long_chamber},
     {"porous_leak", "flow__solves_its_law_both_ways", footprint_porous_leak},
     {"positioner", "opening__follows_the_error_and_the_integral_takes_it_away", footprint_positioner},
     {"positioner_bend", "half_opening__passes_less_and_full_opening_as_before", footprint_positioner_bend},

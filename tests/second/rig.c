@@ -22,6 +22,8 @@ enum {
   INTEGRAL,
   WALL,
   TUBE,
+  NEAR,
+  IMPULSE,
   FEED,
   BRISTLE,
   HYST,
@@ -230,6 +232,12 @@ static double volume_of(const second_rig *g, const double *y)
   return volume_at(g, y[X]) + g->dead_volume * g->growth * y[GROWN];
 }
 
+/* What of it is at the far end of a long chamber, or all. */
+static double far_volume(const second_rig *g, const double *y)
+{
+  return volume_of(g, y) / (1.0 + g->line_length);
+}
+
 /* The exponent by which the chamber's air stores energy. */
 static double kappa(const second_rig *g)
 {
@@ -239,7 +247,7 @@ static double kappa(const second_rig *g)
 static chamber chamber_of(const second_rig *g, const double *y)
 {
   chamber c;
-  c.V = volume_of(g, y);
+  c.V = far_volume(g, y);
   c.A = area_at(g, y[X]);
   c.P = (kappa(g) - 1.0) * y[U] / c.V;
   c.p = c.P - g->ambient;
@@ -320,6 +328,30 @@ static double port(const second_rig *g, double u)
   return fmax(0.0, (s - g->overlap) / (1.0 - g->overlap));
 }
 
+/* Air that moves along a bore: its impulse follows the force of the pressures at either end and that of the wall, by
+ * Darcy and Weisbach with the friction factor of laminar flow or of a smooth bore, whichever is far the larger. */
+static double along_bore(const second_rig *g, double impulse, double rho, double length, double force)
+{
+  const double viscosity = 1.82e-5, pi = TAU / 2.0;
+  double bore = sqrt(4.0 * g->area / pi), speed = impulse / (rho * g->area * length);
+  double reynolds = fmax(rho * fabs(speed) * bore / viscosity, 1e-12);
+  double factor = pow(pow(64.0 / reynolds, 4.0) + pow(0.3164 * pow(reynolds, -0.25), 4.0), 0.25);
+  double shear = factor / 8.0 * rho * speed * fabs(speed);
+  return force - g->line_friction * shear * pi * bore * length;
+}
+
+/* Transducer into the near end of a long chamber, and from there to the far one, isothermal on the way. */
+static void along_chamber(const second_rig *g, const double *y, double t, double fill, double vent, const chamber *c,
+                          double *d)
+{
+  double Ta = g->ambient_temperature, RT = g->gas_constant * Ta, whole = volume_of(g, y);
+  double Pn = y[NEAR] * RT / (whole - c->V), length = g->line_length * whole / g->area;
+  double q = y[IMPULSE] / length;
+  d[NEAR] = from_supply(g, y, fill, t, Pn, Ta, d) - to_exhaust(g, vent, Pn, Ta) - q;
+  d[IMPULSE] = along_bore(g, y[IMPULSE], (Pn + c->P) / 2.0 / RT, length, (Pn - c->P) * g->area);
+  exchange(g, d, q, Ta, c->T);
+}
+
 /* Transducer, directly or through a tube whose air is at ambient temperature. */
 static void transducer(const world *w, const double *y, double t, const chamber *c, double *d)
 {
@@ -328,6 +360,10 @@ static void transducer(const world *w, const double *y, double t, const chamber 
   double fill = port(g, u) * g->fill_area, vent = port(g, -u) * g->vent_area;
   if (g->transducer_lag > 0.0)
     d[OPENING] = (ask - y[OPENING]) / g->transducer_lag;
+  if (g->line_length > 0.0) {
+    along_chamber(g, y, t, fill, vent, c, d);
+    return;
+  }
   if (g->tube_volume <= 0.0) {
     exchange(g, d, from_supply(g, y, fill, t, c->P, c->T, d), g->supply_temperature, c->T);
     exchange(g, d, -to_exhaust(g, vent, c->P, c->T), g->ambient_temperature, c->T);
@@ -685,7 +721,8 @@ static void start(world *w)
     y[X] = -g->spring_rate * g->spring_preload / (g->spring_rate + g->lower_rate);
   y[CREEP] = y[X];
   y[GROWN] = P - g->ambient;
-  y[M] = P * volume_of(g, y) / (g->gas_constant * T);
+  y[M] = P * far_volume(g, y) / (g->gas_constant * T);
+  y[NEAR] = P * (volume_of(g, y) - far_volume(g, y)) / (g->gas_constant * g->ambient_temperature);
   y[U] = y[M] * g->gas_constant / (kappa(g) - 1.0) * T;
   y[TUBE] = P * g->tube_volume / (g->gas_constant * g->ambient_temperature);
   y[FEED] = supply_at(g, 0.0) * g->supply_volume / (g->gas_constant * g->supply_temperature);

@@ -50,6 +50,8 @@ typedef struct {
   double back_pressure;                         /* Pa s/kg, exhaust rises by this times the flow */
   double tube_volume, tube_resistance;          /* m3, Pa s/kg: isothermal volume, then a linear restriction */
   double tube_turbulence;                       /* 1, as that of the supply */
+  double line_length, line_friction;            /* 1, l: the chamber's air in two volumes as l to 1, and l times the
+                                                   length volume/area of bore between; 1, of a smooth bore's */
   double growth, growth_time;                   /* 1/Pa, s: dead volume grows by this, with the pressure of a lag */
 
   /* command */

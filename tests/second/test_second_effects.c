@@ -163,6 +163,43 @@ static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **s
   }
 }
 
+/* Constant choked flow q into one end of a tube without friction, half its air at either end: with C = V/(R Ta) and
+ * omega = 2 sqrt(R Ta)/L, P = P0 + q/C (t - sin(omega t)/omega). */
+static void test_line_length__constant_inflow__swings_by_the_closed_form(void **state)
+{
+  const double length = 5.0;
+  second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
+  g.area = 1e-3, g.dead_volume = length * g.area;
+  g.line_length = 1.0, g.line_friction = 1e-9;
+  double C = g.dead_volume / case_rt(&g), omega = 2.0 * sqrt(case_rt(&g)) / length;
+  double q = g.fill_area * case_choked(&g) * (g.supply + g.ambient) / sqrt(case_rt(&g));
+  case_run(&g, 1.0, 0.1, 0.01);
+  for (size_t i = 0; i < got.n; i++)
+    assert_close(got.p[i], q / C * (got.t[i] - sin(omega * got.t[i]) / omega), 1e-6, 1e-7);
+}
+
+/* Steadily in by the fill orifice and out by a leak at the far end, both by Eq. (8), which tells the flow and the
+ * pressure at either end: Pn - P is what a smooth bore takes of their mean density, by Darcy and Weisbach. */
+static void test_line_friction__steady_flow__loses_what_a_smooth_bore_does(void **state)
+{
+  static const double opening[] = {2e-8, 5e-6}, least[] = {10.0, 1e4}, most[] = {800.0, 1e5};
+  const double length = 5.0, mu = 1.82e-5, quarter_pi = 0.785398163397448;
+  for (int i = 0; i < 2; i++) {
+    second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
+    g.area = 12.566e-6, g.dead_volume = length * g.area;
+    g.line_length = 1.0, g.line_friction = 1.3;
+    g.leak_area = 0.2 * (g.fill_area = opening[i]);
+    case_run(&g, 1.0, 50.0, 50.0);
+    double rt = case_rt(&g), P = got.p[1] + g.ambient, Ps = g.supply + g.ambient;
+    double q = g.leak_area * sqrt(2.0 * P * got.p[1] / rt), s = q / g.fill_area, Pn = Ps - s * s * rt / (2.0 * Ps);
+    double bore = sqrt(g.area / quarter_pi), reynolds = q * bore / (g.area * mu), u = q / g.area;
+    double factor = g.line_friction * (i ? 0.3164 / sqrt(sqrt(reynolds)) : 64.0 / reynolds);
+    check_note("Re = %g, %g Pa lost", reynolds, Pn - P);
+    assert_between(reynolds, least[i], most[i]);
+    assert_close(Pn - P, factor * length / bore * u * u * rt / (Pn + P), 0, 2e-3);
+  }
+}
+
 /* Steadily into a held pressure P, or out of it: by Eq. (8) the transducer tells Pt of q, and the line's equation is
  * that of a supply's, but for pressure and temperature ahead of it, Pu and Tu in place of Ps and Ts. */
 static void test_tube_turbulence__held_pressure__steady_flow_solves_its_equation(void **state)
@@ -626,6 +663,8 @@ int main(void)
       cmocka_unit_test(test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does),
       cmocka_unit_test(test_back_pressure__held_pressure__flow_solves_its_equation),
       cmocka_unit_test(test_vent_area__smaller_than_fill_area__scales_the_outflow_only),
+      cmocka_unit_test(test_line_length__constant_inflow__swings_by_the_closed_form),
+      cmocka_unit_test(test_line_friction__steady_flow__loses_what_a_smooth_bore_does),
       cmocka_unit_test(test_tube__constant_inflow__chamber_lags_by_the_closed_form),
       cmocka_unit_test(test_tube_turbulence__held_pressure__steady_flow_solves_its_equation),
       cmocka_unit_test(test_pulsation__tiny_vessel__follows_the_supply),

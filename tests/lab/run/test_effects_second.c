@@ -186,6 +186,19 @@ static const effect_case rate_exponent = {"chamber_exponent", {6e-7, 4e-8, 2e-7}
 /* Before anything happens. */
 static const effect_case begins = CASE(start_temperature, 3e-6, 2e-7, 2e-6);
 
+/* A vessel 0.8 m long and 36 mm wide. */
+static void set_long_chamber(pneu_params *p, second_rig *g, double size)
+{
+  p->stroke = (pneu_real)(g->stroke = 0);
+  p->area = (pneu_real)(g->area = 1e-3);
+  p->dead_volume = (pneu_real)(g->dead_volume = 8e-4);
+  BOTH("line_length", line_length, 1);
+  g->line_friction = 2;
+  g->step = 20e-6;
+  fixture_set(p, "line_friction", g->line_friction);
+}
+static const effect_case along = CASE(long_chamber, 6e-7, 1e-9, 2e-6);
+
 /* Lines before and behind the transducer that are in part orifices, and that store air: no size scales their shares.
  * With steps of an eighth on the other side, most agree to 1e-8; what stays is how either blends its flow laws, where a
  * tube's flow turns round or the chamber is empty. */
@@ -499,6 +512,18 @@ static void test_lab_response_run__start_temperature__is_that_of_the_second_impl
   }
 }
 
+static void test_lab_response_run__long_chamber__is_that_of_the_second_implementation(void **state)
+{
+  int i;
+  fixture_need(along.name);
+  for (i = 0; i < 4; i++) {
+    run e = random_experiment((uint64_t)(76 + i), laws[i % 2][0], laws[i % 2][1]);
+    set_case(&along, &e.p, &e.g, i < 2 ? 1 : 0.4);
+    random_commands(&e, (uint64_t)(76 + i)); /* at its own pace */
+    assert_agrees(&e, &along.most, along.name);
+  }
+}
+
 static void test_lab_response_run__positioner__is_that_of_the_second_implementation(void **state)
 {
   int law, i;
@@ -773,6 +798,7 @@ static void test_effects_def__each_effect__is_compared(void **state)
       found += strcmp(positioned[i].name, pneu_effect_at(e)->name) == 0;
     found += strcmp(exponent.name, pneu_effect_at(e)->name) == 0;
     found += strcmp(begins.name, pneu_effect_at(e)->name) == 0;
+    found += strcmp(along.name, pneu_effect_at(e)->name) == 0;
     if (!found)
       fail_msg("%s is not compared with the second implementation", pneu_effect_at(e)->name);
   }
@@ -787,6 +813,7 @@ int main(void)
       cmocka_unit_test(test_lab_response_run__each_effect__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__lines__are_those_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__exponent__is_that_of_the_second_implementation),
+      cmocka_unit_test(test_lab_response_run__long_chamber__is_that_of_the_second_implementation),
       cmocka_unit_test(test_lab_response_run__start_temperature__is_that_of_the_second_implementation),
       cmocka_unit_test(
           test_lab_response_run__dead_time_of_a_positioner__is_nearly_that_of_one_that_works_by_turns),
