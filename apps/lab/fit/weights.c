@@ -10,6 +10,7 @@
 #include "drift.h"
 
 static const double median_of_square = 0.45493642311957283; /* of a normal value */
+static const double of_range = 0.005;                       /* noise of an ordinary transmitter, by judgement */
 static const double still = 0.01;                           /* square of what a row changes, in noise */
 static const double at_rest = 0.25; /* times the noise: what a prediction changes over a stretch at rest */
 static const double unmoved = 1;    /* times that of x: what a set position moves there */
@@ -221,11 +222,23 @@ static double level_of(const lab_run *x, int c, const double *r, double *first, 
   return fabs(by_first / by_second - 1) < white && by_second * x->sigma[c] > x->resolution[c] ? by_second : 0;
 }
 
+/* The noise of an ordinary transmitter over what that of a channel counts as. */
+static double ordinary(const lab_run *x, int c)
+{
+  range all = {HUGE_VAL, -HUGE_VAL};
+  size_t i;
+  for (i = 0; i < x->n; i++)
+    widen_range(&all, lab_run_measured(x, c, i));
+  return of_range * (all.high - all.low) / x->sigma[c];
+}
+
 /* By how much the noise of a channel of a run was plainly taken for too much, where no rig file tells it: it is no more
- * than all errors together, and the estimate from rows side by side is too large where much moves between them. 1 where
+ * than all errors together, and the estimate from rows side by side is too large where much moves between them. Where
+ * nothing stands still, errors of the model count as noise: it is no more than that of an ordinary transmitter. 1 where
  * that is not to be told; no less than the steps of the values leave.
- * In:      spare  times that errors are larger beside values that were not fitted to them */
-static double overrated(const lab_run *x, int c, const double *r, double spare)
+ * In:      spare  times that errors are larger beside values that were not fitted to them
+ *          moves  whether nothing stands still */
+static double overrated(const lab_run *x, int c, const double *r, double spare, int moves)
 {
   const double *value = x->log->value[x->channel[c]] + x->first;
   double sum = 0, most;
@@ -238,6 +251,8 @@ static double overrated(const lab_run *x, int c, const double *r, double spare)
       n++;
     }
   most = spare * sqrt(sum / (double)n);
+  if (moves)
+    most = fmin(most, ordinary(x, c));
   if (n < FEWEST / 2 || most * (1 + likely / sqrt(2 * (double)n)) > 1 / larger)
     return 1;
   return fmax(most, fmax(x->resolution[c], lab_smallest_step(value, x->n) / 4) / x->sigma[c]);
@@ -248,7 +263,7 @@ static int set_levels(lab_run *x, double *r, double spare, double *first, double
 {
   int c, any = 0;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
-    const double most = overrated(x, c, r, spare);
+    const double still_level = level_of(x, c, r, first, room), most = overrated(x, c, r, spare, !(still_level > 0));
     if (most < 1) {
       set_level(x, c, most, r);
       any = 1;

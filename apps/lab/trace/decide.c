@@ -149,9 +149,10 @@ static int a_term_is_held(const lab_facts *f)
   return a_term_comes_near(f) && f->held;
 }
 
+/* Few rows tell little: an error that falls by a tenth over fifty of them can be chance. */
 static int is_better_by_bic(const lab_facts *f)
 {
-  return f->extended.fitted && f->extended.bic < f->best.bic;
+  return f->extended.fitted && f->extended.bic + lab_constant(LAB_ALIKE_BIC) < f->best.bic;
 }
 
 static int onset_needs_tolerances(const lab_facts *f)
@@ -263,7 +264,7 @@ const lab_rule lab_rules[] = {
      "ONSET_CONVINCING of their excess.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
 
-    {LAB_PHASE_REFITTED, "The best extension has a lower BIC than the best model.", is_better_by_bic,
+    {LAB_PHASE_REFITTED, "The best extension has a BIC lower by ALIKE_BIC than the best model.", is_better_by_bic,
      "Note the effects alike. If the error of some channel falls by MIN_GAIN, or BIC by PLAIN_BIC and white noise is "
      "left, go on from the best BEAM extensions; else list them as small. Without an addition the round is the last.",
      LAB_DO_ADD_EFFECT},
@@ -292,7 +293,9 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_END,
      "The best model has no free term and fewer than EFFECTS effects, and either none or an excess beyond "
      "REST_DEVIATIONS.",
-     has_room_for_a_term, "Refit it with the best free term beside, if its score passes.", LAB_DO_FIT_TERM_BESIDE},
+     has_room_for_a_term,
+     "Refit it with the best free term beside, if its score passes, unless nothing was found and its errors are white.",
+     LAB_DO_FIT_TERM_BESIDE},
     {LAB_PHASE_END,
      "That has a BIC lower by ALIKE_BIC and leaves only noise, or less than TERM_CONVINCING of the excess; and no "
      "declared value STRAINED tolerances off, if the best model has such a one and leaves only noise.",

@@ -12,7 +12,9 @@
 
 int lab_preview_is_asked(const lab_unknowns *u)
 {
-  return u->n_runs == 1 && u->window == 0 && (double)u->run->n >= lab_constant(LAB_PREVIEW_ROWS);
+  static const size_t rows_a_change = 9;
+  return u->n_runs == 1 && u->window == 0 &&
+         (double)(u->run->n + rows_a_change * u->run->n_instants) >= lab_constant(LAB_PREVIEW_ROWS);
 }
 
 /* The search of the first n rows.

@@ -76,14 +76,15 @@ void lab_refit_close_starts(lab_refit_starts *s, lab_candidate *c, int n)
 enum start { FROM_SLOPE, FROM_DECLARED, FROM_USUAL, FROM_BOUND, STARTS };
 
 /* By how much an effect leaves neutral at the start. */
-static double size_at(const lab_score *score, enum start start)
+static double size_at(const lab_unknowns *u, const lab_score *score, enum start start)
 {
   const pneu_param_info info = lab_param_info(score->param);
+  const double usual = lab_score_usual(u, score->param);
   if (start == FROM_BOUND)
     return (double)(info.upper - info.neutral);
   if (start == FROM_SLOPE && score->size != 0)
     return score->size;
-  return (double)(info.value - info.neutral) * (score->size * (double)(info.value - info.neutral) < 0 ? -1 : 1);
+  return score->size * usual < 0 ? -usual : usual;
 }
 
 /* The model with one effect more, from one start, after the first steps.  In/out: c  the base, not fitted */
@@ -91,7 +92,7 @@ static void begin_refit(const lab_candidate *base, const lab_score *score, enum 
                         lab_error *all)
 {
   lab_error ignored;
-  if (lab_candidate_add_effect(c, score, size_at(score, start), &ignored) == LAB_OK)
+  if (lab_candidate_add_effect(c, score, size_at(&base->u, score, start), &ignored) == LAB_OK)
     lab_refit_begin(base, lab_count(LAB_FIRST_STEPS), c, all);
 }
 

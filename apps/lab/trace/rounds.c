@@ -138,8 +138,7 @@ static int act(lab_rounds *s, int action, lab_error *error)
       break;
     return lab_rounds_find_term(s, &s->declared, &s->free_term, error);
   case LAB_DO_FIT_TERM_BESIDE:
-    s->has_extended = 1;
-    return lab_rounds_find_term(s, &s->beam[0], &s->pool[0], error);
+    return lab_rounds_find_term_beside(s, error);
   case LAB_DO_ADD_EFFECT:
     return lab_rounds_add_effect(s, error);
   case LAB_DO_ADD_TERM:

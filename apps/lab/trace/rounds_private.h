@@ -104,6 +104,10 @@ int lab_rounds_unfold_term(lab_rounds *s, lab_error *error);
  * error, it is noted as small at once.  Out: best, fitted or not */
 int lab_rounds_find_term(lab_rounds *s, const lab_candidate *base, lab_candidate *best, lab_error *error);
 
+/* The same beside the best model, of which a free term can tell nothing where nothing was found and white noise is left.
+ * Out: pool[0], fitted or not */
+int lab_rounds_find_term_beside(lab_rounds *s, lab_error *error);
+
 /* The declared model with a free term takes the place of what was found. */
 void lab_rounds_take_term(lab_rounds *s);
 

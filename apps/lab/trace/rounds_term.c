@@ -52,6 +52,16 @@ int lab_rounds_find_term(lab_rounds *s, const lab_candidate *base, lab_candidate
   return status;
 }
 
+int lab_rounds_find_term_beside(lab_rounds *s, lab_error *error)
+{
+  int white = 0, status = LAB_OK;
+  s->has_extended = 1;
+  s->pool[0].quality.fitted = 0;
+  if (s->beam[0].n_found == 0 && lab_is_noise(&s->beam[0].quality))
+    status = lab_candidate_is_white(&s->beam[0], &white, error);
+  return status == LAB_OK && !white ? lab_rounds_find_term(s, &s->beam[0], &s->pool[0], error) : status;
+}
+
 void lab_rounds_take_term(lab_rounds *s)
 {
   s->beam[0] = s->free_term;

@@ -176,6 +176,40 @@ double lab_score_shape(const pneu_params *p, const lab_score *score, int which)
   return fmin(fmax(shapes[which] * usual_shape(p, &info), (double)info.lower), (double)info.upper);
 }
 
+/* How much of the stroke a log has not used; 0 without a position. */
+static double unused_stroke(const lab_run *x)
+{
+  static const size_t one_in = 100; /* may lie higher: noise */
+  const double *from = x->log->value[LAB_CHANNEL_X];
+  double *value = from ? malloc((x->n + 1) * sizeof *value) : NULL, left = 0;
+  size_t i, n = 0;
+  for (i = 0; value && i < x->n; i++)
+    if (!isnan(from[x->first + i]))
+      value[n++] = from[x->first + i];
+  if (n > 0) {
+    lab_sort(value, n);
+    left = (double)x->rig->params.stroke - value[n - 1 - n / one_in];
+  }
+  free(value);
+  return left;
+}
+
+/* Whether an effect shows from a size on: nothing, before the stem meets its stop. */
+static int shows_late(int param)
+{
+  return param == pneu_param_find("travel_limit.travel_loss");
+}
+
+double lab_score_usual(const lab_unknowns *u, int param)
+{
+  const pneu_param_info info = lab_param_info(param);
+  double least = HUGE_VAL;
+  int e;
+  for (e = 0; e < u->n_runs && shows_late(param); e++)
+    least = fmin(least, unused_stroke(&u->run[e]));
+  return isfinite(least) && least > 0 ? least : (double)info.value - (double)info.neutral;
+}
+
 /* One shape of an effect, in the model that is scored. */
 static void prepare(const lab_projection *p, const lab_score *score, int which, shaped_effect *effect, lab_trial *trial)
 {
@@ -183,7 +217,7 @@ static void prepare(const lab_projection *p, const lab_score *score, int which, 
   *effect = (shaped_effect){.p = p, .model = p->u->rig, .param = score->param};
   *trial = (lab_trial){.slope = effect_slope, .context = effect};
   effect->present = (double)*pneu_param_at(&effect->model.params, score->param); /* neutral, but for one that is held */
-  trial->usual = (double)info.value - (double)info.neutral;
+  trial->usual = lab_score_usual(p->u, score->param);
   trial->up = (double)info.upper - effect->present;
   trial->down = effect->present - (double)info.lower;
   trial->offset = effect->present - (double)info.neutral;
@@ -328,7 +362,7 @@ static int score_together(const lab_projection *p, lab_scores *scores, char *don
         continue;
       prepare(p, &scores->of[i], k, &effect, &trial);
       judge(p, &trial, columns + (size_t)n * p->m, share * trial.usual, &scores->of[i]);
-      done[i * LAB_SCORE_SHAPES + k] = 1;
+      done[i * LAB_SCORE_SHAPES + k] = !shows_late(scores->of[i].param);
       *tests += 1;
     }
   free(model);

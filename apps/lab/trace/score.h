@@ -90,6 +90,10 @@ typedef struct lab_trial {
   double offset; /* where it is already, from neutral: of a value that is held */
 } lab_trial;
 
+/* The size at which an effect is tried first: its usual one; for a stop that comes early that of the stroke which no log
+ * has used, for nothing shows before the stem meets it. */
+double lab_score_usual(const lab_unknowns *u, int param);
+
 /* Score it at its usual size and, where that changes the residual by far more than can just be seen, at shorter steps
  * until it does not; at a small one where the usual one fails.
  * In/out:  score  keeps the largest statistic

@@ -229,6 +229,44 @@ static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **sta
   assert_close(inputs.schedule.t[3], 30, 0, 0);
 }
 
+/* Rows of a second of a stem that follows a set position with a lag, each row's held until the next or run to it along
+ * a line, from its closed form; it walks at random. */
+static void read_walk(int holds, int rows)
+{
+  static char text[20000];
+  const double lag = 0.8, stays = exp(-1 / lag);
+  double set = 0.5, x = 0.5;
+  uint64_t seed = 3;
+  int i, at = snprintf(text, sizeof text, "t [s],sp [%%],x [mm]\n");
+  for (i = 0; i < rows; i++) {
+    const double next = fmin(fmax(set + fixture_random(&seed, -0.05, 0.05), 0.2), 0.8), rate = holds ? 0 : next - set;
+    const double noise = fixture_random(&seed, -0.01, 0.01);
+    at += snprintf(text + at, sizeof text - (size_t)at, "%d,%.4f,%.4f\n", i, 100 * set, 20 * x + noise);
+    x = set + rate * (1 - lag) + (x - set + rate * lag) * stays;
+    set = next;
+  }
+  read_log(text);
+}
+
+static size_t count_lines(void)
+{
+  size_t i, n = 0;
+  drive(0);
+  for (i = 0; i < inputs.schedule.n; i++)
+    n += inputs.schedule.input[i].u_rate != 0;
+  return n;
+}
+
+static void test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_row_to_row(void **state)
+{
+  read_walk(1, 200);
+  assert_int_equal(count_lines(), 0);
+  read_walk(0, 200);
+  assert_between((double)count_lines(), 100, 200);
+  read_walk(1, 30); /* too few to tell */
+  assert_between((double)count_lines(), 10, 30);
+}
+
 static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_command(void **state)
 {
   read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
@@ -610,6 +648,7 @@ int main(void)
       CASE(test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line),
       CASE(test_lab_inputs_from_log__steps_that_come_again__hold),
       CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold),
+      CASE(test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_row_to_row),
       CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),
       CASE(test_lab_inputs_from_log__second_run__has_its_own_rows),
       CASE(test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps),

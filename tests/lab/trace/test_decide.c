@@ -203,11 +203,11 @@ static void test_rules__values_within_tolerances__effects_come_before_onsets(voi
 static void test_rules__extension__is_added_by_bic(void **state)
 {
   lab_facts f = declared_alone();
-  f.extended = quality(1100, 1199);
+  f.extended = quality(1100, 1190.7); /* 2 ln 100 = 9.21 below 1200 */
   assert_true(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
-  f.extended.bic = 1200;
+  f.extended.bic = 1191;
   assert_false(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
-  f.extended = quality(1100, 1199);
+  f.extended = quality(1100, 1190.7);
   f.extended.fitted = 0;
   assert_false(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
 }
