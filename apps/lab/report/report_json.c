@@ -331,6 +331,8 @@ static cJSON *json_of(const lab_report *report)
     lab_json_say(o, "%s", pneu_effect_at(result->listed[i])->name);
   if (result->has_small)
     lab_json_say(o, "unlisted:%s", lab_free_term_equation(&result->small));
+  if (result->sound_until > 0)
+    cJSON_AddNumberToObject(root, "sound_until_s", result->sound_until);
   if (report->next.kind == LAB_ADVICE_TEST)
     cJSON_AddStringToObject(root, "record_next", report->next.text);
   add_steps(root, report);

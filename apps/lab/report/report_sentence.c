@@ -527,6 +527,21 @@ int lab_report_is_ambiguous(const lab_search_result *r)
   return !r->cut_short && !r->is_far && r->n_found > 0 && may_leave_noise(r);
 }
 
+/* As much as is known of what is missing, where no name is. */
+static void add_undecided_cause(char *text, const lab_search_result *r)
+{
+  if (r->jerks)
+    ADD(text, "The stem moves by jerks and the model's does not: something is missing, perhaps friction that sticks or a "
+              "force that shakes it.");
+  else if (r->is_far)
+    ADD(text, "Several values are far off their sheet: it is that of another rig, or something else is missing.");
+  else if (r->sound_until > 0)
+    ADD(text, "Until %s s nothing is missing; then something is, but the log does not say what.",
+        LAB_NUMBER(r->sound_until, 4));
+  else
+    ADD(text, "Something is missing, but the log does not say what.");
+}
+
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 {
   const lab_search_result *r = report->result;
@@ -539,11 +554,7 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     return;
   }
   if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
-    ADD(text, "%s",
-        r->jerks    ? "The stem moves by jerks and the model's does not: something is missing, perhaps friction that "
-                      "sticks or a force that shakes it."
-        : r->is_far ? "Several values are far off their sheet: it is that of another rig, or something else is missing."
-                    : "Something is missing, but the log does not say what.");
+    add_undecided_cause(text, r);
     if (add_deviations(text, report, 1))
       ADD(text, ".");
     add_sensors(text, report);

@@ -66,8 +66,10 @@ static int fit_further(lab_finding *f, size_t rows, double alpha, lab_error *err
                  : lab_fail_memory(error, "what begins");
   if (status == LAB_OK && onset->quality.fitted)
     f->best = *onset;
-  else
+  else {
     f->best.quality.fitted &= sound == f->best.u.run->n;
+    f->sound = sound;
+  }
   f->best.u.until = until;
   free(onset);
   return status;
@@ -105,6 +107,13 @@ static int fit_whole(const lab_unknowns *u, size_t n, int is_last, const lab_sea
   return lab_candidate_fit_held(&f->best, error);
 }
 
+/* Up to when the first rows of a run, of which nothing is missing, go on as they are [s]. */
+static double sound_until(const lab_run *x, const lab_finding *first)
+{
+  const int none = first->result.verdict == LAB_VERDICT_NONE && first->sound > 0 && first->sound < x->n;
+  return none ? x->log->value[LAB_CHANNEL_TIME][x->first + first->sound - 1] : 0;
+}
+
 /* What was tried on the first n rows is what is told of. */
 static void keep_scores(const lab_run *x, size_t n, const lab_finding *first, lab_finding *whole)
 {
@@ -139,6 +148,8 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     *done &= status == LAB_OK;
     if (*done)
       *f = *whole;
+    else
+      f->result.sound_until = sound_until(u->run, first);
   }
   free(held);
   free(first);

@@ -275,6 +275,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   lab_finding *f = calloc(1, sizeof *f);
   lab_unknowns *declared = malloc(sizeof *declared);
   lab_candidate *held = calloc(1, sizeof *held);
+  double sound_until = 0;
   int early = 0, leaks = 0, coarse = 0, status = f && declared && held ? LAB_OK : lab_fail_memory(error, "the search");
   if (status == LAB_OK) {
     *declared = *u;
@@ -283,6 +284,8 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   }
   if (status == LAB_OK && lab_preview_is_asked(u))
     status = lab_preview_search(u, options, f, &early, error);
+  if (status == LAB_OK)
+    sound_until = f->result.sound_until;
   if (status == LAB_OK && !early)
     status = search_whole(u, options, f, &leaks, &coarse, error);
   if (status == LAB_OK && !coarse)
@@ -297,6 +300,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     give_up(f, declared);
     status = conclude(f, u, result, error);
   }
+  result->sound_until = result->verdict == LAB_VERDICT_UNDECIDED ? sound_until : 0;
   free(held);
   free(declared);
   free(f);

@@ -304,6 +304,10 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
   d->n = 0;
   lab_report_headline(&report, text);
   assert_contains(text, "The stem moves by jerks and the model's does not: something is missing, perhaps friction");
+  result.jerks = 0;
+  result.sound_until = 120.4;
+  lab_report_headline(&report, text);
+  assert_contains(text, "Until 120.4 s nothing is missing; then something is, but the log does not say what.");
 }
 
 /* A value that changes within the log is told, though it stays within its tolerance. */
