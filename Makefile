@@ -74,7 +74,7 @@ help:
 study:
 	@sh study/install-packages.sh || $(GO_ON)
 	@$(MAKE) --no-print-directory all
-	MEASURED='$(MEASURED)' ./sweep hypotheses.cfg
+	./sweep hypotheses.cfg
 
 ## Install missing packages (Debian, Ubuntu); names them for other systems
 install-packages:

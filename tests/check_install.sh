@@ -137,7 +137,7 @@ mkdir "$away"
   closeloop rig.cfg log.csv --quiet --out answer >said.txt
   [ -s answer/report.html ] && [ -s answer/model.h ]
   simulate answer/model.cfg log.csv >again.csv
-  MEASURED=nothere sweep "$study/hypotheses.cfg" --quiet --no-figures --results study >sweep.txt 2>&1
+  sweep "$study/hypotheses.cfg" --quiet --no-figures --results study >sweep.txt 2>&1
   [ -s study/REPORT.md ] && [ -s study/hypotheses.csv ]
 ) || wrong "a program does not work outside the source tree"
 
@@ -228,7 +228,7 @@ if have pkg-config; then
       "$folder/kind" >/dev/null && [ "$(command -v sweep)" = "$folder/opt/bin/sweep" ]
   ) || wrong "LIBDIR=lib/kind: what make install says to set is not enough"
 fi
-(cd "$away" && MEASURED=nothere "$folder/opt/bin/sweep" hypotheses.cfg --quiet --no-figures --results found >/dev/null 2>&1 &&
+(cd "$away" && "$folder/opt/bin/sweep" hypotheses.cfg --quiet --no-figures --results found >/dev/null 2>&1 &&
   cmp found/hypotheses.csv study/hypotheses.csv) || wrong "sweep does not find the installed study"
 $MAKE --no-print-directory BUILD="$BUILD" PREFIX="$folder/opt" LIBDIR="$folder/opt/lib/kind" uninstall
 [ ! -e "$folder/opt/lib" ] || wrong "uninstall with LIBDIR"

@@ -7,8 +7,6 @@
 set -u
 : "${BUILD:=build}" "${KILLS:=10}" "${SEED:=1}"
 folder="$BUILD/kill"
-MEASURED="$folder/no-data"
-export MEASURED
 rm -rf "$folder"
 mkdir -p "$folder/study/figures"
 wrong=0

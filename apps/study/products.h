@@ -50,9 +50,6 @@ extern const study_tables agreement; /* agreement.csv: the stepper against CVODE
 
 /* ---- Others.  Returns: LAB_OK, LAB_DATA, LAB_NUMERIC, LAB_WORLD ---- */
 
-/* eq1_measured.csv: eq1.csv of two measured steps; where the data are absent a line on stderr says so. */
-int edges_measured(const study *s, lab_error *error);
-
 /* conclusions.csv, conclusions_actuators.csv, conclusions_thresholds.csv: the 18 conclusions. */
 int conclusions_make(const study *s, lab_error *error);
 

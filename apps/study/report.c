@@ -145,15 +145,9 @@ static void put_paper(const study *s, const table *t, cJSON *page)
   put_causes(t, page);
 }
 
-/* ---- Eq. (1), from eq1.csv and eq1_measured.csv ---- */
+/* ---- Eq. (1), from eq1.csv ---- */
 
 /* "0.6 / 4.2 lag": what lag and ramp leave, and which of them the stroke is. */
-static void add_edge(cJSON *cells, const table *t, size_t row, const char *between, const char *name)
-{
-  lab_json_join(cells, between, "%s%.2f / %.2f %s", name, 100 * table_number(t, row, "lag_rms"),
-                100 * table_number(t, row, "ramp_rms"), table_text(t, row, "shape"));
-}
-
 static void put_edges(const study *s, const table *t, cJSON *page)
 {
   static const char *const strokes[] = {"rise", "fall"};
@@ -166,19 +160,8 @@ static void put_edges(const study *s, const table *t, cJSON *page)
     lab_json_put(item, "stroke", "%s, %s", actuator, strokes[i % 2]);
     for (row = 0; row < table_rows(t); row++)
       if (table_is(t, row, "actuator", actuator) && table_is(t, row, "stroke", strokes[i % 2]))
-        add_edge(cells, t, row, "", "");
-  }
-}
-
-static void put_measured(const study *s, const table *t, cJSON *page)
-{
-  cJSON *cells = table_rows(t) ? cJSON_AddArrayToObject(cJSON_AddObjectToObject(page, "measured"), "cells") : NULL;
-  size_t row;
-  (void)s;
-  for (row = 0; row < table_rows(t); row++) {
-    char name[32];
-    snprintf(name, sizeof name, "%s ", table_text(t, row, "stroke"));
-    add_edge(cells, t, row, ", ", name);
+        lab_json_say(cells, "%.2f / %.2f %s", 100 * table_number(t, row, "lag_rms"),
+                     100 * table_number(t, row, "ramp_rms"), table_text(t, row, "shape"));
   }
 }
 
@@ -398,16 +381,14 @@ static void put_trust(const study *s, const table *t, cJSON *page)
 static const struct {
   const char *file;
   void (*put)(const study *s, const table *t, cJSON *page);
-  int optional;
-} sections[] = {{"paper_numbers.csv", put_paper, 0},
-                {"eq1.csv", put_edges, 0},
-                {"eq1_measured.csv", put_measured, 1},
-                {"hypotheses_thresholds.csv", put_verdicts, 0},
-                {"directions.csv", put_directions, 0},
-                {"influence.csv", put_influence, 0},
-                {"conclusions_actuators.csv", put_conclusions, 0},
-                {"conclusions_thresholds.csv", put_marks, 0},
-                {"agreement.csv", put_trust, 0}};
+} sections[] = {{"paper_numbers.csv", put_paper},
+                {"eq1.csv", put_edges},
+                {"hypotheses_thresholds.csv", put_verdicts},
+                {"directions.csv", put_directions},
+                {"influence.csv", put_influence},
+                {"conclusions_actuators.csv", put_conclusions},
+                {"conclusions_thresholds.csv", put_marks},
+                {"agreement.csv", put_trust}};
 
 static int put_all(const study *s, cJSON *page, lab_error *error)
 {
@@ -419,7 +400,7 @@ static int put_all(const study *s, cJSON *page, lab_error *error)
     if (status == LAB_OK)
       sections[i].put(s, &t, page);
     table_close(&t);
-    if (status != LAB_OK && !sections[i].optional)
+    if (status != LAB_OK)
       return status;
   }
   return LAB_OK;

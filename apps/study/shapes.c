@@ -1,11 +1,7 @@
 /* How the strokes of the models differ: Eq. (1) of the paper, what the spring and the air do without each other, and
  * what makes a difference between the directions. */
 #include <math.h>
-#include <stdio.h>
 
-#include <unistd.h>
-
-#include "../lab/log/log.h"
 #include "products.h"
 #include "hypotheses.h"
 #include "stroke.h"
@@ -14,14 +10,12 @@
 
 static const double seen = 0.01; /* [1] of the travel: what a ramp may leave and still pass for the stroke */
 
-static const char edge_header[] = "actuator,gas,flow,stroke,lag_T_s,lag_rms,ramp_T_s,ramp_rms,shape";
-
-static void add_edge(table *t, const char *actuator, const char *gas, const char *flow, const char *stroke,
-                     const lab_edge *e)
+static void add_edge(table *t, const study_cell *c, const char *stroke, const stroke_curve *curve)
 {
+  const lab_edge e = stroke_edge(curve);
   double lag_rms, ramp_rms;
-  const double lag = lab_asymmetry_lag_time(e, &lag_rms), ramp = lab_asymmetry_ramp_time(e, &ramp_rms);
-  table_row(t, "ssssggggs", actuator, gas, flow, stroke, lag, lag_rms, ramp, ramp_rms,
+  const double lag = lab_asymmetry_lag_time(&e, &lag_rms), ramp = lab_asymmetry_ramp_time(&e, &ramp_rms);
+  table_row(t, "ssssggggs", c->rig->name, c->gas, c->flow, stroke, lag, lag_rms, ramp, ramp_rms,
             ramp_rms <= fmax(seen, lag_rms) ? "ramp" : "lag");
 }
 
@@ -30,69 +24,17 @@ static int edge_rows(const study_cell *c, table *t, lab_error *error)
   stroke_pair pair;
   const int status = stroke_sample(&c->rig->params, &c->rig->params, &c->laws, &pair, error);
   if (status == LAB_OK) {
-    const lab_edge rise = stroke_edge(&pair.up), fall = stroke_edge(&pair.down);
-    add_edge(t, c->rig->name, c->gas, c->flow, "rise", &rise);
-    add_edge(t, c->rig->name, c->gas, c->flow, "fall", &fall);
+    add_edge(t, c, "rise", &pair.up);
+    add_edge(t, c, "fall", &pair.down);
   }
   stroke_pair_free(&pair);
   return status;
 }
 
-const study_tables edges = {{STUDY_ALL, STUDY_EVERY_LAW}, edge_rows, {{.file = "eq1.csv", .header = edge_header}}};
-
-static const char folder_name[] = "damadics-servomotor-static-step";
-
-static const struct {
-  const char *file, *stroke;
-} steps[] = {{"step_up_fig6.csv", "rise"}, {"step_down_fig7.csv", "fall"}};
-
-/* The falling record goes on below 0, by an offset of the sensor or the smoothing of the chart: its travel ends there.
- */
-static size_t rows_of_travel(const lab_log *log)
-{
-  const double *x = log->value[LAB_CHANNEL_X];
-  size_t n = 1;
-  while (n < log->n && !(x[n - 1] > 0 && x[n] <= 0))
-    n++;
-  return n;
-}
-
-static int add_measured(table *t, const lab_rig *rig, const char *path, const char *stroke, lab_error *error)
-{
-  lab_log log;
-  const int status = lab_log_read(path, &rig->log, rig->params.ambient_pressure, &log, error);
-  if (status == LAB_OK) {
-    const lab_edge edge = {rows_of_travel(&log), log.value[LAB_CHANNEL_TIME], log.value[LAB_CHANNEL_X]};
-    add_edge(t, rig->name, "", "", stroke, &edge);
-  }
-  lab_log_free(&log);
-  return status;
-}
-
-int edges_measured(const study *s, lab_error *error)
-{
-  char folder[STUDY_PATH_TEXT], rig_path[STUDY_PATH_TEXT + 64], path[2][STUDY_PATH_TEXT + 64];
-  lab_rig rig;
-  int i, status;
-  table t;
-  for (i = 0; i < 2; i++) {
-    snprintf(path[i], sizeof path[i], "%s/%s/%s", s->measured, folder_name, steps[i].file);
-    if (access(path[i], R_OK)) {
-      fprintf(stderr, "sweep: %s is absent from %s: eq1_measured.csv stays as it is\n", folder_name, s->measured);
-      return LAB_OK;
-    }
-  }
-  study_folder(s, folder);
-  snprintf(rig_path, sizeof rig_path, "%s/measured/damadics-steps.cfg", folder);
-  status = lab_rig_read(rig_path, &rig, error);
-  table_open(&t, edge_header);
-  for (i = 0; i < 2 && status == LAB_OK; i++)
-    status = add_measured(&t, &rig, path[i], steps[i].stroke, error);
-  if (status == LAB_OK)
-    status = study_save(s, "eq1_measured.csv", &t, error);
-  table_close(&t);
-  return status;
-}
+const study_tables edges = {
+    {STUDY_ALL, STUDY_EVERY_LAW},
+    edge_rows,
+    {{.file = "eq1.csv", .header = "actuator,gas,flow,stroke,lag_T_s,lag_rms,ramp_T_s,ramp_rms,shape"}}};
 
 /* ---- Spring and air: each without the other ---- */
 

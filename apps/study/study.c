@@ -3,7 +3,6 @@
 #include <ctype.h>
 #include <math.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "../lab/base/config.h"
@@ -154,7 +153,6 @@ static const key keys[] = {{"actuators", read_actuators, 0, NULL, 0},
                            {"gas", read_laws, offsetof(study, gas), NULL, 0},
                            {"flow", read_laws, offsetof(study, flow), NULL, 0},
                            {"results", read_folder, offsetof(study, results), NULL, 0},
-                           {"measured", read_folder, offsetof(study, measured), NULL, 0},
                            {"confirmed_below", read_share, offsetof(study, confirmed_below), NULL, 0},
                            {"H1", read_range, offsetof(study, range[0]), "N/m", 0},
                            {"H2", read_range, offsetof(study, range[1]), "N", 0},
@@ -183,7 +181,6 @@ static int read_all(config_t *config, study *s, lab_error *error)
 
 int study_read(const char *path, study *s, lab_error *error)
 {
-  const char *measured = getenv("MEASURED");
   config_t config;
   int status;
   memset(s, 0, sizeof *s);
@@ -193,8 +190,6 @@ int study_read(const char *path, study *s, lab_error *error)
   if (status == LAB_OK)
     status = read_all(&config, s, error);
   config_destroy(&config);
-  if (status == LAB_OK && measured && *measured)
-    snprintf(s->measured, sizeof s->measured, "%s", measured);
   return status;
 }
 

@@ -33,7 +33,6 @@ typedef struct study_saved {
 typedef struct study {
   char file[STUDY_PATH_TEXT];           /* the configuration */
   char results[STUDY_PATH_TEXT];        /* folder */
-  char measured[STUDY_PATH_TEXT];       /* folder */
   int n_actuators, n_printed;           /* all; those with the parameters of Table A1 as printed, which come first */
   lab_rig actuator[STUDY_ACTUATOR_MAX]; /* then those whose spring follows from the bench set */
   int subject;                          /* index of the actuator that the hypotheses are tried on */
@@ -46,7 +45,7 @@ typedef struct study {
   study_saved *saved; /* NULL: nobody asks */
 } study;
 
-/* Read a study file; `measured` is overruled by the environment variable MEASURED.
+/* Read a study file.
  * Returns: LAB_OK; LAB_DATA with file, line, key; LAB_WORLD. */
 int study_read(const char *path, study *s, lab_error *error);
 

@@ -15,7 +15,6 @@ static const struct entry {
     {"gas", "gas = ( \"isothermal\", \"energy\" );"},
     {"flow", "flow = ( \"paper\" );"},
     {"results", "results = \"out\";"},
-    {"measured", "measured = \"data\";"},
     {"confirmed_below", "confirmed_below = 0.1;"},
     {"H1", "H1 = { from = \"20 kN/m\"; to = \"560 kN/m\"; points = 28; };"},
     {"H2", "H2 = { from = 0; to = 4000; points = 21; };"},
@@ -37,7 +36,6 @@ static const char *file_with(const char *key, const char *instead)
 
 static void test_study_read__whole_file__is_taken_up(void **state)
 {
-  unsetenv("MEASURED");
   succeed(study_read(file_with("", ""), &s, &error));
   assert_int_equal(s.n_actuators, 1);
   assert_int_equal(s.subject, 0);
@@ -45,20 +43,11 @@ static void test_study_read__whole_file__is_taken_up(void **state)
   assert_int_equal(s.gas[1], PNEU_GAS_ENERGY);
   assert_int_equal(s.n_flow, 1);
   assert_string_equal(s.results, "out");
-  assert_string_equal(s.measured, "data");
   assert_close(s.range[0].to, 560e3, 1e-6, 0);
   assert_close(s.range[2].from, 0.25, 1e-12, 0);
   assert_int_equal(s.range[4].points, 36);
   assert_int_equal(s.n_benches, 2);
   assert_close(s.bench[0].high, 240e3, 1e-6, 0);
-}
-
-static void test_study_read__measured_in_the_environment__wins(void **state)
-{
-  setenv("MEASURED", "elsewhere", 1);
-  assert_int_equal(study_read(file_with("", ""), &s, &error), LAB_OK);
-  unsetenv("MEASURED");
-  assert_string_equal(s.measured, "elsewhere");
 }
 
 static void test_study_read__bad_keys__are_refused(void **state)
@@ -155,7 +144,6 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_study_read__whole_file__is_taken_up),
-      cmocka_unit_test(test_study_read__measured_in_the_environment__wins),
       cmocka_unit_test(test_study_read__bad_keys__are_refused),
       cmocka_unit_test(test_study_read__path_too_long__is_refused),
       cmocka_unit_test(test_study_save__table__is_written_and_noted),
