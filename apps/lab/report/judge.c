@@ -4,17 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/array.h"
+
 /* Rows until a channel has moved by a tenth of its range; 0: it does not. */
 static size_t rows_until_moved(const double *value, size_t n)
 {
-  double low = HUGE_VAL, high = -HUGE_VAL, first = (double)NAN;
-  size_t i;
-  for (i = 0; i < n; i++) {
-    first = isnan(first) ? value[i] : first;
-    low = fmin(low, value[i]); /* a gap is left out */
-    high = fmax(high, value[i]);
-  }
-  for (i = 0; i < n && !(fabs(value[i] - first) > 0.1 * (high - low)); i++)
+  double low, high;
+  size_t first = 0, i;
+  lab_range(value, n, &low, &high);
+  while (first < n && isnan(value[first]))
+    first++;
+  for (i = first; i < n && !(fabs(value[i] - value[first]) > 0.1 * (high - low)); i++)
     ;
   return i < n ? i + 1 : 0;
 }

@@ -6,7 +6,6 @@
 #include "../../../apps/lab/run/schedule.h"
 #include "../../../apps/lab/run/standard.h"
 #include "../../../apps/lab/run/start.h"
-#include "../../../apps/lab/base/series.h"
 #include "../../../apps/lab/base/text.h"
 
 static lab_error error;
@@ -578,24 +577,6 @@ static void test_lab_standard_experiment__default_model__fills_and_vents(void **
   lab_response_free(&response);
 }
 
-/* ---- Tables ---- */
-
-static void test_lab_series_rows__numbers__are_scaled_and_gaps_empty(void **state)
-{
-  const double t[] = {0, 0.005}, p[] = {-0.0, 101325}, gap[] = {NAN, 1};
-  const lab_series_column columns[] = {{"t [s]", 1, t, 0}, {"p [kPa]", 1e-3, p, 0}, {"x [mm]", 1e3, gap, 0}};
-  const char *path = scratch_path("table.csv");
-  FILE *file = fopen(path, "w");
-  char *got;
-  assert_non_null(file);
-  lab_series_header(file, columns, 3);
-  lab_series_rows(file, columns, 3, 2);
-  fclose(file);
-  got = scratch_read(path);
-  assert_string_equal(got, "t [s],p [kPa],x [mm]\n0,0,\n0.005,101.325,1000\n");
-  free(got);
-}
-
 #define CASE(name) cmocka_unit_test_setup_teardown(name, fresh_rig, forget)
 
 /* ---- Runs ---- */
@@ -676,7 +657,6 @@ int main(void)
       CASE(test_lab_run_initial_state__driven_channels__start_at_their_first_value),
       CASE(test_lab_run_initial_state__below_vacuum__is_refused),
       CASE(test_lab_standard_experiment__default_model__fills_and_vents),
-      CASE(test_lab_series_rows__numbers__are_scaled_and_gaps_empty),
       CASE(test_lab_run_open__values_in_steps_without_noise__have_weights),
       CASE(test_lab_run_open__declared_resolution__is_that_of_the_run),
   };
