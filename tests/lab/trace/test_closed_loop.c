@@ -236,6 +236,16 @@ static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop
   assert_found("supply_droop", "supply_droop.supply_resistance", 1e8, 5e-2);
 }
 
+/* Before the stem meets a stop nothing shows of it: no slope at its full stroke tells one at 70 %. */
+static void test_lab_search_run__stop_that_comes_early__is_named_and_sized(void **state)
+{
+  fixture_need("travel_limit");
+  g.travel_limit = 0.7 * g.stroke;
+  set[7] = 0.9;
+  close_loop(WITH_SP | WITH_P);
+  assert_found("travel_limit", "travel_limit.travel_loss", 0.3 * g.stroke, 1e-2);
+}
+
 /* Half a row after all of them would be a dead time. */
 static void send_between_rows(void)
 {
@@ -465,6 +475,7 @@ int main(void)
       CASE(test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance),
       CASE(test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis),
       CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
+      CASE(test_lab_search_run__stop_that_comes_early__is_named_and_sized),
       CASE(test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized),
       CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
       CASE(test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_about_the_size),
