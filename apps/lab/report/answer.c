@@ -274,10 +274,12 @@ static void remark_moved(lab_answer *a)
 }
 
 /* How far off its sheet a value may be to be told, in tolerances: beside something that is missing it is bent to make
- * up for that, and beside much that is missing none is told. */
+ * up for that, and beside much that is missing, or what begins, none is told. */
 static double trusted(const lab_search_result *r)
 {
   const double left = lab_report_in_noise(&r->after);
+  if (r->sound_until > 0)
+    return 0;
   return r->verdict != LAB_VERDICT_UNDECIDED       ? (double)INFINITY
          : left < lab_constant(LAB_VALUES_TRUSTED) ? lab_constant(LAB_FAR_OFF)
                                                    : 0;

@@ -10,11 +10,17 @@
 #include "refill.h"
 #include "resume.h"
 
+/* What a simulation of a run costs, in rows of one whose command hardly changes: in a loop every row may switch. */
+static double cost_of(const lab_unknowns *u)
+{
+  static const double of_change = 9, in_loop = 8; /* by judgement */
+  const lab_run *x = u->run;
+  return (lab_refill_loops(u) ? in_loop : 1) * (double)x->n + of_change * (double)x->n_instants;
+}
+
 int lab_preview_is_asked(const lab_unknowns *u)
 {
-  static const size_t rows_a_change = 9;
-  return u->n_runs == 1 && u->window == 0 &&
-         (double)(u->run->n + rows_a_change * u->run->n_instants) >= lab_constant(LAB_PREVIEW_ROWS);
+  return u->n_runs == 1 && u->window == 0 && cost_of(u) >= lab_constant(LAB_PREVIEW_ROWS);
 }
 
 /* The search of the first n rows.

@@ -8,13 +8,15 @@
 
 #include "rounds.h"
 
-/* Whether there is one run, seen row by row, of PREVIEW_ROWS or more. */
+/* Whether there is one run, seen row by row, that costs as much as PREVIEW_ROWS or more: rows of a closed loop and changes
+ * of the command count for several. */
 int lab_preview_is_asked(const lab_unknowns *u);
 
 /* Search the beginning, fit what is found to the whole run, and go on from there.
  * In:      u     the declared model, fitted
  * In/out:  f     with the errors of that; if done, what was found
- * Out:     done  whether that leaves only noise, or the time of the beginning was spent; else f is as it was
+ * Out:     done  whether that leaves only noise, or the time of the beginning was spent; else f is as it was, but for
+ *                sound_until
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_preview_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                        lab_error *error);

@@ -91,6 +91,7 @@ static void test_lab_preview_search__spring_that_breaks_later__is_found_from_the
   close_log();
 }
 
+/* What it has seen is until when the run is as declared. */
 static void test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_the_whole(void **state)
 {
   const second_rig first = virtual_rig(7);
@@ -99,17 +100,22 @@ static void test_lab_preview_search__much_that_begins_later__is_left_to_the_sear
   later.dry_friction *= 4;
   later.leak_area = 2e-7;
   assert_false(preview(&first, &later, 8.57));
+  assert_between(found.result.sound_until, 8.3, 8.7);
+  found.result.sound_until = 0;
   assert_memory_equal(&found, &before, sizeof found);
   close_log();
 }
 
 static void test_lab_preview_is_asked__short_or_several_or_coarse__no(void **state)
 {
-  lab_run of_rows = {.n = 3000};
+  static lab_log log;
+  lab_run of_rows = {.n = 3000, .log = &log};
   lab_unknowns of_run = {.run = &of_rows, .n_runs = 1};
   assert_true(lab_preview_is_asked(&of_run));
   of_rows.n = 2999;
   assert_false(lab_preview_is_asked(&of_run));
+  of_rows.n_instants = 1; /* costs as much as rows do */
+  assert_true(lab_preview_is_asked(&of_run));
   of_rows.n = 3000;
   of_run.n_runs = 2;
   assert_false(lab_preview_is_asked(&of_run));
