@@ -147,7 +147,7 @@ static void put_paper(const study *s, const table *t, cJSON *page)
 
 /* ---- Eq. (1), from eq1.csv ---- */
 
-/* "0.6 / 4.2 lag": what lag and ramp leave, and which of them the stroke is. */
+/* "0.6 / 4.2 lag": what a lag and a ramp leave of a stroke, and which of them it is. */
 static void put_edges(const study *s, const table *t, cJSON *page)
 {
   static const char *const strokes[] = {"rise", "fall"};

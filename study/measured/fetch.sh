@@ -12,12 +12,11 @@
 #   tube-fill-vent-pneuact          F. Sojoodi Farimani and S. Misra, ICRA 2018: for scientific and academic purposes.
 #   pump-fed-chamber-control        github.com/DiegoSanMo6011/softbot_pneumatic_driver, MIT.
 #
-# Not here: damadics-servomotor-static-step. Its points were read off the vector figures 5, 6 and 7 of M. Bartys,
+# Not here: damadics-servomotor-static-step. Its points were read off the vector figure 5 of M. Bartys,
 # "Specification of actuators intended to use for benchmark definition" (2002), which names no licence; the document
 # lies in github.com/dlaredo/ValveActuator-DAMADICS-, Reference/damadics-actuator-v1_02.pdf, commit
 # a0353a02f8bed2fba6fc5147211e95ac45422363. To repeat it, read the corners of the plotted lines by the grid of each
-# chart into static_hysteresis_fig5.csv (branch,p_kPa,x_percent; branch lower is rising pressure),
-# step_up_fig6.csv and step_down_fig7.csv (t_ms,x_units). Without them the study leaves that comparison out.
+# chart into static_hysteresis_fig5.csv (branch,p_kPa,x_percent; branch lower is rising pressure).
 # Nor those whose logs were sheets or had more columns; none states a licence, and each is to be written by hand:
 #   tank-blowdown-nozzles           github.com/AttainableEngineering/AeroLab, commit 365f6594, Lab6Data.xlsx: the sheets of
 #                                   0.094 and 0.125 inch as CSV.

@@ -10,10 +10,12 @@
 #include "drift.h"
 
 static const double median_of_square = 0.45493642311957283; /* of a normal value */
-static const double of_range = 0.005;                       /* noise of an ordinary transmitter, by judgement */
-static const double still = 0.01;                           /* square of what a row changes, in noise */
-static const double at_rest = 0.25; /* times the noise: what a prediction changes over a stretch at rest */
-static const double unmoved = 1;    /* times that of x: what a set position moves there */
+static const double of_range = 0.005; /* of stroke or supply: noise of an ordinary transmitter, by judgement */
+static const double few_still = 0.1;  /* share of the rows, by judgement */
+static const double of_a_model = 0.3; /* correlation of errors from row to row, by judgement */
+static const double still = 0.01;     /* square of what a row changes, in noise */
+static const double at_rest = 0.25;   /* times the noise: what a prediction changes over a stretch at rest */
+static const double unmoved = 1;      /* times that of x: what a set position moves there */
 static const double white = 0.15; /* by which variances from first and from second differences of white noise differ */
 static const double larger = 1.2; /* times the declared noise, from where on the log is believed */
 static const double wanders = 10; /* times that: what is as large as this is no noise */
@@ -222,23 +224,38 @@ static double level_of(const lab_run *x, int c, const double *r, double *first, 
   return fabs(by_first / by_second - 1) < white && by_second * x->sigma[c] > x->resolution[c] ? by_second : 0;
 }
 
-/* The noise of an ordinary transmitter over what that of a channel counts as. */
+/* Whether the errors of a channel are plainly a model's and not noise of a sensor: next to nothing of it stands still,
+ * and they go on from row to row. */
+static int are_of_model(const lab_run *x, int c, const double *r)
+{
+  double along = 0, all = 0;
+  size_t i, n = 0, still_rows = 0;
+  for (i = 1; i + 1 < x->n; i++)
+    if (has_row(x, c, i)) {
+      still_rows += slope2_at(x, c, r, i) * square(spacing_at(x, i)) < still;
+      along += r[i] * r[i - 1];
+      all += r[i] * r[i];
+      n++;
+    }
+  return n >= FEWEST && (double)still_rows < few_still * (double)n && along > of_a_model * all;
+}
+
+/* The noise of an ordinary transmitter, over what that of a channel counts as; infinite where there is no span for it.
+ */
 static double ordinary(const lab_run *x, int c)
 {
-  range all = {HUGE_VAL, -HUGE_VAL};
-  size_t i;
-  for (i = 0; i < x->n; i++)
-    widen_range(&all, lab_run_measured(x, c, i));
-  return of_range * (all.high - all.low) / x->sigma[c];
+  const double span = x->channel[c] == LAB_CHANNEL_X   ? (double)x->rig->params.stroke
+                      : x->channel[c] == LAB_CHANNEL_P ? (double)x->rig->params.supply_pressure
+                                                       : HUGE_VAL;
+  return of_range * span / x->sigma[c];
 }
 
 /* By how much the noise of a channel of a run was plainly taken for too much, where no rig file tells it: it is no more
- * than all errors together, and the estimate from rows side by side is too large where much moves between them. Where
- * nothing stands still, errors of the model count as noise: it is no more than that of an ordinary transmitter. 1 where
- * that is not to be told; no less than the steps of the values leave.
- * In:      spare  times that errors are larger beside values that were not fitted to them
- *          moves  whether nothing stands still */
-static double overrated(const lab_run *x, int c, const double *r, double spare, int moves)
+ * than all errors together, or where these are the model's than that of an ordinary transmitter; and the estimate from
+ * rows side by side is too large where much moves between them. 1 where that is not to be told; no less than the steps
+ * of the values leave.
+ * In:      spare  times that errors are larger beside values that were not fitted to them */
+static double overrated(const lab_run *x, int c, const double *r, double spare)
 {
   const double *value = x->log->value[x->channel[c]] + x->first;
   double sum = 0, most;
@@ -251,7 +268,7 @@ static double overrated(const lab_run *x, int c, const double *r, double spare, 
       n++;
     }
   most = spare * sqrt(sum / (double)n);
-  if (moves)
+  if (are_of_model(x, c, r))
     most = fmin(most, ordinary(x, c));
   if (n < FEWEST / 2 || most * (1 + likely / sqrt(2 * (double)n)) > 1 / larger)
     return 1;
@@ -263,7 +280,7 @@ static int set_levels(lab_run *x, double *r, double spare, double *first, double
 {
   int c, any = 0;
   for (c = 0; c < x->n_channels; c++, r += x->n) {
-    const double still_level = level_of(x, c, r, first, room), most = overrated(x, c, r, spare, !(still_level > 0));
+    const double most = overrated(x, c, r, spare);
     if (most < 1) {
       set_level(x, c, most, r);
       any = 1;

@@ -537,7 +537,7 @@ static void add_undecided_cause(char *text, const lab_search_result *r)
     ADD(text, "Several values are far off their sheet: it is that of another rig, or something else is missing.");
   else if (r->sound_until > 0)
     ADD(text, "Until %s s nothing is missing; then something is, but the log does not say what.",
-        LAB_NUMBER(r->sound_until, 4));
+        LAB_NUMBER(r->sound_until, (int)fmax(4, 2 + floor(log10(r->sound_until)))));
   else
     ADD(text, "Something is missing, but the log does not say what.");
 }

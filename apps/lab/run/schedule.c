@@ -207,11 +207,11 @@ static line corner_from(const course *c, size_t i, const line *before)
 
 /* Whether a command is seen at the rows of a log, so that it may run between them: not the rows of a schedule, where it
  * changes and nothing is measured, and not what a positioner or a controller sends, which holds from row to row. */
-static int is_sampled(const lab_log *log, size_t first, size_t end)
+static int is_sampled(const lab_log *log)
 {
   const int command = lab_log_command(log);
   const int measured = log->value[LAB_CHANNEL_P] || log->value[LAB_CHANNEL_X] || log->value[LAB_CHANNEL_T];
-  if (command == LAB_CHANNEL_SP && lab_holds_between_rows(log, first, end))
+  if (command == LAB_CHANNEL_SP && lab_holds_between_rows(log))
     return 0;
   return command >= 0 && measured && (command == LAB_CHANNEL_SP || !log->value[LAB_CHANNEL_SP]);
 }
@@ -221,7 +221,7 @@ static course course_of(const pneu_model *model, const lab_log *log, size_t firs
   const int command = lab_log_command(log);
   const double range = model->p.proportional_band > 0 ? (double)model->p.supply_pressure : 1;
   course c = {log->value[LAB_CHANNEL_TIME], NULL, first, end, on_line * range, 0};
-  if (is_sampled(log, first, end))
+  if (is_sampled(log))
     c.u = log->value[command];
   if (c.u)
     c.off = fmax(c.off, lab_resolution(c.u + first, end - first)); /* its ends are rounded too */

@@ -20,7 +20,8 @@ static double cost_of(const lab_unknowns *u)
 
 int lab_preview_is_asked(const lab_unknowns *u)
 {
-  return u->n_runs == 1 && u->window == 0 && cost_of(u) >= lab_constant(LAB_PREVIEW_ROWS);
+  static const size_t fewest = 300; /* rows, of which the beginning is a third: by judgement */
+  return u->n_runs == 1 && u->window == 0 && u->run->n >= fewest && cost_of(u) >= lab_constant(LAB_PREVIEW_ROWS);
 }
 
 /* The search of the first n rows.

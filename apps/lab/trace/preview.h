@@ -8,8 +8,8 @@
 
 #include "rounds.h"
 
-/* Whether there is one run, seen row by row, that costs as much as PREVIEW_ROWS or more: rows of a closed loop and changes
- * of the command count for several. */
+/* Whether there is one run, seen row by row, of 300 rows or more that cost as much as PREVIEW_ROWS: rows of a closed loop
+ * count for eight, and changes of the command for nine more. */
 int lab_preview_is_asked(const lab_unknowns *u);
 
 /* Search the beginning, fit what is found to the whole run, and go on from there.

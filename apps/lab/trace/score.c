@@ -203,10 +203,11 @@ static int shows_late(int param)
 double lab_score_usual(const lab_unknowns *u, int param)
 {
   const pneu_param_info info = lab_param_info(param);
+  const double present = lab_param_value(&u->rig, param);
   double least = HUGE_VAL;
   int e;
   for (e = 0; e < u->n_runs && shows_late(param); e++)
-    least = fmin(least, unused_stroke(&u->run[e]));
+    least = fmin(least, unused_stroke(&u->run[e]) - present);
   return isfinite(least) && least > 0 ? least : (double)info.value - (double)info.neutral;
 }
 
@@ -282,11 +283,27 @@ int lab_score_lacks(const lab_unknowns *u, int effect)
   return is_absent(u, first, count, &shape);
 }
 
+/* Whether an effect does anything to a rig at its usual size. */
+static int can_act(const lab_rig *rig, int effect)
+{
+  const pneu_effect *e = pneu_effect_at(effect);
+  enum { MOST = 16 }; /* parameters of an effect; the positioner has seven */
+  pneu_real usual[MOST];
+  lab_error ignored;
+  pneu_model model;
+  int i, count;
+  pneu_effect_params(effect, &count);
+  for (i = 0; i < count && i < MOST; i++)
+    usual[i] = e->param[i].value;
+  return !e->acts || lab_rig_model(rig, &model, &ignored) || e->acts(&model, usual) != PNEU_RESTS;
+}
+
 int lab_score_can_be_missing(const lab_rig *rig, int effect)
 {
   const char *name = pneu_effect_at(effect)->name;
-  return strncmp(name, "positioner", strlen("positioner")) != 0 ||
-         (strcmp(name, "positioner") != 0 && lab_rig_has_positioner(rig));
+  if (strncmp(name, "positioner", strlen("positioner")) == 0)
+    return strcmp(name, "positioner") != 0 && lab_rig_has_positioner(rig);
+  return can_act(rig, effect);
 }
 
 /* Whether the logs measure what an effect sets apart: the skew of channels takes two. */
@@ -358,11 +375,11 @@ static int score_together(const lab_projection *p, lab_scores *scores, char *don
     for (k = 0; k < shapes_of(&scores->of[i]); k++, n++) {
       shaped_effect effect;
       lab_trial trial;
-      if (!followed[n])
+      if (!followed[n] || shows_late(scores->of[i].param))
         continue;
       prepare(p, &scores->of[i], k, &effect, &trial);
       judge(p, &trial, columns + (size_t)n * p->m, share * trial.usual, &scores->of[i]);
-      done[i * LAB_SCORE_SHAPES + k] = !shows_late(scores->of[i].param);
+      done[i * LAB_SCORE_SHAPES + k] = 1;
       *tests += 1;
     }
   free(model);

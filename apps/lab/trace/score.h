@@ -69,8 +69,9 @@ typedef struct lab_scores {
 /* Whether a model does not have an effect: all of it is neutral, and nothing of it is fitted. */
 int lab_score_lacks(const lab_unknowns *u, int effect);
 
-/* Whether a rig can have an effect that it does not declare: a positioner is declared, and what can be wrong with it is
- * looked for only where there is one. */
+/* Whether a rig can have an effect that it does not declare: a positioner is declared, what can be wrong with it is looked
+ * for only where there is one, and what does nothing to a rig at its usual size, as a long chamber to a short one, is
+ * not looked for at all. */
 int lab_score_can_be_missing(const lab_rig *rig, int effect);
 
 /* Score every effect that the model does not have; one whose slope cannot be simulated is not seen.

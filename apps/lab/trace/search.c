@@ -300,7 +300,8 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     give_up(f, declared);
     status = conclude(f, u, result, error);
   }
-  result->sound_until = result->verdict == LAB_VERDICT_UNDECIDED ? sound_until : 0;
+  if (result->verdict == LAB_VERDICT_UNDECIDED && !result->jerks && !result->is_far)
+    result->sound_until = sound_until;
   free(held);
   free(declared);
   free(f);

@@ -136,6 +136,45 @@ static void test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left(void 
   }
 }
 
+/* A stem that follows a set position which walks by 1 mm a row, and errors of 0.5 mm with this memory beside it.
+ * Returns: what counts as noise [m] */
+static double noise_of_walk(double memory)
+{
+  FILE *file = fopen(scratch_path("log.csv"), "w");
+  double set = 10, wander = 0, sigma;
+  int i, any;
+  assert_non_null(file);
+  fprintf(file, "t [s],sp [mm],x [mm]\n");
+  seed = 7;
+  for (i = 0; i < ROWS; i++) {
+    const double next = fmin(fmax(set + fixture_normal(&seed), 4), 16);
+    wander = memory * wander + 0.5 * sqrt(1 - memory * memory) * fixture_normal(&seed);
+    fprintf(file, "%d,%.4f,%.4f\n", i, next, set + wander);
+    set = next;
+  }
+  fclose(file);
+  lab_rig_default(&rig);
+  rig.noise[LAB_CHANNEL_X] = (double)NAN;
+  fixture_set(&rig.params, "positioner.gain", 20);
+  rig.fit[rig.n_fit++] = pneu_param_find("positioner.gain");
+  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &one_log, &error), LAB_OK);
+  assert_int_equal(lab_run_open(&rig, &one_log, 0, &run, &error), LAB_OK);
+  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  sigma = run.sigma[0];
+  lab_run_close(&run);
+  lab_log_free(&one_log);
+  return sigma;
+}
+
+/* Nothing stands still: what goes on from row to row is the model's error, of which 0.1 mm, 0.5 % of the stroke, may be
+ * noise; what does not is noise. */
+static void test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise(void **state)
+{
+  assert_close(noise_of_walk(0.97), 1e-4, 0, 1e-9);
+  assert_between(noise_of_walk(0), 4e-4, 8e-4);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -144,6 +183,7 @@ int main(void)
       cmocka_unit_test(test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is),
       cmocka_unit_test(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once),
       cmocka_unit_test(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise),
+      cmocka_unit_test(test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise),
       cmocka_unit_test(test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left),
   };
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);

@@ -229,18 +229,20 @@ static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **sta
 }
 
 /* Rows of a second of a stem that follows a set position with a lag, each row's held until the next or run to it along
- * a line, from its closed form; it walks at random. */
-static void read_walk(int holds, int rows)
+ * a line, from its closed form, so many rows late; it walks at random. */
+static void read_walk(int holds, int rows, int late)
 {
   static char text[20000];
   const double lag = 0.8, stays = exp(-1 / lag);
-  double set = 0.5, x = 0.5;
+  double set = 0.5, x = 0.5, shown[2] = {0.5, 0.5}; /* now, a row ago */
   uint64_t seed = 3;
   int i, at = snprintf(text, sizeof text, "t [s],sp [%%],x [mm]\n");
   for (i = 0; i < rows; i++) {
     const double next = fmin(fmax(set + fixture_random(&seed, -0.05, 0.05), 0.2), 0.8), rate = holds ? 0 : next - set;
     const double noise = fixture_random(&seed, -0.01, 0.01);
-    at += snprintf(text + at, sizeof text - (size_t)at, "%d,%.4f,%.4f\n", i, 100 * set, 20 * x + noise);
+    shown[1] = shown[0];
+    shown[0] = x;
+    at += snprintf(text + at, sizeof text - (size_t)at, "%d,%.4f,%.4f\n", i, 100 * set, 20 * shown[late] + noise);
     x = set + rate * (1 - lag) + (x - set + rate * lag) * stays;
     set = next;
   }
@@ -258,11 +260,13 @@ static size_t count_lines(void)
 
 static void test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_row_to_row(void **state)
 {
-  read_walk(1, 200);
+  read_walk(1, 200, 0);
   assert_int_equal(count_lines(), 0);
-  read_walk(0, 200);
+  read_walk(0, 200, 0);
   assert_between((double)count_lines(), 100, 200);
-  read_walk(1, 30); /* too few to tell */
+  read_walk(0, 200, 1); /* cannot follow its own row either */
+  assert_between((double)count_lines(), 100, 200);
+  read_walk(1, 30, 0); /* too few to tell */
   assert_between((double)count_lines(), 10, 30);
 }
 
