@@ -239,7 +239,6 @@ static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop
 /* Before the stem meets a stop nothing shows of it: no slope at its full stroke tells one at 70 %. */
 static void test_lab_search_run__stop_that_comes_early__is_named_and_sized(void **state)
 {
-  fixture_need("travel_limit");
   g.travel_limit = 0.7 * g.stroke;
   set[7] = 0.9;
   close_loop(WITH_SP | WITH_P);
