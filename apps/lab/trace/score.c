@@ -194,10 +194,12 @@ static double unused_stroke(const lab_run *x)
   return left;
 }
 
-/* Whether an effect shows from a size on: nothing, before the stem meets its stop. */
-static int shows_late(int param)
+/* Whether an effect shows from a size on: behind a positioner that does not ask for the whole stroke nothing, before the
+ * stem meets its stop. */
+static int shows_late(const lab_unknowns *u, int param)
 {
-  return param == pneu_param_find("travel_limit.travel_loss");
+  return param == pneu_param_find("travel_limit.travel_loss") && u->n_runs > 0 &&
+         lab_log_command(u->run->log) == LAB_CHANNEL_SP && lab_rig_has_positioner(&u->rig);
 }
 
 double lab_score_usual(const lab_unknowns *u, int param)
@@ -206,7 +208,7 @@ double lab_score_usual(const lab_unknowns *u, int param)
   const double present = lab_param_value(&u->rig, param);
   double least = HUGE_VAL;
   int e;
-  for (e = 0; e < u->n_runs && shows_late(param); e++)
+  for (e = 0; e < u->n_runs && shows_late(u, param); e++)
     least = fmin(least, unused_stroke(&u->run[e]) - present);
   return isfinite(least) && least > 0 ? least : (double)info.value - (double)info.neutral;
 }
@@ -375,7 +377,7 @@ static int score_together(const lab_projection *p, lab_scores *scores, char *don
     for (k = 0; k < shapes_of(&scores->of[i]); k++, n++) {
       shaped_effect effect;
       lab_trial trial;
-      if (!followed[n] || shows_late(scores->of[i].param))
+      if (!followed[n] || shows_late(p->u, scores->of[i].param))
         continue;
       prepare(p, &scores->of[i], k, &effect, &trial);
       judge(p, &trial, columns + (size_t)n * p->m, share * trial.usual, &scores->of[i]);

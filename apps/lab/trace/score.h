@@ -91,8 +91,8 @@ typedef struct lab_trial {
   double offset; /* where it is already, from neutral: of a value that is held */
 } lab_trial;
 
-/* The size at which an effect is tried first: its usual one; for a stop that comes early that of the stroke which no log
- * has used, for nothing shows before the stem meets it. */
+/* The size at which an effect is tried first: its usual one; for a stop that comes early behind a positioner that of the
+ * stroke which no log has used, for nothing shows before the stem meets it. */
 double lab_score_usual(const lab_unknowns *u, int param);
 
 /* Score it at its usual size and, where that changes the residual by far more than can just be seen, at shorter steps
