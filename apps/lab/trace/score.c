@@ -194,8 +194,8 @@ static double unused_stroke(const lab_run *x)
   return left;
 }
 
-/* Whether an effect shows from a size on: behind a positioner that does not ask for the whole stroke nothing, before the
- * stem meets its stop. */
+/* Whether an effect shows from a size on: behind a positioner that does not ask for the whole stroke nothing, before
+ * the stem meets its stop. */
 static int shows_late(const lab_unknowns *u, int param)
 {
   return param == pneu_param_find("travel_limit.travel_loss") && u->n_runs > 0 &&
