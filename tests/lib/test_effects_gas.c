@@ -566,10 +566,10 @@ static void footprint_long_chamber(void)
   const double q = inflow(&base, PNEU_FLOW_CHOKED, 0), rho = (2e5 + (double)p.ambient_pressure) / RT;
   const double unit = 1.82e-5 / (rho * 0.0356824823 * 0.0356824823);
   int i;
-  for (i = 0; i < COUNT(at); i++) {
+  for (i = 0; i < COUNT(at); i++) { /* float rounds 5e5 Pa to 0.03 at each step */
     check_note("t = %g s", at[i]);
     assert_close(run_vessel(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1, at[i]).p,
-                 q * RT / 5e-3 * (at[i] - sin(omega * at[i]) / omega), 0, TOL(2e-3, 2e-2));
+                 q * RT / 5e-3 * (at[i] - sin(omega * at[i]) / omega), TOL(0, 3), TOL(2e-3, 0));
   }
   assert_close(damping(1, 50), 32 * unit, 0, TOL(1e-3, 1e-2));
   assert_close(damping(3, 1e5), 3 * 0.1582 * pow(1e5, 0.75) * unit, 0, TOL(1e-4, 1e-2));
