@@ -20,7 +20,7 @@ static double cost_of(const lab_unknowns *u)
 
 int lab_preview_is_asked(const lab_unknowns *u)
 {
-  static const size_t fewest = 300; /* rows, of which the beginning is a third: by judgement */
+  static const size_t fewest = 400; /* rows, of which the beginning is a third: by judgement */
   return u->n_runs == 1 && u->window == 0 && u->run->n >= fewest && cost_of(u) >= lab_constant(LAB_PREVIEW_ROWS);
 }
 

@@ -8,7 +8,7 @@
 
 #include "rounds.h"
 
-/* Whether there is one run, seen row by row, of 300 rows or more that cost as much as PREVIEW_ROWS: rows of a closed loop
+/* Whether there is one run, seen row by row, of 400 rows or more that cost as much as PREVIEW_ROWS: rows of a closed loop
  * count for eight, and changes of the command for nine more. */
 int lab_preview_is_asked(const lab_unknowns *u);
 

@@ -116,6 +116,9 @@ static void test_lab_preview_is_asked__short_or_several_or_coarse__no(void **sta
   assert_false(lab_preview_is_asked(&of_run));
   of_rows.n_instants = 1; /* costs as much as rows do */
   assert_true(lab_preview_is_asked(&of_run));
+  of_rows.n = 399;
+  of_rows.n_instants = 1000; /* but their beginning would tell nothing */
+  assert_false(lab_preview_is_asked(&of_run));
   of_rows.n = 3000;
   of_run.n_runs = 2;
   assert_false(lab_preview_is_asked(&of_run));
