@@ -4,14 +4,14 @@
  * Re^0.75/(rho D^2) of turbulent flow in a smooth bore (Blasius: lambda = 0.3164 Re^-0.25). The fourth root of the sum
  * of their fourth powers stands for both. Air has ambient temperature on its way.
  * At l = 1 the wave has 0.90 of its true frequency in a tube that is open at its valve and 0.64 in one that is shut at
- * both ends; the pressure lost is 0.82 of what turbulent flow loses that falls evenly towards the closed end, and all of
- * what laminar flow does. While a stem moves L counts as constant. Lengths below a thousandth count as none: the equations
- * are stiff for nothing. It takes the place of a connecting_tube.
+ * both ends; the pressure lost is 0.82 of what turbulent flow loses that falls evenly towards the closed end, and all
+ * of what laminar flow does. While a stem moves L counts as constant. Lengths below a thousandth count as none: the
+ * equations are stiff for nothing. It takes the place of a connecting_tube.
  * States: p_n over the absolute supply pressure; q sqrt(R T_a)/A over the same.
  * Size: isothermal sound takes 24 ms to the end of 7 m. Chambers up to 20 times as long as wide count as short. */
 #include "../internal.h"
 
-#define LEAST PNEU_C(1e-3)
+#define LEAST     PNEU_C(1e-3)
 #define VISCOSITY PNEU_C(1.82e-5) /* [Pa s] of air at 295 K */
 
 enum { LENGTH, FRICTION };

@@ -289,15 +289,17 @@ int lab_score_lacks(const lab_unknowns *u, int effect)
 static int can_act(const lab_rig *rig, int effect)
 {
   const pneu_effect *e = pneu_effect_at(effect);
-  enum { MOST = 16 }; /* parameters of an effect; the positioner has seven */
-  pneu_real usual[MOST];
+  pneu_real *usual;
   lab_error ignored;
   pneu_model model;
   int i, count;
+  if (!e->acts || lab_rig_model(rig, &model, &ignored))
+    return 1;
   pneu_effect_params(effect, &count);
-  for (i = 0; i < count && i < MOST; i++)
+  usual = &model.p.effect[model.param_of[effect]];
+  for (i = 0; i < count; i++)
     usual[i] = e->param[i].value;
-  return !e->acts || lab_rig_model(rig, &model, &ignored) || e->acts(&model, usual) != PNEU_RESTS;
+  return e->acts(&model, usual) != PNEU_RESTS;
 }
 
 int lab_score_can_be_missing(const lab_rig *rig, int effect)
