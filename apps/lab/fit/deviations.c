@@ -35,7 +35,7 @@ static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
   const lab_unknown *x = &u->unknown[j];
   if (x->kind == LAB_UNKNOWN_ONSET)
     return lab_param_is_value(param_of(u, x));
-  if (lab_param_is_value(x->index) && lab_unknowns_find_onset(u, x->index) >= 0)
+  if (lab_unknowns_find_onset(u, x->index) >= 0)
     return 0;
   return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&
          !is_free_vent(rig, x) && (lab_rig_fits(rig, x->index) || lab_unknown_is_held(x) || lab_unknown_is_let_go(x));

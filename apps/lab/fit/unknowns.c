@@ -73,7 +73,9 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
 
 int lab_param_is_value(int param)
 {
-  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
+  const int positioner = pneu_effect_find("positioner");
+  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA ||
+         (positioner >= 0 && pneu_effect_of(param) == positioner);
 }
 
 /* So many tolerances about the declared value; no ends where there is none. */

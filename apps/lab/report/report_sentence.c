@@ -530,16 +530,19 @@ int lab_report_is_ambiguous(const lab_search_result *r)
 /* As much as is known of what is missing, where no name is. */
 static void add_undecided_cause(char *text, const lab_search_result *r)
 {
-  if (r->jerks)
+  const char *why = r->cut_short ? "and there was no time to find what" : "but the log does not say what";
+  if (lab_report_is_unfinished(r))
+    ADD(text, "The search was ended by --budget before it was finished: what it has found so far may be wrong.");
+  else if (r->sound_until > 0)
+    ADD(text, "Until %s s nothing is missing; then something is, %s.",
+        LAB_NUMBER(r->sound_until, (int)fmax(4, 2 + floor(log10(r->sound_until)))), why);
+  else if (r->jerks)
     ADD(text, "The stem moves by jerks and the model's does not: something is missing, perhaps friction that sticks or a "
               "force that shakes it.");
   else if (r->is_far)
     ADD(text, "Several values are far off their sheet: it is that of another rig, or something else is missing.");
-  else if (r->sound_until > 0)
-    ADD(text, "Until %s s nothing is missing; then something is, but the log does not say what.",
-        LAB_NUMBER(r->sound_until, (int)fmax(4, 2 + floor(log10(r->sound_until)))));
   else
-    ADD(text, "Something is missing, but the log does not say what.");
+    ADD(text, "Something is missing, %s.", why);
 }
 
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
@@ -553,7 +556,7 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     ADD(text, "Undecided: %s", lab_report_doubt(report));
     return;
   }
-  if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r)) {
+  if (r->verdict == LAB_VERDICT_UNDECIDED) {
     add_undecided_cause(text, r);
     if (add_deviations(text, report, 1))
       ADD(text, ".");
@@ -564,8 +567,6 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   ADD(text, deviates && r->verdict != LAB_VERDICT_NONE ? ". " : "");
   if (r->verdict == LAB_VERDICT_NONE)
     ADD(text, "%s", nothing(report, deviates));
-  else if (r->verdict == LAB_VERDICT_UNDECIDED)
-    ADD(text, "Whether anything%s is missing, the search had no time to say.", deviates ? " else" : "");
   else
     add_found(text, report);
   add_sensors(text, report);
@@ -647,7 +648,7 @@ void lab_report_evidence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   if (r->verdict == LAB_VERDICT_NONE && is_small(r))
     add_small(text, r);
   add_absent(text, report->completed);
-  if (r->cut_short)
+  if (r->cut_short && !lab_report_is_unfinished(r))
     ADD(text, " The search was ended by --budget: this is the best answer so far.");
 }
 

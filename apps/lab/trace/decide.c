@@ -104,22 +104,25 @@ static int tolerances_beat_the_leaders(const lab_facts *f)
 
 static int something_may_begin(const lab_facts *f)
 {
-  return f->n_found == 0 && f->can_begin && !lab_is_noise(&f->best);
+  return f->n_found == 0 && f->can_begin;
 }
 
 static int an_onset_stands_out(const lab_facts *f)
 {
-  return something_may_begin(f) && !f->held && f->begins > lab_constant(LAB_ONSET_CLEAR) * f->throughout;
+  return something_may_begin(f) && (!f->held || lab_is_noise(&f->best)) &&
+         f->begins > lab_constant(LAB_ONSET_CLEAR) * f->throughout;
 }
 
 static int no_leader_is_enough(const lab_facts *f)
 {
-  return something_may_begin(f) && !f->onset.fitted && f->begins > lab_constant(LAB_ONSET_SHARE) * f->throughout;
+  return something_may_begin(f) && !lab_is_noise(&f->best) && !f->onset.fitted &&
+         f->begins > lab_constant(LAB_ONSET_SHARE) * f->throughout;
 }
 
 static int an_onset_convinces(const lab_facts *f)
 {
-  return f->can_begin && lab_onset_convinces(&f->onset, &f->best) &&
+  const double odds = lab_is_noise(&f->best) ? lab_constant(LAB_ALIKE_BIC) : 0;
+  return f->can_begin && f->onset.bic + odds < f->best.bic && lab_onset_convinces(&f->onset, &f->best) &&
          (!f->extended.fitted || lab_onset_convinces(&f->onset, &f->extended));
 }
 
@@ -231,13 +234,15 @@ static int has_found_nothing(const lab_facts *f)
 }
 
 const lab_rule lab_rules[] = {
-    {LAB_PHASE_SCORED, "The declared model leaves more than noise, and the logs are one run.", something_may_begin,
+    {LAB_PHASE_SCORED, "Nothing was found, and the logs are one run.", something_may_begin,
      "Score what may begin within it.", LAB_DO_SCORE_ONSETS},
     {LAB_PHASE_SCORED,
-     "Values as declared: something that may begin scores above ONSET_CLEAR times all that acts throughout.",
+     "Values as declared, or only noise is left: something that may begin scores above ONSET_CLEAR times all that acts "
+     "throughout.",
      an_onset_stands_out, "Refit those that do, and find when they begin.", LAB_DO_FIT_CLEAR_ONSET},
     {LAB_PHASE_SCORED,
-     "The best of these has a lower BIC and leaves only noise, or less than ONSET_CONVINCING of the excess.",
+     "The best of these has a lower BIC, by ALIKE_BIC where only noise was left, and leaves only noise, or less than "
+     "ONSET_CONVINCING of the excess.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,
      "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "

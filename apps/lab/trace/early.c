@@ -5,6 +5,7 @@
 #include "../fit/beginning.h"
 #include "../fit/nuisance.h"
 #include "departure.h"
+#include "onset_sizes.h"
 #include "refill.h"
 
 enum { SHOWS = 16 }; /* what begins shows within one such part of the run: by judgement */
@@ -53,6 +54,19 @@ static int thaw(const lab_candidate *base, const size_t between[2], lab_candidat
   return c->quality.fitted ? lab_candidate_place_again(c, error) : LAB_OK;
 }
 
+/* The row from which what begins may act, before it shows. */
+static size_t earliest(const lab_run *x, size_t sound)
+{
+  const size_t late = x->n / SHOWS;
+  return sound > late ? sound - late : 0;
+}
+
+static int refit_scored(const lab_candidate *frozen, double alpha, const lab_onset_scores *begins, lab_candidate *c,
+                        int *n, lab_error *error)
+{
+  return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), c, n, error);
+}
+
 /* What may begin between two rows, by score, while all else is as the beginning has it.
  * In:      frozen
  *          row     at which it is fitted first
@@ -61,29 +75,36 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], si
                         lab_onset_scores *begins, lab_candidate *c, int *n, lab_error *error)
 {
   const lab_run *x = frozen->u.run;
-  const size_t late = x->n / SHOWS, from = between[0] > late ? between[0] - late : 0;
   lab_unknowns u = frozen->u;
   lab_projection p;
-  int status = lab_projection_open(&u, &p, error);
+  int i, status = lab_projection_open(&u, &p, error);
   if (status == LAB_OK)
-    status = lab_onset_scores_find(&p, from, between[1] < x->n ? between[1] : x->n, begins, error);
+    status = lab_onset_scores_find(&p, earliest(x, between[0]), between[1] < x->n ? between[1] : x->n, begins, error);
   lab_projection_close(&p);
-  if (status != LAB_OK)
-    return status;
-  if (lab_refill_is_asked(&frozen->u) && lab_refill_score(frozen, between[0], begins, error))
-    return error->status;
-  return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), row, c, n, error);
+  for (i = 0; i < begins->n && status == LAB_OK; i++)
+    begins->of[i].onset = row;
+  return status == LAB_OK ? refit_scored(frozen, alpha, begins, c, n, error) : status;
 }
 
-/* The first of n frozen models, best first, that leaves only noise with all its values; else one that does not. */
-static int thaw_best(const lab_candidate *base, const size_t between[2], lab_candidate *c, int n, lab_candidate *onset,
-                     lab_error *error)
+/* Whether a frozen model with what begins comes near enough to be fitted with all values, or takes off most of what is
+ * left without that, where this is known. */
+static int comes_near(const lab_quality *without, const lab_quality *q)
+{
+  static const double most = 0.25; /* by judgement */
+  return q->chi2 < lab_constant(LAB_EARLY_NEAR) * q->values ||
+         q->chi2 - q->values < most * (without->chi2 - without->values);
+}
+
+/* The first of n frozen models, best first, that leaves only noise with all its values; else one that does not.
+ * In:      without  what is left where nothing begins; chi2 0: not known */
+static int thaw_best(const lab_candidate *base, const size_t between[2], const lab_quality *without, lab_candidate *c,
+                     int n, lab_candidate *onset, lab_error *error)
 {
   const double reach = n > 0 ? lab_constant(LAB_RIVAL) * c[0].quality.chi2 : 0;
   int i, status = LAB_OK;
   for (i = 0; status == LAB_OK && !lab_is_noise(&onset->quality) && i < n && i < lab_count(LAB_ONSET_FINALISTS); i++) {
     const lab_quality *q = &c[i].quality;
-    if (!q->fitted || !(q->chi2 < reach && q->chi2 < lab_constant(LAB_EARLY_NEAR) * q->values))
+    if (!q->fitted || !(q->chi2 < reach) || !comes_near(without, q))
       break;
     status = thaw(base, between, &c[i], error);
     *onset = c[i];
@@ -149,7 +170,11 @@ static int refit_loop(lab_candidate *frozen, const size_t between[2], size_t row
     frozen->u.n = 0;
     frozen->u.run = &part;
     lab_unknowns_view(&frozen->u, 0);
-    status = refit_frozen(frozen, between, row, alpha, begins, c, n, error);
+    status = lab_onset_sizes_find(frozen, earliest(x, between[0]), row, begins, error);
+    if (status == LAB_OK && lab_refill_is_asked(&frozen->u))
+      status = lab_refill_score(frozen, between[0], begins, error);
+    if (status == LAB_OK)
+      status = refit_scored(frozen, alpha, begins, c, n, error);
     lab_refit_put_simplest_first(c, *n);
   }
   lab_beginning_close(&part);
@@ -166,12 +191,13 @@ static int fit_onset(const lab_candidate *base, const size_t between[2], double 
   if (status == LAB_OK) {
     *frozen = *base;
     freeze(&frozen->u);
+    frozen->quality.chi2 = 0;
     row = between[0] < row && row < between[1] ? row : between[0];
     status = lab_refill_loops(&base->u) ? refit_loop(frozen, between, row, alpha, begins, c, &n, error)
                                         : refit_open(base, frozen, between, row, alpha, begins, c, &n, error);
   }
   if (status == LAB_OK)
-    status = thaw_best(base, between, c, n, onset, error);
+    status = thaw_best(base, between, &frozen->quality, c, n, onset, error);
   free(frozen);
   free(c);
   return status;

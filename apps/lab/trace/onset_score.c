@@ -13,14 +13,14 @@
 enum { PLACES = 64 }; /* of a run at which anything may begin */
 
 /* Faults of a valve that come at once: a supply or a spring that fails, a packing that seizes, an orifice that clogs, a
- * leak, a sensor that is knocked, a lever that slips. What a design has, such as a tube, does not begin. A vent area
- * that changes is vent_restriction. */
-static const char *const values[] = {"supply_pressure", "dry_friction", "spring_rate",
-                                     "spring_preload",  "orifice_area", "fill_area"};
+ * leak, a sensor that is knocked, a lever that slips, a positioner that is set otherwise. What a design has, such as a
+ * tube, does not begin. A vent area that changes is vent_restriction. */
+static const char *const values[] = {"supply_pressure", "dry_friction", "spring_rate",    "spring_preload",
+                                     "orifice_area",    "fill_area",    "positioner.gain"};
 static const char *const effects[] = {
-    "chamber_leak",      "laminar_leak",      "porous_leak",     "supply_droop",   "exhaust_back_pressure",
-    "vent_restriction",  "pressure_bias",     "pressure_gain",   "position_bias",  "position_gain",
-    "friction_position", "friction_pressure", "positioner_zero", "positioner_span"};
+    "chamber_leak",      "laminar_leak",      "porous_leak",     "supply_droop",    "exhaust_back_pressure",
+    "vent_restriction",  "pressure_bias",     "pressure_gain",   "position_bias",   "position_gain",
+    "friction_position", "friction_pressure", "positioner_zero", "positioner_span", "positioner_dead_band"};
 
 /* ---- A model with one value changed ---- */
 
@@ -177,13 +177,13 @@ static void list_one(int param, int effect, lab_onset_scores *all)
   all->of[all->n++].shape = -1;
 }
 
-/* A declared value; an orifice that is none cannot clog. */
+/* A declared value; an orifice that is none cannot clog, nor a positioner be set. */
 static void list_values(const lab_unknowns *u, lab_onset_scores *all)
 {
   size_t i;
   for (i = 0; i < sizeof values / sizeof *values; i++) {
     const int param = lab_param_index(values[i]);
-    if (lab_param_value(&u->rig, param) != 0)
+    if (param >= 0 && lab_param_value(&u->rig, param) != 0)
       list_one(param, -1, all);
   }
 }
@@ -316,16 +316,20 @@ static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
   return status;
 }
 
+void lab_onset_scores_list(const lab_unknowns *u, lab_onset_scores *all)
+{
+  memset(all, 0, sizeof *all);
+  list_values(u, all);
+  list_effects(u, all);
+}
+
 int lab_onset_scores_find(const lab_projection *p, size_t from, size_t to, lab_onset_scores *all, lab_error *error)
 {
   scan *s = calloc(1, sizeof *s);
   int status = s ? open_scan(p, from, to, s, error) : lab_fail_memory(error, "a scan");
-  memset(all, 0, sizeof *all);
-  if (status == LAB_OK) {
-    list_values(p->u, all);
-    list_effects(p->u, all);
+  lab_onset_scores_list(p->u, all);
+  if (status == LAB_OK)
     status = score_all(s, all, error);
-  }
   if (s)
     close_scan(s);
   free(s);

@@ -21,6 +21,9 @@ typedef struct lab_onset_scores {
   double throughout;                  /* largest statistic of those that act from the first row on */
 } lab_onset_scores;
 
+/* List all that may begin in a model, not scored. */
+void lab_onset_scores_list(const lab_unknowns *u, lab_onset_scores *scores);
+
 /* Score all that may begin within a run.
  * In:      p         of the only run, seen row by row
  *          from, to  rows between which it begins; 0 and the end of the run: anywhere

@@ -24,6 +24,24 @@ int lab_preview_is_asked(const lab_unknowns *u)
   return u->n_runs == 1 && u->window == 0 && u->run->n >= fewest && cost_of(u) >= lab_constant(LAB_PREVIEW_ROWS);
 }
 
+/* Fit the first rows from the values of the whole run, and from the declared ones where that leaves plainly more than
+ * noise: what begins after these rows has bent the others. */
+static int fit_first(lab_unknowns *first, lab_error *error)
+{
+  lab_unknowns *afresh = malloc(sizeof *afresh);
+  double bent, chi2 = 0;
+  int status = afresh ? lab_unknowns_fit(first, LAB_ROUNDS_ALL, &bent, error) : lab_fail_memory(error, "the search");
+  if (status == LAB_OK && bent > lab_constant(LAB_NOISE_DOUBTFUL) * (double)first->n_values) {
+    *afresh = *first;
+    lab_unknowns_undo_fit(afresh);
+    status = lab_unknowns_fit(afresh, LAB_ROUNDS_ALL, &chi2, error);
+    if (status == LAB_OK && chi2 < bent)
+      *first = *afresh;
+  }
+  free(afresh);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* The search of the first n rows.
  * Out:     f          what was found
  *          cut_short  whether its share of the time is spent
@@ -39,7 +57,7 @@ static int search_first(const lab_unknowns *u, size_t n, const lab_search_option
     first->run = &part;
     first->until = lab_cpu_share(u->until, lab_constant(LAB_PREVIEW_TIME));
     lab_unknowns_view(first, 0);
-    status = lab_unknowns_fit(first, LAB_ROUNDS_ALL, NULL, error);
+    status = fit_first(first, error);
     if (status == LAB_OK && lab_refill_is_asked(first))
       status = lab_refill_search(first, options, f, &leaks, error);
     if (status == LAB_OK && !leaks)

@@ -44,13 +44,12 @@ int lab_refit_is_simpler(const lab_candidate *a, const lab_candidate *b);
 /* Put the one of n, best first, before the others that is to be preferred to them. */
 void lab_refit_put_simplest_first(lab_candidate *c, int n);
 
-/* Refit the leaders among what may begin at a row, briefly.
+/* Refit the leaders among what may begin, each at the row of its score, briefly.
  * In:      base   as of lab_refit_onset, fitted or not
- *          row    of the only run
  * Out:     c      room for ONSET_LEADERS; n of them, best first, fitted or not
  * Returns: LAB_OK, LAB_WORLD. */
-int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, size_t row,
-                        lab_candidate *c, int *n, lab_error *error);
+int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, lab_candidate *c,
+                        int *n, lab_error *error);
 
 /* Find when near its time each of n begins that is among the best or comes near, and put the simplest of the best
  * first.  Returns: LAB_OK, LAB_WORLD. */

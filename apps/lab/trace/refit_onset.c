@@ -184,8 +184,8 @@ void lab_refit_put_simplest_first(lab_candidate *c, int n)
     }
 }
 
-int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, size_t row,
-                        lab_candidate *c, int *n, lab_error *error)
+int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *scores, double level, lab_candidate *c,
+                        int *n, lab_error *error)
 {
   const int most = lab_count(LAB_ONSET_LEADERS);
   int i;
@@ -195,7 +195,7 @@ int lab_refit_onsets_at(const lab_candidate *base, const lab_onset_scores *score
     ++*n;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < *n; i++)
-    begin_onset(base, &scores->of[i], time_of(base, row), lab_count(LAB_BRIEF_STEPS), &c[i], error);
+    begin_onset(base, &scores->of[i], time_of(base, scores->of[i].onset), lab_count(LAB_BRIEF_STEPS), &c[i], error);
   qsort(c, (size_t)*n, sizeof *c, lab_candidate_by_bic);
   return error->status;
 }

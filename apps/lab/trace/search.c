@@ -300,8 +300,9 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     give_up(f, declared);
     status = conclude(f, u, result, error);
   }
-  if (result->verdict == LAB_VERDICT_UNDECIDED && !result->jerks && !result->is_far)
-    result->sound_until = sound_until;
+  if (f)
+    result->sound_until =
+        result->verdict == LAB_VERDICT_UNDECIDED && !result->is_far && !lab_is_noise(&f->best.quality) ? sound_until : 0;
   free(held);
   free(declared);
   free(f);

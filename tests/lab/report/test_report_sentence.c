@@ -177,13 +177,15 @@ static void test_lab_report_sentence__search_that_was_ended__claims_nothing(void
   result.cut_short = 1;
   assert_string_equal(
       sentence_of(&report),
-      "Whether anything is missing, the search had no time to say. With the best candidate, dead_time, "
-      "the error falls from 3.00 to 1.00 times the noise. The search was ended by --budget: this is the "
-      "best answer so far.");
+      "The search was ended by --budget before it was finished: what it has found so far may be wrong. With the best "
+      "candidate, dead_time, the error falls from 3.00 to 1.00 times the noise.");
   result.n_found = 0;
-  assert_contains(sentence_of(&report), "time to say. The residual is 1.00 times the noise. The search was ended");
+  assert_contains(sentence_of(&report), "may be wrong. The residual is 1.00 times the noise.");
+  report.deviations.of[report.deviations.n++] = deviation("dry_friction", 1.997, 1);
+  assert_contains(sentence_of(&report), "may be wrong. As far as the log tells, friction is 2 times its sheet.");
+  report.deviations.n = 0;
   result.after.chi2 = 2.3;
-  assert_contains(sentence_of(&report), "Something is missing, but the log does not say what. The residual is 1.52");
+  assert_contains(sentence_of(&report), "Something is missing, and there was no time to find what. The residual is 1.52");
 }
 
 static void test_lab_report_limits__effects_scored_by_a_beginning__says_so(void **state)
