@@ -128,6 +128,15 @@ void lab_unknowns_stay_near(lab_unknowns *u, double tolerances)
   lab_unknowns_take(u);
 }
 
+/* A stem without damping rings, which no valve does for long and which takes most of the time: it stays above a share of
+ * what is declared, by judgement. */
+static void keep_damped(const lab_unknowns *u, lab_unknown *x)
+{
+  static const double least = 0.02;
+  if (x->index == PNEU_PARAM_damping)
+    x->lower = fmax(x->lower, least * (double)u->declared.damping);
+}
+
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
 {
   const int held = lab_unknowns_find(u, param);
@@ -136,6 +145,7 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
     return no_room(error);
   x->spread = 0;
   describe_param(x, param);
+  keep_damped(u, x);
   if (u->most_off > 0)
     limit(u, x);
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);
