@@ -26,10 +26,8 @@ const pneu_effect pneu_effect_record_area_variation = {
     "pressure over position bends upwards, more than a spring would at high pressure; also under an added load",
     PNEU_STAGE_GEOMETRY,
     params,
-    NULL,
-    NULL,
-    acts,
-    prepare};
+    .acts = acts,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_area_variation[] =
     "The diaphragm's effective area {+falls|grows} by {percent} over the stroke.";

@@ -40,10 +40,9 @@ const pneu_effect pneu_effect_record_chamber_creep = {
     "after the chamber is shut the pressure sinks and settles, or rises after venting, though nothing leaks",
     PNEU_STAGE_GEOMETRY,
     params,
-    add,
-    start,
-    acts,
-    NULL};
+    .add = add,
+    .start = start,
+    .acts = acts};
 
 const char pneu_effect_sentence_chamber_creep[] =
     "The chamber's wall gives way slowly: at the supply pressure its volume grows by {volume_growth}, "

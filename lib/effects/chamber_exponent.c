@@ -33,10 +33,8 @@ const pneu_effect pneu_effect_record_chamber_exponent = {
     "filling and venting are quicker than isothermal all along the stroke, and nothing moves on after it",
     PNEU_STAGE_GEOMETRY,
     params,
-    NULL,
-    NULL,
-    acts,
-    prepare};
+    .acts = acts,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_chamber_exponent[] =
     "The chamber is not isothermal: the exponent of its air is {exponent}, not 1.";

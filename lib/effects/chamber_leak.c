@@ -24,9 +24,6 @@ const pneu_effect pneu_effect_record_chamber_leak = {
     "pressure falls while both orifices are shut; the final pressure at full opening is low",
     PNEU_STAGE_LEAK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_chamber_leak[] = "The chamber leaks: {size}, {of_fill} of the fill orifice, {leak}.";

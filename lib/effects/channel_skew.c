@@ -21,10 +21,7 @@ const pneu_effect pneu_effect_record_channel_skew = {
     "shown position is late by the same time at every speed, with sharp corners; pressure is right",
     PNEU_STAGE_SENSOR,
     params,
-    NULL,
-    NULL,
-    NULL,
-    prepare};
+    .prepare = prepare};
 
 const char pneu_effect_sentence_channel_skew[] =
     "The recorded position is {size} {+older|younger} than the pressure beside it.";

@@ -21,10 +21,7 @@ const pneu_effect pneu_effect_record_choked_flow = {
     "the model fills and vents too fast while the pressure ratio is below 0.53, with an orifice fitted too small",
     PNEU_STAGE_BOUNDARY,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_choked_flow[] =
     "Flow stops growing once the orifice is sonic: {percent} of it follows the choking nozzle.";

@@ -55,10 +55,8 @@ const pneu_effect pneu_effect_record_connecting_tube = {
     "ways",
     PNEU_STAGE_LINE,
     params,
-    add,
-    start,
-    NULL,
-    NULL};
+    .add = add,
+    .start = start};
 
 const char pneu_effect_sentence_connecting_tube[] = "A tube between transducer and chamber holds up the air: it takes "
                                                     "{fill_drop} at the full flow of the fill orifice.";

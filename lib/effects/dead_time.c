@@ -57,9 +57,9 @@ const pneu_effect pneu_effect_record_dead_time = {
     "once",
     PNEU_STAGE_COMMAND,
     params,
-    add,
-    start,
-    acts,
-    prepare};
+    .add = add,
+    .start = start,
+    .acts = acts,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_dead_time[] = "Every command acts {size} late.";

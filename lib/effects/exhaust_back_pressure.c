@@ -21,10 +21,7 @@ const pneu_effect pneu_effect_record_exhaust_back_pressure = {
     "venting is too slow towards its end, where flow is not choked; filling and choked venting are right",
     PNEU_STAGE_BOUNDARY,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_exhaust_back_pressure[] =
     "Air leaves against a pressure: {vent_drop} at the full flow of the vent orifice.";

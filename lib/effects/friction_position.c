@@ -27,9 +27,7 @@ const pneu_effect pneu_effect_record_friction_position = {
     "the loop of pressure over position between both directions of travel widens towards one end",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    NULL,
-    acts,
-    NULL};
+    .add = add,
+    .acts = acts};
 
 const char pneu_effect_sentence_friction_position[] = "Dry friction {+grows|falls} by {percent} over the stroke.";

@@ -22,10 +22,7 @@ const pneu_effect pneu_effect_record_friction_pressure = {
     "the loop of pressure over position widens where pressure is high, also under an added load at the same position",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_friction_pressure[] = "Seals rub harder under pressure: {friction_rise} more at the "
                                                       "supply pressure, {of_friction_rise} of the dry friction.";

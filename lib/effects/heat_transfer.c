@@ -42,9 +42,7 @@ const pneu_effect pneu_effect_record_heat_transfer = {
     "pressure moves on after the orifices shut; the tails of filling and venting are slow",
     PNEU_STAGE_HEAT,
     params,
-    add,
-    NULL,
-    acts,
-    NULL};
+    .add = add,
+    .acts = acts};
 
 const char pneu_effect_sentence_heat_transfer[] = "Heat passes between gas and wall, but not at once: {size}.";

@@ -24,10 +24,7 @@ const pneu_effect pneu_effect_record_laminar_leak = {
     "pressure",
     PNEU_STAGE_LEAK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_laminar_leak[] =
     "The chamber leaks through a narrow gap: {leak}, {leak_share} of what the fill orifice passes.";

@@ -77,10 +77,9 @@ const pneu_effect pneu_effect_record_long_chamber = {
     "pressure at the far end starts late, at first too steeply, and swings or lags after every change of command",
     PNEU_STAGE_LINE,
     params,
-    add,
-    start,
-    acts,
-    NULL};
+    .add = add,
+    .start = start,
+    .acts = acts};
 
 const char pneu_effect_sentence_long_chamber[] =
     "Air takes time along the chamber, {size} of its length: it is late at the far end, and swings there.";

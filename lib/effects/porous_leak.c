@@ -33,10 +33,7 @@ const pneu_effect pneu_effect_record_porous_leak = {
     "orifice",
     PNEU_STAGE_LEAK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_porous_leak[] =
     "The chamber leaks through a porous wall: {leak}, {leak_share} of what the fill orifice passes.";

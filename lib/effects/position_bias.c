@@ -20,10 +20,7 @@ const pneu_effect pneu_effect_record_position_bias = {
     "shown position is off by the same on both stops and between; pressure is right",
     PNEU_STAGE_SENSOR,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_position_bias[] =
     "The position sensor shows {size} too {+much|little}, {of_stroke} of the stroke.";

@@ -20,10 +20,7 @@ const pneu_effect pneu_effect_record_position_gain = {
     "shown position is right on the lower stop and off in proportion above it; pressure is right",
     PNEU_STAGE_GAIN,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_position_gain[] =
     "The position sensor shows {percent} of the reading too {+much|little}.";

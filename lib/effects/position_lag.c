@@ -28,9 +28,8 @@ const pneu_effect pneu_effect_record_position_lag = {
     "shown position trails by velocity times lag, both ways; pressure is right",
     PNEU_STAGE_LAG,
     params,
-    add,
-    start,
-    pneu_lag_acts,
-    NULL};
+    .add = add,
+    .start = start,
+    .acts = pneu_lag_acts};
 
 const char pneu_effect_sentence_position_lag[] = "The position sensor follows with a lag of {size}.";

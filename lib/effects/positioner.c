@@ -101,10 +101,10 @@ const pneu_effect pneu_effect_record_positioner = {
     "declared, never looked for: without it a set position says nothing",
     PNEU_STAGE_POSITIONER,
     params,
-    add,
-    start,
-    acts,
-    prepare};
+    .add = add,
+    .start = start,
+    .acts = acts,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_positioner[] =
     "A positioner opens the transducer by {size} of itself for each share of the stroke that the stem is off.";

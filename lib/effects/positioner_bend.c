@@ -21,10 +21,7 @@ const pneu_effect pneu_effect_record_positioner_bend = {
     "flow at part openings is off both ways, most at half of it; full openings are right",
     PNEU_STAGE_SPOOL,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_positioner_bend[] =
     "Small openings of the positioner pass {percent} {+less|more} than in proportion.";

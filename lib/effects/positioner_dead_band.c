@@ -21,10 +21,7 @@ const pneu_effect pneu_effect_record_positioner_dead_band = {
     "the stem comes to rest off its set position, on the side from which it came, by up to the same either way",
     PNEU_STAGE_FEEDBACK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_positioner_dead_band[] =
     "The positioner ignores errors that are {percent} of the stroke larger than its declared dead band.";

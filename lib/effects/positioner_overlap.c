@@ -30,10 +30,7 @@ const pneu_effect pneu_effect_record_positioner_overlap = {
     "small openings pass nothing both ways; with underlap pressure drifts while the opening is small",
     PNEU_STAGE_SPOOL,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_positioner_overlap[] =
     "The spool of the positioner {+opens only after|is still open at} {percent} of its way.";

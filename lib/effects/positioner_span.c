@@ -22,10 +22,7 @@ const pneu_effect pneu_effect_record_positioner_span = {
     "the stem comes to rest right at the lower end and off its set position in proportion above it",
     PNEU_STAGE_FEEDBACK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_positioner_span[] =
     "The positioner sees {percent} of the travel too {+much|little}: its span is off.";

@@ -22,10 +22,7 @@ const pneu_effect pneu_effect_record_positioner_zero = {
     "the stem comes to rest off its set position by the same everywhere",
     PNEU_STAGE_FEEDBACK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_positioner_zero[] =
     "The zero of the positioner has shifted: it sees {size} too {+much|little}, {of_stroke} of the stroke.";

@@ -27,9 +27,6 @@ const pneu_effect pneu_effect_record_presliding = {
     "the stem moves by micrometres before break-away and after each reversal",
     PNEU_STAGE_BRISTLE,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_presliding[] = "Friction builds up over {size} of travel instead of at once.";

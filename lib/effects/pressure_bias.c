@@ -20,10 +20,7 @@ const pneu_effect pneu_effect_record_pressure_bias = {
     "shown pressure is off by the same everywhere, also vented; position is right",
     PNEU_STAGE_SENSOR,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_pressure_bias[] =
     "The pressure sensor shows {size} too {+much|little}, {of_supply} of the supply.";

@@ -20,10 +20,7 @@ const pneu_effect pneu_effect_record_pressure_gain = {
     "shown pressure is off in proportion to itself; position is right",
     PNEU_STAGE_GAIN,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_pressure_gain[] =
     "The pressure sensor shows {percent} of the reading too {+much|little}.";

@@ -28,9 +28,8 @@ const pneu_effect pneu_effect_record_pressure_lag = {
     "shown pressure trails by rate times lag, both ways; position is right",
     PNEU_STAGE_LAG,
     params,
-    add,
-    start,
-    pneu_lag_acts,
-    NULL};
+    .add = add,
+    .start = start,
+    .acts = pneu_lag_acts};
 
 const char pneu_effect_sentence_pressure_lag[] = "The pressure sensor follows with a lag of {size}.";

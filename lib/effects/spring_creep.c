@@ -34,10 +34,8 @@ const pneu_effect pneu_effect_record_spring_creep = {
     "spring",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    start,
-    NULL,
-    NULL};
+    .add = add,
+    .start = start};
 
 const char pneu_effect_sentence_spring_creep[] =
     "Spring, diaphragm or bellows give way slowly: to quick strokes they are {size} stiffer, {of_rate} of the spring.";

@@ -21,10 +21,7 @@ const pneu_effect pneu_effect_record_spring_hardening = {
     "the middle of the pressure-position loop bends; most at the far end, the same in both directions",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_spring_hardening[] =
     "The spring {+stiffens|softens} with travel: at full stroke its force is {of_spring} off the straight line.";

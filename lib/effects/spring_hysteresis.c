@@ -23,10 +23,7 @@ const pneu_effect pneu_effect_record_spring_hysteresis = {
     "after each reversal the balance of forces drifts over some travel, where dry friction would jump",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_spring_hysteresis[] =
     "Spring and diaphragm give back less force than they took: {size} either way, {of_friction} of the dry friction.";

@@ -28,9 +28,7 @@ const pneu_effect pneu_effect_record_start_temperature = {
     "the first fall of pressure is quicker or slower than later ones; once heat has passed nothing is left of it",
     PNEU_STAGE_WALL,
     params,
-    NULL,
-    NULL,
-    acts,
-    prepare};
+    .acts = acts,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_start_temperature[] = "The gas begins {size} {+warmer|colder} than it is taken to.";

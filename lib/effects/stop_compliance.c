@@ -49,9 +49,8 @@ const pneu_effect pneu_effect_record_stop_compliance = {
     "position moves on slightly at the stops as pressure changes, and rings after impact",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    NULL,
-    acts,
-    prepare};
+    .add = add,
+    .acts = acts,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_stop_compliance[] = "The stops yield: {size}.";

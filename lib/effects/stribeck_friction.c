@@ -25,10 +25,7 @@ const pneu_effect pneu_effect_record_stribeck_friction = {
     "the stem starts late and with a jump; stick-slip at slow motion",
     PNEU_STAGE_FORCE,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_stribeck_friction[] =
     "The stem sticks: friction at rest is {percent} above that while sliding.";

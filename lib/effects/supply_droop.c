@@ -51,10 +51,9 @@ const pneu_effect pneu_effect_record_supply_droop = {
     "filling is slow at first, where flow is largest; venting is right",
     PNEU_STAGE_FEED,
     params,
-    add,
-    start,
-    NULL,
-    prepare};
+    .add = add,
+    .start = start,
+    .prepare = prepare};
 
 const char pneu_effect_sentence_supply_droop[] =
     "The supply gives way: it loses {fill_drop} at the full flow of the fill orifice.";

@@ -28,9 +28,8 @@ const pneu_effect pneu_effect_record_temperature_lag = {
     "shown temperature trails and swings less; pressure and position are right",
     PNEU_STAGE_LAG,
     params,
-    add,
-    start,
-    pneu_lag_acts,
-    NULL};
+    .add = add,
+    .start = start,
+    .acts = pneu_lag_acts};
 
 const char pneu_effect_sentence_temperature_lag[] = "The temperature sensor follows with a lag of {size}.";

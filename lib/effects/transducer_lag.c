@@ -26,9 +26,8 @@ const pneu_effect pneu_effect_record_transducer_lag = {
     "pressure starts late by the same time after every change of command, both ways",
     PNEU_STAGE_COMMAND,
     params,
-    add,
-    start,
-    pneu_lag_acts,
-    NULL};
+    .add = add,
+    .start = start,
+    .acts = pneu_lag_acts};
 
 const char pneu_effect_sentence_transducer_lag[] = "The transducer follows its command with a lag of {size}.";

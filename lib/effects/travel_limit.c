@@ -22,9 +22,6 @@ const pneu_effect pneu_effect_record_travel_limit = {
     "position ends short while pressure goes on to the supply; below that all is right",
     PNEU_STAGE_GEOMETRY,
     params,
-    NULL,
-    NULL,
-    NULL,
-    prepare};
+    .prepare = prepare};
 
 const char pneu_effect_sentence_travel_limit[] = "The stem stops {size} short of its stroke, {of_stroke} of it.";

@@ -21,9 +21,6 @@ const pneu_effect pneu_effect_record_vent_restriction = {
     "venting is slower (or faster) than filling explains, in proportion at every pressure",
     PNEU_STAGE_BOUNDARY,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_vent_restriction[] = "The vent passes {percent} {+less|more} than declared.";

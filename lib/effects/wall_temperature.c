@@ -31,10 +31,8 @@ const pneu_effect pneu_effect_record_wall_temperature = {
     "pressure recovers less after the orifices shut, then creeps on for minutes; strokes in quick succession drift",
     PNEU_STAGE_WALL,
     params,
-    add,
-    NULL,
-    acts,
-    NULL};
+    .add = add,
+    .acts = acts};
 
 const char pneu_effect_sentence_wall_temperature[] =
     "The wall warms and cools with the gas: its heat capacity is {reciprocal}.";

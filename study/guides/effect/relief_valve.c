@@ -25,9 +25,6 @@ const pneu_effect pneu_effect_record_relief_valve = {
     "pressure stays low near the supply; below the set pressure nothing shows",
     PNEU_STAGE_LEAK,
     params,
-    add,
-    NULL,
-    NULL,
-    NULL};
+    .add = add};
 
 const char pneu_effect_sentence_relief_valve[] = "The chamber lets air go above a set pressure: {leak}.";
