@@ -52,13 +52,17 @@ FMI2_EXPORT(fmi2Status, fmi2SetupExperiment,
   return (fmi2Status)fmu_setup(c, has_tolerance ? tolerance : 0, start, has_stop ? stop : HUGE_VAL);
 }
 
+/* ---- Functions that hand on what they are given ---- */
+
+#define FORWARD(name, call, parameters, arguments)                                                                     \
+  FMI2_EXPORT(fmi2Status, name, parameters)                                                                            \
+  {                                                                                                                    \
+    return (fmi2Status)call arguments;                                                                                 \
+  }
+
 /* ---- Functions of the instance alone ---- */
 
-#define OF_INSTANCE(name, call)                                                                                        \
-  FMI2_EXPORT(fmi2Status, name, (fmi2Component c))                                                                     \
-  {                                                                                                                    \
-    return (fmi2Status)call(c);                                                                                        \
-  }
+#define OF_INSTANCE(name, call) FORWARD(name, call, (fmi2Component c), (c))
 OF_INSTANCE(fmi2EnterInitializationMode, fmu_enter_initialization)
 OF_INSTANCE(fmi2ExitInitializationMode, fmu_exit_initialization)
 OF_INSTANCE(fmi2Terminate, fmu_terminate)
@@ -68,11 +72,7 @@ OF_INSTANCE(fmi2EnterContinuousTimeMode, fmu_enter_continuous)
 
 /* ---- Functions of the states ---- */
 
-#define OF_VECTOR(name, type, call)                                                                                    \
-  FMI2_EXPORT(fmi2Status, name, (fmi2Component c, type value[], size_t n))                                             \
-  {                                                                                                                    \
-    return (fmi2Status)call(c, value, n);                                                                              \
-  }
+#define OF_VECTOR(name, type, call) FORWARD(name, call, (fmi2Component c, type value[], size_t n), (c, value, n))
 OF_VECTOR(fmi2SetContinuousStates, const fmi2Real, fmu_set_states)
 OF_VECTOR(fmi2GetDerivatives, fmi2Real, fmu_get_rates)
 OF_VECTOR(fmi2GetEventIndicators, fmi2Real, fmu_get_indicators)
@@ -81,20 +81,12 @@ OF_VECTOR(fmi2GetNominalsOfContinuousStates, fmi2Real, fmu_get_nominals)
 
 /* ---- Values ---- */
 
-FMI2_EXPORT(fmi2Status, fmi2GetReal, (fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Real value[]))
-{
-  return (fmi2Status)fmu_get_real(c, r, n, value);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2GetInteger, (fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Integer value[]))
-{
-  return (fmi2Status)fmu_get_integer(c, r, n, value);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2SetReal, (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Real value[]))
-{
-  return (fmi2Status)fmu_set_real(c, r, n, value);
-}
+FORWARD(fmi2GetReal, fmu_get_real, (fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Real value[]),
+        (c, r, n, value))
+FORWARD(fmi2GetInteger, fmu_get_integer, (fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Integer value[]),
+        (c, r, n, value))
+FORWARD(fmi2SetReal, fmu_set_real, (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Real value[]),
+        (c, r, n, value))
 
 /* Types of which there is no variable: only an empty list is right. */
 #define NO_VARIABLE(name, type)                                                                                        \
@@ -111,43 +103,19 @@ NO_VARIABLE(fmi2SetString, const fmi2String)
 
 /* ---- FMU state ---- */
 
-FMI2_EXPORT(fmi2Status, fmi2GetFMUstate, (fmi2Component c, fmi2FMUstate *state))
-{
-  return (fmi2Status)fmu_get_memory(c, state);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2SetFMUstate, (fmi2Component c, fmi2FMUstate state))
-{
-  return (fmi2Status)fmu_set_memory(c, state);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2FreeFMUstate, (fmi2Component c, fmi2FMUstate *state))
-{
-  return (fmi2Status)fmu_free_memory(c, state);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2SerializedFMUstateSize, (fmi2Component c, fmi2FMUstate state, size_t *size))
-{
-  return (fmi2Status)fmu_memory_size(c, state, size);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2SerializeFMUstate, (fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size))
-{
-  return (fmi2Status)fmu_write_memory(c, state, bytes, size);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2DeSerializeFMUstate,
-            (fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state))
-{
-  return (fmi2Status)fmu_read_memory(c, bytes, size, state);
-}
-
-FMI2_EXPORT(fmi2Status, fmi2GetDirectionalDerivative,
-            (fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
-             size_t n_known, const fmi2Real seed[], fmi2Real sensitivity[]))
-{
-  return (fmi2Status)fmu_derivative(c, unknown, n_unknown, known, n_known, seed, sensitivity);
-}
+FORWARD(fmi2GetFMUstate, fmu_get_memory, (fmi2Component c, fmi2FMUstate *state), (c, state))
+FORWARD(fmi2SetFMUstate, fmu_set_memory, (fmi2Component c, fmi2FMUstate state), (c, state))
+FORWARD(fmi2FreeFMUstate, fmu_free_memory, (fmi2Component c, fmi2FMUstate *state), (c, state))
+FORWARD(fmi2SerializedFMUstateSize, fmu_memory_size, (fmi2Component c, fmi2FMUstate state, size_t *size),
+        (c, state, size))
+FORWARD(fmi2SerializeFMUstate, fmu_write_memory, (fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size),
+        (c, state, bytes, size))
+FORWARD(fmi2DeSerializeFMUstate, fmu_read_memory,
+        (fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state), (c, bytes, size, state))
+FORWARD(fmi2GetDirectionalDerivative, fmu_derivative,
+        (fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
+         size_t n_known, const fmi2Real seed[], fmi2Real sensitivity[]),
+        (c, unknown, n_unknown, known, n_known, seed, sensitivity))
 
 /* ---- Model exchange ---- */
 
@@ -172,10 +140,7 @@ FMI2_EXPORT(fmi2Status, fmi2CompletedIntegratorStep,
   return (fmi2Status)fmu_completed_step(c, enter_event);
 }
 
-FMI2_EXPORT(fmi2Status, fmi2SetTime, (fmi2Component c, fmi2Real time))
-{
-  return (fmi2Status)fmu_set_time(c, time);
-}
+FORWARD(fmi2SetTime, fmu_set_time, (fmi2Component c, fmi2Real time), (c, time))
 
 /* ---- Co-simulation ---- */
 
@@ -185,12 +150,9 @@ FMI2_EXPORT(fmi2Status, fmi2DoStep, (fmi2Component c, fmi2Real from, fmi2Real le
   return (fmi2Status)fmu_step(c, from, length);
 }
 
-FMI2_EXPORT(fmi2Status, fmi2SetRealInputDerivatives,
-            (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[],
-             const fmi2Real value[]))
-{
-  return (fmi2Status)fmu_set_slopes(c, r, n, order, value);
-}
+FORWARD(fmi2SetRealInputDerivatives, fmu_set_slopes,
+        (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[], const fmi2Real value[]),
+        (c, r, n, order, value))
 
 FMI2_EXPORT(fmi2Status, fmi2GetRealOutputDerivatives,
             (fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer order[], fmi2Real value[]))
@@ -199,10 +161,7 @@ FMI2_EXPORT(fmi2Status, fmi2GetRealOutputDerivatives,
   return (fmi2Status)fmu_absent(c, "fmi2GetRealOutputDerivatives");
 }
 
-FMI2_EXPORT(fmi2Status, fmi2CancelStep, (fmi2Component c))
-{
-  return (fmi2Status)fmu_absent(c, "fmi2CancelStep");
-}
+FORWARD(fmi2CancelStep, fmu_absent, (fmi2Component c), (c, "fmi2CancelStep"))
 
 /* A step that is discarded leaves the instance where it was before it. */
 FMI2_EXPORT(fmi2Status, fmi2GetRealStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Real *value))

@@ -14,8 +14,7 @@ static void say(const fmu_instance *instance, int status, const char *text)
 
 /* ---- Life ---- */
 
-FMU_EXPORT const char *FMI3_NAME(fmi3GetVersion)(void);
-const char *FMI3_NAME(fmi3GetVersion)(void)
+FMI3_EXPORT_AS(const char *, fmi3GetVersion, (void))
 {
   return "3.0";
 }
@@ -26,28 +25,19 @@ FMI3_EXPORT(fmi3SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, cons
   return c ? fmi3OK : fmi3Error;
 }
 
-FMU_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateModelExchange)(fmi3String name, fmi3String token, fmi3String resources,
-                                                                fmi3Boolean visible, fmi3Boolean logging,
-                                                                fmi3InstanceEnvironment environment,
-                                                                fmi3LogMessageCallback logger);
-fmi3Instance FMI3_NAME(fmi3InstantiateModelExchange)(fmi3String name, fmi3String token, fmi3String resources,
-                                                     fmi3Boolean visible, fmi3Boolean logging,
-                                                     fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger)
+FMI3_EXPORT_AS(fmi3Instance, fmi3InstantiateModelExchange,
+               (fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+                fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger))
 {
   (void)resources, (void)visible, (void)logging;
   return fmu_new(FMU_MODEL_EXCHANGE, name, token, environment, (void (*)(void))logger, say);
 }
 
-FMU_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
-    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
-    fmi3Boolean event_mode, fmi3Boolean early_return, const fmi3ValueReference intermediate[], size_t n_intermediate,
-    fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger, fmi3IntermediateUpdateCallback update);
-fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(fmi3String name, fmi3String token, fmi3String resources,
-                                                    fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean event_mode,
-                                                    fmi3Boolean early_return, const fmi3ValueReference intermediate[],
-                                                    size_t n_intermediate, fmi3InstanceEnvironment environment,
-                                                    fmi3LogMessageCallback logger,
-                                                    fmi3IntermediateUpdateCallback update)
+FMI3_EXPORT_AS(fmi3Instance, fmi3InstantiateCoSimulation,
+               (fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+                fmi3Boolean event_mode, fmi3Boolean early_return, const fmi3ValueReference intermediate[],
+                size_t n_intermediate, fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger,
+                fmi3IntermediateUpdateCallback update))
 {
   (void)resources, (void)visible, (void)logging, (void)early_return, (void)intermediate, (void)n_intermediate;
   (void)update;
@@ -55,8 +45,7 @@ fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(fmi3String name, fmi3String 
                     : fmu_new(FMU_CO_SIMULATION, name, token, environment, (void (*)(void))logger, say);
 }
 
-FMU_EXPORT void FMI3_NAME(fmi3FreeInstance)(fmi3Instance c);
-void FMI3_NAME(fmi3FreeInstance)(fmi3Instance c)
+FMI3_EXPORT_AS(void, fmi3FreeInstance, (fmi3Instance c))
 {
   fmu_free(c);
 }
@@ -68,13 +57,17 @@ FMI3_EXPORT(fmi3EnterInitializationMode, (fmi3Instance c, fmi3Boolean has_tolera
   return (fmi3Status)(status == FMU_OK ? fmu_enter_initialization(c) : status);
 }
 
+/* ---- Functions that hand on what they are given ---- */
+
+#define FORWARD(name, call, parameters, arguments)                                                                     \
+  FMI3_EXPORT(name, parameters)                                                                                        \
+  {                                                                                                                    \
+    return (fmi3Status)call arguments;                                                                                 \
+  }
+
 /* ---- Functions of the instance alone ---- */
 
-#define OF_INSTANCE(name, call)                                                                                        \
-  FMI3_EXPORT(name, (fmi3Instance c))                                                                                  \
-  {                                                                                                                    \
-    return (fmi3Status)call(c);                                                                                        \
-  }
+#define OF_INSTANCE(name, call) FORWARD(name, call, (fmi3Instance c), (c))
 OF_INSTANCE(fmi3ExitInitializationMode, fmu_exit_initialization)
 OF_INSTANCE(fmi3Terminate, fmu_terminate)
 OF_INSTANCE(fmi3Reset, fmu_reset)
@@ -83,11 +76,7 @@ OF_INSTANCE(fmi3EnterContinuousTimeMode, fmu_enter_continuous)
 
 /* ---- Functions of the states ---- */
 
-#define OF_VECTOR(name, type, call)                                                                                    \
-  FMI3_EXPORT(name, (fmi3Instance c, type value[], size_t n))                                                          \
-  {                                                                                                                    \
-    return (fmi3Status)call(c, value, n);                                                                              \
-  }
+#define OF_VECTOR(name, type, call) FORWARD(name, call, (fmi3Instance c, type value[], size_t n), (c, value, n))
 OF_VECTOR(fmi3SetContinuousStates, const fmi3Float64, fmu_set_states)
 OF_VECTOR(fmi3GetContinuousStateDerivatives, fmi3Float64, fmu_get_rates)
 OF_VECTOR(fmi3GetEventIndicators, fmi3Float64, fmu_get_indicators)
@@ -124,35 +113,15 @@ FMI3_EXPORT(fmi3GetDirectionalDerivative,
 
 /* ---- FMU state ---- */
 
-FMI3_EXPORT(fmi3GetFMUState, (fmi3Instance c, fmi3FMUState *state))
-{
-  return (fmi3Status)fmu_get_memory(c, state);
-}
-
-FMI3_EXPORT(fmi3SetFMUState, (fmi3Instance c, fmi3FMUState state))
-{
-  return (fmi3Status)fmu_set_memory(c, state);
-}
-
-FMI3_EXPORT(fmi3FreeFMUState, (fmi3Instance c, fmi3FMUState *state))
-{
-  return (fmi3Status)fmu_free_memory(c, state);
-}
-
-FMI3_EXPORT(fmi3SerializedFMUStateSize, (fmi3Instance c, fmi3FMUState state, size_t *size))
-{
-  return (fmi3Status)fmu_memory_size(c, state, size);
-}
-
-FMI3_EXPORT(fmi3SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size))
-{
-  return (fmi3Status)fmu_write_memory(c, state, bytes, size);
-}
-
-FMI3_EXPORT(fmi3DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state))
-{
-  return (fmi3Status)fmu_read_memory(c, bytes, size, state);
-}
+FORWARD(fmi3GetFMUState, fmu_get_memory, (fmi3Instance c, fmi3FMUState *state), (c, state))
+FORWARD(fmi3SetFMUState, fmu_set_memory, (fmi3Instance c, fmi3FMUState state), (c, state))
+FORWARD(fmi3FreeFMUState, fmu_free_memory, (fmi3Instance c, fmi3FMUState *state), (c, state))
+FORWARD(fmi3SerializedFMUStateSize, fmu_memory_size, (fmi3Instance c, fmi3FMUState state, size_t *size),
+        (c, state, size))
+FORWARD(fmi3SerializeFMUState, fmu_write_memory, (fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size),
+        (c, state, bytes, size))
+FORWARD(fmi3DeserializeFMUState, fmu_read_memory,
+        (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state), (c, bytes, size, state))
 
 /* ---- Model exchange ---- */
 
@@ -182,20 +151,9 @@ FMI3_EXPORT(fmi3CompletedIntegratorStep,
   return (fmi3Status)status;
 }
 
-FMI3_EXPORT(fmi3SetTime, (fmi3Instance c, fmi3Float64 time))
-{
-  return (fmi3Status)fmu_set_time(c, time);
-}
-
-FMI3_EXPORT(fmi3GetNumberOfEventIndicators, (fmi3Instance c, size_t *n))
-{
-  return (fmi3Status)fmu_count(c, NULL, n);
-}
-
-FMI3_EXPORT(fmi3GetNumberOfContinuousStates, (fmi3Instance c, size_t *n))
-{
-  return (fmi3Status)fmu_count(c, n, NULL);
-}
+FORWARD(fmi3SetTime, fmu_set_time, (fmi3Instance c, fmi3Float64 time), (c, time))
+FORWARD(fmi3GetNumberOfEventIndicators, fmu_count, (fmi3Instance c, size_t *n), (c, NULL, n))
+FORWARD(fmi3GetNumberOfContinuousStates, fmu_count, (fmi3Instance c, size_t *n), (c, n, NULL))
 
 /* ---- Co-simulation ---- */
 

@@ -50,8 +50,9 @@ typedef void (*fmi3UnlockPreemptionCallback)(void);
 #endif
 
 /* A function that the importer calls: declared, then defined. */
-#define FMI3_EXPORT(name, arguments)                                                                                   \
-  FMU_EXPORT fmi3Status FMI3_NAME(name) arguments;                                                                     \
-  fmi3Status FMI3_NAME(name) arguments
+#define FMI3_EXPORT_AS(type, name, arguments)                                                                          \
+  FMU_EXPORT type FMI3_NAME(name) arguments;                                                                           \
+  type FMI3_NAME(name) arguments
+#define FMI3_EXPORT(name, arguments) FMI3_EXPORT_AS(fmi3Status, name, arguments)
 
 #endif
