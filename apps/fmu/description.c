@@ -415,28 +415,3 @@ int fmu_describe_build(FILE *file, const fmu_description *d, lab_error *error)
   xml_text(&xml, "description", "the C library's mathematics, where that is apart");
   return xml_end(&xml, error);
 }
-
-static void corners(document *xml)
-{
-  xml_real(xml, "x1", -100);
-  xml_real(xml, "y1", -100);
-  xml_real(xml, "x2", 100);
-  xml_real(xml, "y2", 100);
-}
-
-int fmu_describe_icon(FILE *file, const fmu_description *d, lab_error *error)
-{
-  document xml;
-  (void)d;
-  xml_begin(&xml, file);
-  xml_open(&xml, "fmiTerminalsAndIcons");
-  xml_text(&xml, "fmiVersion", "3.0");
-  xml_open(&xml, "GraphicalRepresentation");
-  xml_open(&xml, "CoordinateSystem");
-  corners(&xml);
-  xml_real(&xml, "suggestedScalingFactorTo_mm", 0.1);
-  xml_close(&xml);
-  xml_open(&xml, "Icon");
-  corners(&xml);
-  return xml_end(&xml, error);
-}

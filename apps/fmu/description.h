@@ -1,4 +1,4 @@
-/* The XML files of an FMU: modelDescription.xml in either version, and for FMI 3 those of build and icon.
+/* The XML files of an FMU: modelDescription.xml in either version, and for FMI 3 that of the build.
  * SPDX-License-Identifier: MIT */
 #ifndef FMU_DESCRIPTION_H
 #define FMU_DESCRIPTION_H
@@ -15,10 +15,9 @@ typedef struct fmu_description {
   fmu_list list;
 } fmu_description;
 
-/* Write modelDescription.xml, and of FMI 3 sources/buildDescription.xml and terminalsAndIcons/terminalsAndIcons.xml.
+/* Write modelDescription.xml, and of FMI 3 sources/buildDescription.xml.
  * Returns: LAB_OK, LAB_WORLD. */
 int fmu_describe(FILE *file, const fmu_description *d, lab_error *error);
 int fmu_describe_build(FILE *file, const fmu_description *d, lab_error *error);
-int fmu_describe_icon(FILE *file, const fmu_description *d, lab_error *error);
 
 #endif

@@ -263,7 +263,7 @@ static int add_own(maker *m, lab_error *error)
   if (m->d.fmi == 2)
     return add_carried(m, "model.png", "icon.png", error);
   if (add_written(m, "sources/buildDescription.xml", fmu_describe_build, error) ||
-      add_written(m, "terminalsAndIcons/terminalsAndIcons.xml", fmu_describe_icon, error) ||
+      add_carried(m, "terminalsAndIcons/terminalsAndIcons.xml", "terminalsAndIcons.xml", error) ||
       add_carried(m, "terminalsAndIcons/icon.png", "icon.png", error))
     return error->status;
   return add_carried(m, "terminalsAndIcons/icon.svg", "icon.svg", error);

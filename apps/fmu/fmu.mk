@@ -28,7 +28,8 @@ $(BUILD)/fmu2.dll $(BUILD)/fmu3.dll: $(FMU_FILES)
 	  $(LIB_C) $(filter-out $(OTHER),$(FMU_RUNTIME)) -o $@
 
 FMU_CARRIED := $(foreach file,$(FMU_FILES),$(file)=$(file)) $(foreach file,$(FMU_SHARED),$(file)=$(BUILD)/$(file)) \
-               icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png index.html=apps/fmu/carried/index.html license.txt=LICENSE
+               icon.svg=apps/fmu/carried/icon.svg icon.png=apps/fmu/carried/icon.png index.html=apps/fmu/carried/index.html license.txt=LICENSE \
+               terminalsAndIcons.xml=apps/fmu/carried/terminalsAndIcons.xml
 $(BUILD)/apps/fmu/carried.inc: $(FMU_FILES) $(FMU_SHARED:%=$(BUILD)/%) $(wildcard apps/fmu/carried/*) LICENSE apps/fmu/carry.sh \
                                $(BUILD)/carries
 	@mkdir -p $(@D)
