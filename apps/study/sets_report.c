@@ -55,8 +55,7 @@ static const cJSON *at_keys(const cJSON *at, ...)
 /* A number or text of an object; NaN or NULL if there is none. */
 static double number_of(const cJSON *at, const char *key)
 {
-  const cJSON *number = at_keys(at, key, NULL);
-  return cJSON_IsNumber(number) ? number->valuedouble : (double)NAN;
+  return cJSON_GetNumberValue(at_keys(at, key, NULL));
 }
 
 static const char *words_of(const cJSON *at, const char *key)
@@ -446,12 +445,10 @@ static void put_singles(const story *s, cJSON *to)
 /* Whether the 95 % interval of a parameter is known.  Out: low, high */
 static int interval_of(const cJSON *p, double *low, double *high)
 {
-  const cJSON *ci = at_keys(p, "ci95", NULL), *from = cJSON_GetArrayItem(ci, 0), *to = cJSON_GetArrayItem(ci, 1);
-  if (!cJSON_IsNumber(from) || !cJSON_IsNumber(to))
-    return 0;
-  *low = from->valuedouble;
-  *high = to->valuedouble;
-  return 1;
+  const cJSON *ci = at_keys(p, "ci95", NULL);
+  *low = cJSON_GetNumberValue(cJSON_GetArrayItem(ci, 0));
+  *high = cJSON_GetNumberValue(cJSON_GetArrayItem(ci, 1));
+  return !isnan(*low) && !isnan(*high);
 }
 
 /* "name = value (low to high) unit"; no interval where the value is at a bound. */

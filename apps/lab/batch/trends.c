@@ -22,8 +22,7 @@ enum { WIDTH = 120, HEIGHT = 28, MARGIN = 2 };
 
 static double number(const cJSON *from, const char *name)
 {
-  const cJSON *item = cJSON_GetObjectItemCaseSensitive(from, name);
-  return cJSON_IsNumber(item) ? item->valuedouble : (double)NAN;
+  return cJSON_GetNumberValue(cJSON_GetObjectItemCaseSensitive(from, name));
 }
 
 static const char *word(const cJSON *from, const char *name)
@@ -36,10 +35,8 @@ static const char *word(const cJSON *from, const char *name)
 static double deviation_of(const cJSON *value)
 {
   const cJSON *ends = cJSON_GetObjectItemCaseSensitive(value, "ci95");
-  const cJSON *low = cJSON_GetArrayItem(ends, 0), *high = cJSON_GetArrayItem(ends, 1);
-  return cJSON_IsNumber(low) && cJSON_IsNumber(high)
-             ? (high->valuedouble - low->valuedouble) / (2 * sqrt(lab_chi2_threshold(0.05)))
-             : (double)NAN;
+  const double low = cJSON_GetNumberValue(cJSON_GetArrayItem(ends, 0));
+  return (cJSON_GetNumberValue(cJSON_GetArrayItem(ends, 1)) - low) / (2 * sqrt(lab_chi2_threshold(0.05)));
 }
 
 /* In:  found  the name of the value in the report */

@@ -6,6 +6,7 @@
 #include "logview.h"
 #include "standstill.h"
 #include "../base/array.h"
+#include "../base/line.h"
 #include "../run/start.h"
 
 /* Wide of what effects of a usual size do: gains of a tenth, a bias of some kPa, a stop that ends the travel early. */
@@ -234,28 +235,23 @@ int lab_check_balance(const lab_log_view *s, lab_check_result *f)
 int lab_check_opposite(const lab_log_view *s, lab_check_result *f)
 {
   const double *p = s->cells[LAB_CHANNEL_P].mean, *x = s->cells[LAB_CHANNEL_X].mean;
-  double mp = 0, mx = 0, pp = 0, xx = 0, px = 0;
+  lab_line line = {0};
+  double correlation;
   int k;
   if (s->rig->input[LAB_CHANNEL_X] || s->y[LAB_CHANNEL_FORCE] ||
       !(lab_log_view_span(s, LAB_CHANNEL_X) > 0.1 * (double)s->rig->params.stroke) || !moves(s, LAB_CHANNEL_P))
     return 0;
-  for (k = 0; k < s->n_cells; k++) {
-    mp += p[k] / s->n_cells;
-    mx += x[k] / s->n_cells;
-  }
-  for (k = 0; k < s->n_cells; k++) {
-    pp += (p[k] - mp) * (p[k] - mp);
-    xx += (x[k] - mx) * (x[k] - mx);
-    px += (p[k] - mp) * (x[k] - mx);
-  }
-  if (!(px < -0.3 * sqrt(pp * xx)))
+  for (k = 0; k < s->n_cells; k++)
+    lab_line_add(&line, p[k], x[k], 1);
+  correlation = line.xy / sqrt(line.xx * line.yy);
+  if (!(correlation < -0.3))
     return 0;
   return lab_check_fail(
       f, LAB_NO_ROW,
       "x falls as p rises (correlation %.2f), but x counts in the direction in which air drives the stem. "
       "Where air closes the valve, write actuator.fail = \"open\", where it opens it \"close\"; else turn x by "
       "log.scale = { x = -1.0; } and log.offset = { x = \"%g mm\"; }, or check the columns",
-      px / sqrt(pp * xx), 1e3 * (double)s->rig->params.stroke);
+      correlation, 1e3 * (double)s->rig->params.stroke);
 }
 
 /* ---- What limits a log ---- */
